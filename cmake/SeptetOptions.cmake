@@ -1,0 +1,32 @@
+# Compiler settings shared by every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_LINK_LIBRARIES_ONLY_TARGETS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+
+set(SEPTET_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined")
+set(SEPTET_ARCHITECTURE "x86-64-v3" CACHE STRING "Instruction set (-march); empty for the compiler's default")
+
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND SEPTET_ARCHITECTURE)
+  add_compile_options(-march=${SEPTET_ARCHITECTURE})
+endif()
+# Contraction to fused multiply-add differs between compilers; without it the state hash is the same on all of them.
+add_compile_options(-ffp-contract=off)
+set(CMAKE_CXX_FLAGS_RELEASE "-O2")
+set(CMAKE_C_FLAGS_RELEASE "-O2")
+if(SEPTET_SANITIZE)
+  add_compile_options(-fsanitize=${SEPTET_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${SEPTET_SANITIZE})
+  set(CMAKE_CXX_FLAGS_RELEASE "-O1")
+endif()
+
+find_program(SEPTET_CCACHE ccache)
+if(SEPTET_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${SEPTET_CCACHE})
+endif()
+
+find_package(PkgConfig REQUIRED)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(tl-expected REQUIRED)

@@ -1,0 +1,57 @@
+# Three functions make every target of the project, so that a folder's CMakeLists.txt is a few lines.
+
+# septet_library(NAME [DEPENDS library…] [PRIVATE library…])
+# A static library `septet_NAME` of all .cpp files below this folder. DEPENDS names other Septet libraries without their
+# prefix; PRIVATE names third-party targets, whose headers stay in the .cpp files.
+function(septet_library name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "(_main|/main)\\.cpp$")
+  if(sources)
+    add_library(septet_${name} STATIC ${sources})
+    set(scope PUBLIC)
+    target_compile_options(septet_${name} PRIVATE -Wall -Wextra -Wshadow)
+    target_link_libraries(septet_${name} PRIVATE ${arg_PRIVATE})
+  else()
+    add_library(septet_${name} INTERFACE)
+    set(scope INTERFACE)
+    target_link_libraries(septet_${name} INTERFACE ${arg_PRIVATE})
+  endif()
+  target_include_directories(septet_${name} ${scope} ${CMAKE_SOURCE_DIR})
+  list(TRANSFORM arg_DEPENDS PREPEND septet_)
+  target_link_libraries(septet_${name} ${scope} ${arg_DEPENDS})
+endfunction()
+
+# septet_program(NAME SOURCE main.cpp [DEPENDS library…] [PRIVATE library…])
+function(septet_program name)
+  cmake_parse_arguments(arg "" "" "SOURCE;DEPENDS;PRIVATE" ${ARGN})
+  add_executable(${name} ${arg_SOURCE})
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow)
+  list(TRANSFORM arg_DEPENDS PREPEND septet_)
+  target_link_libraries(${name} PRIVATE ${arg_DEPENDS} ${arg_PRIVATE})
+endfunction()
+
+# septet_test(NAME [DEPENDS library…] [PRIVATE library…])
+# One doctest program, label fast, of this folder's *_test.cpp files, and one, label slow, of its *_slow_test.cpp files
+# (a slow test starts processes, draws frames or runs for more than a second). Every test case is one CTest test.
+function(septet_test name)
+  file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
+  list(REMOVE_ITEM fast_sources ${slow_sources} "")
+  septet_test_program(${name}_test fast 60 "${fast_sources}" ${ARGN})
+  septet_test_program(${name}_slow_test slow 600 "${slow_sources}" ${ARGN})
+endfunction()
+
+function(septet_test_program name label timeout_s sources)
+  if(NOT sources)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE" ${ARGN})
+  add_executable(${name} ${sources})
+  target_compile_options(${name} PRIVATE -Wall -Wextra)
+  target_compile_definitions(${name} PRIVATE SEPTET_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                                             SEPTET_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  list(TRANSFORM arg_DEPENDS PREPEND septet_)
+  target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
+  doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s})
+endfunction()

@@ -1,0 +1,21 @@
+#pragma once
+/// Spherical interpolation without trigonometry in the loop.
+///
+/// Source: Hast, Barrera and Bengtsson, "Incremental Spherical Interpolation with Quadratically Varying Angle" (SIGRAD
+/// 2006), eqs. 3 and 7–11.
+
+#include "engine/core/expected.hpp"
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet {
+
+/// The orientation at `t` in [0, 1] of a turn from `from` to `to` whose angle varies quadratically:
+/// angle(t) = θ·(σt² + (1−σ)t). σ = 0 turns at constant rate, σ > 0 speeds up, σ < 0 slows down; |σ| ≤ 1 (checked).
+/// The shorter way round is taken; equal orientations are answered exactly.
+Quat slerp_quadratic(const Quat& from, const Quat& to, double sigma, double t);
+
+/// σ such that a turn begun at `rate_start` and ended at `rate_end` (same unit, same axis) varies quadratically:
+/// the angle's slope runs from θ(1−σ) to θ(1+σ). Clamped to [−1, 1]; 0 where the rates do not tell.
+double sigma_from_rates(double rate_start, double rate_end);
+
+}  // namespace septet

@@ -1,0 +1,96 @@
+#pragma once
+/// The scene as a renderer wants it: triangles, materials, images and placed parts, resolved from the node store.
+///
+/// The rasteriser (engine/render) and the ray tracer (engine/raytrace) both draw this, so that neither knows the node
+/// model. Lengths are metres; meshes and parts are in their object's frame; only `world_from_object` is double. Everything
+/// carries a revision: a renderer uploads again what has a higher one than it last saw.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::scene {
+
+struct SurfaceVertex {
+  glm::vec3 position_m;
+  glm::vec3 normal;
+  glm::vec2 uv;
+};
+
+/// A run of triangles with one material; `material` indexes ResolvedScene::materials.
+struct MeshPart {
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  std::uint32_t material = 0;
+};
+
+struct SurfaceMesh {
+  std::uint64_t revision = 0;
+  std::vector<SurfaceVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< Triangles, counter-clockwise seen from the front.
+  std::vector<MeshPart> parts;
+  glm::vec3 bounds_min_m{0.0f}, bounds_max_m{0.0f};
+};
+
+/// 8-bit RGBA, rows from the top. Mip levels are the renderer's business.
+struct TextureImage {
+  std::uint64_t revision = 0;
+  std::uint32_t width = 0, height = 0;
+  bool srgb = true;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// Colours are linear Rec. 709.
+struct SurfaceMaterial {
+  std::uint64_t revision = 0;
+  glm::vec3 base_color{0.8f};
+  std::int32_t base_color_image = -1;  ///< Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
+  float roughness = 0.7f;
+  float metallic = 0.0f;
+  float opacity = 1.0f;
+  float refraction_index = 1.5f;
+  glm::vec3 emission{0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
+  bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
+  bool wettable = false;     ///< Darkens and mirrors with the road's wetness.
+};
+
+/// What moves or lights a part of a vehicle.
+enum class PartRole : std::uint8_t {
+  fixed,
+  wheel_front_left, wheel_front_right, wheel_rear_left, wheel_rear_right,
+  lamp_brake, lamp_reverse, lamp_indicator_left, lamp_indicator_right, lamp_head, lamp_tail, beacon,
+  steering_wheel,
+};
+
+/// One placed mesh.
+struct Instance {
+  std::uint32_t mesh = 0;
+  RigidTransform world_from_object;  ///< In a prototype: vehicle_from_object.
+  glm::vec3 scale{1.0f};
+  float visible_from_m = 0.0f;  ///< Drawn while the eye's distance is in [visible_from_m, visible_to_m).
+  float visible_to_m = 1e9f;
+  bool casts_shadow = true;
+  PartRole role = PartRole::fixed;
+};
+
+/// What is drawn for every participant of one model ("model/NAME").
+struct Prototype {
+  std::string name;
+  std::vector<Instance> parts;
+};
+
+struct ResolvedScene {
+  std::uint64_t revision = 0;  ///< Of anything below.
+  std::vector<SurfaceMesh> meshes;
+  std::vector<SurfaceMaterial> materials;
+  std::vector<TextureImage> images;
+  std::vector<Instance> instances;
+  std::vector<Prototype> prototypes;
+};
+
+}  // namespace septet::scene
