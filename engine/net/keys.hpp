@@ -1,0 +1,64 @@
+#pragma once
+/// Identities: one Ed25519 key pair per server and per client, kept in a file that only its owner
+/// can read.
+///
+/// A client pins the server's public key; the server has a list of the clients that it allows. The
+/// same pair signs ticks and, mapped to X25519, proves the identity in the scene lane's key
+/// exchange. Secrets are wiped when they go.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::net {
+
+using PublicKey = std::array<std::uint8_t, 32>;
+/// Random per server start; signed into every tick, and told to clients over the scene lane.
+using SessionId = std::array<std::uint8_t, 16>;
+
+class Identity {
+ public:
+  /// A fresh pair from the system's random source.
+  static Identity generate();
+  static Identity from_seed(const std::array<std::uint8_t, 32>& seed);
+
+  Identity(const Identity&) = default;
+  Identity& operator=(const Identity&) = default;
+  ~Identity();
+
+  const PublicKey& public_key() const { return public_key_; }
+  /// Ed25519 secret key as libsodium keeps it (seed, then public key).
+  const std::array<std::uint8_t, 64>& secret_key() const { return secret_key_; }
+
+ private:
+  Identity() = default;
+  PublicKey public_key_{};
+  std::array<std::uint8_t, 64> secret_key_{};
+};
+
+SessionId random_session_id();
+
+/// 64 hexadecimal digits.
+std::string to_text(const PublicKey& key);
+Expected<PublicKey> parse_public_key(std::string_view text, std::string_view where);
+
+/// Reads the file; makes it (mode 0600, its folder too) with a fresh identity if it does not exist.
+/// Refuses a file that others can read.
+Expected<Identity> load_or_create_identity(const std::filesystem::path& file);
+Expected<Identity> load_identity(const std::filesystem::path& file);
+
+struct AllowedClient {
+  PublicKey key{};
+  std::string name;  ///< "screen/left-1", "car"; what the server calls it.
+};
+
+/// A text file of lines `KEY NAME`; blank lines and lines that begin with # do not count.
+Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file);
+
+}  // namespace septet::net

@@ -1,0 +1,23 @@
+#pragma once
+/// Does multicast work on this machine's interface? Machines, switches and loopbacks differ, so it
+/// is tried, not assumed.
+
+#include <string>
+
+#include "engine/net/address.hpp"
+
+namespace septet::net {
+
+struct MulticastProbe {
+  bool works = false;
+  std::string
+      reason;  ///< For a person: "multicast 239.7.7.7:4750 on 127.0.0.1 came back after 1 try".
+};
+
+/// Sends up to `tries` random probes to the group from one socket and listens on another of this
+/// machine, each for at most `wait_s`. It shows that sockets, routes and loopback work; whether a
+/// distant screen hears the group only that screen knows (PROTOCOL.md, "Choice of destination").
+MulticastProbe probe_multicast(const Address& group, std::uint32_t interface_ip, int tries = 5,
+                               double wait_s = 0.02);
+
+}  // namespace septet::net

@@ -1,0 +1,64 @@
+#pragma once
+/// What both ends of the scene lane share: kinds of messages, limits and counters (PROTOCOL.md,
+/// "Scene lane").
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "engine/core/bytes.hpp"
+#include "engine/net/keys.hpp"
+
+namespace septet::net {
+
+enum class Reliability : std::uint8_t {
+  reliable,    ///< Delivered once, in order, up to the message limit; resent until acknowledged.
+  unreliable,  ///< At most one datagram; may be lost, repeated messages are not delivered twice.
+};
+
+/// Reliable messages with the same key are about the same thing: one that is not yet on the wire,
+/// or lost and not yet resent, is overwritten by a newer one. An overwritten message that was never
+/// sent gives its place in the order to the new one; so give keys only to commands that do not
+/// depend on what is sent between the two.
+using AddressKey = std::uint64_t;
+inline constexpr AddressKey no_address_key = 0;
+
+/// A message that several clients share without copies.
+using SharedBytes = std::shared_ptr<const Bytes>;
+inline SharedBytes share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(bytes)); }
+
+enum class SendResult : std::uint8_t {
+  queued,
+  overwrote,  ///< Took the place of an older message with its key.
+  not_connected,
+  too_large,   ///< Over the message limit, or an unreliable one over one datagram.
+  queue_full,  ///< A server drops such a client; a client may try again later.
+};
+
+struct ChannelLimits {
+  std::size_t max_datagram_bytes = 1200;      ///< UDP payload; the smaller of the two ends' counts.
+  std::size_t max_message_bytes = 64u << 20;  ///< Of one reliable message, both ways.
+  std::size_t max_queue_bytes = 256u
+                                << 20;  ///< Waiting to be sent or acknowledged, per connection.
+  std::size_t window_bytes = 8u << 20;  ///< What an end is ready to keep out of order.
+  std::size_t max_bytes_per_pump =
+      1u << 20;  ///< Sent in one pump over all connections, so that a tick is not held up.
+  double timeout_s = 1.0;  ///< Silence after which the other end counts as lost.
+};
+
+struct ChannelCounters {
+  std::uint64_t datagrams_sent = 0, bytes_sent = 0;
+  std::uint64_t datagrams_received = 0, bytes_received = 0;
+  std::uint64_t resent = 0;       ///< Fragments sent again.
+  std::uint64_t overwritten = 0;  ///< Messages replaced by a newer one with their key.
+  std::uint64_t forged = 0;       ///< Authentication failed.
+  std::uint64_t replayed = 0;     ///< Packet number seen before or too old.
+  std::uint64_t malformed = 0;    ///< Not a datagram of this protocol, or broken inside.
+  std::uint64_t unknown = 0;      ///< For no connection of ours (an earlier one, usually).
+  std::uint64_t not_allowed = 0;  ///< Handshakes with a key that is not on the list.
+  std::uint64_t bad_cookies =
+      0;  ///< Handshakes from an address that did not prove itself (or too late).
+};
+
+}  // namespace septet::net

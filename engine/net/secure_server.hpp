@@ -1,0 +1,84 @@
+#pragma once
+/// The server's end of the scene lane: authenticated, encrypted connections to the clients on its
+/// list.
+///
+///     for (const ServerEvent& event : server.pump(now_s)) …
+///     server.send(client, share(bytes), Reliability::reliable, key);
+///
+/// One thread; `now_s` never goes back. A client that hangs or vanishes is dropped after the
+/// time-out, or as soon as its queue is full, and costs at most that queue. Several pumps per tick
+/// make transfers faster.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/net/datagram_socket.hpp"
+#include "engine/net/secure_channel.hpp"
+
+namespace septet::net {
+
+/// Counts connections from 1; a client that reconnects gets a new one.
+using ClientId = std::uint32_t;
+
+struct SecureServerOptions {
+  Identity identity;
+  SessionId session{};  ///< The tick lane's; told to every client.
+  std::vector<AllowedClient> allowed;
+  ChannelLimits limits;
+};
+
+struct ServerEvent {
+  enum class Kind : std::uint8_t { connected, message, disconnected };
+  Kind kind = Kind::message;
+  ClientId client = 0;
+  Reliability reliability = Reliability::reliable;
+  Bytes bytes;         ///< Of a message.
+  std::string reason;  ///< Of a disconnection, for the log.
+};
+
+struct ClientInfo {
+  PublicKey key{};
+  std::string name;
+  Address address;
+  double round_trip_s = 0.0;
+  std::size_t queued_bytes = 0;
+  ChannelCounters counters;
+};
+
+class SecureServer {
+ public:
+  /// The socket must outlive the server.
+  SecureServer(DatagramSocket& socket, SecureServerOptions options);
+  ~SecureServer();
+
+  /// Receives, acknowledges, resends and sends; answers what has happened since, in order.
+  std::vector<ServerEvent> pump(double now_s);
+  /// More is waiting to be sent than the last pump was allowed to: pump again soon.
+  bool has_backlog() const;
+
+  SendResult send(ClientId client, SharedBytes message, Reliability reliability,
+                  AddressKey key = no_address_key);
+  SendResult send(ClientId client, std::span<const std::byte> message, Reliability reliability,
+                  AddressKey key = no_address_key);
+  /// Says goodbye; the event `disconnected` comes with the next pump.
+  void disconnect(ClientId client, std::string reason);
+
+  /// Takes effect for new connections; connected clients that are no longer on the list are
+  /// dropped.
+  void set_allowed(std::vector<AllowedClient> allowed);
+
+  std::vector<ClientId> clients() const;
+  /// Null for a client that is not connected. Valid until the next call.
+  const ClientInfo* info(ClientId client) const;
+  /// Over all connections, past ones and strangers included.
+  ChannelCounters counters() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::net

@@ -1,0 +1,86 @@
+#pragma once
+/// The receiving end of the tick lane: verifies, reassembles and hands out each tick at most once.
+///
+/// Ticks come out as they become complete, so a repaired tick may follow a newer one; the reader
+/// keys them by tick id. Memory is bounded whatever arrives: nothing is stored before its signature
+/// holds, and only the newest `window` ticks are under reassembly. Datagrams that are not from the
+/// followed server and session change only counters.
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/net/datagram_socket.hpp"
+#include "engine/net/keys.hpp"
+
+namespace septet::net {
+
+struct ReceivedTick {
+  std::uint64_t tick = 0;
+  Bytes payload;
+  bool repaired = false;  ///< A repetition supplied at least one of its fragments.
+};
+
+struct TickReceiverCounters {
+  std::uint64_t datagrams = 0;  ///< All that were offered.
+  std::uint64_t ticks = 0;      ///< Complete and handed out.
+  std::uint64_t repaired = 0;   ///< Of those, completed by a repetition.
+  std::uint64_t lost = 0;    ///< Left the window incomplete, or never seen between two that were.
+  std::uint64_t forged = 0;  ///< Signature or fragment hash does not hold.
+  std::uint64_t other_session = 0;  ///< Of an earlier or unknown run of the server.
+  std::uint64_t malformed =
+      0;  ///< Not a tick datagram, truncated, or fields that contradict each other.
+  std::uint64_t oversized = 0;  ///< Claims more than max_tick_bytes.
+  std::uint64_t replayed = 0;   ///< Older than the window.
+  std::uint64_t duplicates =
+      0;  ///< Already held or handed out (every repetition of what arrived is one).
+};
+
+class TickReceiver {
+ public:
+  static constexpr std::size_t window = 8;  ///< Publications under reassembly.
+
+  /// Before `follow` every datagram is refused: a session id comes over the authenticated scene
+  /// lane.
+  explicit TickReceiver(const PublicKey& server) : server_(server) {}
+  /// Forgets the earlier session, if it is another one.
+  void follow(const SessionId& session);
+
+  void accept(std::span<const std::byte> datagram);
+  /// Accepts all that the socket holds.
+  void receive_from(DatagramSocket& socket);
+  /// The next complete tick, oldest arrival first.
+  std::optional<ReceivedTick> next();
+
+  const TickReceiverCounters& counters() const { return counters_; }
+  /// Bytes held for reassembly and for complete ticks not yet taken.
+  std::size_t bytes_held() const;
+
+ private:
+  struct Assembly {
+    std::uint64_t sequence = 0;
+    std::uint64_t tick = 0;
+    std::array<std::uint8_t, 16> root{};
+    Bytes payload;
+    std::vector<bool> have;
+    std::size_t missing = 0;
+    bool repaired = false;
+    bool complete = false;
+  };
+  Assembly* find(std::uint64_t sequence);
+  void make_room(std::uint64_t sequence);
+
+  PublicKey server_;
+  std::optional<SessionId> session_;
+  std::optional<std::uint64_t> first_sequence_;
+  std::uint64_t newest_sequence_ = 0;
+  std::deque<Assembly> assemblies_;    ///< Ascending sequence.
+  std::deque<ReceivedTick> complete_;  ///< Oldest are dropped when nobody takes them.
+  TickReceiverCounters counters_;
+};
+
+}  // namespace septet::net
