@@ -1,0 +1,120 @@
+#include "engine/rig/rig.hpp"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include "engine/rig/table_reader.hpp"
+
+namespace septet::rig {
+namespace {
+
+void read_window(TableReader& reader, Window& window) {
+  window.lower_left_m = reader.get_point("lower_left_m");
+  window.lower_right_m = reader.get_point("lower_right_m");
+  window.upper_left_m = reader.get_point("upper_left_m");
+  const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m;
+  const double width = glm::length(right), height = glm::length(up);
+  if (width < 0.01 || height < 0.01)
+    reader.report("lower_left_m", "the corners of a screen lie on each other", "give its corners at least 1 cm apart");
+  else if (std::abs(glm::dot(right, up)) > 1e-4 * width * height)
+    reader.report("upper_left_m", "the corners of a screen are not those of a rectangle",
+                  "make the edge lower_left to lower_right perpendicular to the edge lower_left to upper_left");
+}
+
+View read_inset(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "screen.inset", error);
+  View view;
+  view.mirrored = reader.get_bool("mirrored", true);
+  view.left = reader.get_double("left", 0.0, 0.0, 1.0);
+  view.top = reader.get_double("top", 0.0, 0.0, 1.0);
+  view.width = reader.get_double("width", 0.2, 0.01, 1.0);
+  view.height = reader.get_double("height", 0.1, 0.01, 1.0);
+  if (view.left + view.width > 1.0 || view.top + view.height > 1.0)
+    reader.report("left", "an inset reaches over the edge of its screen", "keep left + width and top + height at most 1");
+  read_window(reader, view.window);
+  reader.finish();
+  return view;
+}
+
+Screen read_screen(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "screen", error);
+  Screen screen;
+  screen.name = reader.get_string("name", "");
+  if (screen.name.empty() || screen.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
+    reader.report("name", fmt::format("screen.name is \"{}\"", screen.name), "use small letters, digits and hyphens");
+  screen.width_px = static_cast<std::uint32_t>(reader.get_integer("width_px", screen.width_px, 16, 16384));
+  screen.height_px = static_cast<std::uint32_t>(reader.get_integer("height_px", screen.height_px, 16, 16384));
+  screen.machine = reader.get_string("machine", "");
+  screen.show_interior = reader.get_bool("show_interior", false);
+  View whole;
+  read_window(reader, whole.window);
+  screen.views.push_back(whole);
+  for (const toml::table* inset : reader.get_tables("inset")) screen.views.push_back(read_inset(*inset, file, error));
+  reader.finish();
+  return screen;
+}
+
+Network read_network(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "network", error);
+  Network network;
+  network.server_address = reader.get_string("server_address", network.server_address);
+  network.scene_port = static_cast<std::uint16_t>(reader.get_integer("scene_port", network.scene_port, 0, 65535));
+  network.tick_group = reader.get_string("tick_group", network.tick_group);
+  network.tick_port = static_cast<std::uint16_t>(reader.get_integer("tick_port", network.tick_port, 0, 65535));
+  network.interface_address = reader.get_string("interface_address", network.interface_address);
+  network.transport = static_cast<TickTransport>(reader.get_choice("transport", 0, {"automatic", "multicast", "unicast"}));
+  network.max_payload_bytes =
+      static_cast<std::uint32_t>(reader.get_integer("max_payload_bytes", network.max_payload_bytes, 512, 8900));
+  network.playout_delay_ticks = reader.get_double("playout_delay_ticks", network.playout_delay_ticks, 0.0, 60.0);
+  reader.finish();
+  return network;
+}
+
+Car read_car(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "car", error);
+  Car car;
+  car.source = static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard"}));
+  car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
+  car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
+  car.serial = reader.get_string("serial", car.serial);
+  car.layout = reader.get_string("layout", car.layout);
+  car.vehicle = reader.get_string("vehicle", car.vehicle);
+  car.driver = reader.get_string("driver", car.driver);
+  reader.finish();
+  return car;
+}
+
+}  // namespace
+
+Expected<Rig> read_rig(std::string_view text, std::string_view name) {
+  toml::table document;
+  try {
+    document = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    return failure(std::string(error.description()), fmt::format("{}:{}", name, error.source().begin.line),
+                   "correct the TOML there");
+  }
+  Error error;
+  TableReader reader(document, name, "rig", error);
+  Rig rig;
+  rig.name = reader.get_string("name", "");
+  rig.eye_point_m = reader.get_point("eye_point_m");
+  if (const auto* table = reader.get_table("network")) rig.network = read_network(*table, name, error);
+  if (const auto* table = reader.get_table("car")) rig.car = read_car(*table, name, error);
+  std::set<std::string> names;
+  for (const toml::table* table : reader.get_tables("screen")) {
+    rig.screens.push_back(read_screen(*table, name, error));
+    if (!names.insert(rig.screens.back().name).second)
+      reader.report("screen", fmt::format("two screens are called \"{}\"", rig.screens.back().name), "give each its own name");
+  }
+  if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");
+  if (rig.screens.size() > 64) reader.report("screen", "the rig has more than 64 screens", "split it");
+  reader.finish();
+  if (!error.what.empty()) return tl::unexpected(error);
+  return rig;
+}
+
+}  // namespace septet::rig

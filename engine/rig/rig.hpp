@@ -1,0 +1,74 @@
+#pragma once
+/// The rig: what surrounds the driver, and how the machines talk. One TOML file (rigs/*.toml); rigs/README.md explains it.
+///
+/// Lengths are metres in the car's frame (vehicle frame: x forward, y left, z up, origin on the ground below the middle of
+/// the rear axle). Reading a rig is the only function that can fail, and its errors name file, line and remedy.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::rig {
+
+/// A flat rectangle in space that the driver looks through.
+struct Window {
+  Vec3 lower_left_m, lower_right_m, upper_left_m;
+  Vec3 upper_right_m() const { return lower_right_m + upper_left_m - lower_left_m; }
+};
+
+/// One picture within a screen: the whole of it, or an inset such as a mirror.
+struct View {
+  Window window;
+  bool mirrored = false;  ///< Flipped left to right, as seen in a mirror.
+  /// Where it lies on the screen, as fractions from the upper left corner.
+  double left = 0.0, top = 0.0, width = 1.0, height = 1.0;
+};
+
+struct Screen {
+  std::string name;
+  std::uint32_t width_px = 640, height_px = 480;
+  std::string machine;         ///< Host that drives it; empty: the server's own machine.
+  bool show_interior = false;  ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
+  std::vector<View> views;     ///< The first one fills the screen.
+};
+
+enum class TickTransport : std::uint8_t { automatic, multicast, unicast };
+
+struct Network {
+  std::string server_address = "127.0.0.1";  ///< Where screens find the server.
+  std::uint16_t scene_port = 4750;           ///< UDP, secure unicast lane; 0: any free port (one machine only).
+  std::string tick_group = "239.77.77.77";
+  std::uint16_t tick_port = 4751;
+  std::string interface_address;  ///< Local address for multicast; empty: the system's choice.
+  TickTransport transport = TickTransport::automatic;
+  std::uint32_t max_payload_bytes = 1200;
+  double playout_delay_ticks = 2.0;
+};
+
+enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard };
+
+struct Car {
+  CarSource source = CarSource::simulated_driver;
+  std::uint16_t vendor_id = 0x1209, product_id = 0x0001;
+  std::string serial;
+  std::string layout = "septet-car";  ///< Report layout of the device (car-io/REPORTS.md).
+  std::string vehicle = "volvo-s80";  ///< Parameter file below vehicles/.
+  std::string driver = "plain";       ///< Which simulated driver.
+};
+
+struct Rig {
+  std::string name;
+  Vec3 eye_point_m{0.0};
+  std::vector<Screen> screens;
+  Network network;
+  Car car;
+};
+
+/// Parses the text of a rig file; `name` is used in messages. Unknown keys are errors, so that a misspelt one is noticed.
+Expected<Rig> read_rig(std::string_view toml, std::string_view name);
+
+}  // namespace septet::rig

@@ -1,0 +1,142 @@
+#include "engine/world/participant_quantisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+namespace septet {
+namespace {
+
+// Steps are powers of two, so that an integer and its value convert to each other exactly.
+constexpr double position_per_m = 4096.0;
+constexpr double velocity_per_mps = 1024.0;
+constexpr double acceleration_per_mps2 = 256.0;
+constexpr double angular_velocity_per_radps = 16384.0;
+constexpr double angle_per_rad = 16384.0;
+constexpr double spin_rate_per_radps = 64.0;
+constexpr double spin_steps = 65536.0;                 // of one turn
+constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
+
+constexpr std::int64_t limit(double value) { return static_cast<std::int64_t>(value); }
+
+constexpr std::array<FieldLimits, participant_field_count> make_limits() {
+  std::array<FieldLimits, participant_field_count> limits{};
+  const auto set = [&](std::size_t first, std::size_t last, std::int64_t low, std::int64_t high) {
+    for (std::size_t i = first; i <= last; ++i) limits[i] = {low, high};
+  };
+  set(field_model, field_model, 0, 65535);
+  set(field_paint, field_paint, 0, 255);
+  set(field_lamps, field_lamps, 0, 65535);
+  set(field_position_x, field_position_z, -limit(524288.0 * position_per_m), limit(524288.0 * position_per_m));
+  set(field_largest, field_largest, 0, 3);
+  set(field_orientation_a, field_orientation_c, -limit(orientation_steps), limit(orientation_steps));
+  set(field_velocity_x, field_velocity_z, -limit(1024.0 * velocity_per_mps), limit(1024.0 * velocity_per_mps));
+  set(field_acceleration_x, field_acceleration_z, -limit(8192.0 * acceleration_per_mps2), limit(8192.0 * acceleration_per_mps2));
+  set(field_angular_velocity_x, field_angular_velocity_z, -limit(1024.0 * angular_velocity_per_radps), limit(1024.0 * angular_velocity_per_radps));
+  set(field_front_steer, field_front_steer, -limit(4.0 * angle_per_rad), limit(4.0 * angle_per_rad));
+  set(field_wheel_spin, field_wheel_spin, 0, limit(spin_steps) - 1);
+  set(field_wheel_spin_rate, field_wheel_spin_rate, -limit(4096.0 * spin_rate_per_radps), limit(4096.0 * spin_rate_per_radps));
+  set(field_lift_front_left, field_lift_rear_right, -limit(16.0 * position_per_m), limit(16.0 * position_per_m));
+  return limits;
+}
+constexpr auto limits_of_field = make_limits();
+
+double component(const Quat& q, std::size_t index) {
+  return index == 0 ? q.w : index == 1 ? q.x : index == 2 ? q.y : q.z;
+}
+
+}  // namespace
+
+const FieldLimits& participant_field_limits(std::size_t field) { return limits_of_field[field]; }
+
+WireParticipant quantise(const Participant& participant) {
+  WireParticipant wire;
+  wire.id = participant.id;
+  // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
+  const auto put = [&](std::size_t field, double scaled) {
+    const auto [low, high] = limits_of_field[field];
+    wire.fields[field] = std::isfinite(scaled)
+                             ? std::clamp<std::int64_t>(std::llround(std::clamp(scaled, -9e15, 9e15)), low, high)
+                             : 0;
+  };
+  const auto put3 = [&](std::size_t field, const Vec3& v, double scale) {
+    for (int i = 0; i < 3; ++i) put(field + static_cast<std::size_t>(i), v[i] * scale);
+  };
+  put(field_model, participant.model);
+  put(field_paint, participant.paint);
+  put(field_lamps, participant.lamps.bits);
+  put3(field_position_x, participant.world_from_vehicle.position_m, position_per_m);
+  put3(field_velocity_x, participant.velocity_mps, velocity_per_mps);
+  put3(field_acceleration_x, participant.acceleration_mps2, acceleration_per_mps2);
+  put3(field_angular_velocity_x, participant.angular_velocity_radps, angular_velocity_per_radps);
+  put(field_front_steer, participant.front_steer_rad * angle_per_rad);
+  put(field_wheel_spin_rate, participant.wheel_spin_radps * spin_rate_per_radps);
+  for (std::size_t i = 0; i < 4; ++i) put(field_lift_front_left + i, participant.wheel_lift_m[i] * position_per_m);
+  const double turns = participant.wheel_spin_rad / (2.0 * glm::pi<double>());
+  put(field_wheel_spin, std::fmod(std::floor((turns - std::floor(turns)) * spin_steps), spin_steps));
+
+  // Smallest three: the largest component follows from the unit length and is made positive.
+  const Quat& q = participant.world_from_vehicle.orientation;
+  std::size_t largest = 0;
+  for (std::size_t i = 1; i < 4; ++i)
+    if (std::abs(component(q, i)) > std::abs(component(q, largest))) largest = i;
+  const double sign = component(q, largest) < 0.0 ? -1.0 : 1.0;
+  wire.fields[field_largest] = static_cast<std::int64_t>(largest);
+  std::size_t field = field_orientation_a;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (i != largest) put(field++, sign * component(q, i) * glm::root_two<double>() * orientation_steps);
+  return wire;
+}
+
+Participant dequantise(const WireParticipant& wire) {
+  const auto value = [&](std::size_t field, double scale) { return static_cast<double>(wire.fields[field]) / scale; };
+  const auto vector = [&](std::size_t field, double scale) {
+    return Vec3(value(field, scale), value(field + 1, scale), value(field + 2, scale));
+  };
+  Participant participant;
+  participant.id = wire.id;
+  participant.model = static_cast<ModelIndex>(wire.fields[field_model]);
+  participant.paint = static_cast<std::uint8_t>(wire.fields[field_paint]);
+  participant.lamps.bits = static_cast<std::uint16_t>(wire.fields[field_lamps]);
+  participant.world_from_vehicle.position_m = vector(field_position_x, position_per_m);
+  participant.velocity_mps = vector(field_velocity_x, velocity_per_mps);
+  participant.acceleration_mps2 = vector(field_acceleration_x, acceleration_per_mps2);
+  participant.angular_velocity_radps = vector(field_angular_velocity_x, angular_velocity_per_radps);
+  participant.front_steer_rad = value(field_front_steer, angle_per_rad);
+  participant.wheel_spin_rad = value(field_wheel_spin, spin_steps) * 2.0 * glm::pi<double>();
+  participant.wheel_spin_radps = value(field_wheel_spin_rate, spin_rate_per_radps);
+  for (std::size_t i = 0; i < 4; ++i) participant.wheel_lift_m[i] = value(field_lift_front_left + i, position_per_m);
+
+  const Vec3 small = vector(field_orientation_a, orientation_steps * glm::root_two<double>());
+  const double large = std::sqrt(std::max(0.0, 1.0 - glm::dot(small, small)));
+  std::array<double, 4> q{};
+  int next = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    q[i] = i == static_cast<std::size_t>(wire.fields[field_largest]) ? large : small[next++];
+  participant.world_from_vehicle.orientation = glm::normalize(Quat(q[0], q[1], q[2], q[3]));
+  return participant;
+}
+
+WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
+  WireParticipant result = wire;
+  const double half_square = 0.5 * seconds * seconds;
+  const auto advance = [&](std::size_t field, double step) {
+    const auto [low, high] = limits_of_field[field];
+    result.fields[field] = std::clamp<std::int64_t>(wire.fields[field] + std::llround(step), low, high);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto velocity = static_cast<double>(wire.fields[field_velocity_x + i]);
+    const auto acceleration = static_cast<double>(wire.fields[field_acceleration_x + i]);
+    advance(field_position_x + i, velocity * seconds * (position_per_m / velocity_per_mps) +
+                                      acceleration * half_square * (position_per_m / acceleration_per_mps2));
+    advance(field_velocity_x + i, acceleration * seconds * (velocity_per_mps / acceleration_per_mps2));
+  }
+  const auto spin_rate = static_cast<double>(wire.fields[field_wheel_spin_rate]) / spin_rate_per_radps;
+  const auto turned = std::llround(spin_rate * seconds / (2.0 * glm::pi<double>()) * spin_steps);
+  const auto steps = static_cast<std::int64_t>(spin_steps);
+  result.fields[field_wheel_spin] = ((wire.fields[field_wheel_spin] + turned) % steps + steps) % steps;
+  return result;
+}
+
+}  // namespace septet

@@ -1,0 +1,23 @@
+#pragma once
+/// One participant to the integers of the wire and back, and where it is expected to be some time later.
+
+#include <cstdint>
+
+#include "engine/world/wire_snapshot.hpp"
+
+namespace septet {
+
+/// Closed range of a field; a decoder refuses a value outside it.
+struct FieldLimits {
+  std::int64_t low = 0, high = 0;
+};
+const FieldLimits& participant_field_limits(std::size_t field);
+
+WireParticipant quantise(const Participant& participant);
+Participant dequantise(const WireParticipant& wire);
+
+/// The baseline moved on by its own velocity, acceleration and wheel speed: what a difference is taken to, because most
+/// vehicles do what they did. Same integers on every machine: one rounding of a plain product per field.
+WireParticipant extrapolate(const WireParticipant& wire, double seconds);
+
+}  // namespace septet

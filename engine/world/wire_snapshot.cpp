@@ -1,0 +1,327 @@
+#include "engine/world/wire_snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+#include "engine/world/participant_quantisation.hpp"
+
+namespace septet {
+namespace {
+
+constexpr std::uint8_t format_version = 1;
+enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2 };
+
+// The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
+template <class Env, class Visit>
+void visit_environment(Env& e, Visit visit) {
+  visit(e.sun_azimuth_rad); visit(e.sun_elevation_rad); visit(e.sun_illuminance_lux); visit(e.visibility_m);
+  visit(e.cloud_cover); visit(e.rain_mm_per_h); visit(e.road_wetness); visit(e.snow_cover);
+  visit(e.temperature_k); visit(e.wind_speed_mps); visit(e.wind_direction_rad);
+}
+template <class Car, class Visit>
+void visit_driver_car(Car& c, Visit visit) {
+  visit(c.speed_mps); visit(c.engine_radps); visit(c.steering_wheel_rad); visit(c.steering_torque_nm);
+  visit(c.accelerator); visit(c.brake); visit(c.clutch); visit(c.yaw_rate_radps); visit(c.gaze_heading_rad);
+  visit(c.road_s_m); visit(c.lateral_position_m); visit(c.lane_width_m);
+}
+
+double get_finite(ByteReader& reader) {
+  const double value = reader.get_double();
+  if (!std::isfinite(value)) reader.fail();
+  return value;
+}
+
+/// Ascending ids as first id, then gaps.
+class IdWriter {
+ public:
+  void put(ByteWriter& writer, std::uint32_t id) {
+    writer.put_varint(first_ ? id : id - previous_ - 1);
+    previous_ = id;
+    first_ = false;
+  }
+
+ private:
+  std::uint32_t previous_ = 0;
+  bool first_ = true;
+};
+class IdReader {
+ public:
+  std::uint32_t get(ByteReader& reader) {
+    const std::uint64_t gap = reader.get_varint();
+    const std::uint64_t id = first_ ? gap : previous_ + 1 + gap;
+    if (gap > 0xffffffffu || id > 0xffffffffu) reader.fail();
+    previous_ = id;
+    first_ = false;
+    return static_cast<std::uint32_t>(id);
+  }
+
+ private:
+  std::uint64_t previous_ = 0;
+  bool first_ = true;
+};
+
+/// Ids of `from` that `to` lacks; both ascending by id.
+template <class Item>
+std::vector<std::uint32_t> removed_ids(const std::vector<Item>& from, const std::vector<Item>& to) {
+  std::vector<std::uint32_t> removed;
+  std::size_t j = 0;
+  for (const Item& item : from) {
+    while (j < to.size() && to[j].id < item.id) ++j;
+    if (j == to.size() || to[j].id != item.id) removed.push_back(item.id);
+  }
+  return removed;
+}
+
+void put_ids(ByteWriter& writer, const std::vector<std::uint32_t>& ids) {
+  writer.put_varint(ids.size());
+  IdWriter id_writer;
+  for (const auto id : ids) id_writer.put(writer, id);
+}
+
+template <class Item>
+void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit) {
+  const std::size_t count = reader.get_count(limit);
+  IdReader ids;
+  auto next = items.begin();
+  std::vector<Item> kept;
+  for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+    const auto id = ids.get(reader);
+    while (next != items.end() && next->id < id) kept.push_back(std::move(*next++));
+    if (next == items.end() || next->id != id) return reader.fail();
+    ++next;
+  }
+  kept.insert(kept.end(), std::make_move_iterator(next), std::make_move_iterator(items.end()));
+  items = std::move(kept);
+}
+
+/// What a receiver expects of `tick` from the baseline alone.
+std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
+  std::vector<WireParticipant> expected;
+  if (!baseline) return expected;
+  expected.reserve(baseline->participants.size());
+  const double seconds = std::clamp(time_s - baseline->rest.simulated_time_s, 0.0, 1.0);
+  for (const auto& participant : baseline->participants) expected.push_back(extrapolate(participant, seconds));
+  return expected;
+}
+
+void put_participants(ByteWriter& writer, const std::vector<WireParticipant>& expected,
+                      const std::vector<WireParticipant>& actual) {
+  put_ids(writer, removed_ids(expected, actual));
+  struct Change {
+    const WireParticipant* participant;
+    WireParticipant reference;
+    std::uint64_t mask;
+  };
+  std::vector<Change> changes;
+  std::size_t j = 0;
+  for (const auto& participant : actual) {
+    while (j < expected.size() && expected[j].id < participant.id) ++j;
+    const bool known = j < expected.size() && expected[j].id == participant.id;
+    Change change{&participant, known ? expected[j] : WireParticipant{}, 0};
+    for (std::size_t f = 0; f < participant_field_count; ++f)
+      if (participant.fields[f] != change.reference.fields[f]) change.mask |= 1ull << f;
+    if (change.mask != 0 || !known) changes.push_back(change);
+  }
+  writer.put_varint(changes.size());
+  IdWriter ids;
+  for (const auto& change : changes) {
+    ids.put(writer, change.participant->id);
+    writer.put_varint(change.mask);
+    for (std::size_t f = 0; f < participant_field_count; ++f)
+      if (change.mask & (1ull << f)) writer.put_signed_varint(change.participant->fields[f] - change.reference.fields[f]);
+  }
+}
+
+void read_participants(ByteReader& reader, std::vector<WireParticipant>& participants) {
+  remove_ids(reader, participants, max_wire_participants);
+  const std::size_t count = reader.get_count(max_wire_participants);
+  IdReader ids;
+  std::vector<WireParticipant> added;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+    const auto id = ids.get(reader);
+    while (j < participants.size() && participants[j].id < id) ++j;
+    const bool known = j < participants.size() && participants[j].id == id;
+    WireParticipant fresh;
+    fresh.id = id;
+    WireParticipant& target = known ? participants[j] : fresh;
+    const std::uint64_t mask = reader.get_varint();
+    if (mask >> participant_field_count) reader.fail();
+    for (std::size_t f = 0; f < participant_field_count; ++f) {
+      if (!(mask & (1ull << f))) continue;
+      // Unsigned addition wraps where a hostile difference would overflow; the limits then refuse the sum.
+      const auto sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(target.fields[f]) +
+                                                 static_cast<std::uint64_t>(reader.get_signed_varint()));
+      const auto [low, high] = participant_field_limits(f);
+      if (sum < low || sum > high) return reader.fail();
+      target.fields[f] = sum;
+    }
+    if (static_cast<std::size_t>(target.fields[field_model]) >= vehicle_models().size()) return reader.fail();
+    if (!known) added.push_back(fresh);
+  }
+  if (participants.size() + added.size() > max_wire_participants) return reader.fail();
+  const auto middle = participants.insert(participants.end(), added.begin(), added.end());
+  std::inplace_merge(participants.begin(), middle, participants.end(),
+                     [](const auto& a, const auto& b) { return a.id < b.id; });
+}
+
+void put_effects(ByteWriter& writer, const std::vector<EffectKeyframe>& before, const std::vector<EffectKeyframe>& now) {
+  put_ids(writer, removed_ids(before, now));
+  std::vector<const EffectKeyframe*> changed;
+  for (const auto& effect : now) {
+    const auto old = std::ranges::lower_bound(before, effect.id, {}, &EffectKeyframe::id);
+    if (old == before.end() || !(*old == effect)) changed.push_back(&effect);
+  }
+  writer.put_varint(changed.size());
+  IdWriter ids;
+  for (const auto* effect : changed) {
+    ids.put(writer, effect->id);
+    writer.put(effect->kind);
+    writer.put_varint(effect->data.size());
+    writer.put_bytes(effect->data);
+  }
+}
+
+void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects) {
+  remove_ids(reader, effects, max_wire_effects);
+  const std::size_t count = reader.get_count(max_wire_effects);
+  IdReader ids;
+  for (std::size_t i = 0; i < count && reader.ok(); ++i) {
+    EffectKeyframe effect;
+    effect.id = ids.get(reader);
+    effect.kind = reader.get<std::uint16_t>();
+    const auto data = reader.take(reader.get_count(max_wire_effect_bytes));
+    effect.data.assign(data.begin(), data.end());
+    const auto place = std::ranges::lower_bound(effects, effect.id, {}, &EffectKeyframe::id);
+    if (place != effects.end() && place->id == effect.id)
+      *place = std::move(effect);
+    else
+      effects.insert(place, std::move(effect));
+  }
+  std::size_t bytes = 0;
+  for (const auto& effect : effects) bytes += effect.data.size();
+  if (effects.size() > max_wire_effects || bytes > max_wire_effect_bytes) reader.fail();
+}
+
+SnapshotHeader read_header(ByteReader& reader, std::uint8_t& flags) {
+  if (reader.get<std::uint8_t>() != format_version) reader.fail();
+  flags = reader.get<std::uint8_t>();
+  if (flags & ~(flag_has_baseline | flag_environment)) reader.fail();
+  SnapshotHeader header;
+  header.tick = reader.get_varint();
+  if (flags & flag_has_baseline) {
+    const std::uint64_t age = reader.get_varint();
+    if (age == 0 || age > header.tick) reader.fail();
+    header.baseline = header.tick - age;
+  }
+  return header;
+}
+
+auto refused(std::string what) {
+  return failure(std::move(what), "snapshot", "the sender runs another version of Septet, or the bytes are damaged");
+}
+
+}  // namespace
+
+WireSnapshot to_wire(const Snapshot& snapshot) {
+  SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());
+  WireSnapshot wire;
+  wire.participants.reserve(snapshot.participants.size());
+  for (const auto& participant : snapshot.participants) {
+    SEPTET_CHECK(wire.participants.empty() || wire.participants.back().id < participant.id,
+                 "participant {} after {}", participant.id, wire.participants.back().id);
+    wire.participants.push_back(quantise(participant));
+  }
+  wire.rest.tick = snapshot.tick;
+  wire.rest.simulated_time_s = snapshot.simulated_time_s;
+  wire.rest.state_hash = snapshot.state_hash;
+  wire.rest.environment = snapshot.environment;
+  wire.rest.driver_car = snapshot.driver_car;
+  wire.rest.effects = snapshot.effects;
+  wire.rest.diagnostics = snapshot.diagnostics;
+  return wire;
+}
+
+Snapshot from_wire(const WireSnapshot& wire) {
+  Snapshot snapshot = wire.rest;
+  snapshot.participants.reserve(wire.participants.size());
+  for (const auto& participant : wire.participants) snapshot.participants.push_back(dequantise(participant));
+  return snapshot;
+}
+
+void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out) {
+  SEPTET_CHECK(!baseline || baseline->rest.tick < wire.rest.tick, "tick {} against {}", wire.rest.tick,
+               baseline ? baseline->rest.tick : 0);
+  const Snapshot& rest = wire.rest;
+  const bool environment = !baseline || !(baseline->rest.environment == rest.environment);
+  ByteWriter writer(out);
+  writer.put(format_version);
+  writer.put(static_cast<std::uint8_t>((baseline ? flag_has_baseline : 0) | (environment ? flag_environment : 0)));
+  writer.put_varint(rest.tick);
+  if (baseline) writer.put_varint(rest.tick - baseline->rest.tick);
+  writer.put(rest.simulated_time_s);
+  writer.put(rest.state_hash);
+  if (environment) visit_environment(rest.environment, [&](double value) { writer.put(value); });
+
+  const DriverCar& car = rest.driver_car;
+  writer.put_varint(car.participant);
+  writer.put_signed_varint(car.gear);
+  writer.put_varint(car.road);
+  writer.put_signed_varint(car.lane);
+  visit_driver_car(car, [&](double value) { writer.put(value); });
+  writer.put_varint(rest.diagnostics.bad_numbers);
+  writer.put_varint(rest.diagnostics.collisions);
+  writer.put_varint(rest.diagnostics.input_stale_ticks);
+
+  put_participants(writer, expected_participants(baseline, rest.simulated_time_s), wire.participants);
+  put_effects(writer, baseline ? baseline->rest.effects : std::vector<EffectKeyframe>{}, rest.effects);
+}
+
+Expected<SnapshotHeader> read_snapshot_header(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  std::uint8_t flags = 0;
+  const SnapshotHeader header = read_header(reader, flags);
+  if (!reader.ok()) return refused("unreadable header");
+  return header;
+}
+
+Expected<WireSnapshot> decode_snapshot(std::span<const std::byte> bytes, const WireSnapshot* baseline) {
+  ByteReader reader(bytes);
+  std::uint8_t flags = 0;
+  const SnapshotHeader header = read_header(reader, flags);
+  if (!reader.ok()) return refused("unreadable header");
+  if (header.baseline.has_value() != (baseline != nullptr) || (baseline && baseline->rest.tick != *header.baseline))
+    return refused("the difference refers to a snapshot that is not at hand");
+
+  WireSnapshot wire;
+  Snapshot& rest = wire.rest;
+  rest.tick = header.tick;
+  rest.simulated_time_s = get_finite(reader);
+  rest.state_hash = reader.get<std::uint64_t>();
+  if (flags & flag_environment)
+    visit_environment(rest.environment, [&](double& value) { value = get_finite(reader); });
+  else if (baseline)
+    rest.environment = baseline->rest.environment;
+  else
+    return refused("a keyframe without an environment");
+
+  DriverCar& car = rest.driver_car;
+  car.participant = static_cast<ParticipantId>(reader.get_count(0xffffffffu));
+  car.gear = static_cast<std::int8_t>(std::clamp<std::int64_t>(reader.get_signed_varint(), -1, 20));
+  car.road = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+  car.lane = static_cast<std::int32_t>(std::clamp<std::int64_t>(reader.get_signed_varint(), -1000, 1000));
+  visit_driver_car(car, [&](double& value) { value = get_finite(reader); });
+  rest.diagnostics.bad_numbers = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+  rest.diagnostics.collisions = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+  rest.diagnostics.input_stale_ticks = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+
+  wire.participants = expected_participants(baseline, rest.simulated_time_s);
+  read_participants(reader, wire.participants);
+  if (baseline) rest.effects = baseline->rest.effects;
+  read_effects(reader, rest.effects);
+  if (!reader.ok() || !reader.at_end()) return refused(fmt::format("malformed contents of tick {}", header.tick));
+  return wire;
+}
+
+}  // namespace septet

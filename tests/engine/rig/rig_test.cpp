@@ -1,0 +1,91 @@
+#include "engine/rig/rig.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+namespace septet::rig {
+namespace {
+
+std::string shipped(const std::string& name) {
+  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/rigs/" + name + ".toml");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+Vec3 from_eye(const Rig& rig, const Vec3& point) { return point - rig.eye_point_m; }
+double azimuth_deg(const Vec3& direction) { return std::atan2(direction.y, direction.x) * 57.29577951308232; }
+
+constexpr const char* one_screen = R"(
+eye_point_m = [0, 0, 1]
+[[screen]]
+name = "front"
+lower_left_m = [2, 1, 0]
+lower_right_m = [2, -1, 0]
+upper_left_m = [2, 1, 2]
+)";
+
+}  // namespace
+
+TEST_CASE("seven screens cover 220 by 30 degrees ahead and 60 by 30 behind") {
+  const auto rig = read_rig(shipped("seven-screens"), "seven-screens.toml");
+  REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+  REQUIRE(rig->screens.size() == 7);
+  const auto left_edge = [&](int i) { return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_left_m)); };
+  const auto right_edge = [&](int i) { return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_right_m)); };
+  CHECK(left_edge(0) == doctest::Approx(110.0));
+  CHECK(right_edge(4) == doctest::Approx(-110.0));
+  CHECK(left_edge(5) == doctest::Approx(-150.0));
+  CHECK(right_edge(6) == doctest::Approx(150.0));
+  for (const auto& screen : rig->screens) {
+    const auto& window = screen.views[0].window;
+    for (const Vec3& corner : {window.lower_left_m, window.lower_right_m, window.upper_left_m, window.upper_right_m()}) {
+      const Vec3 direction = from_eye(*rig, corner);
+      const double elevation_deg = std::atan2(std::abs(direction.z), std::hypot(direction.x, direction.y)) * 57.29577951308232;
+      CHECK(elevation_deg == doctest::Approx(15.0).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("neighbouring screens ahead share an edge") {
+  const auto rig = read_rig(shipped("seven-screens"), "seven-screens.toml");
+  REQUIRE(rig);
+  for (int i : {0, 1, 2, 3, 5}) {
+    const auto& left = rig->screens[i].views[0].window;
+    const auto& right = rig->screens[i + 1].views[0].window;
+    CHECK(glm::length(left.lower_right_m - right.lower_left_m) < 1e-5);
+    CHECK(glm::length(left.upper_right_m() - right.upper_left_m) < 1e-5);
+  }
+}
+
+TEST_CASE("every shipped rig is read") {
+  for (const char* name : {"seven-screens", "three-monitors", "desktop"}) {
+    const auto rig = read_rig(shipped(name), name);
+    CHECK_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+    if (rig) CHECK(rig->name == name);
+  }
+}
+
+TEST_CASE("a wrong rig is refused with its line and a remedy") {
+  const auto refuse = [](const std::string& text, const std::string& where, const std::string& what) {
+    const auto rig = read_rig(text, "my.toml");
+    REQUIRE_FALSE(rig);
+    CHECK(rig.error().where == where);
+    CHECK(rig.error().what.find(what) != std::string::npos);
+    CHECK_FALSE(rig.error().remedy.empty());
+  };
+  const std::string good = one_screen;
+  REQUIRE(read_rig(good, "my.toml"));
+  refuse("eye_point_m = [0, 0", "my.toml:1", "");
+  refuse(good + "heigth_px = 3\n", "my.toml:8", "heigth_px");
+  refuse(good + "width_px = 5\n", "my.toml:8", "width_px");
+  refuse("eye_point_m = [0, 0, 1]\n", "my.toml:1", "no screen");
+  refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9", "pigeon");
+  refuse("eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 0, 2]\n",
+         "my.toml:6", "rectangle");
+}
+
+}  // namespace septet::rig

@@ -1,0 +1,68 @@
+#include "engine/world/interpolate.hpp"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+namespace septet {
+namespace {
+
+/// A vehicle on a circle of 50 m at 20 m/s, at time `t`.
+Participant on_circle(double t) {
+  const double radius = 50.0, rate = 20.0 / radius, angle = rate * t;
+  Participant p;
+  p.id = 1;
+  p.world_from_vehicle.position_m = Vec3(radius * std::sin(angle), -radius * std::cos(angle), 0.0);
+  p.world_from_vehicle.orientation = orientation_from_angles(angle, 0.0, 0.0);
+  p.velocity_mps = Vec3(std::cos(angle), std::sin(angle), 0.0) * 20.0;
+  p.acceleration_mps2 = Vec3(-std::sin(angle), std::cos(angle), 0.0) * (20.0 * rate);
+  p.angular_velocity_radps = Vec3(0.0, 0.0, rate);
+  p.wheel_spin_radps = 62.5;
+  p.wheel_spin_rad = std::fmod(62.5 * t, 2.0 * 3.14159265358979323846);
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("a vehicle on a circle is within a micrometre of it between two ticks") {
+  const double h = 1.0 / 120.0;
+  for (double t = 0.0; t <= 1.0; t += 0.125) {
+    const Participant shown = interpolate(on_circle(0.0), on_circle(h), h, t);
+    const Participant truth = on_circle(t * h);
+    CHECK(glm::length(shown.world_from_vehicle.position_m - truth.world_from_vehicle.position_m) < 1e-6);
+    CHECK(std::abs(heading_rad(shown.world_from_vehicle.orientation) - 0.4 * t * h) < 1e-9);
+    CHECK(shown.wheel_spin_rad == doctest::Approx(truth.wheel_spin_rad));
+  }
+}
+
+TEST_CASE("an angular acceleration is followed quadratically") {
+  // From rest to 0.2 rad/s over one tick: the angle runs as t squared.
+  Participant before = on_circle(0.0), after = before;
+  before.velocity_mps = after.velocity_mps = before.acceleration_mps2 = after.acceleration_mps2 = Vec3(0.0);
+  before.angular_velocity_radps = Vec3(0.0);
+  after.angular_velocity_radps = Vec3(0.0, 0.0, 0.2);
+  const double h = 0.1, end = 0.5 * 0.2 * h;
+  after.world_from_vehicle.orientation = orientation_from_angles(end, 0.0, 0.0);
+  const Participant shown = interpolate(before, after, h, 0.5);
+  CHECK(heading_rad(shown.world_from_vehicle.orientation) == doctest::Approx(0.25 * end));
+}
+
+TEST_CASE("a teleported vehicle is not smeared across the gap") {
+  Participant after = on_circle(1.0 / 120.0);
+  after.world_from_vehicle.position_m.x += 300.0;
+  const Participant shown = interpolate(on_circle(0.0), after, 1.0 / 120.0, 0.5);
+  CHECK(shown.world_from_vehicle.position_m.x == doctest::Approx(0.0));
+}
+
+TEST_CASE("both ends are met exactly") {
+  Snapshot a, b;
+  a.tick = 1;
+  b.tick = 2;
+  b.simulated_time_s = 1.0 / 120.0;
+  a.participants = {on_circle(0.0)};
+  b.participants = {on_circle(b.simulated_time_s)};
+  CHECK(interpolate(a, b, 0.0).participants[0].world_from_vehicle.position_m == a.participants[0].world_from_vehicle.position_m);
+  CHECK(interpolate(a, b, 1.0).participants[0].world_from_vehicle.position_m == b.participants[0].world_from_vehicle.position_m);
+}
+
+}  // namespace septet
