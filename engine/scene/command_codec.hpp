@@ -1,0 +1,34 @@
+#pragma once
+/// Commands to bytes and back, as specified in COMMANDS.md.
+///
+/// The decoder trusts nothing: it is bounded in time and memory by the length of its input, refuses
+/// what is out of range, not finite, over a limit or followed by rubbish, and never stops the
+/// program. A number of vertices, polygons or reals that all lie on a grid of 2^-k is sent as small
+/// integers, so meshes snapped to a grid are about a third of the size.
+
+#include <cstddef>
+#include <span>
+
+#include "engine/core/bytes.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/scene/command.hpp"
+
+namespace septet::scene {
+
+/// Limits of one command; the store's limits on the whole are in store.hpp.
+inline constexpr std::size_t max_name_bytes = 255;
+inline constexpr std::size_t max_tag_string_bytes = 4096;
+inline constexpr std::size_t max_tag_blob_bytes = 4096;
+inline constexpr std::size_t max_run_values = 1u << 18;  ///< Numbers in one range command.
+inline constexpr std::size_t max_run_bytes = 1u << 20;   ///< Bytes of tiles in one range command.
+
+/// Appends one command.
+void encode(const Command& command, Bytes& out);
+
+/// Reads one command; on bad bytes the reader is in its failed state and the answer says why.
+Expected<Command> decode(ByteReader& in);
+
+/// The one command that fills `bytes` exactly.
+Expected<Command> decode(std::span<const std::byte> bytes);
+
+}  // namespace septet::scene

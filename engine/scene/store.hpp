@@ -1,0 +1,71 @@
+#pragma once
+/// The node store: the world's content, as the server owns it and as a screen mirrors it.
+///
+/// All change goes through `apply`. A command may come from the network: whatever it holds, it is
+/// either applied whole or refused with a reason, and nothing is changed by a refused one. Memory
+/// is bounded by StoreLimits. Iteration is in order of id, so that equal stores give equal command
+/// streams. Not safe to share between threads while it is changed.
+
+#include <cstdint>
+#include <functional>
+#include <map>
+
+#include "engine/core/expected.hpp"
+#include "engine/scene/command.hpp"
+
+namespace septet::scene {
+
+struct StoreLimits {
+  std::size_t nodes = 1u << 18;
+  std::size_t parts_per_node =
+      4096;  ///< Tag groups, tags of a group, links, layers, fragments: each.
+  std::uint32_t vertices = 1u << 22;  ///< Of one geometry.
+  std::uint32_t polygons = 1u << 22;
+  std::uint32_t bitmap_side = 8192;
+  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< Of all content together.
+};
+
+class Store {
+ public:
+  explicit Store(const StoreLimits& limits = {}) : limits_(limits) {}
+
+  /// Applies one command. Subscriptions are not the store's business and are refused.
+  Expected<void> apply(const Command& command);
+
+  /// The next id, never one that was in use before. For whoever owns the store: a server.
+  NodeId assign_id() { return next_id_++; }
+
+  const std::map<NodeId, Node>& nodes() const { return nodes_; }
+  const Node* find(NodeId id) const;
+  /// The lowest node of that name and type, or nothing.
+  const Node* find(NodeType type, std::string_view name) const;
+
+  /// Counts the applied commands that changed something.
+  std::uint64_t revision() const { return revision_; }
+  /// The revision at which a node was last created or destroyed.
+  std::uint64_t index_revision() const { return index_revision_; }
+  std::uint64_t content_bytes() const { return content_bytes_; }
+
+ private:
+  struct Application;  // One command's way into the store: store_apply.cpp.
+
+  StoreLimits limits_;
+  std::map<NodeId, Node> nodes_;
+  NodeId next_id_ = 1;
+  std::uint64_t revision_ = 0;
+  std::uint64_t index_revision_ = 0;
+  std::uint64_t content_bytes_ = 0;
+};
+
+/// The commands that build this node, or the whole store, in an empty store, in runs of at most
+/// `run_values` numbers.
+void describe_node(const Node& node, const std::function<void(Command)>& emit,
+                   std::size_t run_values = 65536);
+void describe_store(const Store& store, const std::function<void(Command)>& emit,
+                    std::size_t run_values = 65536);
+
+/// Whether both hold the same content; revisions do not count.
+bool same_content(const Node& a, const Node& b);
+bool same_content(const Store& a, const Store& b);
+
+}  // namespace septet::scene
