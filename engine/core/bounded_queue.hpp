@@ -1,0 +1,64 @@
+#pragma once
+/// The one queue between threads: values go in one by one and come out in batches, in order. Its
+/// bound is what makes a slow reader visible to the writer. Any number of threads may use it at
+/// once.
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace septet {
+
+template <class T>
+class BoundedQueue {
+ public:
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
+
+  /// Answers false, with the value untouched, where the queue is full or closed.
+  bool try_push(T& value) {
+    const std::lock_guard lock(mutex_);
+    return push_if_open(value);
+  }
+  /// Waits for room. Answers false where the queue is or gets closed.
+  bool push(T& value) {
+    std::unique_lock lock(mutex_);
+    has_room_.wait(lock, [&] { return closed_ || values_.size() < capacity_; });
+    return push_if_open(value);
+  }
+  /// Takes everything that is there into `batch` (emptied first), after waiting for a value, the
+  /// deadline or the close. Answers false once the queue is closed and empty.
+  bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline) {
+    batch.clear();
+    std::unique_lock lock(mutex_);
+    has_value_.wait_until(lock, deadline, [&] { return closed_ || !values_.empty(); });
+    batch.swap(values_);
+    has_room_.notify_all();
+    return !batch.empty() || !closed_;
+  }
+  /// No value goes in any more; what is there can still be taken.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    has_value_.notify_all();
+    has_room_.notify_all();
+  }
+
+ private:
+  bool push_if_open(T& value) {
+    if (closed_ || values_.size() >= capacity_) return false;
+    values_.push_back(std::move(value));
+    has_value_.notify_one();
+    return true;
+  }
+
+  const std::size_t capacity_;
+  std::mutex mutex_;
+  std::condition_variable has_value_, has_room_;
+  std::vector<T> values_;
+  bool closed_ = false;
+};
+
+}  // namespace septet

@@ -1,0 +1,53 @@
+#pragma once
+/// Glances at the mirrors, from where the head points.
+///
+/// A glance at an area begins with the first sample inside the area and ends with the first one
+/// outside (ISO 15007 counts likewise, with eye tracking); those shorter than `minimum_s` do not
+/// count. At 10 Hz a duration is known to 0.1 s and shorter glances can be missed.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "logging/records.hpp"
+
+namespace septet::logging {
+
+/// A range of head headings, radians, positive to the left: from ≤ heading < to.
+struct GlanceArea {
+  std::string name;
+  double from_rad = 0.0, to_rad = 0.0;
+};
+
+/// The mirrors of a left-hand-drive car with the eye point 0.37 m left of its middle: from the
+/// mirrors' places (door mirrors 0.95 m from the middle and 0.6 m ahead of the eyes, inside mirror
+/// in the middle, 0.45 m ahead) they lie at 44° left, 39° right and 66° right. Heads turn less than
+/// eyes, so that each area reaches well towards the front.
+std::vector<GlanceArea> left_hand_drive_mirrors();
+
+struct Glance {
+  Tick tick = 0;  ///< Of its first sample.
+  double start_s = 0.0, duration_s = 0.0;
+  std::string area;
+  bool operator==(const Glance&) const = default;
+};
+
+struct GlanceSettings {
+  std::vector<GlanceArea> areas = left_hand_drive_mirrors();
+  double minimum_s = 0.1;
+};
+
+struct GlanceDetector {
+  GlanceSettings settings;
+  std::optional<Glance> current;
+};
+
+/// Takes the next sample; answers the glance that ended with it.
+std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample);
+
+/// A glance that lasts until the last sample counts with the time it has.
+std::vector<Glance> find_glances(std::span<const Sample> samples,
+                                 const GlanceSettings& settings = {});
+
+}  // namespace septet::logging

@@ -1,0 +1,105 @@
+#pragma once
+/// What a session file holds, as plain data: see FORMAT.md for the meaning of every field.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::logging {
+
+/// A text that the drive was made from.
+struct SourceFile {
+  std::string role;  ///< "rig", "scenario", "road", "vehicle", …
+  std::string name;
+  std::string content;
+  bool operator==(const SourceFile&) const = default;
+};
+
+/// What is known when a drive begins.
+struct SessionInfo {
+  std::string septet_version;
+  std::string git_revision;  ///< Empty where it is not known.
+  std::string started_utc;   ///< ISO 8601, from the caller's clock.
+  std::string participant;   ///< The driver's code.
+  double ticks_per_second = 120.0;
+  std::map<std::string, std::uint64_t> seeds;
+  std::map<std::string, std::string> other;  ///< Any other meta rows.
+  std::vector<SourceFile> files;
+  bool operator==(const SessionInfo&) const = default;
+};
+
+/// The input that one tick was computed with.
+struct InputRecord {
+  Tick tick = 0;
+  std::optional<Bytes> report;  ///< The HID report as read, id first; none for a keyboard.
+  DriverInput input;
+  bool operator==(const InputRecord&) const = default;
+};
+
+struct SceneEdit {
+  Tick tick = 0;
+  Bytes command;
+  bool operator==(const SceneEdit&) const = default;
+};
+
+/// The vehicle ahead in the driver's lane.
+struct Leader {
+  ParticipantId participant = 0;
+  double distance_gap_m = 0.0;      ///< The driver's front bumper to its rear bumper.
+  double distance_headway_m = 0.0;  ///< Front bumper to front bumper.
+  double speed_mps = 0.0;
+  bool operator==(const Leader&) const = default;
+};
+
+/// One row of the 10 Hz table.
+struct Sample {
+  Tick tick = 0;
+  double simulated_time_s = 0.0;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0, heading_rad = 0.0;
+  double speed_mps = 0.0;
+  double longitudinal_acceleration_mps2 = 0.0, lateral_acceleration_mps2 = 0.0;
+  double yaw_rate_radps = 0.0;
+  std::uint32_t road = 0;
+  std::int32_t lane = 0;
+  double road_s_m = 0.0, lateral_position_m = 0.0, lane_width_m = 0.0;
+  std::optional<Leader> leader;
+  double steering_wheel_rad = 0.0, accelerator = 0.0, brake = 0.0, clutch = 0.0;
+  std::int32_t gear = 0;
+  Lamps lamps;
+  double gaze_heading_rad = 0.0;
+  bool operator==(const Sample&) const = default;
+};
+
+struct Event {
+  Tick tick = 0;
+  double simulated_time_s = 0.0;
+  std::string kind;  ///< "lane_change", "mirror_glance", "collision", "scenario", …
+  std::optional<ParticipantId> participant;
+  std::string detail;  ///< key=value pairs.
+  bool operator==(const Event&) const = default;
+};
+
+struct QuestionnaireRecord {
+  std::string item;      ///< Short name of the question or endpoint: "fun", "drive_completed".
+  std::string question;  ///< As it was asked.
+  std::optional<std::string> answer;
+  std::optional<double> value;  ///< On the item's scale.
+  double observed_s = 0.0;      ///< Simulated time until which the participant was observed.
+  bool censored = false;        ///< They stopped before an answer or the endpoint.
+  std::string reason;           ///< Of stopping, in their words.
+  bool operator==(const QuestionnaireRecord&) const = default;
+};
+
+/// The sample of the driver's car in this snapshot.
+Sample take_sample(const Snapshot& snapshot, const std::optional<Leader>& leader);
+
+/// Whether this tick is one of the ten of its second; true for tick 0.
+bool is_sample_due(Tick tick, double ticks_per_second);
+
+}  // namespace septet::logging

@@ -1,0 +1,75 @@
+#pragma once
+/// Reads a session file (FORMAT.md), also one whose writer was killed, and one that is still being
+/// written.
+///
+/// The file is not trusted: a foreign, newer or damaged one is refused with one Error, at opening
+/// or, for damage that only reading meets, at the call that meets it. Memory is bounded by what a
+/// call asks for. Threads: one thread at a time for a reader; several readers may be open.
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/world/snapshot.hpp"
+#include "logging/records.hpp"
+
+namespace septet::logging {
+
+/// Ticks first ≤ tick ≤ last.
+struct TickRange {
+  Tick first = 0;
+  Tick last = std::numeric_limits<std::int64_t>::max();
+};
+
+/// Walks through the snapshots of a session. It must not outlive its reader.
+class SnapshotCursor {
+ public:
+  SnapshotCursor(SnapshotCursor&&) noexcept;
+  SnapshotCursor& operator=(SnapshotCursor&&) noexcept;
+  ~SnapshotCursor();
+  /// The next snapshot, or nothing at the end.
+  Expected<std::optional<Snapshot>> next();
+
+ private:
+  friend class SessionReader;
+  struct State;
+  explicit SnapshotCursor(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+class SessionReader {
+ public:
+  static Expected<SessionReader> open(const std::filesystem::path& path);
+  SessionReader(SessionReader&&) noexcept;
+  SessionReader& operator=(SessionReader&&) noexcept;
+  ~SessionReader();
+
+  const SessionInfo& info() const;
+  /// Whether the writer closed the file itself.
+  bool ended_cleanly() const;
+  /// Simulated time of the first and last snapshot; nothing where there is none.
+  Expected<std::optional<std::pair<double, double>>> time_span_s() const;
+
+  /// From the last snapshot at or before this time on; before the first one, from the first.
+  Expected<SnapshotCursor> snapshots_from(double simulated_time_s) const;
+  Expected<SnapshotCursor> snapshots() const;
+
+  Expected<std::vector<InputRecord>> inputs(TickRange range = {}) const;
+  Expected<std::vector<SceneEdit>> scene_edits(TickRange range = {}) const;
+  Expected<std::vector<Sample>> samples(TickRange range = {}) const;
+  Expected<std::vector<Event>> events(TickRange range = {}) const;
+  Expected<std::vector<QuestionnaireRecord>> questionnaire() const;
+
+  /// Reads every page of the file; an Error names what is damaged.
+  Expected<void> check_integrity() const;
+
+ private:
+  struct State;
+  explicit SessionReader(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::logging

@@ -1,0 +1,74 @@
+#pragma once
+/// Writes a session file (FORMAT.md) without making the simulation wait for the disk.
+///
+/// Records go into one bounded queue; a thread of the writer's own takes them, encodes the
+/// snapshots and commits them every `commit_interval`. Killing the process loses what is not yet
+/// committed: at most 100 ms of wall time.
+///
+/// Threads: `record` and the queries may be called from any thread. Records of one kind come in
+/// ascending ticks. Errors: `create` answers them. Later ones (a full disk) end the recording, not
+/// the drive: what was committed stays, `take_error` hands the one message over, and further
+/// records are counted and dropped.
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "engine/core/expected.hpp"
+#include "engine/world/snapshot.hpp"
+#include "logging/records.hpp"
+
+namespace septet::logging {
+
+/// What `record` does while the queue is full.
+enum class WhenFull {
+  wait,  ///< Until there is room: lockstep and headless drives, whose log is complete.
+  drop,  ///< Count it and write a `log_gap` event: real-time driving, which never waits.
+};
+
+struct WriterOptions {
+  WhenFull when_full = WhenFull::wait;
+  std::size_t queue_records = 2048;
+  std::chrono::milliseconds commit_interval{50};
+  double keyframe_interval_s = 1.0;        ///< Of simulated time.
+  std::optional<std::uint64_t> max_bytes;  ///< Of the file; reaching it is like a full disk.
+};
+
+class SessionWriter {
+ public:
+  /// Makes a new file; an existing one is an error, since a log is never overwritten.
+  static Expected<SessionWriter> create(const std::filesystem::path& path, const SessionInfo& info,
+                                        const WriterOptions& options = {});
+  SessionWriter(SessionWriter&&) noexcept;
+  SessionWriter& operator=(SessionWriter&&) noexcept;
+  /// Writes what is queued and closes the file as after a kill; `finish` is the clean end.
+  ~SessionWriter();
+
+  void record(std::shared_ptr<const Snapshot> snapshot);
+  void record(InputRecord input);
+  void record(SceneEdit edit);
+  void record(Sample sample);
+  void record(Event event);
+  void record(QuestionnaireRecord answer);
+
+  /// The error that ended the recording, once; afterwards and before, nothing.
+  std::optional<Error> take_error();
+  /// Records that were not written, because the queue was full or the recording had ended.
+  std::uint64_t dropped_records() const;
+  /// Tick of the newest snapshot that is safely in the file.
+  std::optional<Tick> committed_tick() const;
+
+  /// Writes the rest, marks the clean end and leaves one file without side files. Answers the error
+  /// that ended the recording where `take_error` has not. The writer drops every record from then
+  /// on.
+  Expected<void> finish();
+
+ private:
+  struct State;
+  explicit SessionWriter(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::logging
