@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "engine/world/snapshot.hpp"
+#include "engine/world/wire_snapshot.hpp"
 #include "logging/records.hpp"
 
 namespace septet::logging {
@@ -30,8 +30,11 @@ class SnapshotCursor {
   SnapshotCursor(SnapshotCursor&&) noexcept;
   SnapshotCursor& operator=(SnapshotCursor&&) noexcept;
   ~SnapshotCursor();
-  /// The next snapshot, or nothing at the end.
+  /// The next snapshot, or nothing at the end. After an Error the next call goes on with the next
+  /// row; behind damage, the first keyframe decodes again.
   Expected<std::optional<Snapshot>> next();
+  /// The same, as it lies in the file.
+  Expected<std::optional<WireSnapshot>> next_wire();
 
  private:
   friend class SessionReader;

@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "engine/core/expected.hpp"
-#include "engine/world/snapshot.hpp"
+#include "engine/world/wire_snapshot.hpp"
 #include "logging/records.hpp"
 
 namespace septet::logging {
@@ -32,8 +32,8 @@ struct WriterOptions {
   WhenFull when_full = WhenFull::wait;
   std::size_t queue_records = 2048;
   std::chrono::milliseconds commit_interval{50};
-  double keyframe_interval_s = 1.0;        ///< Of simulated time.
-  std::optional<std::uint64_t> max_bytes;  ///< Of the file; reaching it is like a full disk.
+  double keyframe_interval_s = 1.0;             ///< Of simulated time.
+  std::optional<std::uint64_t> max_bytes = {};  ///< Of the file; reaching it is like a full disk.
 };
 
 class SessionWriter {
@@ -46,7 +46,9 @@ class SessionWriter {
   /// Writes what is queued and closes the file as after a kill; `finish` is the clean end.
   ~SessionWriter();
 
-  void record(std::shared_ptr<const Snapshot> snapshot);
+  /// The first snapshot, and one after each `keyframe_interval_s`, is stored whole, the others as
+  /// differences.
+  void record(std::shared_ptr<const WireSnapshot> snapshot);
   void record(InputRecord input);
   void record(SceneEdit edit);
   void record(Sample sample);

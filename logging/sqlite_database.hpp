@@ -40,6 +40,7 @@ class Statement {
   /// Goes to the next row; false after the last one.
   Expected<bool> step();
 
+  const std::string& where() const { return where_; }
   bool is_null(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;  ///< NaN for NULL.

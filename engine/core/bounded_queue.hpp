@@ -3,6 +3,7 @@
 /// bound is what makes a slow reader visible to the writer. Any number of threads may use it at
 /// once.
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -28,12 +29,14 @@ class BoundedQueue {
     has_room_.wait(lock, [&] { return closed_ || values_.size() < capacity_; });
     return push_if_open(value);
   }
-  /// Takes everything that is there into `batch` (emptied first), after waiting for a value, the
-  /// deadline or the close. Answers false once the queue is closed and empty.
-  bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline) {
+  /// Takes everything that is there into `batch` (emptied first), after waiting for `enough`
+  /// values, the deadline or the close. Answers false once the queue is closed and empty.
+  bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline,
+                std::size_t enough = 1) {
     batch.clear();
     std::unique_lock lock(mutex_);
-    has_value_.wait_until(lock, deadline, [&] { return closed_ || !values_.empty(); });
+    enough_ = std::min(enough, capacity_);
+    has_enough_.wait_until(lock, deadline, [&] { return closed_ || values_.size() >= enough_; });
     batch.swap(values_);
     has_room_.notify_all();
     return !batch.empty() || !closed_;
@@ -42,7 +45,7 @@ class BoundedQueue {
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
-    has_value_.notify_all();
+    has_enough_.notify_all();
     has_room_.notify_all();
   }
 
@@ -50,14 +53,15 @@ class BoundedQueue {
   bool push_if_open(T& value) {
     if (closed_ || values_.size() >= capacity_) return false;
     values_.push_back(std::move(value));
-    has_value_.notify_one();
+    if (values_.size() >= enough_) has_enough_.notify_one();
     return true;
   }
 
   const std::size_t capacity_;
   std::mutex mutex_;
-  std::condition_variable has_value_, has_room_;
+  std::condition_variable has_enough_, has_room_;
   std::vector<T> values_;
+  std::size_t enough_ = 1;  ///< What the taker waits for.
   bool closed_ = false;
 };
 

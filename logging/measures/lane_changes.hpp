@@ -4,7 +4,8 @@
 /// A lane change begins where the car's reference point crosses the line between two lanes. It
 /// counts once the point is `hysteresis_m` beyond the line, so that driving on the line is no lane
 /// change, and it is dated at the crossing. A line is recognised by the jump of the lateral
-/// position from one edge of a lane to the other (more than half a lane width); where the lane's
+/// position from one edge of a lane to the other (more than half a lane width: a car moves less
+/// than that from sample to sample); where the lane's
 /// number changes without the jump, the road renumbered its lanes and nothing is counted. Samples
 /// off every lane (lane 0) break the sequence: a return to the road is not a lane change.
 

@@ -1,0 +1,32 @@
+#pragma once
+/// Rows of FORMAT.md's tables: one prepared INSERT per table, and one function per table that reads
+/// a row back. Column order is that of schema.hpp.
+
+#include "engine/core/expected.hpp"
+#include "logging/records.hpp"
+#include "logging/sqlite_database.hpp"
+
+namespace septet::logging {
+
+struct InsertStatements {
+  Statement snapshot, input, scene_edit, sample, event, answer;
+};
+Expected<InsertStatements> prepare_inserts(const Database& database);
+
+Expected<void> insert_info(const Database& database, const SessionInfo& info);
+Expected<void> insert_meta(const Database& database, const std::string& key,
+                           const std::string& value);
+Expected<void> insert(Statement& statement, const InputRecord& record);
+Expected<void> insert(Statement& statement, const SceneEdit& edit);
+Expected<void> insert(Statement& statement, const Sample& sample);
+Expected<void> insert(Statement& statement, const Event& event);
+Expected<void> insert(Statement& statement, const QuestionnaireRecord& answer);
+
+Expected<SessionInfo> read_info(const Database& database);
+Expected<InputRecord> read_input(const Statement& row);
+Expected<SceneEdit> read_scene_edit(const Statement& row);  ///< Columns tick, data.
+Expected<Sample> read_sample(const Statement& row);
+Expected<Event> read_event(const Statement& row);                 ///< Without the id.
+Expected<QuestionnaireRecord> read_answer(const Statement& row);  ///< Without the id.
+
+}  // namespace septet::logging

@@ -1,0 +1,241 @@
+#include "logging/session_reader.hpp"
+
+#include <fmt/core.h>
+
+#include "logging/record_tables.hpp"
+#include "logging/schema.hpp"
+#include "logging/sqlite_database.hpp"
+
+namespace septet::logging {
+namespace {
+
+/// Refuses what is not a session file of this version.
+Expected<void> check_format(const Database& database) {
+  const auto id = database.query_integer("PRAGMA application_id");
+  if (!id) return tl::unexpected(id.error());
+  if (*id != application_id)
+    return failure("this is an SQLite file, but not one of Septet's sessions", database.where(),
+                   "give a session file that Septet wrote");
+  const auto version = database.query_integer("PRAGMA user_version");
+  if (!version) return tl::unexpected(version.error());
+  if (*version != format_version)
+    return failure(fmt::format("the session has format {}, and this Septet reads format {}",
+                               *version, format_version),
+                   database.where(),
+                   "use the version of Septet that wrote it (meta row septet_version)");
+  for (const Table& table : tables) {
+    auto statement =
+        database.prepare("SELECT sql FROM sqlite_schema WHERE name = ? AND type = 'table'");
+    if (!statement) return tl::unexpected(statement.error());
+    statement->bind(1, table.name);
+    const auto row = statement->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row || statement->text(0) != table.sql)
+      return failure(fmt::format("the table {} is missing or not that of format {}", table.name,
+                                 format_version),
+                     database.where(), "use an unaltered session file");
+  }
+  return {};
+}
+
+template <class T>
+Expected<std::vector<T>> read_rows(Expected<Statement> statement,
+                                   Expected<T> (*read)(const Statement&)) {
+  if (!statement) return tl::unexpected(statement.error());
+  std::vector<T> rows;
+  for (;;) {
+    const auto row = statement->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return rows;
+    auto value = read(*statement);
+    if (!value) return tl::unexpected(value.error());
+    rows.push_back(std::move(*value));
+  }
+}
+
+/// The tick that a query answers, or nothing.
+template <class... Parameter>
+Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::string_view sql,
+                                                 Parameter... parameters) {
+  auto statement = database.prepare(sql);
+  if (!statement) return tl::unexpected(statement.error());
+  int index = 1;
+  (statement->bind(index++, parameters), ...);
+  const auto row = statement->step();
+  if (!row) return tl::unexpected(row.error());
+  return *row && !statement->is_null(0) ? std::optional(statement->integer(0)) : std::nullopt;
+}
+
+Expected<Statement> prepare_range(const Database& database, std::string_view columns,
+                                  std::string_view table, TickRange range, std::string_view order) {
+  auto statement = database.prepare(fmt::format(
+      "SELECT {} FROM {} WHERE tick BETWEEN ? AND ? ORDER BY {}", columns, table, order));
+  if (statement) {
+    constexpr auto most = static_cast<Tick>(std::numeric_limits<std::int64_t>::max());
+    statement->bind(1, static_cast<std::int64_t>(std::min(range.first, most)));
+    statement->bind(2, static_cast<std::int64_t>(std::min(range.last, most)));
+  }
+  return statement;
+}
+
+}  // namespace
+
+struct SessionReader::State {
+  Database database;
+  SessionInfo info;
+  bool ended_cleanly = false;
+};
+
+struct SnapshotCursor::State {
+  Statement rows;
+  std::string where;
+  std::optional<WireSnapshot> previous;
+  std::optional<WireSnapshot> ready;  ///< Decoded on the way to the time that was asked for.
+};
+
+SnapshotCursor::SnapshotCursor(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SnapshotCursor::SnapshotCursor(SnapshotCursor&&) noexcept = default;
+SnapshotCursor& SnapshotCursor::operator=(SnapshotCursor&&) noexcept = default;
+SnapshotCursor::~SnapshotCursor() = default;
+
+Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
+  if (state_->ready) return std::exchange(state_->ready, std::nullopt);
+  Statement& rows = state_->rows;
+  const auto row = state_->rows.step();
+  if (!row) return tl::unexpected(row.error());
+  if (!*row) return std::optional<WireSnapshot>();
+  const auto tick = static_cast<Tick>(rows.integer(0));
+  const auto damaged = [&](std::string_view what) {
+    return failure(fmt::format("snapshot {} is damaged: {}", tick, what), state_->where,
+                   "replay up to the tick before it, or use a copy of the file");
+  };
+  const auto bytes = rows.blob(1);
+  const auto header = read_snapshot_header(bytes);
+  if (!header) return damaged(header.error().what);
+  if (header->tick != tick)
+    return damaged(fmt::format("its bytes are those of tick {}", header->tick));
+  const auto& previous = state_->previous;
+  if (header->baseline && (!previous || previous->rest.tick != *header->baseline))
+    return damaged(fmt::format("it is a difference to tick {}, which is not the row before",
+                               *header->baseline));
+  auto snapshot = decode_snapshot(bytes, header->baseline ? &*previous : nullptr);
+  if (!snapshot) return damaged(snapshot.error().what);
+  state_->previous = *snapshot;
+  return std::optional(std::move(*snapshot));
+}
+
+Expected<std::optional<Snapshot>> SnapshotCursor::next() {
+  auto wire = next_wire();
+  if (!wire) return tl::unexpected(wire.error());
+  return *wire ? std::optional(from_wire(**wire)) : std::nullopt;
+}
+
+SessionReader::SessionReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionReader::SessionReader(SessionReader&&) noexcept = default;
+SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
+SessionReader::~SessionReader() = default;
+
+Expected<SessionReader> SessionReader::open(const std::filesystem::path& path) {
+  auto database = Database::open(path, OpenMode::read);
+  if (!database) return tl::unexpected(database.error());
+  if (auto checked = check_format(*database); !checked) return tl::unexpected(checked.error());
+  auto info = read_info(*database);
+  if (!info) return tl::unexpected(info.error());
+  const bool ended = info->other.contains("ended");
+  return SessionReader(
+      std::make_unique<State>(State{std::move(*database), std::move(*info), ended}));
+}
+
+const SessionInfo& SessionReader::info() const { return state_->info; }
+bool SessionReader::ended_cleanly() const { return state_->ended_cleanly; }
+
+Expected<std::optional<std::pair<double, double>>> SessionReader::time_span_s() const {
+  std::pair<double, double> span;
+  for (const auto& [sql, value] :
+       {std::pair("SELECT simulated_time_s FROM snapshots ORDER BY tick LIMIT 1", &span.first),
+        std::pair("SELECT simulated_time_s FROM snapshots ORDER BY tick DESC LIMIT 1",
+                  &span.second)}) {
+    auto statement = state_->database.prepare(sql);
+    if (!statement) return tl::unexpected(statement.error());
+    const auto row = statement->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return std::optional<std::pair<double, double>>();
+    *value = statement->real(0);
+  }
+  return std::optional(span);
+}
+
+Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) const {
+  const Database& database = state_->database;
+  // The keyframe before the time, the first snapshot after it, and the one before that, where the
+  // cursor will stand.
+  const auto keyframe = query_tick(database,
+                                   "SELECT tick FROM snapshots WHERE baseline_tick IS NULL AND "
+                                   "simulated_time_s <= ? ORDER BY simulated_time_s DESC LIMIT 1",
+                                   simulated_time_s);
+  if (!keyframe) return tl::unexpected(keyframe.error());
+  const std::int64_t first = keyframe->value_or(0);
+  const auto after = query_tick(
+      database,
+      "SELECT tick FROM snapshots WHERE tick >= ? AND simulated_time_s > ? ORDER BY tick LIMIT 1",
+      first, simulated_time_s);
+  if (!after) return tl::unexpected(after.error());
+  const auto at = query_tick(database, "SELECT max(tick) FROM snapshots WHERE tick < ?",
+                             after->value_or(std::numeric_limits<std::int64_t>::max()));
+  if (!at) return tl::unexpected(at.error());
+  const auto target = static_cast<Tick>(at->value_or(0));
+  auto rows = database.prepare("SELECT tick, data FROM snapshots WHERE tick >= ? ORDER BY tick");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, first);
+  SnapshotCursor cursor(std::make_unique<SnapshotCursor::State>(
+      SnapshotCursor::State{std::move(*rows), database.where(), {}, {}}));
+  for (;;) {
+    auto snapshot = cursor.next_wire();
+    if (!snapshot) return tl::unexpected(snapshot.error());
+    if (*snapshot && (*snapshot)->rest.tick < target) continue;
+    cursor.state_->ready = std::move(*snapshot);
+    return cursor;
+  }
+}
+
+Expected<SnapshotCursor> SessionReader::snapshots() const {
+  return snapshots_from(-std::numeric_limits<double>::infinity());
+}
+
+Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const {
+  return read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"),
+                   read_input);
+}
+Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
+  return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"),
+                   read_scene_edit);
+}
+Expected<std::vector<Sample>> SessionReader::samples(TickRange range) const {
+  return read_rows(prepare_range(state_->database, "*", "samples", range, "tick"), read_sample);
+}
+Expected<std::vector<Event>> SessionReader::events(TickRange range) const {
+  return read_rows(
+      prepare_range(state_->database, "tick, simulated_time_s, kind, participant, detail", "events",
+                    range, "id"),
+      read_event);
+}
+Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const {
+  return read_rows(
+      state_->database.prepare("SELECT item, question, answer, value, observed_s, censored, reason "
+                               "FROM questionnaire ORDER BY id"),
+      read_answer);
+}
+
+Expected<void> SessionReader::check_integrity() const {
+  auto check = state_->database.prepare("PRAGMA integrity_check(1)");
+  if (!check) return tl::unexpected(check.error());
+  const auto row = check->step();
+  if (!row) return tl::unexpected(row.error());
+  const std::string answer = *row ? check->text(0) : "no answer";
+  if (answer != "ok")
+    return failure(fmt::format("the file is damaged: {}", answer), state_->database.where(),
+                   "use a copy, or rescue what is left with `sqlite3 FILE .recover`");
+  return {};
+}
+
+}  // namespace septet::logging

@@ -1,0 +1,245 @@
+#include "logging/session_writer.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "engine/core/bounded_queue.hpp"
+#include "engine/core/check.hpp"
+#include "logging/record_tables.hpp"
+#include "logging/schema.hpp"
+#include "logging/sqlite_database.hpp"
+
+namespace septet::logging {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Record = std::variant<std::shared_ptr<const WireSnapshot>, InputRecord, SceneEdit, Sample,
+                            Event, QuestionnaireRecord>;
+
+Expected<Database> create_database(const std::filesystem::path& path, const SessionInfo& info,
+                                   const WriterOptions& options) {
+  auto database = Database::open(path, OpenMode::create);
+  if (!database) return database;
+  std::string sql = fmt::format(
+      "PRAGMA application_id={}; PRAGMA user_version={}; PRAGMA journal_mode=WAL; PRAGMA "
+      "synchronous=FULL; "
+      "PRAGMA locking_mode=NORMAL; BEGIN; ",
+      application_id, format_version);
+  for (const Table& table : tables) sql += fmt::format("{}; ", table.sql);
+  sql += keyframe_index;
+  if (auto done = database->execute(sql); !done) return tl::unexpected(done.error());
+  if (auto done = insert_info(*database, info); !done) return tl::unexpected(done.error());
+  if (auto done = database->execute("COMMIT"); !done) return tl::unexpected(done.error());
+  if (options.max_bytes) {
+    const auto page_bytes = database->query_integer("PRAGMA page_size");
+    if (!page_bytes) return tl::unexpected(page_bytes.error());
+    const std::uint64_t pages = *options.max_bytes / static_cast<std::uint64_t>(*page_bytes);
+    if (auto done = database->execute(fmt::format("PRAGMA max_page_count={}", pages)); !done)
+      return tl::unexpected(done.error());
+  }
+  return database;
+}
+
+}  // namespace
+
+/// What the two sides share. `queue` and the atomics are for both, `error` is behind its mutex, and
+/// everything under "the writer's thread" belongs to it between construction and join.
+struct SessionWriter::State {
+  State(Database database_in, InsertStatements inserts_in, const WriterOptions& options_in)
+      : options(options_in),
+        queue(options_in.queue_records),
+        database(std::move(database_in)),
+        inserts(std::move(inserts_in)) {
+    thread = std::thread([this] { run(); });
+  }
+  ~State() { stop(); }
+
+  void stop() {
+    queue.close();
+    if (thread.joinable()) thread.join();
+  }
+
+  void push(Record record) {
+    const bool taken =
+        options.when_full == WhenFull::wait ? queue.push(record) : queue.try_push(record);
+    if (!taken) dropped.fetch_add(1, std::memory_order_relaxed);
+  }
+
+  void run() {
+    std::vector<Record> batch;
+    // From take to take, so that the time of a commit is part of the interval.
+    Clock::time_point next_take = Clock::now() + options.commit_interval;
+    while (queue.take_all(batch, next_take, options.queue_records / 2)) {
+      next_take = Clock::now() + options.commit_interval;
+      if (!batch.empty() && !write(batch)) queue.close();
+    }
+  }
+
+  bool write(const std::vector<Record>& batch);
+  Expected<void> write_all(const std::vector<Record>& batch);
+  Expected<void> write_snapshot(const std::shared_ptr<const WireSnapshot>& snapshot);
+  Expected<void> write_gap();
+
+  const WriterOptions options;
+  BoundedQueue<Record> queue;
+  std::atomic<std::uint64_t> dropped{0};
+  std::atomic<std::int64_t> committed{-1};
+  std::mutex error_mutex;
+  std::optional<Error> error;
+
+  // The writer's thread.
+  Database database;
+  InsertStatements inserts;
+  std::shared_ptr<const WireSnapshot> previous;
+  double keyframe_time_s = 0.0;
+  std::uint64_t reported_gap = 0;
+  bool has_failed = false;
+  bool is_finished = false;
+  Bytes encoded;
+
+  std::thread thread;
+};
+
+bool SessionWriter::State::write(const std::vector<Record>& batch) {
+  if (has_failed) {
+    dropped.fetch_add(batch.size(), std::memory_order_relaxed);
+    return false;
+  }
+  auto done = database.execute("BEGIN");
+  if (done) done = write_all(batch);
+  if (done) done = write_gap();
+  if (done) done = database.execute("COMMIT");
+  if (done) {
+    if (previous)
+      committed.store(static_cast<std::int64_t>(previous->rest.tick), std::memory_order_release);
+    return true;
+  }
+  // The transaction is undone as a whole; what earlier ones wrote stays.
+  if (database.in_transaction()) (void)database.execute("ROLLBACK");
+  dropped.fetch_add(batch.size(), std::memory_order_relaxed);
+  has_failed = true;
+  const std::lock_guard lock(error_mutex);
+  error = std::move(done.error());
+  return false;
+}
+
+Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch) {
+  struct Insert {
+    State& state;
+    Expected<void> operator()(const std::shared_ptr<const WireSnapshot>& record) {
+      return state.write_snapshot(record);
+    }
+    Expected<void> operator()(const InputRecord& record) {
+      return insert(state.inserts.input, record);
+    }
+    Expected<void> operator()(const SceneEdit& record) {
+      return insert(state.inserts.scene_edit, record);
+    }
+    Expected<void> operator()(const Sample& record) { return insert(state.inserts.sample, record); }
+    Expected<void> operator()(const Event& record) { return insert(state.inserts.event, record); }
+    Expected<void> operator()(const QuestionnaireRecord& record) {
+      return insert(state.inserts.answer, record);
+    }
+  };
+  for (const Record& record : batch)
+    if (auto done = std::visit(Insert{*this}, record); !done) return done;
+  return {};
+}
+
+Expected<void> SessionWriter::State::write_snapshot(
+    const std::shared_ptr<const WireSnapshot>& snapshot) {
+  const Snapshot& rest = snapshot->rest;
+  SEPTET_CHECK(!previous || rest.tick > previous->rest.tick, "snapshot {} after {}", rest.tick,
+               previous->rest.tick);
+  const bool is_keyframe =
+      !previous || rest.simulated_time_s >= keyframe_time_s + options.keyframe_interval_s;
+  if (is_keyframe) keyframe_time_s = rest.simulated_time_s;
+  encoded.clear();
+  encode_snapshot(*snapshot, is_keyframe ? nullptr : previous.get(), encoded);
+  Statement& statement = inserts.snapshot;
+  statement.bind(1, static_cast<std::int64_t>(rest.tick));
+  statement.bind(2, rest.simulated_time_s);
+  is_keyframe ? statement.bind_null(3)
+              : statement.bind(3, static_cast<std::int64_t>(previous->rest.tick));
+  statement.bind(4, static_cast<std::int64_t>(rest.state_hash));
+  statement.bind(5, std::span<const std::byte>(encoded));
+  previous = snapshot;
+  return statement.run();
+}
+
+Expected<void> SessionWriter::State::write_gap() {
+  const std::uint64_t all = dropped.load(std::memory_order_relaxed);
+  if (all == reported_gap || !previous) return {};
+  Event gap{.tick = previous->rest.tick,
+            .simulated_time_s = previous->rest.simulated_time_s,
+            .kind = "log_gap",
+            .participant = std::nullopt,
+            .detail = fmt::format("records={}", all - reported_gap)};
+  reported_gap = all;
+  return insert(inserts.event, gap);
+}
+
+Expected<SessionWriter> SessionWriter::create(const std::filesystem::path& path,
+                                              const SessionInfo& info,
+                                              const WriterOptions& options) {
+  SEPTET_CHECK(options.queue_records > 0, "a queue of {} records", options.queue_records);
+  auto database = create_database(path, info, options);
+  if (!database) return tl::unexpected(database.error());
+  auto inserts = prepare_inserts(*database);
+  if (!inserts) return tl::unexpected(inserts.error());
+  return SessionWriter(std::make_unique<State>(std::move(*database), std::move(*inserts), options));
+}
+
+SessionWriter::SessionWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionWriter::SessionWriter(SessionWriter&&) noexcept = default;
+SessionWriter& SessionWriter::operator=(SessionWriter&&) noexcept = default;
+SessionWriter::~SessionWriter() = default;
+
+void SessionWriter::record(std::shared_ptr<const WireSnapshot> snapshot) {
+  state_->push(std::move(snapshot));
+}
+void SessionWriter::record(InputRecord input) { state_->push(std::move(input)); }
+void SessionWriter::record(SceneEdit edit) { state_->push(std::move(edit)); }
+void SessionWriter::record(Sample sample) { state_->push(std::move(sample)); }
+void SessionWriter::record(Event event) { state_->push(std::move(event)); }
+void SessionWriter::record(QuestionnaireRecord answer) { state_->push(std::move(answer)); }
+
+std::optional<Error> SessionWriter::take_error() {
+  const std::lock_guard lock(state_->error_mutex);
+  return std::exchange(state_->error, std::nullopt);
+}
+
+std::uint64_t SessionWriter::dropped_records() const {
+  return state_->dropped.load(std::memory_order_relaxed);
+}
+
+std::optional<Tick> SessionWriter::committed_tick() const {
+  const std::int64_t tick = state_->committed.load(std::memory_order_acquire);
+  return tick < 0 ? std::nullopt : std::optional(static_cast<Tick>(tick));
+}
+
+Expected<void> SessionWriter::finish() {
+  state_->stop();
+  if (state_->is_finished) return {};
+  state_->is_finished = true;
+  if (state_->has_failed) {
+    if (auto error = take_error()) return tl::unexpected(std::move(*error));
+    return {};
+  }
+  const Database& database = state_->database;
+  auto done = database.execute("BEGIN");
+  if (done) done = insert_meta(database, "ended", "1");
+  if (done && state_->previous)
+    done = insert_meta(database, "ended_simulated_time_s",
+                       fmt::format("{}", state_->previous->rest.simulated_time_s));
+  if (done) done = database.execute("COMMIT");
+  if (done) done = database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE");
+  return done;
+}
+
+}  // namespace septet::logging
