@@ -30,13 +30,15 @@ enum class RoadMarkType : std::uint8_t {
 enum class RoadMarkColor : std::uint8_t { white, yellow, blue, green, red, orange, violet, black };
 enum class LaneChange : std::uint8_t { both, increase, decrease, none };
 
-/// One painted line of a mark: painted for length_m, then bare for space_m; space 0 is a continuous line.
+/// One painted line of a mark: painted for length_m, then bare for space_m, and again from there; space 0 is a continuous
+/// line. A line that is painted `once` stands alone, length_m long.
 struct RoadMarkLine {
   double length_m = 0.0;
   double space_m = 0.0;
   double t_offset_m = 0.0;  ///< From the border that the mark belongs to.
   double s_offset_m = 0.0;  ///< From the start of the mark.
   double width_m = 0.0;
+  bool once = false;
 };
 
 /// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to s_end_m.

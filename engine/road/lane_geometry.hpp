@@ -44,7 +44,7 @@ struct RoadExtent {
 };
 RoadExtent road_extent(const Road& road, double s_m);
 
-/// The lanes at (s, t). A lane of no width holds no point; a border belongs to the inner lane.
+/// The lanes at (s, t). A lane that has no width there does not count; a border belongs to the first lane that holds it.
 struct LanesAt {
   int lane = 0;           ///< The drivable lane that holds the point, else the drivable lane with the nearest centre; 0: none.
   int lane_any_type = 0;  ///< The lane of any type that holds the point, else the nearest.

@@ -60,6 +60,7 @@ struct Road {
   std::vector<LateralShape> shapes;              ///< Sorted by s_m, then t_m.
   CubicProfile lane_offset;                      ///< t of the centre lane.
   std::vector<LaneSection> sections;             ///< At least one, the first at 0, sorted.
+  bool flat = false;  ///< Known to have no lane height, shape or crossfall, so that the surface is the road's plane.
   std::vector<RoadObject> objects;
   std::vector<RoadStructure> structures;
   std::vector<Signal> signals;

@@ -1,0 +1,102 @@
+#include "engine/road/road_tables.hpp"
+
+#include <array>
+#include <charconv>
+#include <istream>
+#include <numbers>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/lane_links.hpp"
+#include "engine/road/road_locate.hpp"
+
+namespace septet::road {
+namespace {
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  for (;;) {
+    const auto comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number value{};
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+tl::unexpected<Error> wrong_line(std::size_t number, std::string what, std::string_view columns) {
+  return failure(std::move(what), fmt::format("line {} of the table", number), fmt::format("write {}", columns));
+}
+
+constexpr std::string_view sample_columns = "road_id,lane_id,s_m,lane_offset_m", locate_columns = "x_m,y_m";
+
+}  // namespace
+
+Expected<void> sample_table(const RoadNetwork& network, std::istream& in, std::ostream& out) {
+  out << sample_columns
+      << ",x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,lane_width_m,curvature_per_m,t_m,drive_heading_rad\n";
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    const auto fields = split(line);
+    if (line.empty() || (number == 1 && fields[0] == "road_id")) continue;
+    if (fields.size() < 4) return wrong_line(number, "it has fewer than four fields", sample_columns);
+    const auto road_index = find_road(network, fields[0]);
+    const auto lane = parse<int>(fields[1]);
+    const auto s = parse<double>(fields[2]), offset = parse<double>(fields[3]);
+    if (!road_index) return wrong_line(number, fmt::format("road {} does not exist", fields[0]), sample_columns);
+    if (!lane || !s || !offset) return wrong_line(number, "a field is not a number", sample_columns);
+    const Road& road = network.roads[*road_index];
+    if (!(*s >= 0.0 && *s <= road.length_m)) {
+      return wrong_line(number, fmt::format("s {} is not on the road, which is {} m long", *s, road.length_m), sample_columns);
+    }
+    const LaneSection& section = section_at(road, *s);
+    if (!section.has_lane(*lane)) return wrong_line(number, fmt::format("there is no lane {} at s {}", *lane, *s), sample_columns);
+    const LanePoint point = evaluate_lane(network, {*road_index, *lane, *s, *offset});
+    const double turn = runs_along_s(road, section, *lane) ? 0.0 : std::numbers::pi;
+    const double drive_heading = wrap_angle(point.road.heading_rad + std::atan(point.lane_slope) + turn);
+    out << fmt::format("{},{},{},{},{:.5f},{:.5f},{:.5f},{:.7f},{:.7f},{:.7f},{:.5f},{:.8f},{:.5f},{:.7f}\n", fields[0],
+                       fields[1], fields[2], fields[3], point.road.position_m.x, point.road.position_m.y,
+                       point.road.position_m.z, point.road.heading_rad, point.road.pitch_rad, point.road.roll_rad,
+                       point.lane_width_m, point.road.curvature_per_m, point.t_m, drive_heading);
+  }
+  return {};
+}
+
+Expected<void> locate_table(const RoadNetwork& network, std::istream& in, std::ostream& out) {
+  out << locate_columns << ",road_id,lane_id,s_m,t_m,lane_offset_m,lane_id_any,residual_m,s_true_m,t_true_m\n";
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    const auto fields = split(line);
+    if (line.empty() || (number == 1 && fields[0] == "x_m")) continue;
+    if (fields.size() < 2) return wrong_line(number, "it has fewer than two fields", locate_columns);
+    const auto x = parse<double>(fields[0]), y = parse<double>(fields[1]);
+    if (!x || !y) return wrong_line(number, "a field is not a number", locate_columns);
+    const auto found = locate(network, {*x, *y});
+    if (!found) {
+      out << fmt::format("{},{},,,,,,,,,\n", fields[0], fields[1]);
+      continue;
+    }
+    const auto& [road, s, t] = found->position;
+    const Vec3 again = evaluate(network, found->position).position_m;
+    out << fmt::format("{},{},{},{},{:.5f},{:.5f},{:.5f},{},{:.5f},{:.5f},{:.5f}\n", fields[0], fields[1],
+                       network.roads[road].id, found->lanes.lane, s, t, found->lanes.offset_m, found->lanes.lane_any_type,
+                       glm::distance(Vec2(again), Vec2(*x, *y)), s, t);
+  }
+  return {};
+}
+
+}  // namespace septet::road

@@ -1,0 +1,54 @@
+#pragma once
+/// Reading attributes of XML that may be wrong, and collecting what is wrong with them. Used by the reader only.
+///
+/// Every answer is usable: after an error the value is a harmless one, so that the reader goes on and finds the rest.
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/road/opendrive_reader.hpp"
+
+namespace pugi {
+class xml_node;
+}
+
+namespace septet::road {
+
+class XmlFindings {
+ public:
+  XmlFindings(std::string_view text, std::string_view name);
+
+  void error(const pugi::xml_node& node, std::string what, std::string remedy);
+  void warning(const pugi::xml_node& node, std::string what, std::string remedy);
+  /// An error at a byte of the text, for what is no XML at all.
+  void error_at(std::ptrdiff_t offset, std::string what, std::string remedy);
+
+  bool has_error() const { return first_error_.has_value(); }
+  const Error& first_error() const { return *first_error_; }
+  /// Sorted by line; at most 1,000, the last of them says so.
+  std::vector<Finding> findings() const;
+
+  /// A finite number of magnitude up to 1e12. Missing: an error and 0.
+  double number(const pugi::xml_node& node, const char* attribute);
+  /// The same; missing or empty: the fallback.
+  double number_or(const pugi::xml_node& node, const char* attribute, double fallback);
+  /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and nothing.
+  std::optional<int> integer(const pugi::xml_node& node, const char* attribute);
+  /// A text that must be there. Missing or empty: an error.
+  std::string text(const pugi::xml_node& node, const char* attribute);
+
+ private:
+  void add(Severity severity, int line, std::string_view element, std::string what, std::string remedy);
+  int line_of(std::ptrdiff_t offset) const;
+
+  std::string name_;
+  std::vector<std::size_t> line_starts_;
+  std::vector<Finding> findings_;
+  std::optional<Error> first_error_;
+};
+
+}  // namespace septet::road
