@@ -1,7 +1,7 @@
 #pragma once
 /// Commands to bytes and back, as specified in COMMANDS.md.
 ///
-/// The decoder trusts nothing: it is bounded in time and memory by the length of its input, refuses
+/// The decoder trusts nothing: it is bounded in time and memory (COMMANDS.md), refuses
 /// what is out of range, not finite, over a limit or followed by rubbish, and never stops the
 /// program. A number of vertices, polygons or reals that all lie on a grid of 2^-k is sent as small
 /// integers, so meshes snapped to a grid are about a third of the size.
@@ -14,6 +14,8 @@
 #include "engine/scene/command.hpp"
 
 namespace septet::scene {
+
+inline constexpr std::uint8_t command_format_version = 1;
 
 /// Limits of one command; the store's limits on the whole are in store.hpp.
 inline constexpr std::size_t max_name_bytes = 255;

@@ -17,8 +17,6 @@ namespace septet::scene {
 
 struct StoreLimits {
   std::size_t nodes = 1u << 18;
-  std::size_t parts_per_node =
-      4096;  ///< Tag groups, tags of a group, links, layers, fragments: each.
   std::uint32_t vertices = 1u << 22;  ///< Of one geometry.
   std::uint32_t polygons = 1u << 22;
   std::uint32_t bitmap_side = 8192;
@@ -33,14 +31,14 @@ class Store {
   Expected<void> apply(const Command& command);
 
   /// The next id, never one that was in use before. For whoever owns the store: a server.
-  NodeId assign_id() { return next_id_++; }
+  NodeId assign_id();
 
   const std::map<NodeId, Node>& nodes() const { return nodes_; }
   const Node* find(NodeId id) const;
   /// The lowest node of that name and type, or nothing.
   const Node* find(NodeType type, std::string_view name) const;
 
-  /// Counts the applied commands that changed something.
+  /// Counts the commands that were applied, without those that destroyed what was not there.
   std::uint64_t revision() const { return revision_; }
   /// The revision at which a node was last created or destroyed.
   std::uint64_t index_revision() const { return index_revision_; }

@@ -1,0 +1,410 @@
+#include "engine/scene/command_codec.hpp"
+
+#include <array>
+#include <utility>
+
+#include "engine/scene/command_validation.hpp"
+#include "engine/scene/run_codec.hpp"
+
+namespace septet::scene {
+namespace {
+
+// One description of each command's fields serves both ways: `fields(writer, command)` and
+// `fields(reader, command)`.
+
+struct Writer {
+  static constexpr bool writes = true;
+  ByteWriter out;
+
+  void node(NodeId id) { out.put_varint(id + 1u); }
+  void part(PartId id) { out.put_varint(id); }
+  void fragment(FragmentId id) { out.put_varint(static_cast<FragmentId>(id + 1u)); }
+  void number(std::uint32_t value) { out.put_varint(value); }
+  void flag(bool value) { out.put(static_cast<std::uint8_t>(value)); }
+  void real(float value) { out.put(value); }
+  void real(double value) { out.put(value); }
+  void text(const std::string& text, std::size_t) { out.put_string(text); }
+  template <class Enumeration>
+  void kind(Enumeration value, Enumeration) {
+    out.put(static_cast<std::uint8_t>(value));
+  }
+  template <class T>
+  std::size_t count(const std::vector<T>& values, std::size_t) {
+    out.put_varint(values.size());
+    return values.size();
+  }
+  void bytes(const std::vector<std::uint8_t>& bytes, std::size_t) {
+    out.put_varint(bytes.size());
+    out.put_bytes(std::as_bytes(std::span(bytes)));
+  }
+  void reals(std::span<const float> values, std::size_t stride) { put_reals(out, values, stride); }
+  void integers(std::span<const std::uint32_t> values) { put_integers(out, values); }
+  void corners(std::span<const PolygonCorners> polygons) { put_corners(out, polygons); }
+};
+
+struct Reader {
+  static constexpr bool writes = false;
+  ByteReader& in;
+
+  void node(NodeId& id) { id = static_cast<NodeId>(bounded(0xFFFFFFFFu) - 1u); }
+  void part(PartId& id) { id = static_cast<PartId>(bounded(0xFFFF)); }
+  void fragment(FragmentId& id) { id = static_cast<FragmentId>(bounded(0xFFFF) - 1u); }
+  void number(std::uint32_t& value) { value = static_cast<std::uint32_t>(bounded(0xFFFFFFFFu)); }
+  void flag(bool& value) {
+    const auto byte = in.get<std::uint8_t>();
+    if (byte > 1) in.fail();
+    value = byte == 1;
+  }
+  void real(float& value) { value = in.get_float(); }
+  void real(double& value) { value = in.get_double(); }
+  void text(std::string& text, std::size_t limit) { text = in.get_string(limit); }
+  template <class Enumeration>
+  void kind(Enumeration& value, Enumeration last) {
+    const auto byte = in.get<std::uint8_t>();
+    if (byte > static_cast<std::uint8_t>(last)) return in.fail();
+    value = static_cast<Enumeration>(byte);
+  }
+  /// Allocates for what the sender claims only within the limit of one run.
+  template <class T>
+  std::size_t count(std::vector<T>& values, std::size_t limit) {
+    values.resize(in.get_count(limit));
+    return values.size();
+  }
+  void bytes(std::vector<std::uint8_t>& bytes, std::size_t limit) {
+    const auto taken = in.take(in.get_count(limit));
+    const auto* first = reinterpret_cast<const std::uint8_t*>(taken.data());
+    bytes.assign(first, first + taken.size());
+  }
+  void reals(std::span<float> values, std::size_t stride) { get_reals(in, values, stride); }
+  void integers(std::span<std::uint32_t> values) { get_integers(in, values); }
+  void corners(std::span<PolygonCorners> polygons) { get_corners(in, polygons); }
+
+ private:
+  std::uint64_t bounded(std::uint64_t largest) {
+    const std::uint64_t value = in.get_varint();
+    if (value > largest) in.fail();
+    return value;
+  }
+};
+
+template <class C, class T>
+using Ref = std::conditional_t<C::writes, const T&, T&>;
+
+template <class C>
+void vec3(C& c, Ref<C, glm::vec3> v) {
+  c.real(v.x), c.real(v.y), c.real(v.z);
+}
+template <class C>
+void vec3(C& c, Ref<C, Vec3> v) {
+  c.real(v.x), c.real(v.y), c.real(v.z);
+}
+
+// ---- fragments
+// ---------------------------------------------------------------------------------------------------
+
+template <class C>
+void fields(C& c, Ref<C, ColorFragment> v) {
+  vec3(c, v.color);
+}
+template <class C>
+void fields(C& c, Ref<C, LightFragment> v) {
+  c.kind(v.kind, LightKind::back_direct_and_ambient);
+  c.real(v.normal_falloff);
+  c.node(v.brdf_bitmap);
+  c.text(v.brdf_red, max_name_bytes), c.text(v.brdf_green, max_name_bytes);
+  c.text(v.brdf_blue, max_name_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, ReflectionFragment> v) {
+  c.real(v.normal_falloff);
+}
+template <class C>
+void fields(C& c, Ref<C, TransparencyFragment> v) {
+  c.real(v.normal_falloff), c.real(v.refraction_index);
+}
+template <class C>
+void fields(C& c, Ref<C, VolumeFragment> v) {
+  c.real(v.diffusion), vec3(c, v.color);
+}
+template <class C>
+void fields(C&, Ref<C, ViewFragment>) {}
+template <class C>
+void fields(C& c, Ref<C, GeometryFragment> v) {
+  c.text(v.layer_x, max_name_bytes), c.text(v.layer_y, max_name_bytes);
+  c.text(v.layer_z, max_name_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, TextureFragment> v) {
+  c.node(v.bitmap);
+  c.text(v.layer_red, max_name_bytes), c.text(v.layer_green, max_name_bytes);
+  c.text(v.layer_blue, max_name_bytes);
+  c.flag(v.filtered), c.fragment(v.mapping);
+}
+template <class C>
+void fields(C& c, Ref<C, NoiseFragment> v) {
+  c.kind(v.kind, NoiseKind::point_minus_one_to_one), c.fragment(v.mapping);
+}
+template <class C>
+void fields(C& c, Ref<C, BlenderFragment> v) {
+  c.kind(v.kind, BlendKind::divide), c.fragment(v.a), c.fragment(v.b), c.fragment(v.control);
+}
+template <class C>
+void fields(C& c, Ref<C, ClampFragment> v) {
+  c.flag(v.minimum), vec3(c, v.limit), c.fragment(v.data);
+}
+template <class C>
+void fields(C& c, Ref<C, MatrixFragment> v) {
+  for (auto& element : v.matrix) c.real(element);
+  c.fragment(v.data);
+}
+template <class C>
+void fields(C& c, Ref<C, RampFragment> v) {
+  c.kind(v.kind, RampKind::smooth), c.kind(v.channel, RampChannel::blue), c.fragment(v.mapping);
+  c.count(v.points, RampFragment::max_points);
+  for (auto& point : v.points) c.real(point.position), vec3(c, point.color);
+}
+template <class C>
+void fields(C& c, Ref<C, AnimationFragment> v) {
+  c.text(v.label, max_name_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, AlternativeFragment> v) {
+  c.fragment(v.a), c.fragment(v.b);
+}
+template <class C>
+void fields(C& c, Ref<C, OutputFragment> v) {
+  c.text(v.label, max_name_bytes), c.fragment(v.front), c.fragment(v.back);
+}
+
+// ---- tag values
+// --------------------------------------------------------------------------------------------------
+
+template <class C>
+void fields(C& c, Ref<C, bool> v) {
+  c.flag(v);
+}
+template <class C>
+void fields(C& c, Ref<C, std::uint32_t> v) {
+  c.number(v);
+}
+template <class C>
+void fields(C& c, Ref<C, double> v) {
+  c.real(v);
+}
+template <class C>
+void fields(C& c, Ref<C, std::string> v) {
+  c.text(v, max_tag_string_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, Vec3> v) {
+  vec3(c, v);
+}
+template <class C>
+void fields(C& c, Ref<C, NodeReference> v) {
+  c.node(v.node);
+}
+template <class C>
+void fields(C& c, Ref<C, Blob> v) {
+  c.bytes(v, max_tag_blob_bytes);
+}
+
+// ---- a variant: its index, then its alternative's fields
+// ------------------------------------------------------------
+
+template <class Variant>
+void put_variant(Writer& writer, const Variant& value) {
+  writer.out.put(static_cast<std::uint8_t>(value.index()));
+  std::visit([&](const auto& alternative) { fields<Writer>(writer, alternative); }, value);
+}
+
+template <class Variant>
+void get_variant(Reader& reader, Variant& value) {
+  const auto index = reader.in.get<std::uint8_t>();
+  if (index >= std::variant_size_v<Variant>) return reader.in.fail();
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (void)((index == i && (fields<Reader>(reader, value.template emplace<i>()), true)) || ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
+}
+
+template <class C, class V>
+void variant(C& c, V& value) {
+  if constexpr (C::writes)
+    put_variant(c, value);
+  else
+    get_variant(c, value);
+}
+
+// ---- commands
+// ----------------------------------------------------------------------------------------------------
+
+template <class C>
+void fields(C& c, Ref<C, NodeIndexSubscribe> v) {
+  c.number(v.type_mask);
+}
+template <class C>
+void fields(C& c, Ref<C, NodeSubscribe> v) {
+  c.node(v.node), c.flag(v.subscribe);
+}
+template <class C>
+void fields(C& c, Ref<C, PartSubscribe> v) {
+  c.node(v.node), c.kind(v.kind, PartKind::layer), c.part(v.part), c.flag(v.subscribe);
+}
+template <class C>
+void fields(C& c, Ref<C, NodeCreate> v) {
+  c.node(v.node), c.kind(v.type, NodeType::audio);
+}
+template <class C>
+void fields(C& c, Ref<C, NodeDestroy> v) {
+  c.node(v.node);
+}
+template <class C>
+void fields(C& c, Ref<C, NodeNameSet> v) {
+  c.node(v.node), c.text(v.name, max_name_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, TagGroupSet> v) {
+  c.node(v.node), c.part(v.group), c.text(v.name, max_name_bytes);
+}
+template <class C>
+void fields(C& c, Ref<C, TagGroupDestroy> v) {
+  c.node(v.node), c.part(v.group);
+}
+template <class C>
+void fields(C& c, Ref<C, TagSet> v) {
+  c.node(v.node), c.part(v.group), c.part(v.tag), c.text(v.value.name, max_name_bytes);
+  variant(c, v.value.value);
+}
+template <class C>
+void fields(C& c, Ref<C, TagDestroy> v) {
+  c.node(v.node), c.part(v.group), c.part(v.tag);
+}
+template <class C>
+void fields(C& c, Ref<C, TransformSet> v) {
+  auto& t = v.transform;
+  c.node(v.node), vec3(c, t.position_m);
+  bool turned = t.rotation != Quat(1.0, 0.0, 0.0, 0.0), scaled = t.scale != glm::vec3(1.0f);
+  if constexpr (C::writes) {
+    c.out.put(static_cast<std::uint8_t>((turned ? 1 : 0) | (scaled ? 2 : 0)));
+  } else {
+    const auto flags = c.in.template get<std::uint8_t>();
+    if (flags > 3) c.in.fail();
+    turned = flags & 1, scaled = flags & 2;
+  }
+  if (turned)
+    c.real(t.rotation.w), c.real(t.rotation.x), c.real(t.rotation.y), c.real(t.rotation.z);
+  if (scaled) vec3(c, t.scale);
+}
+template <class C>
+void fields(C& c, Ref<C, LinkSet> v) {
+  c.node(v.node), c.part(v.link), c.text(v.value.label, max_name_bytes);
+  c.node(v.value.target), c.number(v.value.target_id);
+}
+template <class C>
+void fields(C& c, Ref<C, LinkDestroy> v) {
+  c.node(v.node), c.part(v.link);
+}
+template <class C>
+void fields(C& c, Ref<C, LightSet> v) {
+  c.node(v.node), vec3(c, v.light);
+}
+template <class C>
+void fields(C& c, Ref<C, HideSet> v) {
+  c.node(v.node), c.flag(v.hidden);
+}
+template <class C>
+void fields(C& c, Ref<C, GeometrySizeSet> v) {
+  c.node(v.node), c.number(v.vertices), c.number(v.polygons);
+}
+template <class C>
+void fields(C& c, Ref<C, GeometryLayerSet> v) {
+  c.node(v.node), c.part(v.layer), c.text(v.name, max_name_bytes);
+  c.kind(v.type, LayerType::face_real), c.number(v.default_integer), c.real(v.default_real);
+}
+template <class C>
+void fields(C& c, Ref<C, GeometryLayerDestroy> v) {
+  c.node(v.node), c.part(v.layer);
+}
+template <class C>
+void fields(C& c, Ref<C, VerticesSet> v) {
+  c.node(v.node), c.number(v.first);
+  if (const std::size_t count = c.count(v.positions_m, max_run_values / 3))
+    c.reals({&v.positions_m[0].x, count * 3}, 3);
+}
+template <class C>
+void fields(C& c, Ref<C, PolygonsSet> v) {
+  c.node(v.node), c.number(v.first), c.count(v.polygons, max_run_values / 4);
+  c.corners(v.polygons);
+}
+template <class C>
+void fields(C& c, Ref<C, LayerIntegersSet> v) {
+  c.node(v.node), c.part(v.layer), c.number(v.first), c.count(v.values, max_run_values);
+  c.integers(v.values);
+}
+template <class C>
+void fields(C& c, Ref<C, LayerRealsSet> v) {
+  c.node(v.node), c.part(v.layer), c.number(v.first), c.count(v.values, max_run_values);
+  c.reals(v.values, 1);
+}
+template <class C>
+void fields(C& c, Ref<C, CreaseSet> v) {
+  c.node(v.node), c.kind(v.kind, CreaseKind::edge);
+  c.text(v.crease.layer, max_name_bytes), c.number(v.crease.default_value);
+}
+template <class C>
+void fields(C& c, Ref<C, FragmentSet> v) {
+  c.node(v.node), c.part(v.fragment), variant(c, v.value);
+}
+template <class C>
+void fields(C& c, Ref<C, FragmentDestroy> v) {
+  c.node(v.node), c.part(v.fragment);
+}
+template <class C>
+void fields(C& c, Ref<C, BitmapSizeSet> v) {
+  c.node(v.node), c.number(v.width), c.number(v.height), c.number(v.depth);
+}
+template <class C>
+void fields(C& c, Ref<C, BitmapLayerSet> v) {
+  c.node(v.node), c.part(v.layer), c.text(v.name, max_name_bytes),
+      c.kind(v.type, PixelType::real64);
+}
+template <class C>
+void fields(C& c, Ref<C, BitmapLayerDestroy> v) {
+  c.node(v.node), c.part(v.layer);
+}
+template <class C>
+void fields(C& c, Ref<C, BitmapTilesSet> v) {
+  c.node(v.node), c.part(v.layer), c.number(v.first_tile), c.bytes(v.tiles, max_run_bytes);
+}
+
+tl::unexpected<Error> bad_bytes(const char* what) {
+  return failure(what, "bytes of a node command", "send commands as COMMANDS.md specifies them");
+}
+
+}  // namespace
+
+void encode(const Command& command, Bytes& out) {
+  Writer writer{ByteWriter(out)};
+  put_variant(writer, command);
+}
+
+Expected<Command> decode(ByteReader& in) {
+  Reader reader{in};
+  Command command;
+  get_variant(reader, command);
+  if (!in.ok()) return bad_bytes("a command is truncated or out of range");
+  if (auto valid = validate(command); !valid) {
+    in.fail();
+    return tl::unexpected(valid.error());
+  }
+  return command;
+}
+
+Expected<Command> decode(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  Expected<Command> command = decode(in);
+  if (command && !in.at_end()) return bad_bytes("bytes follow a command");
+  return command;
+}
+
+}  // namespace septet::scene

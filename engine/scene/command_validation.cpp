@@ -1,0 +1,181 @@
+#include "engine/scene/command_validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/core.h>
+
+#include "engine/scene/command_codec.hpp"
+
+namespace septet::scene {
+namespace {
+
+bool finite(double value) { return std::isfinite(value); }
+bool finite(const glm::vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
+bool finite(const Vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
+bool finite(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](float value) { return std::isfinite(value); });
+}
+template <class Enumeration>
+bool in_range(Enumeration value, Enumeration last) {
+  return value <= last;
+}
+
+using Problem = const char*;
+constexpr Problem none = nullptr;
+constexpr Problem not_finite = "a number is not finite";
+constexpr Problem long_name = "a name is longer than 255 bytes";
+constexpr Problem bad_kind = "a kind is out of range";
+constexpr Problem bad_run = "a run is empty or too long";
+
+Problem check_name(std::string_view name) {
+  return name.size() > max_name_bytes ? long_name : none;
+}
+Problem first_of(std::initializer_list<Problem> problems) {
+  for (const Problem problem : problems)
+    if (problem) return problem;
+  return none;
+}
+
+struct FragmentCheck {
+  Problem operator()(const ColorFragment& f) const { return finite(f.color) ? none : not_finite; }
+  Problem operator()(const LightFragment& f) const {
+    return first_of({in_range(f.kind, LightKind::back_direct_and_ambient) ? none : bad_kind,
+                     finite(f.normal_falloff) ? none : not_finite, check_name(f.brdf_red),
+                     check_name(f.brdf_green), check_name(f.brdf_blue)});
+  }
+  Problem operator()(const ReflectionFragment& f) const {
+    return finite(f.normal_falloff) ? none : not_finite;
+  }
+  Problem operator()(const TransparencyFragment& f) const {
+    return finite(f.normal_falloff) && finite(f.refraction_index) ? none : not_finite;
+  }
+  Problem operator()(const VolumeFragment& f) const {
+    return finite(f.diffusion) && finite(f.color) ? none : not_finite;
+  }
+  Problem operator()(const ViewFragment&) const { return none; }
+  Problem operator()(const GeometryFragment& f) const {
+    return first_of({check_name(f.layer_x), check_name(f.layer_y), check_name(f.layer_z)});
+  }
+  Problem operator()(const TextureFragment& f) const {
+    return first_of({check_name(f.layer_red), check_name(f.layer_green), check_name(f.layer_blue)});
+  }
+  Problem operator()(const NoiseFragment& f) const {
+    return in_range(f.kind, NoiseKind::point_minus_one_to_one) ? none : bad_kind;
+  }
+  Problem operator()(const BlenderFragment& f) const {
+    return in_range(f.kind, BlendKind::divide) ? none : bad_kind;
+  }
+  Problem operator()(const ClampFragment& f) const { return finite(f.limit) ? none : not_finite; }
+  Problem operator()(const MatrixFragment& f) const { return finite(f.matrix) ? none : not_finite; }
+  Problem operator()(const RampFragment& f) const {
+    if (!in_range(f.kind, RampKind::smooth) || !in_range(f.channel, RampChannel::blue))
+      return bad_kind;
+    if (f.points.empty() || f.points.size() > RampFragment::max_points)
+      return "a ramp has 1 to 48 points";
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+      if (!finite(f.points[i].position) || !finite(f.points[i].color)) return not_finite;
+      if (i > 0 && f.points[i].position < f.points[i - 1].position)
+        return "a ramp's positions fall";
+    }
+    return none;
+  }
+  Problem operator()(const AnimationFragment& f) const { return check_name(f.label); }
+  Problem operator()(const AlternativeFragment&) const { return none; }
+  Problem operator()(const OutputFragment& f) const { return check_name(f.label); }
+};
+
+struct TagValueCheck {
+  Problem operator()(bool) const { return none; }
+  Problem operator()(std::uint32_t) const { return none; }
+  Problem operator()(double value) const { return finite(value) ? none : not_finite; }
+  Problem operator()(const std::string& text) const {
+    return text.size() > max_tag_string_bytes ? "a tag's text is longer than 4096 bytes" : none;
+  }
+  Problem operator()(const Vec3& value) const { return finite(value) ? none : not_finite; }
+  Problem operator()(NodeReference) const { return none; }
+  Problem operator()(const Blob& blob) const {
+    return blob.size() > max_tag_blob_bytes ? "a tag's blob is longer than 4096 bytes" : none;
+  }
+};
+
+struct CommandCheck {
+  Problem operator()(const NodeCreate& c) const {
+    return in_range(c.type, NodeType::audio) ? none : bad_kind;
+  }
+  Problem operator()(const PartSubscribe& c) const {
+    return in_range(c.kind, PartKind::layer) ? none : bad_kind;
+  }
+  Problem operator()(const NodeNameSet& c) const { return check_name(c.name); }
+  Problem operator()(const TagGroupSet& c) const { return check_name(c.name); }
+  Problem operator()(const TagSet& c) const {
+    return first_of({check_name(c.value.name), std::visit(TagValueCheck{}, c.value.value)});
+  }
+  Problem operator()(const TransformSet& c) const {
+    const Transform& t = c.transform;
+    if (!finite(t.position_m) || !finite(t.scale)) return not_finite;
+    const double length = glm::dot(t.rotation, t.rotation);
+    return length > 0.99 && length < 1.01 ? none : "the rotation is not a unit quaternion";
+  }
+  Problem operator()(const LinkSet& c) const { return check_name(c.value.label); }
+  Problem operator()(const LightSet& c) const { return finite(c.light) ? none : not_finite; }
+  Problem operator()(const GeometryLayerSet& c) const {
+    return first_of({check_name(c.name), in_range(c.type, LayerType::face_real) ? none : bad_kind,
+                     finite(c.default_real) ? none : not_finite});
+  }
+  Problem operator()(const VerticesSet& c) const {
+    const std::size_t count = c.positions_m.size();
+    if (count == 0 || count > max_run_values / 3) return bad_run;
+    return finite(std::span(&c.positions_m[0].x, count * 3)) ? none : not_finite;
+  }
+  Problem operator()(const PolygonsSet& c) const {
+    return c.polygons.empty() || c.polygons.size() > max_run_values / 4 ? bad_run : none;
+  }
+  Problem operator()(const LayerIntegersSet& c) const {
+    return c.values.empty() || c.values.size() > max_run_values ? bad_run : none;
+  }
+  Problem operator()(const LayerRealsSet& c) const {
+    if (c.values.empty() || c.values.size() > max_run_values) return bad_run;
+    return finite(c.values) ? none : not_finite;
+  }
+  Problem operator()(const CreaseSet& c) const {
+    return first_of(
+        {check_name(c.crease.layer), in_range(c.kind, CreaseKind::edge) ? none : bad_kind});
+  }
+  Problem operator()(const FragmentSet& c) const { return std::visit(FragmentCheck{}, c.value); }
+  Problem operator()(const BitmapLayerSet& c) const {
+    return first_of({check_name(c.name), in_range(c.type, PixelType::real64) ? none : bad_kind});
+  }
+  Problem operator()(const BitmapTilesSet& c) const {
+    return c.tiles.empty() || c.tiles.size() > max_run_bytes ? bad_run : none;
+  }
+  template <class Other>
+  Problem operator()(const Other&) const {
+    return none;
+  }
+};
+
+}  // namespace
+
+tl::unexpected<Error> refuse(const Command& command, std::string what, std::string remedy) {
+  const std::string node = std::visit(
+      [](const auto& c) {
+        if constexpr (requires { c.node; })
+          return c.node == no_node ? std::string() : fmt::format(" of node {}", c.node);
+        else
+          return std::string();
+      },
+      command);
+  return failure(std::move(what), fmt::format("command \"{}\"{}", name_of(command), node),
+                 std::move(remedy));
+}
+
+Expected<void> validate(const Command& command) {
+  if (const Problem problem = std::visit(CommandCheck{}, command))
+    return refuse(command, problem, "send values within COMMANDS.md");
+  return {};
+}
+
+}  // namespace septet::scene

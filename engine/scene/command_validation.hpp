@@ -1,0 +1,16 @@
+#pragma once
+/// What can be said about a command without looking at a store.
+
+#include "engine/core/expected.hpp"
+#include "engine/scene/command.hpp"
+
+namespace septet::scene {
+
+/// Every number is finite, every enumeration and index in range, every length within its limit
+/// (command_codec.hpp).
+Expected<void> validate(const Command& command);
+
+/// An error about a command: `where` is its name and node.
+tl::unexpected<Error> refuse(const Command& command, std::string what, std::string remedy);
+
+}  // namespace septet::scene

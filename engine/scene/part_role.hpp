@@ -1,0 +1,14 @@
+#pragma once
+/// The names of part roles in the tag `draw.role`.
+
+#include <string_view>
+
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::scene {
+
+std::string_view name_of(PartRole role);
+/// `fixed` for a name that is none.
+PartRole part_role(std::string_view name);
+
+}  // namespace septet::scene

@@ -1,0 +1,111 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "engine/scene/command_codec.hpp"
+#include "tests/engine/scene/sample_commands.hpp"
+
+using namespace septet;
+using namespace septet::scene;
+
+namespace {
+
+Bytes bytes_of(const Command& command) {
+  Bytes bytes;
+  encode(command, bytes);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("every kind of command comes back from its bytes") {
+  std::set<std::size_t> kinds;
+  for (const Command& command : sample_commands()) {
+    CAPTURE(name_of(command));
+    kinds.insert(command.index());
+    const auto back = decode(bytes_of(command));
+    REQUIRE(back.has_value());
+    CHECK(*back == command);
+  }
+  CHECK(kinds.size() == std::variant_size_v<Command>);
+}
+
+TEST_CASE("the bytes of a transform are those of the specification") {
+  const Bytes bytes = bytes_of(TransformSet{5, {{1.0, 0.0, 0.0}}});
+  REQUIRE(bytes.size() == 1 + 1 + 24 + 1);
+  CHECK(bytes[0] == std::byte{10});
+  CHECK(bytes[1] == std::byte{6});     // node + 1
+  CHECK(bytes[9] == std::byte{0x3f});  // the top of 1.0
+  CHECK(bytes[26] == std::byte{0});    // neither turned nor scaled
+}
+
+TEST_CASE("a command that is cut anywhere is refused") {
+  for (const Command& command : sample_commands()) {
+    const Bytes whole = bytes_of(command);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      CAPTURE(name_of(command));
+      CHECK_FALSE(decode(std::span(whole).first(size)).has_value());
+    }
+  }
+}
+
+TEST_CASE("bytes after a command are refused") {
+  Bytes bytes = bytes_of(HideSet{1, true});
+  bytes.push_back(std::byte{0});
+  CHECK_FALSE(decode(bytes).has_value());
+}
+
+TEST_CASE("mutated bytes are refused or give a command that is written and read again alike") {
+  Random random(1);
+  const auto commands = sample_commands();
+  int accepted = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Bytes bytes = bytes_of(commands[random.below(commands.size())]);
+    for (std::uint64_t changes = 1 + random.below(3); changes > 0; --changes)
+      bytes[random.below(bytes.size())] = static_cast<std::byte>(random.below(256));
+    const auto command = decode(bytes);
+    if (!command) continue;
+    ++accepted;
+    const auto again = decode(bytes_of(*command));
+    REQUIRE(again.has_value());
+    CHECK(*again == *command);
+  }
+  CHECK(accepted > 100);
+}
+
+TEST_CASE("numbers that are not finite are refused") {
+  const float bad = std::numeric_limits<float>::quiet_NaN();
+  CHECK_FALSE(decode(bytes_of(LightSet{1, {bad, 0, 0}})).has_value());
+  CHECK_FALSE(decode(bytes_of(VerticesSet{1, 0, {{0, INFINITY, 0}}})).has_value());
+  CHECK_FALSE(decode(bytes_of(TransformSet{1, {{NAN, 0.0, 0.0}}})).has_value());
+  CHECK_FALSE(decode(bytes_of(TagSet{1, 0, 0, {"x", double{NAN}}})).has_value());
+}
+
+TEST_CASE("a claimed length beyond the limit is refused before it is allocated") {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  out.put(std::uint8_t{18});  // vertices set
+  out.put_varint(2), out.put_varint(0), out.put_varint(std::uint64_t{1} << 40);
+  CHECK_FALSE(decode(bytes).has_value());
+}
+
+TEST_CASE("vertices on a grid of a millimetre take less than half of their floats") {
+  VerticesSet strip{1, 0, {}};
+  for (int i = 0; i < 1000; ++i)
+    strip.positions_m.push_back(
+        {i / 2 * 5.0f, i % 2 * 3.5f, std::nearbyint(std::sin(i * 0.01f) * 1024) / 1024});
+  const Bytes bytes = bytes_of(strip);
+  CHECK(bytes.size() < 1000 * 12 / 2);
+  CHECK(std::get<VerticesSet>(*decode(bytes)).positions_m == strip.positions_m);
+}
+
+TEST_CASE("set and destroy of one thing have one address and other things have others") {
+  CHECK(address_of(TagSet{1, 2, 3, {}}) == address_of(TagDestroy{1, 2, 3}));
+  CHECK(address_of(LinkSet{1, 2, {}}) == address_of(LinkDestroy{1, 2}));
+  CHECK(address_of(TagSet{1, 2, 3, {}}) != address_of(TagSet{1, 2, 4, {}}));
+  CHECK(address_of(TransformSet{1, {}}) != address_of(TransformSet{2, {}}));
+  CHECK(address_of(HideSet{1, false}) == address_of(HideSet{1, true}));
+  CHECK(address_of(VerticesSet{1, 0, {{}, {}}}) != address_of(VerticesSet{1, 0, {{}}}));
+}
