@@ -26,10 +26,14 @@ Ground level_ground(double height_m, double friction) {
 double peak_friction(SurfaceKind kind, double temperature_k) {
   const double celsius = temperature_k - freezing_k;
   switch (kind) {
-    case SurfaceKind::dry: return dry_friction;
-    case SurfaceKind::wet: return wet_friction;
-    case SurfaceKind::snow: return snow_friction.held(celsius);
-    case SurfaceKind::ice: return ice_friction.held(celsius);
+    case SurfaceKind::dry:
+      return dry_friction;
+    case SurfaceKind::wet:
+      return wet_friction;
+    case SurfaceKind::snow:
+      return snow_friction.held(celsius);
+    case SurfaceKind::ice:
+      return ice_friction.held(celsius);
   }
   return dry_friction;
 }
@@ -38,8 +42,7 @@ double weather_friction(double wetness, double snow_cover, double temperature_k)
   wetness = std::clamp(wetness, 0.0, 1.0);
   snow_cover = std::clamp(snow_cover, 0.0, 1.0);
   const SurfaceKind film = temperature_k < freezing_k - 1.0 ? SurfaceKind::ice : SurfaceKind::wet;
-  const double bare =
-      dry_friction + wetness * (peak_friction(film, temperature_k) - dry_friction);
+  const double bare = dry_friction + wetness * (peak_friction(film, temperature_k) - dry_friction);
   return bare + snow_cover * (peak_friction(SurfaceKind::snow, temperature_k) - bare);
 }
 

@@ -1,9 +1,11 @@
 #pragma once
-/// What the wheels stand on, as the vehicle sees it: one plane and one friction coefficient under each wheel.
+/// What the wheels stand on, as the vehicle sees it: one plane and one friction coefficient under
+/// each wheel.
 ///
-/// Whoever owns the road fills a `Ground` from `wheel_centres_m` (vehicle.hpp): at every sub-step where the road is rough
-/// (ISO 8608 class A excites a car at 130 km/h up to 100 Hz), once a tick where it is smooth. Friction belongs to the
-/// wheel and not to the car, so a patch of ice under one wheel and a road that is wet on one side need nothing further.
+/// Whoever owns the road fills a `Ground` from `wheel_centres_m` (vehicle.hpp): at every sub-step
+/// where the road is rough (ISO 8608 class A excites a car at 130 km/h up to 100 Hz), once a tick
+/// where it is smooth. Friction belongs to the wheel and not to the car, so a patch of ice under
+/// one wheel and a road that is wet on one side need nothing further.
 
 #include <array>
 #include <cstdint>
@@ -16,10 +18,11 @@ namespace septet::vehicle {
 inline constexpr int wheel_count = 4;
 
 struct WheelGround {
-  Vec3 point_m{0.0};               ///< A point of the surface near the contact, world frame.
-  Vec3 normal{0.0, 0.0, 1.0};      ///< Unit length, world frame.
-  double friction = 0.9;           ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
-  double rolling_resistance = 1.0; ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.
+  Vec3 point_m{0.0};           ///< A point of the surface near the contact, world frame.
+  Vec3 normal{0.0, 0.0, 1.0};  ///< Unit length, world frame.
+  double friction = 0.9;       ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
+  double rolling_resistance =
+      1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.
 };
 using Ground = std::array<WheelGround, wheel_count>;
 
@@ -28,15 +31,15 @@ Ground level_ground(double height_m = 0.0, double friction = 0.9);
 
 enum class SurfaceKind : std::uint8_t { dry, wet, snow, ice };
 
-/// Peak friction coefficient of a surface at a temperature of the surface. Dry 0.9 and wet 0.55 are the upper half of the
-/// ranges 0.70–0.90 and 0.45–0.60 of accident reconstruction tables; packed snow rises from 0.22 at 0 °C to 0.35 in
-/// deep frost (Noon 1994: 0.20–0.25; tables 0.25–0.35). Ice is most slippery at its melting point, where pressure and
-/// rubbing leave a film of water: 0.06, rising to 0.15 at −20 °C (0.05–0.15). Above 0 °C snow and ice keep their value
-/// at 0 °C.
+/// Peak friction coefficient of a surface at a temperature of the surface. Dry 0.9 and wet 0.55 are
+/// the upper half of the ranges 0.70–0.90 and 0.45–0.60 of accident reconstruction tables; packed
+/// snow rises from 0.22 at 0 °C to 0.35 in deep frost (Noon 1994: 0.20–0.25; tables 0.25–0.35). Ice
+/// is most slippery at its melting point, where pressure and rubbing leave a film of water: 0.06,
+/// rising to 0.15 at −20 °C (0.05–0.15). Above 0 °C snow and ice keep their value at 0 °C.
 double peak_friction(SurfaceKind kind, double temperature_k);
 
-/// Friction of a road that is `wetness` wet and `snow_cover` covered (both 0 to 1; Environment of the snapshot). A wet
-/// road below −1 °C freezes over.
+/// Friction of a road that is `wetness` wet and `snow_cover` covered (both 0 to 1; Environment of
+/// the snapshot). A wet road below −1 °C freezes over.
 double weather_friction(double wetness, double snow_cover, double temperature_k);
 
 }  // namespace septet::vehicle

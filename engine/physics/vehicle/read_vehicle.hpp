@@ -1,9 +1,9 @@
 #pragma once
 /// Vehicle parameters from TOML text (vehicles/*.toml; vehicles/README.md describes the format).
 ///
-/// Every number stands as { value = …, source = "…" } or { x = […], y = […], source = "…" }, the source beginning with
-/// "sourced:", "derived:" or "assumed:". A missing entry, a missing source, an unknown name and a value out of its bounds
-/// are errors that name the entry.
+/// Every number stands as { value = …, source = "…" } or { x = […], y = […], source = "…" }, the
+/// source beginning with "sourced:", "derived:" or "assumed:". A missing entry, a missing source,
+/// an unknown name and a value out of its bounds are errors that name the entry.
 
 #include <string_view>
 

@@ -6,7 +6,8 @@ using namespace septet::vehicle;
 
 TEST_CASE("ice is most slippery at its melting point") {
   for (double celsius = -25.0; celsius < 0.0; celsius += 1.0)
-    CHECK(peak_friction(SurfaceKind::ice, 273.15 + celsius) > peak_friction(SurfaceKind::ice, 273.15));
+    CHECK(peak_friction(SurfaceKind::ice, 273.15 + celsius) >
+          peak_friction(SurfaceKind::ice, 273.15));
 }
 
 TEST_CASE("surfaces rank dry over wet over snow over ice at every temperature") {
@@ -18,7 +19,10 @@ TEST_CASE("surfaces rank dry over wet over snow over ice at every temperature") 
 }
 
 TEST_CASE("a wet road freezes over below zero") {
-  CHECK(weather_friction(1.0, 0.0, 280.0) == doctest::Approx(peak_friction(SurfaceKind::wet, 280.0)));
-  CHECK(weather_friction(1.0, 0.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::ice, 265.0)));
-  CHECK(weather_friction(0.0, 0.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
+  CHECK(weather_friction(1.0, 0.0, 280.0) ==
+        doctest::Approx(peak_friction(SurfaceKind::wet, 280.0)));
+  CHECK(weather_friction(1.0, 0.0, 265.0) ==
+        doctest::Approx(peak_friction(SurfaceKind::ice, 265.0)));
+  CHECK(weather_friction(0.0, 0.0, 265.0) ==
+        doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
 }

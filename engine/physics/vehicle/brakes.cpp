@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/physics/vehicle/controls.hpp"
+#include "engine/physics/vehicle/suspension.hpp"
+
+// Anti-lock, traction and stability control after van Zanten 2000 ("Bosch ESP systems: 5 years of
+// experience"), each reduced to its idea: hold a slip, hold the driven wheels' slip, hold the yaw
+// rate that the steering asks for.
+
+namespace septet::vehicle {
+namespace {
+
+constexpr double control_from_mps = 1.5;
+
+/// Share of the wheel's forward speed that rolling lacks: 1 is locked, negative is spinning.
+double braking_slip(const VehicleParameters& parameters, const VehicleState& state, int wheel,
+                    const Vec3& velocity_mps) {
+  const double side_m = 0.5 * side_of(wheel) * parameters.suspension[axle_of(wheel)].track_m;
+  const double forward_mps = velocity_mps.x - side_m * state.angular_velocity_radps.z;
+  const double rolling_mps = state.wheels[wheel].spin_radps * parameters.tyre.radius_m * 0.98;
+  const double size_mps = std::max(std::abs(forward_mps), 1.0);
+  return (forward_mps - rolling_mps) * (forward_mps < 0.0 ? -1.0 : 1.0) / size_mps;
+}
+
+void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity_mps, double dt_s,
+                       VehicleState& state) {
+  const bool fast = std::abs(velocity_mps.x) > control_from_mps;
+  for (int i = 0; i < wheel_count; ++i) {
+    const double over =
+        braking_slip(parameters, state, i, velocity_mps) - parameters.brakes.anti_lock_slip;
+    const double rate = fast ? std::clamp(60.0 * over, -4.0, 25.0) : -20.0;
+    double& release = state.brakes.release[i];
+    release = std::clamp(release + dt_s * rate, 0.0, 0.98);
+  }
+}
+
+/// Share of the engine's torque to take away: what the fastest driven wheel turns too fast.
+double traction_cut(const VehicleParameters& parameters, const VehicleState& state,
+                    const Vec3& velocity_mps) {
+  const double speed_mps = std::max(std::abs(velocity_mps.x), 1.0);
+  double over_mps = 0.0;
+  for (int i = 0; i < wheel_count; ++i)
+    over_mps = std::max(over_mps, -braking_slip(parameters, state, i, velocity_mps) * speed_mps);
+  return std::clamp(0.7 * (over_mps - std::max(0.08 * speed_mps, 0.5)), 0.0, 1.0);
+}
+
+/// One wheel is braked when the car turns more (outer front) or less (inner rear) than the driver
+/// steers.
+/// Answers whether it acts.
+bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps,
+                               double dt_s, VehicleState& state) {
+  bool acts = false;
+  const double speed = velocity_mps.x;
+  const double yaw_rate = state.angular_velocity_radps.z;
+  std::array<double, wheel_count> wanted{};
+  if (speed > 5.0) {
+    const double steer_rad = state.steering.column_rad / parameters.steering.ratio;
+    const double lateral_mps2 = std::abs(yaw_rate * speed);
+    const double most = (std::max(lateral_mps2, 2.0) + 1.5) / speed;
+    const double asked = std::clamp(
+        speed * steer_rad /
+            (parameters.body.wheelbase_m + parameters.brakes.understeer_radps2pm * speed * speed),
+        -most, most);
+    const double error = yaw_rate - asked;
+    const double direction = yaw_rate >= 0.0 ? 1.0 : -1.0;
+    const double excess = std::abs(error) - 0.07;
+    if (excess > 0.0) {
+      const bool oversteer = error * direction > 0.0;
+      const int outer = direction > 0.0 ? 1 : 0;
+      wanted[oversteer ? outer : 2 + (1 - outer)] = std::min(0.6, (oversteer ? 4.0 : 1.5) * excess);
+      acts = true;
+    }
+  }
+  for (int i = 0; i < wheel_count; ++i)
+    state.brakes.stabilising[i] += (wanted[i] - state.brakes.stabilising[i]) * dt_s / (0.03 + dt_s);
+  return acts;
+}
+
+}  // namespace
+
+std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters,
+                                               const DriverInput& input, const Vec3& velocity_mps,
+                                               double dt_s, VehicleState& state) {
+  const BrakeParameters& brakes = parameters.brakes;
+  BrakeState& controls = state.brakes;
+  controls.pedal += (input.brake - controls.pedal) * dt_s / (brakes.lag_s + dt_s);
+  if (brakes.anti_lock) advance_anti_lock(parameters, velocity_mps, dt_s, state);
+  double cut = brakes.traction_control ? traction_cut(parameters, state, velocity_mps) : 0.0;
+  if (brakes.stability_control && advance_stability_control(parameters, velocity_mps, dt_s, state))
+    cut = 1.0;
+  controls.torque_cut += (cut - controls.torque_cut) * dt_s / (0.06 + dt_s);
+
+  const bool pawl = input.selector == GearSelector::park && std::abs(velocity_mps.x) < 1.0;
+  std::array<double, wheel_count> torque_nm{};
+  for (int i = 0; i < wheel_count; ++i) {
+    const double pressure = std::min(1.0, controls.pedal + controls.stabilising[i]);
+    torque_nm[i] = brakes.full_torque_nm[axle_of(i)] * pressure * (1.0 - controls.release[i]);
+    if (input.parking_brake && axle_of(i) == 1) torque_nm[i] += brakes.parking_torque_nm;
+    const bool driven = axle_of(i) == 0 ? parameters.powertrain.front_share > 0.0
+                                        : parameters.powertrain.front_share < 1.0;
+    if (pawl && driven) torque_nm[i] += brakes.full_torque_nm[0];
+  }
+  return torque_nm;
+}
+
+}  // namespace septet::vehicle
