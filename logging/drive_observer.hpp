@@ -1,0 +1,31 @@
+#pragma once
+/// What the log notes of a drive beyond the snapshots: ten samples a second, and the events that
+/// follow from them. One call per tick, on the thread that steps the simulation.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "logging/measures/glances.hpp"
+#include "logging/measures/lane_changes.hpp"
+#include "logging/records.hpp"
+
+namespace septet::logging {
+
+/// What is remembered from tick to tick.
+struct DriveObserver {
+  double ticks_per_second = 120.0;
+  LaneChangeDetector lane_changes = {};
+  GlanceDetector glances = {};
+  std::uint32_t collisions = 0;  ///< Of the snapshots so far.
+};
+
+struct Observation {
+  std::optional<Sample> sample;
+  std::vector<Event> events;  ///< lane_change, mirror_glance, collision.
+};
+
+Observation observe(DriveObserver& observer, const Snapshot& snapshot,
+                    const std::optional<Leader>& leader);
+
+}  // namespace septet::logging

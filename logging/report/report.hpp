@@ -1,0 +1,31 @@
+#pragma once
+/// report.html: one drive as a page that needs nothing beside it: charts, measures and how each of
+/// them is defined.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "logging/report/drive_measures.hpp"
+#include "logging/session_reader.hpp"
+
+namespace septet::logging {
+
+struct ReportData {
+  SessionInfo info;
+  bool ended_cleanly = true;
+  std::vector<Sample> samples;
+  std::vector<Event> events;
+  std::vector<QuestionnaireRecord> answers;
+  MeasureSettings settings;
+};
+
+Expected<ReportData> read_report_data(const SessionReader& reader);
+
+/// The whole page.
+std::string to_html(const ReportData& data);
+
+Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path);
+
+}  // namespace septet::logging

@@ -1,0 +1,176 @@
+#include "logging/report/report.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include <doctest/doctest.h>
+
+#include "logging/drive_observer.hpp"
+#include "logging/report/chart.hpp"
+#include "logging/report/summary.hpp"
+#include "logging/report/text_file.hpp"
+#include "tests/logging/sample_series.hpp"
+#include "tests/logging/session_fixture.hpp"
+
+namespace septet::logging {
+namespace {
+
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+/// Ten minutes with a lane change every 30 s and wandering within the lane.
+ReportData example_drive() {
+  std::vector<double> unrolled_m;
+  for (int i = 0; i < 6000; ++i) {
+    const double t = i / 10.0;
+    const double lanes = std::sin(t * 3.14159265 / 30.0) > 0 ? 0.0 : -1.0;
+    const double previous = unrolled_m.empty() ? -3.5 : unrolled_m.back();
+    const double target = lanes * 3.5 + 0.25 * std::sin(t * 0.9) + 0.12 * std::sin(t * 2.3);
+    unrolled_m.push_back(previous + std::clamp(target - previous, -0.12, 0.12));
+  }
+  ReportData data;
+  data.info = example_info();
+  data.samples = drive_through(unrolled_m);
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    Sample& sample = data.samples[i];
+    const double t = sample.simulated_time_s;
+    sample.speed_mps = 29.0 - 29.0 * std::exp(-t / 8.0) + 1.5 * std::sin(t / 11.0);
+    sample.gaze_heading_rad = i % 97 < 6 ? -0.5 : i % 211 < 9 ? 0.7 : 0.02;
+    sample.leader = Leader{4, 40 + 10 * std::sin(t / 20), 45 + 10 * std::sin(t / 20), 28};
+  }
+  data.events = {{100, 3.0, "scenario", std::nullopt, "ambulance"},
+                 {1200, 70.0, "collision", 1, ""}};
+  data.answers = {{"fun", "It was fun to drive", "agree", 4.0, 600.0, false, ""},
+                  {"drive_completed", "", std::nullopt, std::nullopt, 412.0, true, "felt <sick>"}};
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("the summary holds exactly the keys that scripts rely on") {
+  DriveSummary summary{
+      .scenario = "motorway \"ambulance\"",
+      .rig = "seven-screens",
+      .seed = 7,
+      .ticks = 3600,
+      .simulated_s = 30.0,
+      .wall_s = 41.25,
+      .state_hash = 0xabc,
+      .lateral_position_mean_m = -0.05,
+      .lateral_position_sd_m = std::nan(""),
+      .lane_changes = 2,
+      .screens = {{"ahead-1", 450, 1, 2, 3, 21.5, 30.0}, {"rear-2", 450, 0, 0, 0, 20.0, 29.0}}};
+  CHECK(to_json(summary) == R"({
+  "scenario": "motorway \"ambulance\"",
+  "rig": "seven-screens",
+  "seed": 7,
+  "ticks": 3600,
+  "simulated_s": 30,
+  "wall_s": 41.25,
+  "state_hash": "0000000000000abc",
+  "lateral_position_m": {"mean": -0.05, "sd": null},
+  "lane_changes": 2,
+  "screens": [
+    {"name": "ahead-1", "frames": 450, "frames_off_tick": 1, "datagrams_lost": 2, "datagrams_repaired": 3, "frame_ms_p50": 21.5, "frame_ms_p99": 30},
+    {"name": "rear-2", "frames": 450, "frames_off_tick": 0, "datagrams_lost": 0, "datagrams_repaired": 0, "frame_ms_p50": 20, "frame_ms_p99": 29}
+  ]
+}
+)");
+}
+
+TEST_CASE("the report shows the charts and one mark per lane change and needs no other file") {
+  const ReportData data = example_drive();
+  const auto measures = compute_drive_measures(data.samples);
+  const std::string html = to_html(data);
+  if (const char* keep = std::getenv("SEPTET_KEEP_REPORT")) CHECK(write_text_file(keep, html));
+  CHECK(count_of(html, "<svg") == 3);
+  CHECK(count_of(html, "<rect class=\"bar") == 21);
+  CHECK(count_of(html, "<rect class=\"bar strong\"") == 1);
+  CHECK(measures.lane_changes.size() >= 19);
+  CHECK(count_of(html, "class=\"mark\"") == static_cast<int>(measures.lane_changes.size()) + 1);
+  CHECK(count_of(html, "http") == 0);
+  CHECK(count_of(html, "src=") == 0);
+  CHECK(html.find("felt &lt;sick&gt;") != std::string::npos);
+}
+
+TEST_CASE("distance speed and headway of a drive equal those computed by hand") {
+  std::vector<Sample> samples{sample_at(0, -1, 0), sample_at(1, -1, 0), sample_at(2, -1, 0)};
+  samples[0].speed_mps = 10;
+  samples[1].speed_mps = 20;
+  samples[2].speed_mps = 30;
+  samples[1].leader = Leader{2, 45, 50, 20};  // 2.5 s
+  samples[2].leader = Leader{2, 25, 30, 20};  // 1.0 s
+  const auto measures = compute_drive_measures(samples);
+  CHECK(measures.distance_m == doctest::Approx(0.1 * 15 + 0.1 * 25));
+  CHECK(measures.speed_mean_mps == doctest::Approx(20));
+  CHECK(measures.speed_sd_mps == doctest::Approx(std::sqrt(200.0 / 3)));
+  CHECK(measures.time_headway_median_s.value() == doctest::Approx(1.75));
+  CHECK(measures.time_headway_smallest_s.value() == doctest::Approx(1.0));
+}
+
+TEST_CASE("an empty session makes a report that says so") {
+  ReportData data;
+  data.ended_cleanly = false;
+  const std::string html = to_html(data);
+  CHECK(html.find("holds no samples") != std::string::npos);
+  CHECK(html.find("no clean end") != std::string::npos);
+  CHECK(count_of(html, "<svg") == 0);
+}
+
+TEST_CASE("ticks are round numbers within the range") {
+  CHECK(round_ticks(0, 100, 5) == std::vector<double>{0, 20, 40, 60, 80, 100});
+  CHECK(round_ticks(-2, 2, 5) == std::vector<double>{-2, -1, 0, 1, 2});
+  CHECK(round_ticks(3, 3, 5) == std::vector<double>{3});
+}
+
+TEST_CASE("a line of many samples is thinned and keeps its highest peak") {
+  LineChart chart;
+  for (int i = 0; i < 100000; ++i) chart.line.push_back({static_cast<double>(i), 0.0});
+  chart.line[54321].y = 1.0;
+  chart.y_high = 1.0;
+  const std::string svg = to_svg(chart);
+  CHECK(svg.size() < 60000);
+  CHECK(svg.find(" 38.0") != std::string::npos);  // The plot's upper edge is at y = 38.
+}
+
+TEST_CASE("a report that cannot be written is one clear error and leaves nothing behind") {
+  const TemporaryFolder folder;
+  const auto written = write_text_file(folder / "missing", "text");
+  CHECK(written.has_value());
+  const auto refused = write_text_file(folder / "no such folder/report.html", "text");
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().where.ends_with("report.html"));
+  CHECK_FALSE(std::filesystem::exists(folder / "missing.part"));
+}
+
+TEST_CASE("the observer samples ten times a second and notes lane changes glances and collisions") {
+  DriveObserver observer;
+  int samples = 0;
+  std::vector<Event> events;
+  for (Tick tick = 0; tick < 600; ++tick) {
+    Snapshot snapshot = drive_snapshot(tick);
+    const double unrolled_m = -3.5 + 0.01 * static_cast<double>(tick);
+    snapshot.driver_car.lane = unrolled_m < -1.75 ? -2 : -1;
+    snapshot.driver_car.lateral_position_m = unrolled_m < -1.75 ? unrolled_m + 3.5 : unrolled_m;
+    snapshot.driver_car.gaze_heading_rad = tick > 100 && tick < 160 ? 0.7 : 0.0;
+    snapshot.diagnostics.collisions = tick >= 301 ? 1 : 0;
+    const Observation observation = observe(observer, snapshot, std::nullopt);
+    samples += observation.sample.has_value();
+    events.insert(events.end(), observation.events.begin(), observation.events.end());
+  }
+  CHECK(samples == 50);
+  REQUIRE(events.size() == 3);
+  CHECK(events[0].kind == "mirror_glance");
+  CHECK(events[0].detail == "area=\"left mirror\" duration_s=0.50");
+  CHECK(events[1].kind == "lane_change");
+  CHECK(events[1].detail == "lanes_to_left=1 from_lane=-2 to_lane=-1");
+  CHECK(events[2].kind == "collision");
+  CHECK(events[2].tick == 301);
+}
+
+}  // namespace septet::logging
