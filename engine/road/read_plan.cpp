@@ -127,7 +127,7 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
     s_end = start.s_m + start.length_m;
   }
   if (road.plan.records.empty()) {
-    findings.error(road_node, fmt::format("road {} has no geometry", road.id), "add a planView with at least one geometry");
+    if (!plan_view.child("geometry") || !findings.has_error()) findings.error(road_node, fmt::format("road {} has no geometry", road.id), "add a planView with at least one geometry");
     return;
   }
   if (std::abs(s_end - road.length_m) > break_m) {

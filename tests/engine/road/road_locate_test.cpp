@@ -1,0 +1,106 @@
+#include "engine/road/road_locate.hpp"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "engine/core/random.hpp"
+#include "road_files.hpp"
+
+namespace septet::road {
+namespace {
+
+RoadPosition random_position(const RoadNetwork& network, Random& random) {
+  const auto road = static_cast<RoadIndex>(random.below(network.roads.size()));
+  const double s = random.uniform(0.01, network.roads[road].length_m - 0.01);
+  const RoadExtent extent = road_extent(network.roads[road], s);
+  return {road, s, random.uniform(extent.right_t_m + 0.01, extent.left_t_m - 0.01)};
+}
+
+}  // namespace
+
+TEST_CASE("locating a random point of the motorway gives back its road and station and offset") {
+  const RoadNetwork& network = motorway();
+  Random random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const RoadPosition position = random_position(network, random);
+    const Vec3 point = evaluate(network, position).position_m;
+    const RoadPosition hint{position.road, position.s_m + random.uniform(-5.0, 5.0), 0.0};
+    const auto found = locate(network, Vec2(point), &hint);
+    REQUIRE(found.has_value());
+    REQUIRE(found->position.road == position.road);
+    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-9));
+    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-9));
+    REQUIRE(found->lanes.outside_m == 0.0);
+
+    const auto cold = locate(network, Vec2(point));
+    REQUIRE(cold.has_value());
+    REQUIRE(glm::distance(evaluate(network, cold->position).position_m, point) < 1e-6);
+  }
+}
+
+TEST_CASE("steep banking on a changing grade is inverted exactly") {
+  SmallRoad road{.length_m = 200.0, .geometry = "<arc curvature=\"0.01\"/>"};
+  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0.002\" d=\"-5e-6\"/></elevationProfile>"
+                  "<lateralProfile><superelevation s=\"0\" a=\"0.1\" b=\"0.003\" c=\"0\" d=\"0\"/></lateralProfile>";
+  const RoadNetwork network = read_or_fail(road.xml());
+  Random random(2);
+  for (int i = 0; i < 2000; ++i) {
+    const RoadPosition position{0, random.uniform(5.0, 195.0), random.uniform(-3.4, 2.9)};
+    const auto found = locate(network, Vec2(evaluate(network, position).position_m));
+    REQUIRE(found.has_value());
+    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-8));
+    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("beside the road the nearest lane is found and far away none") {
+  const RoadNetwork network = read_or_fail(SmallRoad{}.xml());
+  const auto beside = locate(network, {50.0, -8.5});
+  REQUIRE(beside.has_value());
+  CHECK(beside->lanes.lane == -1);
+  CHECK(beside->lanes.outside_m == doctest::Approx(5.0));
+  const auto beyond = locate(network, {103.0, 1.0});
+  REQUIRE(beyond.has_value());
+  CHECK(beyond->position.s_m == 100.0);
+  CHECK(beyond->lanes.outside_m == doctest::Approx(3.0));
+  CHECK_FALSE(locate(network, {50.0, 1000.0}).has_value());
+  CHECK_FALSE(locate(network, {std::nan(""), 0.0}).has_value());
+  CHECK_FALSE(locate(network, {1e300, -1e300}).has_value());
+}
+
+TEST_CASE("a vehicle that leaves its road by the end is found on the linked road") {
+  const RoadNetwork& network = motorway();
+  const RoadIndex first = *find_road(network, "1"), second = *find_road(network, "2"), ramp = *find_road(network, "11");
+  const double length = network.roads[first].length_m;
+  const RoadPosition hint{first, length - 0.1, -20.0};
+  const Vec3 on_main = evaluate_lane(network, {second, -5, 1.0, 0.0}).road.position_m;
+  const auto main = locate(network, Vec2(on_main), &hint);
+  REQUIRE(main.has_value());
+  CHECK(main->position.road == second);
+  CHECK(main->lanes.lane == -5);
+  const Vec3 on_ramp = evaluate_lane(network, {ramp, -1, 1.0, 0.0}).road.position_m;
+  const auto exit = locate(network, Vec2(on_ramp), &hint);
+  REQUIRE(exit.has_value());
+  CHECK(exit->position.road == ramp);
+  CHECK(exit->lanes.lane == -1);
+}
+
+TEST_CASE("the normal of the surface is that of the points around it") {
+  Random random(3);
+  const RoadNetwork& network = motorway();
+  for (int i = 0; i < 300; ++i) {
+    RoadPosition position = random_position(network, random);
+    position.s_m = std::min(position.s_m, network.roads[position.road].length_m - 0.2);
+    const Vec2 at(evaluate(network, position).position_m);
+    const auto surface = surface_at(network, at, &position);
+    REQUIRE(surface.has_value());
+    const auto east = surface_at(network, at + Vec2(0.005, 0.0), &position);
+    const auto north = surface_at(network, at + Vec2(0.0, 0.005), &position);
+    if (!east || !north) continue;
+    const Vec3 u(0.005, 0.0, east->height_m - surface->height_m), v(0.0, 0.005, north->height_m - surface->height_m);
+    REQUIRE(glm::distance(surface->normal, glm::normalize(glm::cross(u, v))) < 1e-4);
+  }
+}
+
+}  // namespace septet::road
