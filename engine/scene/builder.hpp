@@ -41,10 +41,10 @@ struct MaterialParameters {
 };
 
 struct ObjectParameters {
-  RigidTransform parent_from_object;  ///< Of an object without a parent: world_from_object.
+  RigidTransform parent_from_object{};  ///< Of an object without a parent: world_from_object.
   glm::vec3 scale{1.0f};
-  NodeId geometry = no_node;      ///< An object without geometry groups its children.
-  std::vector<NodeId> materials;  ///< Entry k is for the polygons of material index k.
+  NodeId geometry = no_node;        ///< An object without geometry groups its children.
+  std::vector<NodeId> materials{};  ///< Entry k is for the polygons of material index k.
   float visible_from_m = 0.0f;
   float visible_to_m = 1e9f;
   PartRole role = PartRole::fixed;

@@ -2,13 +2,13 @@
 /// From nodes to what a renderer draws: subdivides, triangulates, evaluates materials, places
 /// instances.
 ///
-/// Incremental: `update` looks at the revisions and redoes only what changed since its last call,
-/// so that a flood of commands costs no more than the nodes that they touched. Slots of
-/// ResolvedScene keep their index for as long as their node is in use; a slot that falls free is
-/// emptied (with a new revision) and used again. How nodes are read is fixed in CONVENTIONS.md.
-/// Content that makes no sense (a dangling link, a polygon with a corner out of range, a loop of
-/// children or fragments) is left out or neutral, never an error: the store holds what the network
-/// brought.
+/// Incremental: `update` looks at the revisions and redoes only what changed since its last call, so
+/// that a flood of commands costs no more than the nodes that they touched. Slots of ResolvedScene
+/// keep their index for as long as their node is in use; what is no longer there is emptied (with a
+/// new revision), and an emptied mesh slot is used again. How nodes are read is fixed in
+/// CONVENTIONS.md. Content that makes no sense (a dangling link, a polygon with a corner out of
+/// range, a loop of children or fragments) is left out or neutral, never an error: the store holds
+/// what the network brought.
 
 #include <cstdint>
 #include <memory>
@@ -29,6 +29,9 @@ class Resolver {
   /// how many meshes are made in this call (the rest follow in the next ones; see `pending`), so
   /// that a big change does not stop the picture.
   bool update(const Store& store, std::size_t mesh_budget = ~std::size_t{0});
+
+  /// The next update reads another store (a mirror that was filled anew). Revisions keep rising.
+  void forget();
 
   const ResolvedScene& scene() const;
   /// Meshes that still wait for an update.
