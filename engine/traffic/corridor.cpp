@@ -1,0 +1,133 @@
+#include "engine/traffic/corridor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/core/check.hpp"
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/lane_links.hpp"
+
+namespace septet::traffic {
+namespace {
+
+struct Step {
+  road::RoadIndex road;
+  int lane;
+  bool along_s;
+  bool operator==(const Step&) const = default;
+};
+
+/// The lane at the far end of the road when one runs through it, section by section; 0 where the lane ends before.
+int lane_at_far_end(const road::RoadNetwork& network, Step step) {
+  const road::Road& road = network.roads[step.road];
+  const auto count = static_cast<int>(road.sections.size());
+  int lane = step.lane;
+  for (int i = step.along_s ? 0 : count - 1; i >= 0 && i < count; i += step.along_s ? 1 : -1) {
+    if (!road.sections[static_cast<std::size_t>(i)].has_lane(lane)) return 0;
+    const bool last = step.along_s ? i == count - 1 : i == 0;
+    if (last) return lane;
+    for (const auto& next : road::continuations(network, step.road, static_cast<std::uint32_t>(i), lane, step.along_s))
+      if (next.road == step.road) lane = next.lane;
+  }
+  return lane;
+}
+
+/// The road after this one, as the lane goes on; the one that keeps most lanes where there is a choice.
+std::optional<Step> next_road(const road::RoadNetwork& network, Step step) {
+  const road::Road& road = network.roads[step.road];
+  const int lane = lane_at_far_end(network, step);
+  if (lane == 0) return std::nullopt;
+  const auto section = static_cast<std::uint32_t>(step.along_s ? road.sections.size() - 1 : 0);
+  std::optional<Step> best;
+  int best_lanes = -1;
+  for (const auto& next : road::continuations(network, step.road, section, lane, step.along_s)) {
+    const auto& entered = network.roads[next.road].sections[next.section];
+    const int lanes = next.lane > 0 ? entered.left_count : entered.right_count;
+    if (lanes > best_lanes) {
+      best = Step{next.road, next.lane, next.towards_increasing_s};
+      best_lanes = lanes;
+    }
+  }
+  return best;
+}
+
+Step reversed(Step step) { return {step.road, step.lane, !step.along_s}; }
+
+}  // namespace
+
+Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through) {
+  const bool along = road::runs_along_s(network, through);
+  const Step start{through.road, through.lane, along};
+  // Back to where it begins (a ring comes back to the start), then forward from there.
+  Step first = start;
+  bool closed = false;
+  for (std::size_t i = 0; i < network.roads.size(); ++i) {
+    const auto before = next_road(network, reversed(first));
+    if (!before) break;
+    first = reversed(*before);
+    if (first.road == start.road) {
+      closed = true;
+      break;
+    }
+  }
+  Corridor corridor;
+  corridor.closed = closed;
+  std::optional<Step> step = first;
+  for (std::size_t i = 0; step && i <= network.roads.size(); ++i) {
+    const bool again = std::ranges::any_of(corridor.pieces, [&](const CorridorPiece& piece) { return piece.road == step->road; });
+    if (again) break;
+    const double length = network.roads[step->road].length_m;
+    corridor.pieces.push_back({step->road, step->along_s, step->lane > 0 ? 1 : -1, corridor.length_m, length});
+    corridor.length_m += length;
+    step = next_road(network, *step);
+  }
+  return corridor;
+}
+
+std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position) {
+  const auto& section = road::section_at(network.roads[position.road], position.s_m);
+  const int sign = position.lane > 0 ? -1 : 1;
+  for (int lane = sign; section.has_lane(lane); lane += sign)
+    if (road::is_drivable(section.lane(lane).type)) return road::LanePosition{position.road, lane, position.s_m, 0.0};
+  return std::nullopt;
+}
+
+double wrap_x(const Corridor& corridor, double x_m) {
+  return corridor.closed ? x_m - corridor.length_m * std::floor(x_m / corridor.length_m) : x_m;
+}
+
+double distance_m(const Corridor& corridor, double from_x_m, double to_x_m) {
+  const double d = to_x_m - from_x_m;
+  return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
+}
+
+const CorridorPiece& piece_at(const Corridor& corridor, double x_m) {
+  SEPTET_CHECK(!corridor.pieces.empty(), "a corridor without roads at {}", x_m);
+  const auto after = std::ranges::upper_bound(corridor.pieces, x_m, {}, &CorridorPiece::x_m);
+  return after == corridor.pieces.begin() ? corridor.pieces.front() : *std::prev(after);
+}
+
+road::LanePosition position_at(const Corridor& corridor, double x_m, int lane) {
+  const CorridorPiece& piece = piece_at(corridor, x_m);
+  const double along = std::clamp(x_m - piece.x_m, 0.0, piece.length_m);
+  return {piece.road, piece.side * lane, piece.along_s ? along : piece.length_m - along, 0.0};
+}
+
+bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane) {
+  if (lane < 1) return false;
+  const auto position = position_at(corridor, x_m, lane);
+  const auto& section = road::section_at(network.roads[position.road], position.s_m);
+  return section.has_lane(position.lane) && road::is_drivable(section.lane(position.lane).type);
+}
+
+std::optional<double> x_of(const road::RoadNetwork&, const Corridor& corridor, const road::RoadPosition& position, int lane) {
+  for (const CorridorPiece& piece : corridor.pieces)
+    if (piece.road == position.road)
+      return lane * piece.side > 0
+                 ? std::optional(piece.x_m + (piece.along_s ? position.s_m : piece.length_m - position.s_m))
+                 : std::nullopt;
+  return std::nullopt;
+}
+
+}  // namespace septet::traffic

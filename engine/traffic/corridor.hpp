@@ -1,0 +1,48 @@
+#pragma once
+/// One direction of a road as traffic sees it: a single coordinate x along the direction of travel, and lanes.
+///
+/// Roads that follow each other are strung together, so that the distance between two vehicles is a subtraction wherever
+/// they are. A lane is counted outwards from the middle of the road (1 is the left-most in right-hand traffic), which is the
+/// magnitude of its OpenDRIVE id. Immutable once built; pure functions.
+
+#include <optional>
+#include <vector>
+
+#include "engine/road/road_network.hpp"
+#include "engine/road/road_position.hpp"
+
+namespace septet::traffic {
+
+struct CorridorPiece {
+  road::RoadIndex road = 0;
+  bool along_s = true;  ///< Whether travel runs towards increasing s.
+  int side = -1;        ///< Sign of the lane ids: −1 right of the reference line, +1 left of it.
+  double x_m = 0.0;     ///< Where the piece begins.
+  double length_m = 0.0;
+};
+
+struct Corridor {
+  std::vector<CorridorPiece> pieces;
+  double length_m = 0.0;
+  bool closed = false;  ///< A ring: x wraps at length_m.
+};
+
+/// The corridor through a lane, from where the roads begin to where they end (or back to itself).
+Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
+/// The lane that runs the other way beside this one, if there is one.
+std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position);
+
+/// x taken into the ring, or as it is on an open corridor.
+double wrap_x(const Corridor& corridor, double x_m);
+/// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies behind.
+double distance_m(const Corridor& corridor, double from_x_m, double to_x_m);
+
+const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
+/// The position of lane `lane` at x, whether or not that lane can be driven on.
+road::LanePosition position_at(const Corridor& corridor, double x_m, int lane);
+/// Whether the lane exists and is one for driving.
+bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane);
+/// x of a road position; nothing where its road is not of this corridor or its side of the road is the other one.
+std::optional<double> x_of(const road::RoadNetwork& network, const Corridor& corridor, const road::RoadPosition& position, int lane);
+
+}  // namespace septet::traffic

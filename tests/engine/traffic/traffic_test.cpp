@@ -1,0 +1,134 @@
+#include "engine/traffic/traffic.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include "engine/road/opendrive_reader.hpp"
+
+namespace septet::traffic {
+namespace {
+
+road::RoadNetwork motorway() {
+  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr");
+  std::stringstream text;
+  text << file.rdbuf();
+  auto network = road::read_opendrive(text.str(), "motorway.xodr");
+  REQUIRE(network);
+  return *network;
+}
+
+/// A car that stays at x = 5 km in the middle lane at 30 m/s; the swarm's middle.
+ForeignVehicle driver_at(const road::RoadNetwork& network, double s_m) {
+  const auto point = road::evaluate_lane(network, {0, -3, s_m, 0.0});
+  ForeignVehicle driver;
+  driver.id = 1;
+  driver.world_from_vehicle = road::world_from_lane(point);
+  driver.velocity_mps = driver.world_from_vehicle.orientation * Vec3(30.0, 0.0, 0.0);
+  return driver;
+}
+
+/// The smallest distance between bumpers in any lane.
+double smallest_gap_m(const TrafficState& state) {
+  double smallest = 1e9;
+  for (const auto& traffic : state.corridors)
+    for (std::size_t i = 0; i < traffic.size(); ++i)
+      for (std::size_t j = 0; j < traffic.size(); ++j) {
+        const bool same = traffic.lane[i] == traffic.lane[j] || traffic.from_lane[i] == traffic.lane[j];
+        if (i == j || !same || traffic.x_m[j] < traffic.x_m[i]) continue;
+        smallest = std::min(smallest, traffic.x_m[j] - traffic.length_m[j] - traffic.x_m[i]);
+      }
+  return smallest;
+}
+
+}  // namespace
+
+TEST_CASE("the equilibrium gap of the intelligent driver model gives no acceleration") {
+  const FollowingParameters driver{33.33, 1.0, 2.6, 4.5, 2.5};
+  for (const double speed : {5.0, 15.0, 28.0}) {
+    const double gap = (driver.standstill_gap_m + speed * driver.time_gap_s) / std::sqrt(1.0 - std::pow(speed / driver.desired_speed_mps, 4));
+    CHECK(std::abs(idm_acceleration(driver, speed, speed, gap)) < 1e-12);
+  }
+}
+
+TEST_CASE("both directions of the motorway are one corridor each as long as the road") {
+  const auto network = motorway();
+  const Corridor along = build_corridor(network, {0, -3, 5000.0, 0.0});
+  const auto opposite = opposite_lane(network, {0, -3, 5000.0, 0.0});
+  REQUIRE(opposite);
+  const Corridor against = build_corridor(network, *opposite);
+  CHECK(along.length_m > 9000.0);
+  CHECK(against.length_m == doctest::Approx(along.length_m));
+  CHECK_FALSE(along.closed);
+  // x runs the other way round on the other side.
+  const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2), x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
+  REQUIRE(x1);
+  REQUIRE(x2);
+  CHECK(*x1 + *x2 == doctest::Approx(along.length_m));
+}
+
+TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a minute") {
+  const auto network = motorway();
+  const TrafficParameters parameters = motorway_traffic(200, 1500.0);
+  Random random(7, 1);
+  double s_m = 2500.0;
+  TrafficState state = populate(parameters, network, std::vector{driver_at(network, s_m)}, random);
+  REQUIRE(state.corridors.size() == 2);
+  double smallest = smallest_gap_m(state);
+  int changes = 0;
+  for (int tick = 0; tick < 60 * 60; ++tick) {
+    s_m += 30.0 / 60.0;
+    advance(parameters, network, std::vector{driver_at(network, s_m)}, 1.0 / 60.0, random, state);
+    if (tick % 20 == 0) smallest = std::min(smallest, smallest_gap_m(state));
+    for (const auto& traffic : state.corridors)
+      for (std::size_t i = 0; i < traffic.size(); ++i) changes += traffic.lane[i] != traffic.from_lane[i] && traffic.change_s[i] <= 1.01 / 60.0;
+  }
+  MESSAGE("smallest gap " << smallest << " m; lane changes " << changes);
+  CHECK(smallest > 0.3);
+  CHECK(changes > 5);
+  std::vector<Participant> participants;
+  append_participants(state, network, participants);
+  CHECK(participants.size() > 150);
+}
+
+TEST_CASE("the same seed gives the same traffic") {
+  const auto network = motorway();
+  const TrafficParameters parameters = motorway_traffic(60, 1000.0);
+  std::uint64_t hashes[2];
+  for (auto& value : hashes) {
+    Random random(9, 1);
+    const std::vector driver{driver_at(network, 4000.0)};
+    TrafficState state = populate(parameters, network, driver, random);
+    for (int tick = 0; tick < 600; ++tick) advance(parameters, network, driver, 1.0 / 60.0, random, state);
+    StateHash hash;
+    hash_state(hash, state);
+    value = hash.value();
+  }
+  CHECK(hashes[0] == hashes[1]);
+}
+
+TEST_CASE("shown motion agrees with shown velocity through lane changes") {
+  const auto network = motorway();
+  const TrafficParameters parameters = motorway_traffic(120, 1200.0);
+  Random random(3, 1);
+  const std::vector driver{driver_at(network, 3000.0)};
+  TrafficState state = populate(parameters, network, driver, random);
+  const double dt = 1.0 / 120.0;
+  std::vector<Participant> before, after;
+  for (int tick = 0; tick < 1200; ++tick) {
+    before = std::exchange(after, {});
+    advance(parameters, network, driver, dt, random, state);
+    append_participants(state, network, after);
+    if (before.size() != after.size()) continue;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const Vec3 moved = after[i].world_from_vehicle.position_m - before[i].world_from_vehicle.position_m;
+      if (after[i].id != before[i].id || glm::length(moved) > 2.0) continue;  // Came in again at the rim.
+      const Vec3 expected = 0.5 * dt * (after[i].velocity_mps + before[i].velocity_mps);
+      REQUIRE(glm::length(moved - expected) < 0.01);
+    }
+  }
+}
+
+}  // namespace septet::traffic
