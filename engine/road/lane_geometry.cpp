@@ -146,7 +146,9 @@ LanesAt lanes_at(const Road& road, double s_m, double t_m) {
   LanesAt found;
   double nearest_drivable = 1e300, nearest_any = 1e300;
   found.outside_m = 1e300;
-  for (const int side : {-1, 1}) {
+  const double centre_t = centre_border(road, s_m).t_m;
+  const int own_side = t_m > centre_t ? 1 : -1;
+  for (const int side : {own_side, -own_side}) {
     visit_lanes(road, section, s_m, side, [&](const Lane& lane, const Border& inner, const Border& outer) {
       const double low = std::min(inner.t_m, outer.t_m), high = std::max(inner.t_m, outer.t_m);
       if (high <= low) return true;
@@ -164,10 +166,11 @@ LanesAt lanes_at(const Road& road, double s_m, double t_m) {
         found.lane = lane.id;
         found.offset_m = t_m - centre;
       }
-      return true;
+      return nearest_drivable >= 0.0;
     });
+    if (nearest_drivable < 0.0) return found;
   }
-  if (found.outside_m == 1e300) found.outside_m = std::abs(t_m - centre_border(road, s_m).t_m);
+  if (found.outside_m == 1e300) found.outside_m = std::abs(t_m - centre_t);
   return found;
 }
 

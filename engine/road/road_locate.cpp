@@ -53,8 +53,8 @@ Foot foot_on(const Road& road, const Vec2& world_m, double s) {
     s_before = foot.s_m;
     ahead_before = offset.ahead_m;
     foot.s_m = next;
-    // Newton's error falls with the square of the step: after 1e-6 m there is nothing left to gain.
-    if (step < (plane ? 1e-6 : 1e-11)) break;
+    // Newton's error falls with the square of the step, the secant's nearly so: there is nothing left to gain.
+    if (step < (plane ? 1e-6 : 1e-8)) break;
   }
   if (foot.gap_m < 1e-4) foot.gap_m = 0.0;
   return foot;
