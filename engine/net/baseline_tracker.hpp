@@ -33,7 +33,8 @@ class BaselineTracker {
   void leave(Client client);
   /// Any sign of life.
   void heard(Client client, double now_s);
-  /// The client holds this tick, decoded.
+  /// The client says that it holds this tick, decoded; the caller has checked that it was
+  /// published.
   void acknowledge(Client client, std::uint64_t tick, double now_s);
 
   /// Call once per tick before asking `baseline`.
@@ -49,7 +50,7 @@ class BaselineTracker {
     double heard_s = 0.0;
     double waiting_since_s = 0.0;  ///< For the first acknowledgement.
     double barred_until_s = 0.0;
-    bool live = true;
+    bool live = false;
     std::vector<std::uint64_t> acknowledged;  ///< Ascending, at most `history`.
   };
   BaselineOptions options_;

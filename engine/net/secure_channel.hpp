@@ -17,10 +17,10 @@ enum class Reliability : std::uint8_t {
   unreliable,  ///< At most one datagram; may be lost, repeated messages are not delivered twice.
 };
 
-/// Reliable messages with the same key are about the same thing: one that is not yet on the wire,
-/// or lost and not yet resent, is overwritten by a newer one. An overwritten message that was never
-/// sent gives its place in the order to the new one; so give keys only to commands that do not
-/// depend on what is sent between the two.
+/// Reliable messages with the same key are about the same thing, and the newest one is enough. One
+/// of which nothing has been sent gives its place in the order to the newer one; one that was lost
+/// is not sent again. So give keys only to commands that depend on nothing sent between the two,
+/// and never use the number of a destroyed thing anew.
 using AddressKey = std::uint64_t;
 inline constexpr AddressKey no_address_key = 0;
 
@@ -30,7 +30,7 @@ inline SharedBytes share(Bytes bytes) { return std::make_shared<const Bytes>(std
 
 enum class SendResult : std::uint8_t {
   queued,
-  overwrote,  ///< Took the place of an older message with its key.
+  overwrote,  ///< Took the place of an unsent message with its key.
   not_connected,
   too_large,   ///< Over the message limit, or an unreliable one over one datagram.
   queue_full,  ///< A server drops such a client; a client may try again later.
@@ -44,7 +44,7 @@ struct ChannelLimits {
   std::size_t window_bytes = 8u << 20;  ///< What an end is ready to keep out of order.
   std::size_t max_bytes_per_pump =
       1u << 20;  ///< Sent in one pump over all connections, so that a tick is not held up.
-  double timeout_s = 1.0;  ///< Silence after which the other end counts as lost.
+  double timeout_s = 2.0;  ///< Silence after which the other end counts as lost.
 };
 
 struct ChannelCounters {
@@ -59,6 +59,8 @@ struct ChannelCounters {
   std::uint64_t not_allowed = 0;  ///< Handshakes with a key that is not on the list.
   std::uint64_t bad_cookies =
       0;  ///< Handshakes from an address that did not prove itself (or too late).
+
+  ChannelCounters& operator+=(const ChannelCounters& other);
 };
 
 }  // namespace septet::net

@@ -20,7 +20,7 @@
 
 namespace septet::net {
 
-/// Counts connections from 1; a client that reconnects gets a new one.
+/// One connection; a client that reconnects gets another number. Never 0.
 using ClientId = std::uint32_t;
 
 struct SecureServerOptions {
@@ -31,12 +31,18 @@ struct SecureServerOptions {
 };
 
 struct ServerEvent {
-  enum class Kind : std::uint8_t { connected, message, disconnected };
+  enum class Kind : std::uint8_t {
+    connected,
+    message,
+    disconnected,
+    refused,  ///< A stranger's key: `reason` names it, for the operator; at most one event a
+              ///< second.
+  };
   Kind kind = Kind::message;
   ClientId client = 0;
   Reliability reliability = Reliability::reliable;
-  Bytes bytes;         ///< Of a message.
-  std::string reason;  ///< Of a disconnection, for the log.
+  Bytes bytes{};         ///< Of a message.
+  std::string reason{};  ///< Of a disconnection or refusal, for the log.
 };
 
 struct ClientInfo {

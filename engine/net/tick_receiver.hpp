@@ -6,7 +6,6 @@
 /// holds, and only the newest `window` ticks are under reassembly. Datagrams that are not from the
 /// followed server and session change only counters.
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "engine/core/bytes.hpp"
 #include "engine/net/datagram_socket.hpp"
 #include "engine/net/keys.hpp"
+#include "engine/net/tick_datagram.hpp"
 
 namespace septet::net {
 
@@ -61,18 +61,18 @@ class TickReceiver {
   std::size_t bytes_held() const;
 
  private:
+  /// One publication: under reassembly, or whole and remembered so that it is not taken twice.
   struct Assembly {
-    std::uint64_t sequence = 0;
-    std::uint64_t tick = 0;
-    std::array<std::uint8_t, 16> root{};
+    TickHeader header;
     Bytes payload;
     std::vector<bool> have;
     std::size_t missing = 0;
     bool repaired = false;
-    bool complete = false;
   };
   Assembly* find(std::uint64_t sequence);
-  void make_room(std::uint64_t sequence);
+  Assembly& start(const TickHeader& header);
+  void move_window(std::uint64_t newest);
+  void complete(Assembly& assembly);
 
   PublicKey server_;
   std::optional<SessionId> session_;

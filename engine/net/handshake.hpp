@@ -1,0 +1,128 @@
+#pragma once
+/// The scene lane's handshake (PROTOCOL.md, "Handshake"): cookie, then a key exchange after Noise's
+/// pattern IK.
+///
+/// Pure functions of datagrams and keys: no socket, no clock. Whoever calls decides when to send
+/// and whom to allow.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/core/bytes.hpp"
+#include "engine/net/address.hpp"
+#include "engine/net/crypto.hpp"
+#include "engine/net/keys.hpp"
+
+namespace septet::net {
+
+enum class SceneDatagramKind : std::uint8_t { hello = 1, cookie, initiation, response, data };
+
+inline constexpr std::size_t scene_prefix_bytes = 3;
+/// Kind of a datagram of the scene lane; none if it does not begin like one.
+std::optional<SceneDatagramKind> scene_datagram_kind(std::span<const std::byte> datagram);
+/// Appends the first three bytes.
+void write_scene_prefix(SceneDatagramKind kind, ByteWriter& writer);
+
+/// What an end is ready to receive.
+struct Terms {
+  std::uint32_t max_datagram_bytes = 0;
+  std::uint64_t max_message_bytes = 0;
+  std::uint32_t window_bytes = 0;
+  std::uint32_t flight_bytes = 0;
+
+  bool operator==(const Terms&) const = default;
+};
+
+struct ChannelKeys {
+  Key32 sending{}, receiving{};
+};
+
+/// Chaining key and transcript hash of Noise's symmetric state.
+class Transcript {
+ public:
+  explicit Transcript(const PublicKey& server);
+  void mix_hash(std::span<const std::byte> bytes);
+  void mix_key(const Key32& shared);
+  void seal_text(std::span<const std::byte> text, Bytes& out);
+  bool open_text(std::span<const std::byte> sealed, Bytes& out);
+  /// Client to server, then server to client.
+  KeyPair32 split() const;
+
+ private:
+  Key32 chaining_{}, hash_{}, key_{};
+};
+
+class ClientHandshake {
+ public:
+  /// None if the server's key is no point of the curve.
+  static std::optional<ClientHandshake> start(const Identity& client, const PublicKey& server,
+                                              const Terms& own);
+
+  Bytes hello() const;
+  /// False: not the answer to this hello.
+  bool accept_cookie(std::span<const std::byte> datagram);
+  bool has_cookie() const { return cookie_.has_value(); }
+  /// Needs the cookie.
+  Bytes initiation() const;
+
+  struct Connected {
+    std::uint32_t connection = 0;
+    SessionId session{};
+    Terms server;
+    ChannelKeys keys;
+  };
+  /// None: not from the pinned server, or not for this handshake.
+  std::optional<Connected> accept_response(std::span<const std::byte> datagram) const;
+
+ private:
+  ClientHandshake(const Identity& client, const PublicKey& server);
+  ExchangeKeys static_, ephemeral_;
+  Transcript transcript_;
+  Bytes sealed_;  ///< Of the initiation: identity and terms.
+  std::optional<Hash16> cookie_;
+};
+
+/// Makes and checks cookies; keeps nothing per client.
+class CookieJar {
+ public:
+  CookieJar() : secret_(random_key()) {}
+  /// The answer to a hello; none if it is not one.
+  std::optional<Bytes> answer(std::span<const std::byte> hello, const Address& from,
+                              double now_s) const;
+  bool is_good(std::span<const std::byte> initiation, const Address& from, double now_s) const;
+
+ private:
+  Hash16 cookie(const Address& from, std::span<const std::byte> ephemeral,
+                std::uint64_t slot) const;
+  Key32 secret_;
+};
+
+/// The server's half, from a read initiation to the response.
+class ServerHandshake {
+ public:
+  /// None: malformed, or not sealed for this server. Costs two scalar multiplications.
+  static std::optional<ServerHandshake> accept(std::span<const std::byte> initiation,
+                                               const Identity& server);
+
+  const PublicKey& client() const { return client_; }
+  const Terms& client_terms() const { return client_terms_; }
+  const Key32& client_ephemeral() const { return client_ephemeral_; }
+
+  struct Connected {
+    Bytes response;
+    ChannelKeys keys;
+  };
+  /// None if the client's ephemeral key is of low order.
+  std::optional<Connected> respond(std::uint32_t connection, const SessionId& session,
+                                   const Terms& own) const;
+
+ private:
+  explicit ServerHandshake(const PublicKey& server) : transcript_(server) {}
+  PublicKey client_{};
+  Key32 client_static_{}, client_ephemeral_{};
+  Terms client_terms_;
+  Transcript transcript_;
+};
+
+}  // namespace septet::net

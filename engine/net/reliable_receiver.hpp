@@ -1,0 +1,41 @@
+#pragma once
+/// The receiving half of a reliable lane: puts fragments together and hands messages out in order,
+/// within bounds.
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/net/scene_frames.hpp"
+
+namespace septet::net {
+
+class ReliableReceiver {
+ public:
+  ReliableReceiver(std::size_t max_message_bytes, std::size_t window_bytes)
+      : max_message_bytes_(max_message_bytes), window_bytes_(window_bytes) {}
+
+  /// Takes a fragment or void frame and appends the messages that it completes, in order. False:
+  /// the other end broke the protocol (overlap, contradiction, more than the bounds), and nothing
+  /// more should be taken from it.
+  bool accept(const Frame& frame, std::vector<Bytes>& completed);
+  /// Sum of the sizes of messages begun and not yet handed out.
+  std::size_t bytes_held() const { return bytes_held_; }
+
+ private:
+  struct Incoming {
+    Bytes bytes;
+    std::size_t missing = 0;
+    bool voided = false;
+    std::map<std::size_t, std::size_t> runs;  ///< Begin to end of what has arrived.
+  };
+  bool add(Incoming& incoming, std::size_t offset, std::span<const std::byte> bytes);
+
+  std::size_t max_message_bytes_, window_bytes_;
+  std::map<std::uint64_t, Incoming> incoming_;
+  std::uint64_t next_ = 0;
+  std::size_t bytes_held_ = 0;
+};
+
+}  // namespace septet::net

@@ -1,0 +1,45 @@
+#pragma once
+/// What is sealed in a data datagram of the scene lane: a run of frames (PROTOCOL.md, "Data").
+
+#include <cstdint>
+#include <span>
+
+#include "engine/core/bytes.hpp"
+#include "engine/net/received_packets.hpp"
+
+namespace septet::net {
+
+enum class FrameKind : std::uint8_t {
+  acknowledge = 1,
+  fragment = 2,
+  void_message = 3,
+  unreliable = 4,
+  ping = 5,
+  pong = 6,
+  goodbye = 7,
+};
+
+/// One frame; which fields count depends on the kind.
+struct Frame {
+  FrameKind kind = FrameKind::ping;
+  PacketRanges received{};             ///< acknowledge
+  std::uint64_t message = 0;           ///< fragment, void_message
+  std::uint64_t message_bytes = 0;     ///< fragment
+  std::uint64_t offset = 0;            ///< fragment
+  std::span<const std::byte> bytes{};  ///< fragment, unreliable, goodbye
+  double sent_s = 0.0;                 ///< ping, pong
+  double answered_s = 0.0;             ///< pong
+};
+
+/// The next frame; false at the end or when the reader has failed. Checks what needs no state, so
+/// offset + length never exceeds message_bytes and ranges descend.
+bool read_frame(ByteReader& reader, Frame& out);
+void write_frame(const Frame& frame, ByteWriter& writer);
+
+std::size_t varint_bytes(std::uint64_t value);
+/// Of a fragment frame without its bytes.
+std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes,
+                              std::uint64_t offset, std::size_t length);
+inline constexpr std::size_t max_goodbye_bytes = 200;
+
+}  // namespace septet::net

@@ -1,0 +1,214 @@
+#include "engine/net/secure_client.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "engine/core/check.hpp"
+#include "engine/net/channel.hpp"
+#include "engine/net/handshake.hpp"
+
+namespace septet::net {
+namespace {
+
+constexpr std::size_t max_datagrams_per_pump = 8192;
+constexpr double first_retry_s = 0.05, longest_retry_s = 0.25;
+constexpr double cookie_life_s = 4.0;
+constexpr double first_pings_s = 0.1, later_pings_s = 0.25;
+constexpr int first_pings = 10;
+
+}  // namespace
+
+struct SecureClient::State {
+  State(DatagramSocket& its_socket, SecureClientOptions its_options)
+      : socket(its_socket), options(std::move(its_options)) {}
+
+  void receive(std::vector<ClientEvent>& events);
+  void take_data(std::span<const std::byte> datagram, std::vector<ClientEvent>& events);
+  void connect(const ClientHandshake::Connected& connected, std::vector<ClientEvent>& events);
+  void lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s = 0.0);
+  void knock();
+  /// While it does, an answer to a new handshake is no longer wanted.
+  bool hears_server() const {
+    return channel && now_s - channel->heard_s() <= options.limits.timeout_s / 2.0;
+  }
+
+  DatagramSocket& socket;
+  SecureClientOptions options;
+  double now_s = 0.0;
+  ClientState state = ClientState::connecting;
+  bool closed = false;
+  std::optional<Channel> channel;
+  SessionId session{};
+
+  std::optional<ClientHandshake> handshake;
+  double cookie_s = 0.0;
+  double next_knock_s = 0.0, retry_s = first_retry_s;
+
+  double next_ping_s = 0.0;
+  int pings = 0;
+  ChannelCounters past;  ///< Of earlier connections, and of what belongs to none.
+  mutable ChannelCounters asked;
+  ClockEstimate no_clock;
+};
+
+SecureClient::SecureClient(DatagramSocket& socket, SecureClientOptions options)
+    : state_(std::make_unique<State>(socket, std::move(options))) {}
+SecureClient::~SecureClient() = default;
+
+std::vector<ClientEvent> SecureClient::pump(double now_s) {
+  State& state = *state_;
+  SEPTET_CHECK(now_s >= state.now_s, "time goes back from {} to {}", state.now_s, now_s);
+  state.now_s = now_s;
+  std::vector<ClientEvent> events;
+  if (state.closed) return events;
+  state.receive(events);
+  const double timeout_s = state.options.limits.timeout_s;
+  if (state.channel && now_s - state.channel->heard_s() > timeout_s)
+    state.lose(fmt::format("the server is not heard for {:.1f} s", timeout_s), events);
+  if (!state.hears_server()) state.knock();
+  if (state.channel) {
+    if (now_s >= state.next_ping_s) {
+      state.channel->ping();
+      state.next_ping_s = now_s + (++state.pings < first_pings ? first_pings_s : later_pings_s);
+    }
+    state.channel->advance_to(now_s);
+    state.channel->emit(state.socket, now_s, state.options.limits.max_bytes_per_pump);
+  }
+  state.socket.flush();
+  return events;
+}
+
+void SecureClient::State::receive(std::vector<ClientEvent>& events) {
+  for (std::size_t i = 0; i < max_datagrams_per_pump; ++i) {
+    const auto datagram = socket.receive();
+    if (!datagram) return;
+    if (datagram->from != options.server) {
+      ++past.unknown;
+      continue;
+    }
+    const auto kind = scene_datagram_kind(datagram->bytes);
+    if (kind == SceneDatagramKind::data) {
+      take_data(datagram->bytes, events);
+    } else if (kind == SceneDatagramKind::cookie && handshake) {
+      if (handshake->has_cookie() || !handshake->accept_cookie(datagram->bytes)) {
+        ++past.bad_cookies;
+        continue;
+      }
+      cookie_s = now_s;
+      socket.send(options.server, handshake->initiation());
+    } else if (kind == SceneDatagramKind::response && handshake && !hears_server()) {
+      const auto connected = handshake->accept_response(datagram->bytes);
+      if (connected && are_usable(connected->server))
+        connect(*connected, events);
+      else
+        ++past.forged;
+    } else {
+      ++past.malformed;
+    }
+  }
+}
+
+void SecureClient::State::take_data(std::span<const std::byte> datagram,
+                                    std::vector<ClientEvent>& events) {
+  const auto number = connection_of(datagram);
+  if (!number) {
+    ++past.malformed;
+    return;
+  }
+  if (!channel || *number != channel->connection()) {
+    ++past.unknown;
+    return;
+  }
+  std::vector<ChannelMessage> messages;
+  const Channel::Verdict verdict = channel->accept(datagram, now_s, messages);
+  for (ChannelMessage& message : messages)
+    events.push_back({.kind = ClientEvent::Kind::message,
+                      .reliability = message.reliability,
+                      .bytes = std::move(message.bytes)});
+  if (verdict == Channel::Verdict::goodbye)
+    lose("the server said goodbye", events, longest_retry_s);
+  if (verdict == Channel::Verdict::broken) lose("the server broke the protocol", events);
+}
+
+void SecureClient::State::connect(const ClientHandshake::Connected& connected,
+                                  std::vector<ClientEvent>& events) {
+  if (channel) lose("the server has been started anew, or had lost this connection", events);
+  const Channel::Options channel_options{.connection = connected.connection,
+                                         .peer = options.server,
+                                         .keys = connected.keys,
+                                         .own = terms_of(options.limits, socket, 1),
+                                         .theirs = connected.server,
+                                         .limits = options.limits};
+  channel.emplace(channel_options, now_s);
+  session = connected.session;
+  handshake.reset();
+  retry_s = first_retry_s;
+  state = ClientState::connected;
+  pings = 0;
+  next_ping_s = now_s;  // The first ping also confirms the connection to the server.
+  events.push_back({.kind = ClientEvent::Kind::connected});
+}
+
+void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& events,
+                               double knock_after_s) {
+  past += channel->counters();
+  channel.reset();
+  state = ClientState::lost;
+  next_knock_s = now_s + knock_after_s;
+  events.push_back({.kind = ClientEvent::Kind::lost, .reason = std::move(reason)});
+}
+
+/// Sends hello or initiation, again and again, a little slower each time.
+void SecureClient::State::knock() {
+  if (now_s < next_knock_s) return;
+  const bool stale = handshake && handshake->has_cookie() && now_s - cookie_s > cookie_life_s;
+  if (!handshake || stale)
+    handshake = ClientHandshake::start(options.identity, options.server_key,
+                                       terms_of(options.limits, socket, 1));
+  if (!handshake) return;  // The pinned key is none; no server can have it.
+  socket.send(options.server,
+              handshake->has_cookie() ? handshake->initiation() : handshake->hello());
+  next_knock_s = now_s + retry_s;
+  retry_s = std::min(retry_s * 1.5, longest_retry_s);
+}
+
+bool SecureClient::has_backlog() const {
+  return state_->channel && state_->channel->wants_to_send();
+}
+
+SendResult SecureClient::send(SharedBytes message, Reliability reliability, AddressKey key) {
+  if (!state_->channel || state_->closed) return SendResult::not_connected;
+  return state_->channel->send(std::move(message), reliability, key);
+}
+
+SendResult SecureClient::send(std::span<const std::byte> message, Reliability reliability,
+                              AddressKey key) {
+  return send(share(Bytes(message.begin(), message.end())), reliability, key);
+}
+
+void SecureClient::close() {
+  if (state_->channel) state_->channel->say_goodbye("closing", state_->socket);
+  state_->socket.flush();
+  state_->closed = true;
+  state_->channel.reset();
+  state_->state = ClientState::lost;
+}
+
+ClientState SecureClient::state() const { return state_->state; }
+const SessionId& SecureClient::session() const { return state_->session; }
+const ClockEstimate& SecureClient::clock() const {
+  return state_->channel ? state_->channel->clock() : state_->no_clock;
+}
+double SecureClient::round_trip_s() const {
+  return state_->channel ? state_->channel->round_trip_s() : 0.0;
+}
+
+const ChannelCounters& SecureClient::counters() const {
+  state_->asked = state_->past;
+  if (state_->channel) state_->asked += state_->channel->counters();
+  return state_->asked;
+}
+
+}  // namespace septet::net

@@ -1,0 +1,82 @@
+#include "engine/net/keys.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/engine/net/net_fixtures.hpp"
+
+namespace septet::net {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own, gone at the end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("septet-keys-test-" + std::to_string(::getpid()));
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+TEST_CASE(
+    "the first start makes a key file that only the owner can read and the second start reads it") {
+  Folder folder;
+  const fs::path file = folder.path / "keys" / "server.key";
+  const auto made = load_or_create_identity(file);
+  REQUIRE(made.has_value());
+  struct stat status {};
+  REQUIRE(::stat(file.c_str(), &status) == 0);
+  CHECK((status.st_mode & 0777) == 0600);
+  const auto read = load_or_create_identity(file);
+  REQUIRE(read.has_value());
+  CHECK(read->public_key() == made->public_key());
+  CHECK(read->secret_key() == made->secret_key());
+  CHECK(std::distance(fs::directory_iterator(file.parent_path()), {}) == 1);
+}
+
+TEST_CASE("a key file that others can read or that is damaged is refused with a remedy") {
+  Folder folder;
+  const fs::path file = folder.path / "client.key";
+  REQUIRE(load_or_create_identity(file).has_value());
+  ::chmod(file.c_str(), 0644);
+  const auto open_to_all = load_identity(file);
+  REQUIRE_FALSE(open_to_all.has_value());
+  CHECK(open_to_all.error().remedy.find("chmod 600") != std::string::npos);
+  ::chmod(file.c_str(), 0600);
+  fs::resize_file(file, 100);
+  CHECK_FALSE(load_identity(file).has_value());
+  CHECK_FALSE(load_identity(folder.path / "absent.key").has_value());
+}
+
+TEST_CASE("a folder that cannot be made gives one clear message") {
+  Folder folder;
+  std::ofstream(folder.path / "file") << "not a folder";
+  const auto identity = load_or_create_identity(folder.path / "file" / "server.key");
+  REQUIRE_FALSE(identity.has_value());
+  CHECK(identity.error().where.find("server.key") != std::string::npos);
+}
+
+TEST_CASE("the list of allowed clients is read and its faults are named by line") {
+  Folder folder;
+  const fs::path file = folder.path / "clients.txt";
+  const std::string key = to_text(identity_of(5).public_key());
+  std::ofstream(file) << "# screens\n\n" << key << " screen/left-1\n";
+  const auto clients = load_allowed_clients(file);
+  REQUIRE(clients.has_value());
+  REQUIRE(clients->size() == 1);
+  CHECK(clients->front().key == identity_of(5).public_key());
+  CHECK(clients->front().name == "screen/left-1");
+  std::ofstream(file) << "\n" << key.substr(1) << " short\n";
+  const auto bad = load_allowed_clients(file);
+  REQUIRE_FALSE(bad.has_value());
+  CHECK(bad.error().where == file.string() + ":2");
+}
+
+}  // namespace
+}  // namespace septet::net

@@ -1,0 +1,278 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/engine/net/net_fixtures.hpp"
+
+namespace septet::net {
+namespace {
+
+const NetworkFaults bad_lan{
+    .loss = 0.05, .duplication = 0.02, .latency_s = 0.0003, .jitter_s = 0.020};
+
+TEST_CASE("an allowed client connects and both sides know each other") {
+  Site site(2, {});
+  site.run(0.1);
+  REQUIRE(site.count(ServerEvent::Kind::connected) == 2);
+  CHECK(site.clients[0]->state() == ClientState::connected);
+  CHECK(site.clients[0]->session() == session_of(1));
+  CHECK(site.server->info(site.id_of(1))->name == "client-1");
+  CHECK(site.server->counters().forged + site.server->counters().malformed == 0);
+}
+
+TEST_CASE(
+    "at five percent loss with jitter and reordering every reliable message arrives once and in "
+    "order") {
+  Site site(1, bad_lan);
+  site.run(0.5);
+  REQUIRE(site.clients[0]->state() == ClientState::connected);
+  const ClientId id = site.id_of(0);
+  std::vector<Bytes> sent;
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    sent.push_back(random_bytes(n % 50 == 0 ? 20000 : n % 40, n));
+    CHECK(site.server->send(id, sent.back(), Reliability::reliable) == SendResult::queued);
+    CHECK(site.clients[0]->send(sent.back(), Reliability::reliable) == SendResult::queued);
+    site.run(0.003);
+  }
+  site.run(1.0);
+  CHECK(site.received[0] == sent);
+  std::vector<Bytes> at_server;
+  for (ServerEvent& event : site.server_events)
+    if (event.kind == ServerEvent::Kind::message) at_server.push_back(event.bytes);
+  CHECK(at_server == sent);
+  CHECK(site.server->info(id)->queued_bytes == 0);
+  CHECK(site.server->info(id)->counters.resent > 0);
+  CHECK(site.count(ServerEvent::Kind::disconnected) == 0);
+}
+
+TEST_CASE("a message of several megabytes arrives unchanged through a bad network") {
+  Site site(1, bad_lan);
+  site.run(0.5);
+  const Bytes large = random_bytes(2 << 20, 1);
+  site.server->send(site.id_of(0), large, Reliability::reliable);
+  site.run(8.0, 0.005);
+  REQUIRE(site.received[0].size() == 1);
+  CHECK(site.received[0][0] == large);
+}
+
+TEST_CASE("unreliable messages arrive at most once and never without authentication") {
+  Site site(1, {.duplication = 0.5});
+  site.run(0.2);
+  for (std::uint64_t n = 0; n < 100; ++n) {
+    site.clients[0]->send(random_bytes(20, n), Reliability::unreliable);
+    site.run(0.001);
+  }
+  site.run(0.05);
+  CHECK(site.count(ServerEvent::Kind::message) == 100);
+  CHECK(site.server->counters().replayed > 0);
+  CHECK(site.clients[0]->send(random_bytes(1200, 1), Reliability::unreliable) ==
+        SendResult::too_large);
+}
+
+TEST_CASE("a message not yet sent is overwritten by a newer one with its key and keeps its place") {
+  Site site(1, {});
+  site.run(0.1);
+  const ClientId id = site.id_of(0);
+  const auto send = [&](const char* text, AddressKey key) {
+    return site.server->send(id, bytes_of(text), Reliability::reliable, key);
+  };
+  CHECK(send("pose 1", 7) == SendResult::queued);
+  CHECK(send("name", no_address_key) == SendResult::queued);
+  CHECK(send("other pose", 8) == SendResult::queued);
+  CHECK(send("pose 2", 7) == SendResult::overwrote);
+  CHECK(send("pose 3", 7) == SendResult::overwrote);
+  site.run(0.05);
+  REQUIRE(site.received[0].size() == 3);
+  CHECK(text_of(site.received[0][0]) == "pose 3");
+  CHECK(text_of(site.received[0][1]) == "name");
+  CHECK(text_of(site.received[0][2]) == "other pose");
+  CHECK(send("pose 4", 7) == SendResult::queued);
+  site.run(0.05);
+  CHECK(text_of(site.received[0].back()) == "pose 4");
+}
+
+TEST_CASE("under loss the newest message of every key arrives last whatever was overwritten") {
+  Site site(1, {.loss = 0.3, .latency_s = 0.001, .jitter_s = 0.005});
+  site.run(1.0);
+  const ClientId id = site.id_of(0);
+  REQUIRE(id != 0);
+  for (int n = 0; n < 500; ++n) {
+    const AddressKey key = 1 + static_cast<AddressKey>(n % 3);
+    site.server->send(id, bytes_of(std::to_string(key) + " " + std::to_string(n)),
+                      Reliability::reliable, key);
+    site.run(0.002);
+  }
+  site.run(2.0);
+  CHECK(site.server->counters().overwritten > 0);
+  CHECK(site.server->info(id)->queued_bytes == 0);
+  std::array<int, 4> last{};
+  for (const Bytes& message : site.received[0]) {
+    const std::string text = text_of(message);
+    const int key = text[0] - '0', n = std::stoi(text.substr(2));
+    CHECK(n > last[static_cast<std::size_t>(key)] - 1);
+    last[static_cast<std::size_t>(key)] = n;
+  }
+  CHECK(last == std::array<int, 4>{0, 498, 499, 497});
+}
+
+TEST_CASE("a client that is not on the list gets nothing and the operator learns its key") {
+  Site site(1, {});
+  site.add_client(1, 200);
+  site.run(2.0);
+  CHECK(site.clients[0]->state() == ClientState::connected);
+  CHECK(site.clients[1]->state() == ClientState::connecting);
+  CHECK(site.received[1].empty());
+  CHECK(site.client_events[1].empty());
+  CHECK(site.server->counters().not_allowed > 0);
+  const auto refused =
+      std::find_if(site.server_events.begin(), site.server_events.end(),
+                   [](const auto& event) { return event.kind == ServerEvent::Kind::refused; });
+  REQUIRE(refused != site.server_events.end());
+  CHECK(refused->reason.find(to_text(identity_of(200).public_key())) != std::string::npos);
+}
+
+TEST_CASE("a client does not connect to a server with another key than the pinned one") {
+  Site site(1, {});
+  site.clients[0] = std::make_unique<SecureClient>(
+      *site.client_sockets[0],
+      SecureClientOptions{server_address, identity_of(99).public_key(), identity_of(100), {}});
+  site.run(1.0);
+  CHECK(site.clients[0]->state() == ClientState::connecting);
+  CHECK(site.server->clients().empty());
+}
+
+TEST_CASE("a client taken off the list is dropped") {
+  Site site(2, {});
+  site.run(0.1);
+  site.server->set_allowed({site.allowed[1]});
+  site.run(0.5);
+  CHECK(site.server->clients() == std::vector{site.id_of(1)});
+  CHECK(site.clients[0]->state() == ClientState::lost);
+}
+
+TEST_CASE("a hung client costs the others nothing and is dropped") {
+  Site site(7, {});
+  site.run(0.2);
+  REQUIRE(site.server->clients().size() == 7);
+  site.hung[3] = true;
+  const ClientId hung = site.id_of(3);
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    const SharedBytes message = share(random_bytes(5000, n));
+    for (const ClientId id : site.server->clients())
+      site.server->send(id, message, Reliability::reliable);
+    site.run(0.01);
+    for (std::size_t client = 0; client < 7; ++client) {
+      if (client != 3) REQUIRE(site.received[client].size() + 1 >= n);
+    }
+  }
+  CHECK(site.count(ServerEvent::Kind::disconnected) == 1);
+  CHECK(!site.server->info(hung));
+  site.hung[3] = false;
+  site.run(0.5);
+  CHECK(site.clients[3]->state() == ClientState::connected);
+  CHECK(site.server->clients().size() == 7);
+}
+
+TEST_CASE("a client whose queue is full is dropped so that memory is bounded") {
+  ChannelLimits limits;
+  limits.max_queue_bytes = 100'000;
+  Site site(2, {}, limits);
+  site.run(0.1);
+  const ClientId first = site.id_of(0), second = site.id_of(1);
+  site.hung[0] = true;
+  SendResult result = SendResult::queued;
+  for (int n = 0; n < 11 && result == SendResult::queued; ++n)
+    result = site.server->send(first, random_bytes(10'000, 1), Reliability::reliable);
+  CHECK(result == SendResult::queue_full);
+  site.run(0.01);
+  CHECK(!site.server->info(first));
+  CHECK(site.server->info(second));
+}
+
+TEST_CASE("a client reconnects by itself when the server restarts and learns the new session") {
+  Site site(2, {});
+  site.run(0.2);
+  site.server.reset();
+  site.run(0.5);
+  site.start_server(2);
+  site.run(2.5);
+  for (std::size_t n = 0; n < 2; ++n) {
+    CHECK(site.clients[n]->state() == ClientState::connected);
+    CHECK(site.clients[n]->session() == session_of(2));
+    REQUIRE(site.client_events[n].size() == 3);
+    CHECK(site.client_events[n][1].kind == ClientEvent::Kind::lost);
+  }
+}
+
+TEST_CASE(
+    "a client killed and started again is back within a second and replaces its old connection") {
+  Site site(2, {});
+  site.run(0.2);
+  const ClientId old = site.id_of(0);
+  site.add_client(0, Site::client_key(0));
+  site.run(0.1);
+  CHECK(site.clients[0]->state() == ClientState::connected);
+  CHECK(!site.server->info(old));
+  CHECK(site.server->clients().size() == 2);
+}
+
+TEST_CASE("random truncated and altered datagrams change nothing and are counted") {
+  Site site(1, {});
+  site.run(0.2);
+  auto attacker = site.network.open(client_address(50));
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Bytes noise = random_bytes(seed * 4, seed);
+    attacker->send(server_address, noise);
+    attacker->send(client_address(0), noise);
+    if (noise.size() > 3) {
+      noise[0] = std::byte{0x53}, noise[1] = std::byte{1},
+      noise[2] = static_cast<std::byte>(1 + seed % 5);
+      attacker->send(server_address, noise);
+    }
+  }
+  site.server->send(site.id_of(0), bytes_of("still here"), Reliability::reliable);
+  site.run(0.1);
+  const ChannelCounters counters = site.server->counters();
+  CHECK(counters.malformed + counters.unknown + counters.bad_cookies + counters.forged >= 590);
+  CHECK(site.clients[0]->counters().unknown == 300);
+  CHECK(site.server->clients().size() == 1);
+  REQUIRE(site.received[0].size() == 1);
+  CHECK(text_of(site.received[0][0]) == "still here");
+}
+
+TEST_CASE("the client estimates the server clock within half the shortest round trip") {
+  Site site(1, {.latency_s = 0.001, .jitter_s = 0.010});
+  site.run(3.0);
+  REQUIRE(site.clients[0]->clock().valid());
+  const ClockEstimate& clock = site.clients[0]->clock();
+  CHECK(clock.round_trip_s() < 0.012);
+  CHECK(std::abs(clock.offset_s()) <= clock.round_trip_s() / 2.0);
+}
+
+TEST_CASE("a transfer to one client does not hold up another one") {
+  ChannelLimits limits;
+  limits.max_bytes_per_pump = 128 * 1024;
+  Site site(2, {}, limits);
+  site.run(0.1);
+  site.server->send(site.id_of(0), random_bytes(8 << 20, 1), Reliability::reliable);
+  site.run(0.01);
+  CHECK(site.server->has_backlog());
+  site.server->send(site.id_of(1), bytes_of("small"), Reliability::reliable);
+  site.run(0.004);
+  CHECK(site.received[0].empty());
+  CHECK(site.received[1].size() == 1);
+}
+
+TEST_CASE("a goodbye ends the connection at once") {
+  Site site(2, {});
+  site.run(0.1);
+  site.clients[0]->close();
+  site.server->disconnect(site.id_of(1), "the drive is over");
+  site.run(0.01);
+  CHECK(site.count(ServerEvent::Kind::disconnected) == 2);
+  REQUIRE(site.client_events[1].size() == 2);
+  CHECK(site.client_events[1][1].kind == ClientEvent::Kind::lost);
+}
+
+}  // namespace
+}  // namespace septet::net
