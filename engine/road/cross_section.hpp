@@ -1,5 +1,6 @@
 #pragma once
-/// The cross-section of a road at one station, as a frame: the step that forward and inverse map share.
+/// The cross-section of a road at one station, as a frame: the step that forward and inverse map
+/// share.
 
 #include <cmath>
 

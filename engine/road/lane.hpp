@@ -1,8 +1,9 @@
 #pragma once
 /// Lanes, lane sections and road marks (OpenDRIVE 1.8, §11), as plain data.
 ///
-/// Stations are metres along the reference line of the road, never relative to the section. Left lanes have ids > 0, right
-/// lanes ids < 0, the centre lane, which has no width, is 0. Everything is immutable once the network is read.
+/// Stations are metres along the reference line of the road, never relative to the section. Left
+/// lanes have ids > 0, right lanes ids < 0, the centre lane, which has no width, is 0. Everything
+/// is immutable once the network is read.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +15,30 @@
 namespace septet::road {
 
 enum class LaneType : std::uint8_t {
-  none, driving, entry, exit, on_ramp, off_ramp, connecting_ramp, slip_lane, bidirectional,
-  shoulder, stop, border, curb, median, sidewalk, biking, parking, restricted, road_works, rail, tram, bus, taxi, hov,
+  none,
+  driving,
+  entry,
+  exit,
+  on_ramp,
+  off_ramp,
+  connecting_ramp,
+  slip_lane,
+  bidirectional,
+  shoulder,
+  stop,
+  border,
+  curb,
+  median,
+  sidewalk,
+  biking,
+  parking,
+  restricted,
+  road_works,
+  rail,
+  tram,
+  bus,
+  taxi,
+  hov,
   other,
 };
 
@@ -25,13 +48,24 @@ bool is_drivable(LaneType type);
 const char* name_of(LaneType type);
 
 enum class RoadMarkType : std::uint8_t {
-  none, solid, broken, solid_solid, solid_broken, broken_solid, broken_broken, botts_dots, grass, curb, edge, custom,
+  none,
+  solid,
+  broken,
+  solid_solid,
+  solid_broken,
+  broken_solid,
+  broken_broken,
+  botts_dots,
+  grass,
+  curb,
+  edge,
+  custom,
 };
 enum class RoadMarkColor : std::uint8_t { white, yellow, blue, green, red, orange, violet, black };
 enum class LaneChange : std::uint8_t { both, increase, decrease, none };
 
-/// One painted line of a mark: painted for length_m, then bare for space_m, and again from there; space 0 is a continuous
-/// line. A line that is painted `once` stands alone, length_m long.
+/// One painted line of a mark: painted for length_m, then bare for space_m, and again from there;
+/// space 0 is a continuous line. A line that is painted `once` stands alone, length_m long.
 struct RoadMarkLine {
   double length_m = 0.0;
   double space_m = 0.0;
@@ -41,7 +75,8 @@ struct RoadMarkLine {
   bool once = false;
 };
 
-/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to s_end_m.
+/// A mark on the outer border of its lane (of the centre lane: on the centre line), from s_m to
+/// s_end_m.
 struct RoadMark {
   double s_m = 0.0;
   double s_end_m = 0.0;
@@ -51,10 +86,12 @@ struct RoadMark {
   bool bold = false;
   double width_m = 0.12;
   double height_m = 0.0;
-  std::vector<RoadMarkLine> lines;  ///< Never empty unless the type is none, grass, curb or edge: filled from the type if need be.
+  std::vector<RoadMarkLine> lines;  ///< Never empty unless the type is none, grass, curb or edge:
+                                    ///< filled from the type if need be.
 };
 
-/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to the outer border.
+/// Height of the lane's surface over the road's plane, constant along s, linear from the inner to
+/// the outer border.
 struct LaneHeight {
   double s_m = 0.0;
   double inner_m = 0.0;
@@ -83,7 +120,8 @@ struct Lane {
   std::vector<int> successors;    ///< Lane ids in the section (or linked road) after this one.
 };
 
-/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run without a gap through 0.
+/// Lanes from s_m to s_end_m, sorted from the leftmost (highest id) to the rightmost; ids run
+/// without a gap through 0.
 struct LaneSection {
   double s_m = 0.0;
   double s_end_m = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
-/// How lanes go on: across lane sections, road links and junctions; neighbours; direction of travel.
+/// How lanes go on: across lane sections, road links and junctions; neighbours; direction of
+/// travel.
 
 #include <functional>
 #include <optional>
@@ -11,15 +12,18 @@
 
 namespace septet::road {
 
-/// Whether traffic in this lane runs towards increasing s. Right-hand traffic: lanes < 0 do; left-hand: lanes > 0 do.
+/// Whether traffic in this lane runs towards increasing s. Right-hand traffic: lanes < 0 do;
+/// left-hand: lanes > 0 do.
 bool runs_along_s(const Road& road, const LaneSection& section, int lane);
 bool runs_along_s(const RoadNetwork& network, const LanePosition& position);
 
-/// The lane beside this one, as seen in the direction of travel, and only if it is drivable and runs the same way.
+/// The lane beside this one, as seen in the direction of travel, and only if it is drivable and
+/// runs the same way.
 std::optional<int> lane_to_the_left(const RoadNetwork& network, const LanePosition& position);
 std::optional<int> lane_to_the_right(const RoadNetwork& network, const LanePosition& position);
 
-/// Where a lane goes on, just beyond the end of its section: the lane entered and the end of the section it is entered at.
+/// Where a lane goes on, just beyond the end of its section: the lane entered and the end of the
+/// section it is entered at.
 struct LaneContinuation {
   RoadIndex road = 0;
   std::uint32_t section = 0;
@@ -27,8 +31,10 @@ struct LaneContinuation {
   bool towards_increasing_s = true;  ///< How s runs from there on.
 };
 
-/// All continuations of `lane` beyond the end (`towards_increasing_s`) or the start of `section`; none where the lane ends.
-std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road, std::uint32_t section, int lane,
+/// All continuations of `lane` beyond the end (`towards_increasing_s`) or the start of `section`;
+/// none where the lane ends.
+std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road,
+                                            std::uint32_t section, int lane,
                                             bool towards_increasing_s);
 
 /// Chooses among two or more continuations; the answer is an index.
@@ -37,12 +43,13 @@ using ChooseContinuation = std::function<std::size_t(std::span<const LaneContinu
 struct Advanced {
   LanePosition position;
   bool towards_increasing_s = true;  ///< How s runs at the new position, going on the way one came.
-  double remaining_m = 0.0;          ///< What is left of the distance where the lane ended; 0 otherwise.
+  double remaining_m = 0.0;  ///< What is left of the distance where the lane ended; 0 otherwise.
 };
 
-/// Goes `distance_m` along the lane, in its direction of travel if positive, backwards if negative, measured along the
-/// reference lines (divide by RoadPoint::stretch for metres in the lane). The lane's offset is kept, mirrored where the
-/// next road runs the other way. Without `choose` the first continuation is taken.
+/// Goes `distance_m` along the lane, in its direction of travel if positive, backwards if negative,
+/// measured along the reference lines (divide by RoadPoint::stretch for metres in the lane). The
+/// lane's offset is kept, mirrored where the next road runs the other way. Without `choose` the
+/// first continuation is taken.
 Advanced advance(const RoadNetwork& network, const LanePosition& from, double distance_m,
                  const ChooseContinuation& choose = {});
 

@@ -28,19 +28,23 @@ HeaderOffset read_header(XmlFindings& findings, const pugi::xml_node& root, Netw
   header.name = node.attribute("name").value();
   header.geo_reference = node.child("geoReference").text().get();
   if (header.revision_major != 1 || header.revision_minor < 4 || header.revision_minor > 8) {
-    findings.warning(node, fmt::format("OpenDRIVE {}.{} is read as 1.8", header.revision_major, header.revision_minor),
-                     "use a revision from 1.4 to 1.8");
+    findings.warning(
+        node,
+        fmt::format("OpenDRIVE {}.{} is read as 1.8", header.revision_major, header.revision_minor),
+        "use a revision from 1.4 to 1.8");
   }
   const auto offset = node.child("offset");
   if (!offset) return {};
   return {{findings.number_or(offset, "x", 0.0), findings.number_or(offset, "y", 0.0)},
-          findings.number_or(offset, "z", 0.0), findings.number_or(offset, "hdg", 0.0)};
+          findings.number_or(offset, "z", 0.0),
+          findings.number_or(offset, "hdg", 0.0)};
 }
 
 TrafficRule read_rule(XmlFindings& findings, const pugi::xml_node& node) {
   const std::string_view rule = node.attribute("rule").value();
   if (!rule.empty() && rule != "RHT" && rule != "LHT") {
-    findings.error(node, fmt::format("rule=\"{}\" is neither RHT nor LHT", rule.substr(0, 40)), "write RHT or LHT");
+    findings.error(node, fmt::format("rule=\"{}\" is neither RHT nor LHT", rule.substr(0, 40)),
+                   "write RHT or LHT");
   }
   return rule == "LHT" ? TrafficRule::left_hand : TrafficRule::right_hand;
 }
@@ -58,10 +62,12 @@ Road read_road(XmlFindings& findings, const pugi::xml_node& node, const HeaderOf
   }
   for (const auto type : node.children("type")) {
     RoadTypeRecord record{findings.number_or(type, "s", 0.0), type.attribute("type").value(), 0.0};
-    if (const auto speed = type.child("speed")) record.speed_limit_mps = read_speed(findings, speed);
+    if (const auto speed = type.child("speed"))
+      record.speed_limit_mps = read_speed(findings, speed);
     road.types.push_back(std::move(record));
   }
-  std::stable_sort(road.types.begin(), road.types.end(), [](const auto& a, const auto& b) { return a.s_m < b.s_m; });
+  std::stable_sort(road.types.begin(), road.types.end(),
+                   [](const auto& a, const auto& b) { return a.s_m < b.s_m; });
   read_plan(findings, node, offset, road);
   read_elevation(findings, node, offset, road);
   read_lateral(findings, node, road);
@@ -71,18 +77,21 @@ Road read_road(XmlFindings& findings, const pugi::xml_node& node, const HeaderOf
   return road;
 }
 
-void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderOffset& offset, RoadNetwork& network) {
+void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderOffset& offset,
+                RoadNetwork& network) {
   std::set<std::string> ids;
   std::size_t knots = 0;
   for (const auto node : root.children("road")) {
     network.roads.push_back(read_road(findings, node, offset));
     const Road& road = network.roads.back();
     if (!ids.insert(road.id).second) {
-      findings.error(node, fmt::format("road id {} is used twice", road.id), "give each road its own id");
+      findings.error(node, fmt::format("road id {} is used twice", road.id),
+                     "give each road its own id");
     }
     knots += road.plan.clothoid_knots.size() + road.plan.cubic_knots.size();
     if (knots > most_knots) {
-      findings.error(node, "the curves up to here turn more than a road network can", "check lengths and curvatures");
+      findings.error(node, "the curves up to here turn more than a road network can",
+                     "check lengths and curvatures");
       network.roads.clear();
       return;
     }
@@ -94,18 +103,22 @@ void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderO
 RoadNetwork read_network(XmlFindings& findings, std::string_view xml) {
   RoadNetwork network;
   if (xml.size() > largest_text) {
-    findings.error_at(-1, fmt::format("the text is {} MiB long", xml.size() >> 20), "split it into files below 512 MiB");
+    findings.error_at(-1, fmt::format("the text is {} MiB long", xml.size() >> 20),
+                      "split it into files below 512 MiB");
     return network;
   }
   pugi::xml_document document;
   const auto result = document.load_buffer(xml.data(), xml.size());
   if (!result) {
-    findings.error_at(result.offset, fmt::format("it is no well-formed XML: {}", result.description()), "repair the XML there");
+    findings.error_at(result.offset,
+                      fmt::format("it is no well-formed XML: {}", result.description()),
+                      "repair the XML there");
     return network;
   }
   const auto root = document.child("OpenDRIVE");
   if (!root) {
-    findings.error_at(0, "the root element is not <OpenDRIVE>", "give an ASAM OpenDRIVE file (.xodr)");
+    findings.error_at(0, "the root element is not <OpenDRIVE>",
+                      "give an ASAM OpenDRIVE file (.xodr)");
     return network;
   }
   const HeaderOffset offset = read_header(findings, root, network.header);
@@ -120,7 +133,8 @@ RoadNetwork read_network(XmlFindings& findings, std::string_view xml) {
 
 }  // namespace
 
-Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name, std::vector<Finding>* warnings) {
+Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name,
+                                     std::vector<Finding>* warnings) {
   XmlFindings findings(xml, name);
   RoadNetwork network = read_network(findings, xml);
   if (findings.has_error()) return tl::unexpected(findings.first_error());

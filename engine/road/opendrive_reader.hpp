@@ -1,8 +1,9 @@
 #pragma once
 /// Reads ASAM OpenDRIVE 1.4 to 1.8 into a RoadNetwork.
 ///
-/// The text may come from anywhere: whatever it holds, the answer is a network or an error, in memory bounded by the
-/// text's size. An error stops the file from being used; a warning says what was ignored or repaired.
+/// The text may come from anywhere: whatever it holds, the answer is a network or an error, in
+/// memory bounded by the text's size. An error stops the file from being used; a warning says what
+/// was ignored or repaired.
 
 #include <cstdint>
 #include <string_view>
@@ -22,10 +23,13 @@ struct Finding {
   Error error;
 };
 
-/// The network, or the first error. `name` is the file's name in messages. Warnings are added to `warnings` if given.
-Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name, std::vector<Finding>* warnings = nullptr);
+/// The network, or the first error. `name` is the file's name in messages. Warnings are added to
+/// `warnings` if given.
+Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name,
+                                     std::vector<Finding>* warnings = nullptr);
 
-/// Everything wrong with the text, in the order of its lines, at most 1,000 findings; empty for a clean file.
+/// Everything wrong with the text, in the order of its lines, at most 1,000 findings; empty for a
+/// clean file.
 std::vector<Finding> check_opendrive(std::string_view xml, std::string_view name);
 
 }  // namespace septet::road

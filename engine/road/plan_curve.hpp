@@ -1,10 +1,11 @@
 #pragma once
-/// The reference line of a road in the plan (OpenDRIVE 1.8, §9): a chain of lines, arcs, spirals and cubic curves.
+/// The reference line of a road in the plan (OpenDRIVE 1.8, §9): a chain of lines, arcs, spirals
+/// and cubic curves.
 ///
 /// Everything is a function of s, the arc length. Lines, arcs and spirals are one thing, a clothoid
-/// κ(ds) = curvature + curvature_rate·ds, integrated from knots that lie at most 1/8 rad of turning apart; cubic curves
-/// (poly3, paramPoly3) carry a table from arc length to their parameter. So one evaluation costs tens of nanoseconds and
-/// calls no transcendental function.
+/// κ(ds) = curvature + curvature_rate·ds, integrated from knots that lie at most 1/8 rad of turning
+/// apart; cubic curves (poly3, paramPoly3) carry a table from arc length to their parameter. So one
+/// evaluation costs tens of nanoseconds and calls no transcendental function.
 ///
 /// Units: metres, radians. Immutable after `append_*`; safe to read from many threads.
 
@@ -28,7 +29,8 @@ struct PlanStart {
   double length_m = 0.0;
 };
 
-/// u(p), v(p) of a cubic curve in the frame of its start: u along the start's heading, v to the left.
+/// u(p), v(p) of a cubic curve in the frame of its start: u along the start's heading, v to the
+/// left.
 struct CubicCurve {
   std::array<double, 4> u{};
   std::array<double, 4> v{};
@@ -39,11 +41,12 @@ struct PlanRecord {
   double length_m = 0.0;
   PlanKind kind = PlanKind::line;
   Vec2 start_m{0.0, 0.0};
-  Vec2 direction{1.0, 0.0};           ///< Unit tangent at the start (of the local u axis for a cubic curve).
-  double curvature_per_m = 0.0;       ///< Clothoid: at the start.
-  double curvature_rate_per_m2 = 0.0; ///< Clothoid: dκ/ds.
+  Vec2 direction{1.0, 0.0};  ///< Unit tangent at the start (of the local u axis for a cubic curve).
+  double curvature_per_m = 0.0;        ///< Clothoid: at the start.
+  double curvature_rate_per_m2 = 0.0;  ///< Clothoid: dκ/ds.
   CubicCurve cubic;
-  std::uint32_t first_knot = 0;       ///< In PlanCurve::clothoid_knots or ::cubic_knots; knots are evenly spaced in s.
+  std::uint32_t first_knot =
+      0;  ///< In PlanCurve::clothoid_knots or ::cubic_knots; knots are evenly spaced in s.
   std::uint32_t knot_count = 0;
   double knot_step_m = 0.0;
 };
@@ -67,7 +70,7 @@ struct PlanCurve {
 
 struct PlanPoint {
   Vec2 position_m{0.0, 0.0};
-  Vec2 direction{1.0, 0.0};  ///< Unit tangent towards increasing s.
+  Vec2 direction{1.0, 0.0};      ///< Unit tangent towards increasing s.
   double curvature_per_m = 0.0;  ///< Positive turns left.
 };
 
@@ -80,12 +83,14 @@ enum class CubicRange : std::uint8_t {
 
 /// A clothoid from `curvature_start` to `curvature_end`; both 0 is a line, both equal an arc.
 /// Error: a record that turns through more than 1,000 rad.
-Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start, double curvature_start_per_m,
-                               double curvature_end_per_m);
+Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start,
+                               double curvature_start_per_m, double curvature_end_per_m);
 
-/// A cubic curve, run through by arc length in every range; paramPoly3 is stretched so that it is exactly the record's
-/// length long. Error: a curve that stands still or whose length is not finite.
-Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic, CubicRange range);
+/// A cubic curve, run through by arc length in every range; paramPoly3 is stretched so that it is
+/// exactly the record's length long. Error: a curve that stands still or whose length is not
+/// finite.
+Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic,
+                            CubicRange range);
 
 /// The point at s, which is taken into [0, end]; the curve holds at least one record.
 PlanPoint evaluate_plan(const PlanCurve& curve, double s_m);

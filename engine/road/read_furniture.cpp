@@ -11,8 +11,11 @@ Orientation read_orientation(const pugi::xml_node& node) {
   return text == "-" ? Orientation::against : Orientation::both;
 }
 
-ObjectRepeat read_repeat(XmlFindings& findings, const pugi::xml_node& node, const RoadObject& object) {
-  const auto number_or = [&](const char* attribute, double fallback) { return findings.number_or(node, attribute, fallback); };
+ObjectRepeat read_repeat(XmlFindings& findings, const pugi::xml_node& node,
+                         const RoadObject& object) {
+  const auto number_or = [&](const char* attribute, double fallback) {
+    return findings.number_or(node, attribute, fallback);
+  };
   ObjectRepeat repeat;
   repeat.s_m = number_or("s", object.s_m);
   repeat.length_m = number_or("length", 0.0);
@@ -35,10 +38,12 @@ Outline read_outline(XmlFindings& findings, const pugi::xml_node& node) {
     const std::string_view name = corner.name();
     if (name == "cornerRoad") {
       outline.corners.push_back({true, findings.number(corner, "s"), findings.number(corner, "t"),
-                                 findings.number_or(corner, "dz", 0.0), findings.number_or(corner, "height", 0.0)});
+                                 findings.number_or(corner, "dz", 0.0),
+                                 findings.number_or(corner, "height", 0.0)});
     } else if (name == "cornerLocal") {
       outline.corners.push_back({false, findings.number(corner, "u"), findings.number(corner, "v"),
-                                 findings.number_or(corner, "z", 0.0), findings.number_or(corner, "height", 0.0)});
+                                 findings.number_or(corner, "z", 0.0),
+                                 findings.number_or(corner, "height", 0.0)});
     }
   }
   return outline;
@@ -61,16 +66,18 @@ RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node) {
   object.height_m = findings.number_or(node, "height", 0.0);
   object.radius_m = findings.number_or(node, "radius", 0.0);
   object.orientation = read_orientation(node);
-  for (const auto repeat : node.children("repeat")) object.repeats.push_back(read_repeat(findings, repeat, object));
-  if (const auto outline = node.child("outline")) object.outlines.push_back(read_outline(findings, outline));
+  for (const auto repeat : node.children("repeat"))
+    object.repeats.push_back(read_repeat(findings, repeat, object));
+  if (const auto outline = node.child("outline"))
+    object.outlines.push_back(read_outline(findings, outline));
   for (const auto outline : node.child("outlines").children("outline")) {
     object.outlines.push_back(read_outline(findings, outline));
   }
   return object;
 }
 
-void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const char* element, RoadStructure::Kind kind,
-                     Road& road) {
+void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const char* element,
+                     RoadStructure::Kind kind, Road& road) {
   for (const auto node : objects.children(element)) {
     RoadStructure structure;
     structure.kind = kind;
@@ -79,7 +86,8 @@ void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const
     structure.type = node.attribute("type").value();
     structure.s_m = findings.number(node, "s");
     structure.length_m = findings.number(node, "length");
-    if (structure.s_m < 0.0 || structure.length_m < 0.0 || structure.s_m + structure.length_m > road.length_m + 0.01) {
+    if (structure.s_m < 0.0 || structure.length_m < 0.0 ||
+        structure.s_m + structure.length_m > road.length_m + 0.01) {
       findings.warning(node, "it reaches beyond the road", "keep s and s + length within the road");
     }
     road.structures.push_back(std::move(structure));
@@ -90,7 +98,8 @@ void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const
 
 void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& road) {
   const auto objects = road_node.child("objects");
-  for (const auto node : objects.children("object")) road.objects.push_back(read_object(findings, node));
+  for (const auto node : objects.children("object"))
+    road.objects.push_back(read_object(findings, node));
   read_structures(findings, objects, "bridge", RoadStructure::Kind::bridge, road);
   read_structures(findings, objects, "tunnel", RoadStructure::Kind::tunnel, road);
 }

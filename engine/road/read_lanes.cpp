@@ -11,7 +11,8 @@ namespace {
 
 constexpr double widest_m = 1000.0, tolerated_negative_m = 0.01;
 
-std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_node, const char* element) {
+std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_node,
+                            const char* element) {
   std::vector<int> ids;
   for (const auto node : lane_node.child("link").children(element)) {
     if (const auto id = findings.integer(node, "id")) ids.push_back(*id);
@@ -27,9 +28,11 @@ LaneType read_type(XmlFindings& findings, const pugi::xml_node& node) {
   // Names of older editions.
   if (text == "mwyEntry") return LaneType::entry;
   if (text == "mwyExit") return LaneType::exit;
-  if (text == "roadMark" || text == "special1" || text == "special2" || text == "special3") return LaneType::other;
+  if (text == "roadMark" || text == "special1" || text == "special2" || text == "special3")
+    return LaneType::other;
   if (text == "shared" || text == "walking") return LaneType::sidewalk;
-  findings.warning(node, fmt::format("lane type \"{}\" is unknown", text.substr(0, 40)), "use a type of the standard");
+  findings.warning(node, fmt::format("lane type \"{}\" is unknown", text.substr(0, 40)),
+                   "use a type of the standard");
   return LaneType::other;
 }
 
@@ -39,20 +42,24 @@ LaneDirection read_direction(const pugi::xml_node& node) {
   return text == "both" ? LaneDirection::both : LaneDirection::standard;
 }
 
-void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane& lane, double s_end) {
+void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane& lane,
+                  double s_end) {
   const bool by_border = lane.widths.empty();
   const CubicProfile& profile = by_border ? lane.borders : lane.widths;
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    const double end = std::max(profile[i].s_m, i + 1 < profile.size() ? profile[i + 1].s_m : s_end);
+    const double end =
+        std::max(profile[i].s_m, i + 1 < profile.size() ? profile[i + 1].s_m : s_end);
     for (int sample = 0; sample <= 8; ++sample) {
       const double s = profile[i].s_m + (end - profile[i].s_m) * sample / 8.0;
       const double value = profile[i].value(s);
       if (std::abs(value) > widest_m) {
-        findings.error(node, fmt::format("lane {} is {:.4g} m wide at s={:.3f}", lane.id, value, s), "check its polynomial");
+        findings.error(node, fmt::format("lane {} is {:.4g} m wide at s={:.3f}", lane.id, value, s),
+                       "check its polynomial");
         break;
       }
       if (!by_border && value < -tolerated_negative_m) {
-        const std::string what = fmt::format("the width of lane {} is negative ({:.4g} m at s={:.3f})", lane.id, value, s);
+        const std::string what = fmt::format(
+            "the width of lane {} is negative ({:.4g} m at s={:.3f})", lane.id, value, s);
         if (sample == 0) {
           findings.error(node, what, "give a width of at least 0 m");
         } else {
@@ -64,7 +71,8 @@ void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane&
   }
 }
 
-Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSection& section, int id) {
+Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSection& section,
+               int id) {
   Lane lane;
   lane.id = id;
   lane.type = read_type(findings, node);
@@ -77,15 +85,18 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
   lane.widths = read_profile(findings, node, "width", "sOffset", section.s_m);
   lane.borders = read_profile(findings, node, "border", "sOffset", section.s_m);
   if (lane.widths.empty() && lane.borders.empty()) {
-    findings.warning(node, fmt::format("lane {} has no width; it is taken as 0", id), "add a width or a border");
+    findings.warning(node, fmt::format("lane {} has no width; it is taken as 0", id),
+                     "add a width or a border");
   }
   check_widths(findings, node, lane, section.s_end_m);
   for (const auto height : node.children("height")) {
-    lane.heights.push_back({section.s_m + findings.number_or(height, "sOffset", 0.0), findings.number_or(height, "inner", 0.0),
+    lane.heights.push_back({section.s_m + findings.number_or(height, "sOffset", 0.0),
+                            findings.number_or(height, "inner", 0.0),
                             findings.number_or(height, "outer", 0.0)});
   }
   for (const auto speed : node.children("speed")) {
-    lane.speeds.push_back({section.s_m + findings.number_or(speed, "sOffset", 0.0), read_speed(findings, speed)});
+    lane.speeds.push_back(
+        {section.s_m + findings.number_or(speed, "sOffset", 0.0), read_speed(findings, speed)});
   }
   const auto by_station = [](const auto& a, const auto& b) { return a.s_m < b.s_m; };
   std::stable_sort(lane.heights.begin(), lane.heights.end(), by_station);
@@ -94,22 +105,26 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
 }
 
 /// The lanes of one side, from the centre outwards; their ids must run sign·1, sign·2, …
-std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_node, const LaneSection& section, int sign) {
+std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_node,
+                            const LaneSection& section, int sign) {
   std::vector<Lane> lanes;
   for (const auto node : side_node.children("lane")) {
     const auto id = findings.integer(node, "id");
     if (!id) continue;
     if (*id * sign <= 0) {
-      findings.error(node, fmt::format("lane {} stands on the wrong side", *id), "left lanes are above 0, right lanes below");
+      findings.error(node, fmt::format("lane {} stands on the wrong side", *id),
+                     "left lanes are above 0, right lanes below");
       continue;
     }
     lanes.push_back(read_lane(findings, node, section, *id));
   }
-  std::stable_sort(lanes.begin(), lanes.end(), [sign](const Lane& a, const Lane& b) { return a.id * sign < b.id * sign; });
+  std::stable_sort(lanes.begin(), lanes.end(),
+                   [sign](const Lane& a, const Lane& b) { return a.id * sign < b.id * sign; });
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const int expected = sign * static_cast<int>(i + 1);
     if (lanes[i].id == expected) continue;
-    findings.error(side_node, fmt::format("lane {} stands where lane {} is due", lanes[i].id, expected),
+    findings.error(side_node,
+                   fmt::format("lane {} stands where lane {} is due", lanes[i].id, expected),
                    "number the lanes of a side without a gap from the centre outwards, each once");
     lanes[i].id = expected;
   }
@@ -134,7 +149,8 @@ std::vector<Lane> continue_side(LaneSection& before, const LaneSection& section,
   return lanes;
 }
 
-void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection& section, LaneSection* before) {
+void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection& section,
+                  LaneSection* before) {
   std::vector<Lane> left = read_side(findings, node.child("left"), section, 1);
   std::vector<Lane> right = read_side(findings, node.child("right"), section, -1);
   if (before != nullptr && node.attribute("singleSide").as_bool()) {
@@ -142,12 +158,16 @@ void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection
     if (!node.child("right")) right = continue_side(*before, section, -1);
   }
   const auto centre = node.child("center").child("lane");
-  if (!centre) findings.warning(node, "the lane section has no centre lane", "add <center><lane id=\"0\" …/></center>");
+  if (!centre)
+    findings.warning(node, "the lane section has no centre lane",
+                     "add <center><lane id=\"0\" …/></center>");
   section.left_count = static_cast<int>(left.size());
   section.right_count = static_cast<int>(right.size());
-  section.lanes.assign(std::make_move_iterator(left.rbegin()), std::make_move_iterator(left.rend()));
+  section.lanes.assign(std::make_move_iterator(left.rbegin()),
+                       std::make_move_iterator(left.rend()));
   section.lanes.push_back(centre ? read_lane(findings, centre, section, 0) : Lane{});
-  section.lanes.insert(section.lanes.end(), std::make_move_iterator(right.begin()), std::make_move_iterator(right.end()));
+  section.lanes.insert(section.lanes.end(), std::make_move_iterator(right.begin()),
+                       std::make_move_iterator(right.end()));
 }
 
 }  // namespace
@@ -160,7 +180,9 @@ double read_speed(XmlFindings& findings, const pugi::xml_node& node) {
   if (unit == "km/h") return value / 3.6;
   if (unit == "mph") return value * 0.44704;
   if (!unit.empty() && unit != "m/s") {
-    findings.warning(node, fmt::format("unit \"{}\" is unknown; it is taken as m/s", unit.substr(0, 40)), "use m/s, km/h or mph");
+    findings.warning(node,
+                     fmt::format("unit \"{}\" is unknown; it is taken as m/s", unit.substr(0, 40)),
+                     "use m/s, km/h or mph");
   }
   return value;
 }
@@ -172,15 +194,20 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
   for (const auto node : lanes.children("laneSection")) {
     const double s = findings.number(node, "s");
     if (!road.sections.empty() && s <= road.sections.back().s_m) {
-      findings.error(node, fmt::format("s={} does not lie after the section before it", s), "sort the sections by s, each once");
+      findings.error(node, fmt::format("s={} does not lie after the section before it", s),
+                     "sort the sections by s, each once");
       continue;
     }
     if (road.sections.empty() && s != 0.0) {
-      findings.warning(node, fmt::format("the first lane section begins at s={}; it is taken as 0", s), "let it begin at 0");
+      findings.warning(node,
+                       fmt::format("the first lane section begins at s={}; it is taken as 0", s),
+                       "let it begin at 0");
     }
     if (s > road.length_m) {
-      findings.warning(node, fmt::format("s={} lies beyond the road's end at {}; it is left out", s, road.length_m),
-                       "let the section begin on the road");
+      findings.warning(
+          node,
+          fmt::format("s={} lies beyond the road's end at {}; it is left out", s, road.length_m),
+          "let the section begin on the road");
       continue;
     }
     LaneSection section;
@@ -189,11 +216,13 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
     nodes.push_back(node);
   }
   if (road.sections.empty()) {
-    findings.error(road_node, fmt::format("road {} has no lane section", road.id), "add lanes with at least one laneSection");
+    findings.error(road_node, fmt::format("road {} has no lane section", road.id),
+                   "add lanes with at least one laneSection");
     return;
   }
   for (std::size_t i = 0; i < road.sections.size(); ++i) {
-    road.sections[i].s_end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
+    road.sections[i].s_end_m =
+        i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
     read_section(findings, nodes[i], road.sections[i], i > 0 ? &road.sections[i - 1] : nullptr);
   }
   road.flat = road.shapes.empty() && road.crossfall_left.empty() && road.crossfall_right.empty();

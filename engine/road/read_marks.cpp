@@ -10,7 +10,8 @@
 namespace septet::road {
 namespace {
 
-// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width apart.
+// Where the file gives no lines: a broken line is painted 3 m in 12, double lines lie one width
+// apart.
 constexpr double dash_m = 3.0, gap_m = 9.0;
 constexpr double standard_width_m = 0.12, bold_width_m = 0.25;
 
@@ -45,22 +46,27 @@ constexpr Words<LaneChange, 4> change_words{{{"both", LaneChange::both},
 
 /// The value of a word; an unknown one is a warning and the fallback.
 template <class Value, std::size_t size>
-Value word_value(XmlFindings& findings, const pugi::xml_node& node, const char* attribute, const Words<Value, size>& words,
-                 Value fallback) {
+Value word_value(XmlFindings& findings, const pugi::xml_node& node, const char* attribute,
+                 const Words<Value, size>& words, Value fallback) {
   const std::string_view text = node.attribute(attribute).value();
   if (text.empty()) return fallback;
   for (const auto& [word, value] : words) {
     if (word == text) return value;
   }
-  findings.warning(node, fmt::format("{}=\"{}\" is unknown; it is taken as {}", attribute, text.substr(0, 40), words[0].first),
+  findings.warning(node,
+                   fmt::format("{}=\"{}\" is unknown; it is taken as {}", attribute,
+                               text.substr(0, 40), words[0].first),
                    "use a word of the standard");
   return fallback;
 }
 
 RoadMarkLine solid_line(double t_offset, double width) { return {0.0, 0.0, t_offset, 0.0, width}; }
-RoadMarkLine broken_line(double t_offset, double width) { return {dash_m, gap_m, t_offset, 0.0, width}; }
+RoadMarkLine broken_line(double t_offset, double width) {
+  return {dash_m, gap_m, t_offset, 0.0, width};
+}
 
-/// The lines that a type stands for; the first word of a double line is the inner one (of the centre lane: the left one).
+/// The lines that a type stands for; the first word of a double line is the inner one (of the
+/// centre lane: the left one).
 std::vector<RoadMarkLine> lines_of(RoadMarkType type, double width, int lane) {
   const double first = lane > 0 ? -width : width;
   switch (type) {
@@ -101,7 +107,8 @@ RoadMarkLine read_line(XmlFindings& findings, const pugi::xml_node& node, double
 
 }  // namespace
 
-std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node, const LaneSection& section) {
+std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node,
+                                 const LaneSection& section) {
   std::vector<RoadMark> marks;
   const int lane = lane_node.attribute("id").as_int();
   for (const auto node : lane_node.children("roadMark")) {
@@ -114,17 +121,22 @@ std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& la
     const double width = findings.number_or(node, "width", 0.0);
     mark.width_m = width > 0.0 ? width : (mark.bold ? bold_width_m : standard_width_m);
     mark.height_m = findings.number_or(node, "height", 0.0);
-    for (const auto line : node.child("type").children("line")) mark.lines.push_back(read_line(findings, line, mark.width_m, false));
-    for (const auto line : node.child("explicit").children("line")) mark.lines.push_back(read_line(findings, line, mark.width_m, true));
+    for (const auto line : node.child("type").children("line"))
+      mark.lines.push_back(read_line(findings, line, mark.width_m, false));
+    for (const auto line : node.child("explicit").children("line"))
+      mark.lines.push_back(read_line(findings, line, mark.width_m, true));
     if (mark.lines.empty()) mark.lines = lines_of(mark.type, mark.width_m, lane);
     if (!marks.empty() && mark.s_m < marks.back().s_m) {
-      findings.warning(node, "its sOffset lies before that of the mark before it", "sort the marks by sOffset");
+      findings.warning(node, "its sOffset lies before that of the mark before it",
+                       "sort the marks by sOffset");
     }
     marks.push_back(std::move(mark));
   }
-  std::stable_sort(marks.begin(), marks.end(), [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; });
+  std::stable_sort(marks.begin(), marks.end(),
+                   [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; });
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    marks[i].s_end_m = i + 1 < marks.size() ? marks[i + 1].s_m : std::max(marks[i].s_m, section.s_end_m);
+    marks[i].s_end_m =
+        i + 1 < marks.size() ? marks[i + 1].s_m : std::max(marks[i].s_m, section.s_end_m);
   }
   return marks;
 }

@@ -30,7 +30,8 @@ CubicCurve read_cubic(XmlFindings& findings, const pugi::xml_node& node, bool wi
   return curve;
 }
 
-Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometry, const PlanStart& start, PlanCurve& plan) {
+Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometry,
+                            const PlanStart& start, PlanCurve& plan) {
   if (geometry.child("line")) return append_clothoid(plan, start, 0.0, 0.0);
   if (const auto arc = geometry.child("arc")) {
     const double curvature = findings.number(arc, "curvature");
@@ -46,28 +47,35 @@ Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometr
   if (const auto poly3 = geometry.child("paramPoly3")) {
     const std::string_view range = poly3.attribute("pRange").value();
     if (!range.empty() && range != "arcLength" && range != "normalized") {
-      findings.warning(poly3, fmt::format("pRange=\"{}\" is unknown; it is taken as normalized", range),
+      findings.warning(poly3,
+                       fmt::format("pRange=\"{}\" is unknown; it is taken as normalized", range),
                        "write arcLength or normalized");
     }
     return append_cubic(plan, start, read_cubic(findings, poly3, true),
                         range == "arcLength" ? CubicRange::arc_length : CubicRange::normalized);
   }
-  return failure("the geometry has no line, arc, spiral, poly3 or paramPoly3", "", "add one of them");
+  return failure("the geometry has no line, arc, spiral, poly3 or paramPoly3", "",
+                 "add one of them");
 }
 
 /// Says where a record does not begin at the end of the one before it.
-void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end, const PlanRecord& next) {
+void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end,
+                 const PlanRecord& next) {
   const double gap = glm::distance(end.position_m, next.start_m);
   if (gap > break_m) {
-    findings.warning(geometry, fmt::format("it begins {:.3f} m from the end of the record before it", gap),
+    findings.warning(geometry,
+                     fmt::format("it begins {:.3f} m from the end of the record before it", gap),
                      "let the records join");
   }
   if (next.kind == PlanKind::cubic) return;
-  const double turn = std::atan2(end.direction.x * next.direction.y - end.direction.y * next.direction.x,
-                                 glm::dot(end.direction, next.direction));
+  const double turn =
+      std::atan2(end.direction.x * next.direction.y - end.direction.y * next.direction.x,
+                 glm::dot(end.direction, next.direction));
   if (std::abs(turn) > break_rad) {
-    findings.warning(geometry, fmt::format("its heading differs by {:.4f} rad from the end of the record before it", turn),
-                     "let the records join smoothly");
+    findings.warning(
+        geometry,
+        fmt::format("its heading differs by {:.4f} rad from the end of the record before it", turn),
+        "let the records join smoothly");
   }
 }
 
@@ -77,11 +85,13 @@ CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, c
                           const char* station_attribute, double s_start_m) {
   CubicProfile profile;
   for (const auto node : parent.children(element)) {
-    CubicRecord record{s_start_m + findings.number(node, station_attribute), findings.number_or(node, "a", 0.0),
-                       findings.number_or(node, "b", 0.0), findings.number_or(node, "c", 0.0),
-                       findings.number_or(node, "d", 0.0)};
+    CubicRecord record{s_start_m + findings.number(node, station_attribute),
+                       findings.number_or(node, "a", 0.0), findings.number_or(node, "b", 0.0),
+                       findings.number_or(node, "c", 0.0), findings.number_or(node, "d", 0.0)};
     if (!profile.empty() && record.s_m < profile.back().s_m) {
-      findings.error(node, fmt::format("{}={} lies before that of the record before it", station_attribute, record.s_m - s_start_m),
+      findings.error(node,
+                     fmt::format("{}={} lies before that of the record before it",
+                                 station_attribute, record.s_m - s_start_m),
                      "sort the records by their station");
       record.s_m = profile.back().s_m;
     }
@@ -90,7 +100,8 @@ CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, c
   return profile;
 }
 
-void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road) {
+void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset,
+               Road& road) {
   const auto plan_view = road_node.child("planView");
   double s_end = 0.0;
   for (const auto geometry : plan_view.children("geometry")) {
@@ -105,17 +116,21 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
       continue;
     }
     if (start.length_m < 0.0) {
-      findings.error(geometry, fmt::format("its length is negative ({} m)", start.length_m), "give a length above 0");
+      findings.error(geometry, fmt::format("its length is negative ({} m)", start.length_m),
+                     "give a length above 0");
       continue;
     }
     if (!road.plan.records.empty() && start.s_m < road.plan.records.back().s_m) {
-      findings.error(geometry, fmt::format("s={} lies before that of the record before it", start.s_m),
+      findings.error(geometry,
+                     fmt::format("s={} lies before that of the record before it", start.s_m),
                      "sort the records by s");
       continue;
     }
     if (std::abs(start.s_m - s_end) > break_m) {
-      findings.warning(geometry, fmt::format("s={} where the records before it end at {:.3f} m", start.s_m, s_end),
-                       "let s be the sum of the lengths before it");
+      findings.warning(
+          geometry,
+          fmt::format("s={} where the records before it end at {:.3f} m", start.s_m, s_end),
+          "let s be the sum of the lengths before it");
     }
     const bool first = road.plan.records.empty();
     const PlanPoint end = first ? PlanPoint{} : evaluate_plan(road.plan, start.s_m);
@@ -127,17 +142,22 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
     s_end = start.s_m + start.length_m;
   }
   if (road.plan.records.empty()) {
-    if (!plan_view.child("geometry") || !findings.has_error()) findings.error(road_node, fmt::format("road {} has no geometry", road.id), "add a planView with at least one geometry");
+    if (!plan_view.child("geometry") || !findings.has_error())
+      findings.error(road_node, fmt::format("road {} has no geometry", road.id),
+                     "add a planView with at least one geometry");
     return;
   }
   if (std::abs(s_end - road.length_m) > break_m) {
-    findings.warning(road_node, fmt::format("length={} but its geometry ends at {:.3f} m", road.length_m, s_end),
-                     "let the length be the sum of its geometries");
+    findings.warning(
+        road_node, fmt::format("length={} but its geometry ends at {:.3f} m", road.length_m, s_end),
+        "let the length be the sum of its geometries");
   }
 }
 
-void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road) {
-  road.elevation = read_profile(findings, road_node.child("elevationProfile"), "elevation", "s", 0.0);
+void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node,
+                    const HeaderOffset& offset, Road& road) {
+  road.elevation =
+      read_profile(findings, road_node.child("elevationProfile"), "elevation", "s", 0.0);
   for (CubicRecord& record : road.elevation) record.a += offset.z_m;
 }
 
@@ -146,35 +166,40 @@ void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
   road.superelevation = read_profile(findings, lateral, "superelevation", "s", 0.0);
   for (std::size_t i = 0; i < road.superelevation.size(); ++i) {
     const CubicRecord& record = road.superelevation[i];
-    const double end = i + 1 < road.superelevation.size() ? road.superelevation[i + 1].s_m : road.length_m;
+    const double end =
+        i + 1 < road.superelevation.size() ? road.superelevation[i + 1].s_m : road.length_m;
     for (int sample = 0; sample <= 8; ++sample) {
       const double roll = record.value(record.s_m + std::max(0.0, end - record.s_m) * sample / 8.0);
       if (std::abs(roll) <= steepest_roll_rad) continue;
-      findings.error(lateral, fmt::format("the superelevation from s={} reaches {:.4g} rad", record.s_m, roll),
-                     fmt::format("keep it within ±{} rad", steepest_roll_rad));
+      findings.error(
+          lateral, fmt::format("the superelevation from s={} reaches {:.4g} rad", record.s_m, roll),
+          fmt::format("keep it within ±{} rad", steepest_roll_rad));
       break;
     }
   }
   for (const auto node : lateral.children("crossfall")) {
     const std::string_view side = node.attribute("side").value();
-    const CubicRecord record{findings.number(node, "s"), findings.number_or(node, "a", 0.0), findings.number_or(node, "b", 0.0),
-                             findings.number_or(node, "c", 0.0), findings.number_or(node, "d", 0.0)};
+    const CubicRecord record{findings.number(node, "s"), findings.number_or(node, "a", 0.0),
+                             findings.number_or(node, "b", 0.0), findings.number_or(node, "c", 0.0),
+                             findings.number_or(node, "d", 0.0)};
     if (side != "right") road.crossfall_left.push_back(record);
     if (side != "left") road.crossfall_right.push_back(record);
   }
   for (const auto node : lateral.children("shape")) {
-    road.shapes.push_back({findings.number(node, "s"), findings.number(node, "t"), findings.number_or(node, "a", 0.0),
-                           findings.number_or(node, "b", 0.0), findings.number_or(node, "c", 0.0),
-                           findings.number_or(node, "d", 0.0)});
+    road.shapes.push_back({findings.number(node, "s"), findings.number(node, "t"),
+                           findings.number_or(node, "a", 0.0), findings.number_or(node, "b", 0.0),
+                           findings.number_or(node, "c", 0.0), findings.number_or(node, "d", 0.0)});
   }
   const auto by_station = [](const auto& a, const auto& b) { return a.s_m < b.s_m; };
   std::stable_sort(road.crossfall_left.begin(), road.crossfall_left.end(), by_station);
   std::stable_sort(road.crossfall_right.begin(), road.crossfall_right.end(), by_station);
-  std::stable_sort(road.shapes.begin(), road.shapes.end(), [](const LateralShape& a, const LateralShape& b) {
-    return a.s_m != b.s_m ? a.s_m < b.s_m : a.t_m < b.t_m;
-  });
+  std::stable_sort(road.shapes.begin(), road.shapes.end(),
+                   [](const LateralShape& a, const LateralShape& b) {
+                     return a.s_m != b.s_m ? a.s_m < b.s_m : a.t_m < b.t_m;
+                   });
   if (const auto surface = lateral.child("crossSectionSurface")) {
-    findings.warning(surface, "cross-section surfaces are not honoured", "use superelevation and shape");
+    findings.warning(surface, "cross-section surfaces are not honoured",
+                     "use superelevation and shape");
   }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
-/// What stands on, over and beside a road: objects, bridges, tunnels and signals (OpenDRIVE 1.8, §13 and §14).
+/// What stands on, over and beside a road: objects, bridges, tunnels and signals (OpenDRIVE 1.8,
+/// §13 and §14).
 ///
-/// Kept as the file gives them, in road coordinates (metres, radians), for the scenery and for traffic to read.
+/// Kept as the file gives them, in road coordinates (metres, radians), for the scenery and for
+/// traffic to read.
 
 #include <cstdint>
 #include <string>
@@ -25,7 +27,8 @@ struct Outline {
   std::vector<OutlineCorner> corners;
 };
 
-/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such as a guard rail.
+/// A row of equal objects from s_m to s_m + length_m; distance_m 0 is one continuous object, such
+/// as a guard rail.
 struct ObjectRepeat {
   double s_m = 0.0, length_m = 0.0, distance_m = 0.0;
   double t_start_m = 0.0, t_end_m = 0.0;

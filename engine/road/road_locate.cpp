@@ -12,7 +12,8 @@ namespace {
 /// Foot of a point on a road.
 struct Foot {
   double s_m = 0.0, t_m = 0.0;
-  double gap_m = 0.0;  ///< How far the point lies beyond the road's end (or off a break in its geometry); else 0.
+  double gap_m = 0.0;  ///< How far the point lies beyond the road's end (or off a break in its
+                       ///< geometry); else 0.
 };
 
 /// How far the point lies ahead of the cross-section, and its t there.
@@ -20,7 +21,8 @@ struct Offset {
   double ahead_m = 0.0, t_m = 0.0;
 };
 
-Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s, double t_before) {
+Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s,
+                   double t_before) {
   const Vec2 d = world_m - section.plan.position_m;
   const double along = glm::dot(d, section.plan.direction), across = glm::dot(d, section.left());
   if (road.flat && section.roll_rad == 0.0) return {along, across};
@@ -29,8 +31,8 @@ Offset offset_from(const Road& road, const CrossSection& section, const Vec2& wo
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
 }
 
-/// Solves ahead(s) = 0 from s on: Newton's method with the slope −(1 − κt) of an unbanked road, the secant method where
-/// banking on a changing grade moves the cross-section along the road.
+/// Solves ahead(s) = 0 from s on: Newton's method with the slope −(1 − κt) of an unbanked road, the
+/// secant method where banking on a changing grade moves the cross-section along the road.
 Foot foot_on(const Road& road, const Vec2& world_m, double s) {
   const bool plane = road.flat && road.superelevation.empty();
   Foot foot;
@@ -53,7 +55,8 @@ Foot foot_on(const Road& road, const Vec2& world_m, double s) {
     s_before = foot.s_m;
     ahead_before = offset.ahead_m;
     foot.s_m = next;
-    // Newton's error falls with the square of the step, the secant's nearly so: there is nothing left to gain.
+    // Newton's error falls with the square of the step, the secant's nearly so: there is nothing
+    // left to gain.
     if (step < (plane ? 1e-6 : 1e-8)) break;
   }
   if (foot.gap_m < 1e-4) foot.gap_m = 0.0;
@@ -68,8 +71,8 @@ Location location_on(const RoadNetwork& network, RoadIndex index, const Vec2& wo
   return location;
 }
 
-/// Whether `a` answers better than `b`: it holds the point or is nearer to it; of two that hold it the one outside
-/// junctions, then the one whose lane centre is nearer.
+/// Whether `a` answers better than `b`: it holds the point or is nearer to it; of two that hold it
+/// the one outside junctions, then the one whose lane centre is nearer.
 bool better(const RoadNetwork& network, const Location& a, const Location& b) {
   if (a.lanes.outside_m != b.lanes.outside_m) return a.lanes.outside_m < b.lanes.outside_m;
   const bool a_in_junction = network.roads[a.position.road].junction != no_index;
@@ -79,15 +82,18 @@ bool better(const RoadNetwork& network, const Location& a, const Location& b) {
 }
 
 /// Tries the roads linked to the end of the hint's road that the point has passed.
-std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Location& at_end, const Vec2& world_m) {
+std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Location& at_end,
+                                          const Vec2& world_m) {
   const RoadIndex from = at_end.position.road;
   const Road& road = network.roads[from];
-  const RoadLink& link = at_end.position.s_m > 0.5 * road.length_m ? road.successor : road.predecessor;
+  const RoadLink& link =
+      at_end.position.s_m > 0.5 * road.length_m ? road.successor : road.predecessor;
   std::optional<Location> best;
   const auto consider = [&](RoadIndex index, double s) {
     const Location location = location_on(network, index, world_m, s);
     if (location.lanes.outside_m > 0.0) return;
-    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m)) best = location;
+    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m))
+      best = location;
   };
   const auto end_of = [&](RoadIndex index, ContactPoint contact) {
     return contact == ContactPoint::start ? 0.0 : network.roads[index].length_m;
@@ -95,7 +101,8 @@ std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Loca
   if (link.road != no_index) consider(link.road, end_of(link.road, link.contact));
   if (link.junction == no_index) return best;
   for (const JunctionConnection& connection : network.junctions[link.junction].connections) {
-    if (connection.incoming == from) consider(connection.connecting, end_of(connection.connecting, connection.contact));
+    if (connection.incoming == from)
+      consider(connection.connecting, end_of(connection.connecting, connection.contact));
   }
   return best;
 }
@@ -104,7 +111,8 @@ double distance_to(const StretchNode& box, const Vec2& world_m) {
   return glm::length(glm::max(glm::max(box.low_m - world_m, world_m - box.high_m), Vec2(0.0)));
 }
 
-std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m) {
+std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m,
+                                        double reach_m) {
   std::optional<Location> best;
   double reach = reach_m;
   for (std::size_t i = 0; i < network.stretches.size();) {
@@ -131,11 +139,12 @@ std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& 
 
 }  // namespace
 
-std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                               double reach_m) {
+std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m,
+                               const RoadPosition* hint, double reach_m) {
   if (!std::isfinite(world_m.x) || !std::isfinite(world_m.y)) return std::nullopt;
   if (hint == nullptr) return locate_anywhere(network, world_m, reach_m);
-  SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road, network.roads.size());
+  SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road,
+               network.roads.size());
   const Location near = location_on(network, hint->road, world_m, hint->s_m);
   if (near.lanes.outside_m == 0.0) return near;
   const double length = network.roads[hint->road].length_m;
@@ -145,8 +154,8 @@ std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, 
   return locate_anywhere(network, world_m, reach_m);
 }
 
-std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
-                                       double reach_m) {
+std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m,
+                                       const RoadPosition* hint, double reach_m) {
   const auto location = locate(network, world_m, hint, reach_m);
   if (!location) return std::nullopt;
   const Road& road = network.roads[location->position.road];
@@ -155,13 +164,15 @@ std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& w
   const Vec3 point = section.place(t, surface_offset_m(road, s, t));
   SurfacePoint surface{location->position, point.z};
   if (road.flat && road.superelevation.empty()) {
-    const Vec2 uphill = section.grade / (1.0 - section.plan.curvature_per_m * t) * section.plan.direction;
+    const Vec2 uphill =
+        section.grade / (1.0 - section.plan.curvature_per_m * t) * section.plan.direction;
     surface.normal = glm::normalize(Vec3(-uphill.x, -uphill.y, 1.0));
     return surface;
   }
   // Across the surface and along it, by differences over a centimetre that stay on the road.
   const double ds = s + 0.01 <= road.length_m ? 0.01 : -0.01;
-  const Vec3 along = (cross_section_at(road, s + ds).place(t, surface_offset_m(road, s + ds, t)) - point) / ds;
+  const Vec3 along =
+      (cross_section_at(road, s + ds).place(t, surface_offset_m(road, s + ds, t)) - point) / ds;
   const Vec3 across = section.place(t + 0.01, surface_offset_m(road, s, t + 0.01)) - point;
   surface.normal = glm::normalize(glm::cross(along, across));
   return surface;

@@ -1,9 +1,11 @@
 #pragma once
-/// The inverse map: from a world point to the road, its (s, t) and its lanes; and the height of the surface there.
+/// The inverse map: from a world point to the road, its (s, t) and its lanes; and the height of the
+/// surface there.
 ///
-/// Exact: s and t solve the forward map of road_position.hpp to 1e-9 m. With a hint (where the point was a moment ago) the
-/// search begins there, follows the links at a road's end and costs a few hundred nanoseconds; without one it walks the
-/// network's tree of boxes. Pure functions; safe from many threads.
+/// Exact: s and t solve the forward map of road_position.hpp to 1e-9 m. With a hint (where the
+/// point was a moment ago) the search begins there, follows the links at a road's end and costs a
+/// few hundred nanoseconds; without one it walks the network's tree of boxes. Pure functions; safe
+/// from many threads.
 
 #include <optional>
 
@@ -14,13 +16,14 @@ namespace septet::road {
 
 struct Location {
   RoadPosition position;
-  LanesAt lanes;           ///< lanes.outside_m also counts how far the point lies beyond the road's ends.
+  LanesAt lanes;  ///< lanes.outside_m also counts how far the point lies beyond the road's ends.
 };
 
-/// The road that holds the point, else the nearest within `reach_m` of its lanes. A hint keeps the answer on the hint's
-/// road while that holds the point, which tells roads apart that cross or overlap.
-std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint = nullptr,
-                               double reach_m = 20.0);
+/// The road that holds the point, else the nearest within `reach_m` of its lanes. A hint keeps the
+/// answer on the hint's road while that holds the point, which tells roads apart that cross or
+/// overlap.
+std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m,
+                               const RoadPosition* hint = nullptr, double reach_m = 20.0);
 
 /// The point of the surface above or below a world point.
 struct SurfacePoint {
@@ -31,7 +34,8 @@ struct SurfacePoint {
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m,
                                        const RoadPosition* hint = nullptr, double reach_m = 20.0);
 
-/// Builds RoadNetwork::stretches and bounds from the roads. The reader calls it; so does whoever builds a network by hand.
+/// Builds RoadNetwork::stretches and bounds from the roads. The reader calls it; so does whoever
+/// builds a network by hand.
 void build_spatial_index(RoadNetwork& network);
 
 }  // namespace septet::road

@@ -1,8 +1,10 @@
 #pragma once
-/// A road network as plain data: what an OpenDRIVE file says, checked, linked by index and ready to be evaluated.
+/// A road network as plain data: what an OpenDRIVE file says, checked, linked by index and ready to
+/// be evaluated.
 ///
-/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many threads. World frame: see
-/// rigid_transform.hpp; the header's offset is already applied to plan and elevation. Metres and radians throughout.
+/// Made by read_opendrive (opendrive_reader.hpp), immutable afterwards, safe to read from many
+/// threads. World frame: see rigid_transform.hpp; the header's offset is already applied to plan
+/// and elevation. Metres and radians throughout.
 
 #include <cstdint>
 #include <limits>
@@ -39,7 +41,8 @@ struct RoadTypeRecord {
   double speed_limit_mps = 0.0;  ///< 0 where the file gives none.
 };
 
-/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8, §10.5.2, lateral shape).
+/// Height over the road's plane as a cubic of dt from t_m on, at station s_m (OpenDRIVE 1.8,
+/// §10.5.2, lateral shape).
 struct LateralShape {
   double s_m = 0.0;
   double t_m = 0.0;
@@ -54,13 +57,15 @@ struct Road {
   RoadLink predecessor, successor;
   std::vector<RoadTypeRecord> types;
   PlanCurve plan;
-  CubicProfile elevation;        ///< z of the reference line.
-  CubicProfile superelevation;   ///< Roll: positive lifts the left side.
-  CubicProfile crossfall_left, crossfall_right;  ///< OpenDRIVE 1.4: angle by which each side falls outwards.
-  std::vector<LateralShape> shapes;              ///< Sorted by s_m, then t_m.
-  CubicProfile lane_offset;                      ///< t of the centre lane.
-  std::vector<LaneSection> sections;             ///< At least one, the first at 0, sorted.
-  bool flat = false;  ///< Known to have no lane height, shape or crossfall, so that the surface is the road's plane.
+  CubicProfile elevation;       ///< z of the reference line.
+  CubicProfile superelevation;  ///< Roll: positive lifts the left side.
+  CubicProfile crossfall_left,
+      crossfall_right;                ///< OpenDRIVE 1.4: angle by which each side falls outwards.
+  std::vector<LateralShape> shapes;   ///< Sorted by s_m, then t_m.
+  CubicProfile lane_offset;           ///< t of the centre lane.
+  std::vector<LaneSection> sections;  ///< At least one, the first at 0, sorted.
+  bool flat = false;  ///< Known to have no lane height, shape or crossfall, so that the surface is
+                      ///< the road's plane.
   std::vector<RoadObject> objects;
   std::vector<RoadStructure> structures;
   std::vector<Signal> signals;
@@ -88,11 +93,13 @@ struct Junction {
   std::vector<JunctionConnection> connections;
 };
 
-/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next node outside this one.
+/// A node of the tree of bounding boxes over stretches of road; in pre-order, `skip` is the next
+/// node outside this one.
 struct StretchNode {
   Vec2 low_m, high_m;
   std::uint32_t skip = 0;
-  RoadIndex road = no_index;  ///< Leaf: the stretch of this road from s_m on, step_m long. Inner node: no_index.
+  RoadIndex road =
+      no_index;  ///< Leaf: the stretch of this road from s_m on, step_m long. Inner node: no_index.
   double s_m = 0.0, step_m = 0.0;
 };
 
@@ -105,7 +112,7 @@ struct RoadNetwork {
   NetworkHeader header;
   std::vector<Road> roads;
   std::vector<Junction> junctions;
-  std::vector<StretchNode> stretches;  ///< Spatial index for locate (road_locate.hpp).
+  std::vector<StretchNode> stretches;      ///< Spatial index for locate (road_locate.hpp).
   Vec2 low_m{0.0, 0.0}, high_m{0.0, 0.0};  ///< Bounds of all lanes.
 };
 

@@ -1,9 +1,10 @@
 #pragma once
 /// Positions in a road network, and what the world looks like there: the forward map.
 ///
-/// The point (0, t, height) in the road's cross-section is turned by roll, pitch and heading (Rz·Ry·Rx) and set on the
-/// reference line, so that t is measured in the tilted plane (OpenDRIVE 1.8, §8 and §10). Positions outside a road are
-/// taken to its nearest end. Pure functions; safe from many threads.
+/// The point (0, t, height) in the road's cross-section is turned by roll, pitch and heading
+/// (Rz·Ry·Rx) and set on the reference line, so that t is measured in the tilted plane
+/// (OpenDRIVE 1.8, §8 and §10). Positions outside a road are taken to its nearest end. Pure
+/// functions; safe from many threads.
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/road/road_network.hpp"
@@ -28,7 +29,8 @@ struct RoadPoint {
   double heading_rad = 0.0;        ///< Of the reference line towards increasing s, in (−π, π].
   double pitch_rad = 0.0;          ///< −atan(dz/ds): negative climbs.
   double roll_rad = 0.0;           ///< Positive lifts the left side.
-  double curvature_per_m = 0.0;    ///< Of the line of constant t through the point; positive turns left.
+  double curvature_per_m =
+      0.0;  ///< Of the line of constant t through the point; positive turns left.
   /// Metres along the line of constant t per metre of s: 1 − κt.
   double stretch = 1.0;
 };
@@ -37,12 +39,14 @@ struct LanePoint {
   RoadPoint road;
   double t_m = 0.0;
   double lane_width_m = 0.0;
-  double lane_slope = 0.0;           ///< dt/ds of the lane's centre.
-  double driving_heading_rad = 0.0;  ///< Tangent of the lane in its direction of travel, in (−π, π].
+  double lane_slope = 0.0;  ///< dt/ds of the lane's centre.
+  double driving_heading_rad =
+      0.0;  ///< Tangent of the lane in its direction of travel, in (−π, π].
 };
 
 RoadPoint evaluate(const RoadNetwork& network, const RoadPosition& position);
-/// The lane must exist in the section at s (see lane_geometry.hpp); a missing one is taken to the outermost on its side.
+/// The lane must exist in the section at s (see lane_geometry.hpp); a missing one is taken to the
+/// outermost on its side.
 LanePoint evaluate_lane(const RoadNetwork& network, const LanePosition& position);
 
 /// Pose at a point of the road: x along increasing s, y to the left, z off the surface.

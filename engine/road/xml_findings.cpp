@@ -39,7 +39,8 @@ std::string shown(std::string_view text) {
 
 }  // namespace
 
-XmlFindings::XmlFindings(std::string_view text, std::string_view name) : name_(name), line_starts_{0} {
+XmlFindings::XmlFindings(std::string_view text, std::string_view name)
+    : name_(name), line_starts_{0} {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\n') line_starts_.push_back(i + 1);
   }
@@ -47,11 +48,13 @@ XmlFindings::XmlFindings(std::string_view text, std::string_view name) : name_(n
 
 int XmlFindings::line_of(std::ptrdiff_t offset) const {
   if (offset < 0) return 0;
-  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+  const auto after =
+      std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
   return static_cast<int>(after - line_starts_.begin());
 }
 
-void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what, std::string remedy) {
+void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what,
+                      std::string remedy) {
   std::string where = line > 0 ? fmt::format("{}:{}", name_, line) : name_;
   if (!element.empty()) where += fmt::format(", <{}>", shown(element));
   Error error{std::move(what), std::move(where), std::move(remedy)};
@@ -59,16 +62,19 @@ void XmlFindings::add(Severity severity, int line, std::string_view element, std
   if (findings_.size() < most_findings - 1) {
     findings_.push_back({severity, line, std::move(error)});
   } else if (findings_.size() == most_findings - 1) {
-    findings_.push_back({severity, line, {"there is more wrong than is listed here", name_, "repair these first"}});
+    findings_.push_back(
+        {severity, line, {"there is more wrong than is listed here", name_, "repair these first"}});
   }
 }
 
 void XmlFindings::error(const pugi::xml_node& node, std::string what, std::string remedy) {
-  add(Severity::error, line_of(node.offset_debug()), node.name(), std::move(what), std::move(remedy));
+  add(Severity::error, line_of(node.offset_debug()), node.name(), std::move(what),
+      std::move(remedy));
 }
 
 void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::string remedy) {
-  add(Severity::warning, line_of(node.offset_debug()), node.name(), std::move(what), std::move(remedy));
+  add(Severity::warning, line_of(node.offset_debug()), node.name(), std::move(what),
+      std::move(remedy));
 }
 
 void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy) {
@@ -77,13 +83,15 @@ void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string 
 
 std::vector<Finding> XmlFindings::findings() const {
   std::vector<Finding> sorted = findings_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Finding& a, const Finding& b) { return a.line < b.line; });
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Finding& a, const Finding& b) { return a.line < b.line; });
   return sorted;
 }
 
 double XmlFindings::number(const pugi::xml_node& node, const char* attribute) {
   if (!node.attribute(attribute)) {
-    error(node, fmt::format("attribute {} is missing", attribute), fmt::format("add {}=\"…\", a number", attribute));
+    error(node, fmt::format("attribute {} is missing", attribute),
+          fmt::format("add {}=\"…\", a number", attribute));
     return 0.0;
   }
   const std::string_view text = node.attribute(attribute).value();
@@ -104,13 +112,16 @@ std::optional<int> XmlFindings::integer(const pugi::xml_node& node, const char* 
   const std::string_view text = node.attribute(attribute).value();
   const auto value = parse<int>(text);
   if (value && std::abs(static_cast<long>(*value)) <= 10'000) return value;
-  error(node, fmt::format("{}=\"{}\" is not a lane number", attribute, shown(text)), "write a whole number within ±10000");
+  error(node, fmt::format("{}=\"{}\" is not a lane number", attribute, shown(text)),
+        "write a whole number within ±10000");
   return std::nullopt;
 }
 
 std::string XmlFindings::text(const pugi::xml_node& node, const char* attribute) {
   const std::string value = node.attribute(attribute).value();
-  if (value.empty()) error(node, fmt::format("attribute {} is missing or empty", attribute), fmt::format("add {}=\"…\"", attribute));
+  if (value.empty())
+    error(node, fmt::format("attribute {} is missing or empty", attribute),
+          fmt::format("add {}=\"…\"", attribute));
   return value;
 }
 

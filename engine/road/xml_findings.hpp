@@ -1,7 +1,9 @@
 #pragma once
-/// Reading attributes of XML that may be wrong, and collecting what is wrong with them. Used by the reader only.
+/// Reading attributes of XML that may be wrong, and collecting what is wrong with them. Used by the
+/// reader only.
 ///
-/// Every answer is usable: after an error the value is a harmless one, so that the reader goes on and finds the rest.
+/// Every answer is usable: after an error the value is a harmless one, so that the reader goes on
+/// and finds the rest.
 
 #include <cstddef>
 #include <initializer_list>
@@ -42,7 +44,8 @@ class XmlFindings {
   std::string text(const pugi::xml_node& node, const char* attribute);
 
  private:
-  void add(Severity severity, int line, std::string_view element, std::string what, std::string remedy);
+  void add(Severity severity, int line, std::string_view element, std::string what,
+           std::string remedy);
   int line_of(std::ptrdiff_t offset) const;
 
   std::string name_;

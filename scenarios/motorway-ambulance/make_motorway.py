@@ -4,7 +4,7 @@
     make_motorway.py > motorway.xodr
 
 The main line is one axis in the middle of the central reserve: lines, clothoids and arcs, cut into three roads where the
-ramps of a rest area leave (6,300 m) and join (7,100 m) at direct junctions. Roads 1, 2 and 3 are the main line; 11, 12
+ramps of a rest area leave (6,300 m) and join (7,092 m) at direct junctions. Roads 1, 2 and 3 are the main line; 11, 12
 and 13 are the exit ramp, the road through the rest area and the entry ramp. Lanes, from the axis outwards, either side:
 
     1 median 1.25 m · 2 inner shoulder 0.75 m · 3 to 7 driving 3.75 m · 8 outer shoulder 2.5 m
@@ -12,6 +12,8 @@ and 13 are the exit ramp, the road through the rest area and the entry ramp. Lan
 Along the deceleration and the acceleration lane lane −8 is that lane and −9 the shoulder. Metres and radians throughout.
 """
 import math
+
+from opendrive_writer import Writer, barrier, chain, junction, lane, plan_view, poly, walk
 
 # The axis: (kind, length, curvature at the start, curvature at the end).
 SEGMENTS = [("line", 300, 0, 0)]
@@ -39,8 +41,9 @@ HEIGHTS = [(0, 30.0, 0.012), (700, 41.0, 0.018), (1230, 46.0, -0.004), (2000, 32
            (8500, 22.0, 0.024), (9300, 36.0, 0.008), (10000, 36.0, -0.008)]
 LARGEST_BANKING = 0.025
 
-EXIT_S, ENTRY_S, END_S = 6300.0, 7100.0, 10000.0
-TAPER, LANE_LENGTH = 80.0, 300.0  # Of the deceleration and acceleration lanes, the taper included.
+# Where lane sections begin: multiples of 18 m, the period of the broken lines, so that these run on across sections.
+EXIT_S, ENTRY_S, END_S = 6300.0, 7092.0, 10000.0
+TAPER, LANE_LENGTH = 80.0, 306.0  # Of the deceleration and acceleration lanes, the taper included.
 DRIVING, LANE_COUNT = 3.75, 5
 MEDIAN, INNER_SHOULDER, OUTER_SHOULDER = 1.25, 0.75, 2.5
 EDGE_T = MEDIAN + INNER_SHOULDER + LANE_COUNT * DRIVING  # Outer border of the driving lanes.
@@ -48,28 +51,6 @@ OUTER_T = EDGE_T + OUTER_SHOULDER
 BRIDGE, TUNNEL = (1150.0, 160.0), (3150.0, 800.0)
 GANTRIES = [620.0, 1720.0, 2820.0, 4400.0, 5300.0, 5980.0, 7650.0, 8700.0]
 RAIL_GAP = 0.6  # From the outer shoulder to the guard rail.
-
-
-def num(value):
-    text = f"{value:.12g}"
-    return "0" if text == "-0" else text
-
-
-def walk(pose, kind, length, k0, k1, part=None):
-    """The pose `part` along a segment (its end by default): composite Gauss-Legendre integration of the tangent."""
-    x, y, heading = pose
-    part = length if part is None else part
-    rate = (k1 - k0) / length
-    pieces = 64
-    nodes = [(0.5 - math.sqrt(15) / 10, 5 / 18), (0.5, 8 / 18), (0.5 + math.sqrt(15) / 10, 5 / 18)]
-    step = part / pieces
-    for i in range(pieces):
-        for node, weight in nodes:
-            u = (i + node) * step
-            angle = heading + k0 * u + 0.5 * rate * u * u
-            x += weight * step * math.cos(angle)
-            y += weight * step * math.sin(angle)
-    return x, y, heading + k0 * part + 0.5 * rate * part * part
 
 
 class Axis:
@@ -116,87 +97,10 @@ class Axis:
             yield max(s - s0, 0.0), bank0, 0.0, 3 * (bank1 - bank0) / length**2, -2 * (bank1 - bank0) / length**3
 
 
-class Writer:
-    def __init__(self):
-        self.lines, self.open = [], []
-
-    def element(self, tag, /, **attributes):
-        self.lines.append("  " * len(self.open) + self.tag(tag, attributes) + "/>")
-
-    def begin(self, tag, /, **attributes):
-        self.lines.append("  " * len(self.open) + self.tag(tag, attributes) + ">")
-        self.open.append(tag)
-
-    def end(self):
-        name = self.open.pop()
-        self.lines.append("  " * len(self.open) + f"</{name}>")
-
-    @staticmethod
-    def tag(name, attributes):
-        words = (f'{k.rstrip("_")}="{num(v) if isinstance(v, (int, float)) else v}"' for k, v in attributes.items())
-        return " ".join([f"<{name}", *words])
-
-
-def poly(out, name, s, a=0.0, b=0.0, c=0.0, d=0.0, station="s"):
-    out.element(name, **{station: s, "a": a, "b": b, "c": c, "d": d})
-
-
 def smooth(width0, width1, length):
     """Coefficients of the cubic from width0 to width1 that is level at both ends."""
     rise = width1 - width0
     return width0, 0.0, 3 * rise / length**2, -2 * rise / length**3
-
-
-def plan_view(out, records):
-    out.begin("planView")
-    for s, (x, y, heading), kind, length, k0, k1 in records:
-        out.begin("geometry", s=s, x=x, y=y, hdg=heading, length=length)
-        if kind == "line":
-            out.element("line")
-        elif kind == "arc":
-            out.element("arc", curvature=k0)
-        else:
-            out.element("spiral", curvStart=k0, curvEnd=k1)
-        out.end()
-    out.end()
-
-
-MARKS = {
-    "none": dict(type="none"),
-    "edge": dict(type="solid", width=0.2, laneChange="none"),
-    "lane": dict(type="broken", width=0.15, line=(6.0, 12.0)),
-    "merge": dict(type="broken", width=0.3, line=(3.0, 3.0)),
-}
-
-
-def lane(out, number, type_, widths=(), mark="none", previous=None, next_=None, speed=None):
-    """One lane; widths are (sOffset, a, b, c, d)."""
-    out.begin("lane", id=number, type=type_, level="false")
-    if previous is not None or next_ is not None:
-        out.begin("link")
-        if previous is not None:
-            out.element("predecessor", id=previous)
-        if next_ is not None:
-            out.element("successor", id=next_)
-        out.end()
-    for width in widths:
-        poly(out, "width", *width, station="sOffset")
-    style = MARKS[mark]
-    attributes = dict(sOffset=0, type=style["type"], weight="standard", color="white", material="standard")
-    if "width" in style:
-        attributes.update(width=style["width"], laneChange=style.get("laneChange", "both"))
-    if "line" in style:
-        out.begin("roadMark", **attributes)
-        out.begin("type", name=style["type"], width=style["width"])
-        length, space = style["line"]
-        out.element("line", length=length, space=space, tOffset=0, sOffset=0, width=style["width"])
-        out.end()
-        out.end()
-    else:
-        out.element("roadMark", **attributes)
-    if speed is not None:
-        out.element("speed", sOffset=0, max=speed, unit="km/h")
-    out.end()
 
 
 def carriageway(out, side, extra=None, shoulder=None, before=True, after=True, links=None):
@@ -231,17 +135,6 @@ def section(out, s, **right):
     lane(out, 0, "none")
     out.end()
     carriageway(out, -1, **right)
-    out.end()
-
-
-def barrier(out, number, name, subtype, runs, height, width, z_offset=0.0):
-    """A continuous object; runs are (s, length, t at the start, t at the end)."""
-    s, length, t0, _ = runs[0]
-    out.begin("object", id=number, name=name, type="barrier", subtype=subtype, s=s, t=t0, zOffset=z_offset, orientation="none",
-              hdg=0, pitch=0, roll=0, length=length, width=width, height=height, dynamic="no")
-    for s, length, t0, t1 in runs:
-        out.element("repeat", s=s, length=length, distance=0, tStart=t0, tEnd=t1, heightStart=height, heightEnd=height,
-                    zOffsetStart=z_offset, zOffsetEnd=z_offset, widthStart=width, widthEnd=width)
     out.end()
 
 
@@ -318,15 +211,6 @@ RAMP = [("spiral", RAMP_SPIRAL, 0, -1 / RAMP_RADIUS), ("spiral", RAMP_SPIRAL, -1
         ("spiral", RAMP_SPIRAL, 0, 1 / RAMP_RADIUS), ("spiral", RAMP_SPIRAL, 1 / RAMP_RADIUS, 0)]
 
 
-def chain(pose, segments):
-    s, records = 0.0, []
-    for kind, length, k0, k1 in segments:
-        records.append((s, pose, kind, length, k0, k1))
-        pose = walk(pose, kind, length, k0, k1)
-        s += length
-    return records, pose, s
-
-
 def ramp_road(out, number, name, kind, records, length, predecessor, successor, height, limit, lane_links):
     out.begin("road", name=name, length=length, id=number, junction="-1", rule="RHT")
     out.begin("link")
@@ -360,16 +244,6 @@ def ramp_road(out, number, name, kind, records, length, predecessor, successor, 
     rail_t = -(DRIVING + OUTER_SHOULDER + RAIL_GAP)
     barrier(out, number * 1000, "guard_rail_right", "guardRail", [(0, length, rail_t, rail_t)], 0.75, 0.3)
     out.end()
-    out.end()
-
-
-def junction(out, number, name, connections):
-    out.begin("junction", id=number, name=name, type="direct")
-    for i, (incoming, linked, contact, links) in enumerate(connections):
-        out.begin("connection", id=i, incomingRoad=incoming, linkedRoad=linked, contactPoint=contact)
-        for from_, to in links:
-            out.element("laneLink", **{"from": from_, "to": to})
-        out.end()
     out.end()
 
 

@@ -1,5 +1,5 @@
-// Files cut off and altered at random: the reader answers with a network that can be used, or with errors, and never stops
-// the program. The sanitizer builds run this too.
+// Files cut off and altered at random: the reader answers with a network that can be used, or with
+// errors, and never stops the program. The sanitizer builds run this too.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -14,19 +14,32 @@ namespace {
 
 /// A file with every kind of geometry, links and a junction.
 std::string rich_text() {
-  SmallRoad road{.length_m = 30.0, .geometry = "<paramPoly3 pRange=\"normalized\" aU=\"0\" bU=\"30\" cU=\"0\" dU=\"0\" aV=\"0\" bV=\"0\" cV=\"1\" dV=\"-1\"/>"};
-  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.01\" c=\"0\" d=\"0\"/></elevationProfile><lateralProfile>"
-                  "<superelevation s=\"0\" a=\"0.1\" b=\"0\" c=\"0\" d=\"0\"/><shape s=\"0\" t=\"-3\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>";
+  SmallRoad road{.length_m = 30.0,
+                 .geometry =
+                     "<paramPoly3 pRange=\"normalized\" aU=\"0\" bU=\"30\" cU=\"0\" dU=\"0\" "
+                     "aV=\"0\" bV=\"0\" cV=\"1\" dV=\"-1\"/>"};
+  road.profiles =
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.01\" c=\"0\" "
+      "d=\"0\"/></elevationProfile><lateralProfile>"
+      "<superelevation s=\"0\" a=\"0.1\" b=\"0\" c=\"0\" d=\"0\"/><shape s=\"0\" t=\"-3\" a=\"0\" "
+      "b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>";
   road.before_sections = "<laneOffset s=\"0\" a=\"0.5\" b=\"0\" c=\"0\" d=\"0\"/>";
   std::string text = road.xml();
   const std::string more =
-      "<road id=\"b\" length=\"40\" junction=\"9\"><link><predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link>"
-      "<planView><geometry s=\"0\" x=\"30\" y=\"0\" hdg=\"0\" length=\"20\"><spiral curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
-      "<geometry s=\"20\" x=\"50\" y=\"1\" hdg=\"0.2\" length=\"20\"><arc curvature=\"0.02\"/></geometry></planView><lanes><laneSection s=\"0\">"
-      "<center>" + lane(0, 0, "<roadMark sOffset=\"0\" type=\"broken\"/>") + "</center><right>" +
-      lane(-1, 3.0, "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection></lanes>"
-      "<objects><object id=\"1\" s=\"3\" t=\"2\"><repeat s=\"0\" length=\"5\"/></object><tunnel s=\"1\" length=\"5\" id=\"3\"/></objects></road>"
-      "<junction id=\"9\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection></junction>";
+      "<road id=\"b\" length=\"40\" junction=\"9\"><link><predecessor elementType=\"road\" "
+      "elementId=\"a\" contactPoint=\"end\"/></link>"
+      "<planView><geometry s=\"0\" x=\"30\" y=\"0\" hdg=\"0\" length=\"20\"><spiral "
+      "curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
+      "<geometry s=\"20\" x=\"50\" y=\"1\" hdg=\"0.2\" length=\"20\"><arc "
+      "curvature=\"0.02\"/></geometry></planView><lanes><laneSection s=\"0\">"
+      "<center>" +
+      lane(0, 0, "<roadMark sOffset=\"0\" type=\"broken\"/>") + "</center><right>" +
+      lane(-1, 3.0, "<link><predecessor id=\"-1\"/></link>") +
+      "</right></laneSection></lanes>"
+      "<objects><object id=\"1\" s=\"3\" t=\"2\"><repeat s=\"0\" length=\"5\"/></object><tunnel "
+      "s=\"1\" length=\"5\" id=\"3\"/></objects></road>"
+      "<junction id=\"9\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" "
+      "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection></junction>";
   return text.insert(text.find("</OpenDRIVE>"), more);
 }
 
@@ -73,7 +86,8 @@ TEST_CASE("a file altered anywhere is read or refused and never stops the progra
 
 TEST_CASE("any number of a file may be replaced by an extreme one") {
   const std::string text = rich_text();
-  const char* extremes[] = {"0", "-1", "1e12", "-1e12", "1e-12", "1e308", "nan", "inf", "", "1e6", "0.5", "999999"};
+  const char* extremes[] = {"0",   "-1",  "1e12", "-1e12", "1e-12", "1e308",
+                            "nan", "inf", "",     "1e6",   "0.5",   "999999"};
   for (std::size_t at = text.find("=\""); at != std::string::npos; at = text.find("=\"", at + 2)) {
     const std::size_t end = text.find('"', at + 2);
     for (const char* extreme : extremes) use(text.substr(0, at + 2) + extreme + text.substr(end));

@@ -12,14 +12,16 @@ namespace {
 
 /// How far the world jumps from one lane position to the next.
 double gap_m(const RoadNetwork& network, const LanePosition& a, const LanePosition& b) {
-  return glm::distance(evaluate_lane(network, a).road.position_m, evaluate_lane(network, b).road.position_m);
+  return glm::distance(evaluate_lane(network, a).road.position_m,
+                       evaluate_lane(network, b).road.position_m);
 }
 
 }  // namespace
 
 TEST_CASE("a lane of the motorway is driven from end to end both ways without a jump") {
   const RoadNetwork& network = motorway();
-  for (const LanePosition start : {LanePosition{*find_road(network, "1"), -4, 0.0, 0.2}, LanePosition{*find_road(network, "3"), 6, 2900.0, -0.2}}) {
+  for (const LanePosition start : {LanePosition{*find_road(network, "1"), -4, 0.0, 0.2},
+                                   LanePosition{*find_road(network, "3"), 6, 2908.0, -0.2}}) {
     LanePosition at = start;
     double driven = 0.0;
     for (Advanced next; driven < 9'990.0; at = next.position, driven += 10.0) {
@@ -57,16 +59,22 @@ TEST_CASE("a driver who has the choice takes the way that is chosen") {
   // A road that forks into two at a direct junction.
   const auto road = [](const char* id, const char* y, const char* link) {
     return std::string("<road id=\"") + id + "\" junction=\"-1\" length=\"50\"><link>" + link +
-           "</link><planView><geometry s=\"0\" x=\"0\" y=\"" + y + "\" hdg=\"0\" length=\"50\"><line/></geometry></planView><lanes>"
-           "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lane(-1, 3.5) + "</right></laneSection></lanes></road>";
+           "</link><planView><geometry s=\"0\" x=\"0\" y=\"" + y +
+           "\" hdg=\"0\" length=\"50\"><line/></geometry></planView><lanes>"
+           "<laneSection s=\"0\"><center>" +
+           lane(0, 0) + "</center><right>" + lane(-1, 3.5) +
+           "</right></laneSection></lanes></road>";
   };
   const std::string from_junction = "<predecessor elementType=\"junction\" elementId=\"j\"/>";
   const std::string xml = "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" +
                           road("in", "0", "<successor elementType=\"junction\" elementId=\"j\"/>") +
-                          road("left", "10", from_junction.c_str()) + road("right", "-10", from_junction.c_str()) +
+                          road("left", "10", from_junction.c_str()) +
+                          road("right", "-10", from_junction.c_str()) +
                           "<junction id=\"j\" type=\"direct\">"
-                          "<connection id=\"0\" incomingRoad=\"in\" linkedRoad=\"left\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
-                          "<connection id=\"1\" incomingRoad=\"in\" linkedRoad=\"right\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
+                          "<connection id=\"0\" incomingRoad=\"in\" linkedRoad=\"left\" "
+                          "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
+                          "<connection id=\"1\" incomingRoad=\"in\" linkedRoad=\"right\" "
+                          "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
                           "</junction></OpenDRIVE>";
   const RoadNetwork network = read_or_fail(xml);
   const LanePosition start{0, -1, 45.0, 0.0};

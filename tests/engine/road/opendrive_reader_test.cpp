@@ -33,7 +33,8 @@ TEST_CASE("a small road without faults gives no findings") {
 }
 
 TEST_CASE("an error names file and line and element and says what to do") {
-  const Finding finding = only_error(replaced(SmallRoad{}.xml(), "length=\"100\">\n<line/>", "length=\"ten\">\n<line/>"));
+  const Finding finding = only_error(
+      replaced(SmallRoad{}.xml(), "length=\"100\">\n<line/>", "length=\"ten\">\n<line/>"));
   CHECK(finding.line == 4);
   CHECK(finding.error.where == "broken.xodr:4, <geometry>");
   CHECK(finding.error.what == "length=\"ten\" is not a number within ±1e12");
@@ -43,26 +44,34 @@ TEST_CASE("an error names file and line and element and says what to do") {
 TEST_CASE("every kind of broken road is refused") {
   const std::string good = SmallRoad{}.xml();
   const std::pair<const char*, const char*> faults[] = {
-      {"</OpenDRIVE>", ""},                                   // Not well formed.
-      {"road id=\"a\"", "road"},                              // No id.
-      {"s=\"0\" x=\"0\"", "s=\"0\""},                         // No x.
-      {"<line/>", "<circle/>"},                               // Unknown geometry.
-      {"<line/>", "<arc curvature=\"nan\"/>"},                // Not finite.
-      {"<line/>", "<arc curvature=\"1e9\"/>"},                // Turns without end.
-      {"<line/>", "<paramPoly3 aU=\"0\"/>"},                  // Coefficients missing.
+      {"</OpenDRIVE>", ""},                     // Not well formed.
+      {"road id=\"a\"", "road"},                // No id.
+      {"s=\"0\" x=\"0\"", "s=\"0\""},           // No x.
+      {"<line/>", "<circle/>"},                 // Unknown geometry.
+      {"<line/>", "<arc curvature=\"nan\"/>"},  // Not finite.
+      {"<line/>", "<arc curvature=\"1e9\"/>"},  // Turns without end.
+      {"<line/>", "<paramPoly3 aU=\"0\"/>"},    // Coefficients missing.
       {"hdg=\"0\" length=\"100\"", "hdg=\"0\" length=\"-1\""},
-      {"junction=\"-1\"", "junction=\"77\""},                 // A junction that is not there.
+      {"junction=\"-1\"", "junction=\"77\""},  // A junction that is not there.
       {"junction=\"-1\" length=\"100\"", "junction=\"-1\" length=\"1e300\""},
       {"<laneSection s=\"0\">", "<section>"},
-      {"lane id=\"-1\"", "lane id=\"-2\""},                   // A gap.
-      {"lane id=\"-1\"", "lane id=\"1\""},                    // Wrong side.
+      {"lane id=\"-1\"", "lane id=\"-2\""},  // A gap.
+      {"lane id=\"-1\"", "lane id=\"1\""},   // Wrong side.
       {"lane id=\"-1\"", "lane id=\"99999999999999999999\""},
-      {"a=\"3.5\"", "a=\"-0.2\""},                            // Negative width.
+      {"a=\"3.5\"", "a=\"-0.2\""},  // Negative width.
       {"a=\"3.5\"", "a=\"1e9\""},
-      {"<planView>", "<link><successor elementType=\"road\" elementId=\"zz\" contactPoint=\"start\"/></link><planView>"},
-      {"<planView>", "<link><successor elementType=\"road\" elementId=\"a\" contactPoint=\"middle\"/></link><planView>"},
-      {"<lanes>", "<lateralProfile><superelevation s=\"0\" a=\"2\" b=\"0\" c=\"0\" d=\"0\"/></lateralProfile><lanes>"},
-      {"</road>", "</road><junction id=\"7\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" contactPoint=\"start\"/></junction>"},
+      {"<planView>",
+       "<link><successor elementType=\"road\" elementId=\"zz\" "
+       "contactPoint=\"start\"/></link><planView>"},
+      {"<planView>",
+       "<link><successor elementType=\"road\" elementId=\"a\" "
+       "contactPoint=\"middle\"/></link><planView>"},
+      {"<lanes>",
+       "<lateralProfile><superelevation s=\"0\" a=\"2\" b=\"0\" c=\"0\" "
+       "d=\"0\"/></lateralProfile><lanes>"},
+      {"</road>",
+       "</road><junction id=\"7\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" "
+       "contactPoint=\"start\"/></junction>"},
   };
   for (const auto& [from, to] : faults) {
     CAPTURE(std::string(to));
@@ -73,11 +82,14 @@ TEST_CASE("every kind of broken road is refused") {
   only_error("");
   only_error("<roads/>");
   only_error("<OpenDRIVE/>");
-  only_error(replaced(good, "</road>", "</road>" + good.substr(good.find("<road"), good.find("</road>") - good.find("<road") + 7)));
+  only_error(replaced(
+      good, "</road>",
+      "</road>" + good.substr(good.find("<road"), good.find("</road>") - good.find("<road") + 7)));
 }
 
 TEST_CASE("all faults of a file are found and not only the first") {
-  const std::string xml = replaced(replaced(SmallRoad{}.xml(), "x=\"0\"", "x=\"here\""), "a=\"3.5\"", "a=\"-1\"");
+  const std::string xml =
+      replaced(replaced(SmallRoad{}.xml(), "x=\"0\"", "x=\"here\""), "a=\"3.5\"", "a=\"-1\"");
   const auto findings = check_opendrive(xml, "two.xodr");
   REQUIRE(findings.size() == 2);
   CHECK(findings[0].line < findings[1].line);
@@ -91,10 +103,11 @@ TEST_CASE("the findings of a hopeless file are bounded") {
 
 TEST_CASE("lanes may be given by their borders") {
   SmallRoad road;
-  road.sections =
-      "<laneSection s=\"0\"><center>" + lane(0, 0) +
-      "</center><right><lane id=\"-1\" type=\"driving\"><border sOffset=\"0\" a=\"-3\" b=\"-0.01\" c=\"0\" d=\"0\"/></lane>"
-      "<lane id=\"-2\" type=\"driving\"><border sOffset=\"0\" a=\"-7\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) +
+                  "</center><right><lane id=\"-1\" type=\"driving\"><border sOffset=\"0\" a=\"-3\" "
+                  "b=\"-0.01\" c=\"0\" d=\"0\"/></lane>"
+                  "<lane id=\"-2\" type=\"driving\"><border sOffset=\"0\" a=\"-7\" b=\"0\" c=\"0\" "
+                  "d=\"0\"/></lane></right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   CHECK(lane_width_m(network, 0, -1, 50.0) == doctest::Approx(3.5));
   CHECK(lane_width_m(network, 0, -2, 50.0) == doctest::Approx(3.5));
@@ -103,9 +116,11 @@ TEST_CASE("lanes may be given by their borders") {
 
 TEST_CASE("a section of one side goes on with the other side of the section before it") {
   SmallRoad road;
-  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) + "</center><right>" +
-                  lane(-1, 3.5) + "</right></laneSection><laneSection s=\"40\" singleSide=\"true\"><center>" + lane(0, 0) +
-                  "</center><right>" + lane(-1, 3.5) + lane(-2, 2.0) + "</right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) +
+                  "</center><right>" + lane(-1, 3.5) +
+                  "</right></laneSection><laneSection s=\"40\" singleSide=\"true\"><center>" +
+                  lane(0, 0) + "</center><right>" + lane(-1, 3.5) + lane(-2, 2.0) +
+                  "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   CHECK(lane_width_m(network, 0, 1, 70.0) == 3.0);
   CHECK(lane_width_m(network, 0, -2, 70.0) == 2.0);
@@ -113,7 +128,8 @@ TEST_CASE("a section of one side goes on with the other side of the section befo
 }
 
 TEST_CASE("left-hand traffic runs along s on the left") {
-  const RoadNetwork right = read_or_fail(SmallRoad{}.xml()), left = read_or_fail(SmallRoad{.attributes = "rule=\"LHT\""}.xml());
+  const RoadNetwork right = read_or_fail(SmallRoad{}.xml()),
+                    left = read_or_fail(SmallRoad{.attributes = "rule=\"LHT\""}.xml());
   CHECK(runs_along_s(right, {0, -1, 5.0, 0.0}));
   CHECK_FALSE(runs_along_s(right, {0, 1, 5.0, 0.0}));
   CHECK(runs_along_s(left, {0, 1, 5.0, 0.0}));
@@ -122,17 +138,20 @@ TEST_CASE("left-hand traffic runs along s on the left") {
 
 TEST_CASE("the offset of the header moves and turns and lifts the roads") {
   SmallRoad road{.header = "<offset x=\"10\" y=\"0\" z=\"3\" hdg=\"1.5707963267948966\"/>"};
-  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>";
+  road.profiles =
+      "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>";
   const Vec3 start = evaluate(read_or_fail(road.xml()), {0, 0.0, 0.0}).position_m;
   CHECK(glm::distance(start, Vec3(0.0, 10.0, 4.0)) < 1e-12);
 }
 
 TEST_CASE("a road mark without lines gets those of its type and lasts until the next one") {
   SmallRoad road;
-  road.sections = "<laneSection s=\"0\"><center>" +
-                  lane(0, 0, "<roadMark sOffset=\"0\" type=\"solid broken\" color=\"yellow\" width=\"0.1\"/>"
-                             "<roadMark sOffset=\"30\" type=\"broken\" weight=\"bold\" color=\"white\"/>") +
-                  "</center><right>" + lane(-1, 3.5) + "</right></laneSection>";
+  road.sections =
+      "<laneSection s=\"0\"><center>" +
+      lane(0, 0,
+           "<roadMark sOffset=\"0\" type=\"solid broken\" color=\"yellow\" width=\"0.1\"/>"
+           "<roadMark sOffset=\"30\" type=\"broken\" weight=\"bold\" color=\"white\"/>") +
+      "</center><right>" + lane(-1, 3.5) + "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   const RoadMark* first = road_mark_at(network, 0, 0, 10.0);
   REQUIRE(first != nullptr);
@@ -152,9 +171,11 @@ TEST_CASE("a road mark without lines gets those of its type and lasts until the 
 
 TEST_CASE("crossfall and lateral shape lower and raise the surface") {
   SmallRoad road;
-  road.profiles = "<lateralProfile><crossfall side=\"right\" s=\"0\" a=\"0.02\" b=\"0\" c=\"0\" d=\"0\"/>"
-                  "<shape s=\"0\" t=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><shape s=\"100\" t=\"0\" a=\"0\" b=\"0.1\" c=\"0\" d=\"0\"/>"
-                  "</lateralProfile>";
+  road.profiles =
+      "<lateralProfile><crossfall side=\"right\" s=\"0\" a=\"0.02\" b=\"0\" c=\"0\" d=\"0\"/>"
+      "<shape s=\"0\" t=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><shape s=\"100\" t=\"0\" a=\"0\" "
+      "b=\"0.1\" c=\"0\" d=\"0\"/>"
+      "</lateralProfile>";
   const RoadNetwork network = read_or_fail(road.xml());
   CHECK(evaluate(network, {0, 0.0, -3.0}).position_m.z == doctest::Approx(-3.0 * std::tan(0.02)));
   CHECK(evaluate(network, {0, 50.0, 2.0}).position_m.z == doctest::Approx(0.1));

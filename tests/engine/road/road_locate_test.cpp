@@ -41,8 +41,11 @@ TEST_CASE("locating a random point of the motorway gives back its road and stati
 
 TEST_CASE("steep banking on a changing grade is inverted exactly") {
   SmallRoad road{.length_m = 200.0, .geometry = "<arc curvature=\"0.01\"/>"};
-  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0.002\" d=\"-5e-6\"/></elevationProfile>"
-                  "<lateralProfile><superelevation s=\"0\" a=\"0.1\" b=\"0.003\" c=\"0\" d=\"0\"/></lateralProfile>";
+  road.profiles =
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0.002\" "
+      "d=\"-5e-6\"/></elevationProfile>"
+      "<lateralProfile><superelevation s=\"0\" a=\"0.1\" b=\"0.003\" c=\"0\" "
+      "d=\"0\"/></lateralProfile>";
   const RoadNetwork network = read_or_fail(road.xml());
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
@@ -71,7 +74,8 @@ TEST_CASE("beside the road the nearest lane is found and far away none") {
 
 TEST_CASE("a vehicle that leaves its road by the end is found on the linked road") {
   const RoadNetwork& network = motorway();
-  const RoadIndex first = *find_road(network, "1"), second = *find_road(network, "2"), ramp = *find_road(network, "11");
+  const RoadIndex first = *find_road(network, "1"), second = *find_road(network, "2"),
+                  ramp = *find_road(network, "11");
   const double length = network.roads[first].length_m;
   const RoadPosition hint{first, length - 0.1, -20.0};
   const Vec3 on_main = evaluate_lane(network, {second, -5, 1.0, 0.0}).road.position_m;
@@ -98,7 +102,8 @@ TEST_CASE("the normal of the surface is that of the points around it") {
     const auto east = surface_at(network, at + Vec2(0.005, 0.0), &position);
     const auto north = surface_at(network, at + Vec2(0.0, 0.005), &position);
     if (!east || !north) continue;
-    const Vec3 u(0.005, 0.0, east->height_m - surface->height_m), v(0.0, 0.005, north->height_m - surface->height_m);
+    const Vec3 u(0.005, 0.0, east->height_m - surface->height_m),
+        v(0.0, 0.005, north->height_m - surface->height_m);
     REQUIRE(glm::distance(surface->normal, glm::normalize(glm::cross(u, v))) < 1e-4);
   }
 }
