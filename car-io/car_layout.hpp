@@ -1,0 +1,84 @@
+#pragma once
+/// Where a wheel's controls lie in its HID report, as data: one decoder for every wheel.
+///
+/// The layouts are listed in REPORTS.md. A report comes from outside: one that is too short, of
+/// another id or out of range is refused with an Error.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "car-io/car_report.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/world/driver_input.hpp"
+
+namespace septet::car_io {
+
+/// One axis of a report, little-endian, and the raw values that mean 0 and 1 (hand wheel: straight
+/// and full left; pedals: released and floored).
+struct AxisField {
+  std::uint8_t byte = 0;
+  std::uint8_t bits = 16;  ///< 8 or 16.
+  bool is_signed = false;
+  double at_zero = 0.0, at_one = 1.0;
+};
+
+enum class CarButton : std::uint8_t {
+  indicator_left,
+  indicator_right,
+  hazard_lights,
+  horn,
+  low_beam,
+  high_beam,
+  parking_brake,
+  gear_1,
+  gear_2,
+  gear_3,
+  gear_4,
+  gear_5,
+  gear_6,
+  gear_reverse,
+};
+
+struct ButtonField {
+  CarButton button = CarButton::horn;
+  std::uint8_t bit = 0;  ///< From bit 0 of byte 0 on.
+};
+
+struct CarLayout {
+  std::string_view name;
+  std::optional<std::uint8_t> report_id;  ///< None: the device's reports have no id.
+  std::size_t report_bytes = 0;
+  bool may_be_longer = false;
+  AxisField steering, accelerator, brake, clutch;
+  std::optional<std::uint8_t> selector_byte, head_byte, sequence_byte;
+  std::span<const ButtonField> buttons;
+
+  bool has(CarButton button) const;
+};
+
+std::span<const CarLayout> car_layouts();
+Expected<const CarLayout*> find_car_layout(std::string_view name);
+
+/// Of one pedal: the fractions of its travel that count as released and floored.
+struct PedalCalibration {
+  double released = 0.0, floored = 1.0;
+};
+
+/// How a particular car differs from its layout.
+struct Calibration {
+  double steering_lock_rad = default_steering_lock_rad;
+  double steering_centre = 0.0;  ///< Reading, −1 to 1 (left), of the wheel held straight.
+  PedalCalibration accelerator, brake, clutch;
+  bool has_gear_lever =
+      false;  ///< Without one, a layout's gear buttons do not count and the gearbox is in drive.
+};
+
+/// Refuses a calibration that would divide by zero or turn a pedal round.
+Expected<void> check_calibration(const Calibration& calibration);
+
+Expected<DriverInput> decode_report(const CarLayout& layout, const Calibration& calibration,
+                                    std::span<const std::byte> report);
+
+}  // namespace septet::car_io

@@ -1,0 +1,49 @@
+#pragma once
+/// The HID reports of Septet's own car, as REPORTS.md writes them down: descriptor, and values to
+/// bytes.
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "engine/core/bytes.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/world/driver_input.hpp"
+
+namespace septet::car_io {
+
+inline constexpr std::uint8_t controls_report_id = 1, actuators_report_id = 2, device_report_id = 3;
+inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes = 7,
+                             device_report_bytes = 5;
+
+/// Full left or right of a hand wheel with 2½ turns from lock to lock.
+inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
+
+/// What the device tells the host about its reports (HID 1.11, 6.2.2).
+std::span<const std::uint8_t> car_report_descriptor();
+
+/// Input report of these controls; what is beyond a field's range is taken to its end. A sequence
+/// is the caller's.
+std::array<std::byte, controls_report_bytes> encode_controls(
+    const DriverInput& input, double steering_lock_rad = default_steering_lock_rad);
+
+/// What the car's actuators shall do, 0 to 1.
+struct Actuators {
+  double fan = 0.0;
+  double vibration = 0.0;
+  double vibration_hz = 0.0;
+};
+std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators,
+                                                               std::uint8_t sequence);
+Expected<Actuators> decode_actuators(std::span<const std::byte> report);
+
+struct DeviceStatus {
+  std::uint16_t firmware = 0;
+  std::uint16_t watchdog_ms = 250;
+};
+std::array<std::byte, device_report_bytes> encode_device_status(const DeviceStatus& status);
+Expected<DeviceStatus> decode_device_status(std::span<const std::byte> report);
+
+}  // namespace septet::car_io

@@ -1,0 +1,80 @@
+#pragma once
+/// Keys and gamepad axes become a DriverInput: what a person needs who drives without a wheel.
+///
+/// Keys are all or nothing, a hand wheel is not: the wheel moves towards its target at a limited
+/// rate, and the target shrinks with speed so that full steering asks for about the same lateral
+/// acceleration at any speed. Pedals rise and fall with their own rates. Pure functions over plain
+/// state; the caller owns the clock.
+
+#include "engine/world/driver_input.hpp"
+
+namespace septet::car_io {
+
+/// Held down now.
+struct KeyStates {
+  bool left = false, right = false;
+  bool accelerate = false, brake = false;
+  bool parking_brake = false;
+  bool indicator_left = false,
+       indicator_right = false;  ///< Each press switches; the other one or the same switches back.
+  bool hazard_lights = false, low_beam = false;  ///< Each press switches.
+  bool high_beam = false, horn = false;          ///< While held.
+  bool look_left = false, look_right = false;    ///< While held.
+};
+
+struct KeyboardSettings {
+  double lateral_acceleration_mps2 =
+      5.0;  ///< Asked for by full steering, once the lock no longer limits.
+  double wheelbase_m = 2.8;
+  double steering_ratio = 16.0;                       ///< Hand wheel over road wheel.
+  double largest_angle_rad = 7.0;                     ///< Of the hand wheel, at a standstill.
+  double steer_time_s = 0.45;                         ///< From straight to the target.
+  double return_time_s = 0.25;                        ///< From the target to straight.
+  double press_time_s = 0.35, release_time_s = 0.15;  ///< Of a pedal.
+  double look_angle_rad = 0.9;
+};
+
+/// What is remembered from tick to tick.
+struct KeyboardDriver {
+  KeyboardSettings settings;
+  DriverInput input;
+  KeyStates previous;
+  bool reverse_armed = false;  ///< The brake key was let go at a standstill, so that pressing it
+                               ///< again means reverse.
+};
+
+/// The hand-wheel angle that full steering means at this speed.
+double largest_steering_rad(const KeyboardSettings& settings, double speed_mps);
+
+/// The input after `dt_s` more of these keys. `speed_mps` is the car's, along its x axis. Held
+/// still, the brake key pressed anew drives backwards, and the accelerator key then brakes, as
+/// players of games expect.
+DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_mps, double dt_s);
+
+/// Of a gamepad in the standard arrangement (as GLFW maps them): sticks −1 to 1, triggers −1
+/// (released) to 1.
+struct GamepadState {
+  double left_stick_x = 0.0;  ///< Positive to the right.
+  double right_stick_x = 0.0;
+  double left_trigger = -1.0, right_trigger = -1.0;
+  KeyStates buttons;     ///< Steering, pedals and looks of it do not count.
+  bool reverse = false;  ///< Each press switches between drive and reverse.
+};
+
+struct GamepadSettings {
+  double dead_zone = 0.12;  ///< Of the stick.
+  double exponent = 1.8;    ///< Finer near the middle.
+  KeyboardSettings keys;    ///< Largest angle by speed.
+  double steering_rate_radps = 9.0;
+};
+
+struct GamepadDriver {
+  GamepadSettings settings;
+  KeyboardDriver switches;  ///< Lamps and indicators, as from keys.
+  bool previous_reverse = false;
+};
+
+DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double speed_mps,
+                    double dt_s);
+
+}  // namespace septet::car_io

@@ -1,0 +1,44 @@
+#pragma once
+/// A HID device without hardware: a port into which the program plugs one, and which it opens like
+/// any other.
+///
+/// It behaves as Linux' hidraw does: the oldest 63 reports wait and newer ones are dropped, an
+/// unplugged device stays dead for who holds it, and a replugged one is a new device.
+/// Threads: one at a time, device and port together.
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "car-io/hid_device.hpp"
+
+namespace septet::car_io {
+
+class SimulatedHidPort {
+ public:
+  SimulatedHidPort();
+  /// Plugs a device in (a new one if one is in) or pulls it out.
+  void plug();
+  void unplug();
+
+  // The device's side.
+  /// Sends an input report; false where it was dropped because nobody read the ones before.
+  bool send(std::span<const std::byte> report);
+  /// Output reports since the last call.
+  std::vector<Bytes> take_written();
+  void set_feature(std::uint8_t id, Bytes report);
+  std::optional<Bytes> feature(std::uint8_t id) const;
+
+  // The program's side. A device may outlive its port.
+  Expected<std::unique_ptr<HidDevice>> open() const;
+  OpenHidDevice opener() const;
+
+  struct Plugged;
+
+ private:
+  struct Socket;
+  std::shared_ptr<Socket> socket_;
+};
+
+}  // namespace septet::car_io

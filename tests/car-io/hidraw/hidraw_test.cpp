@@ -1,0 +1,155 @@
+// Runs under umockdev-wrapper: libudev, open, read, write and ioctl see the devices of the testbed.
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+// After the system's headers, whose macros glib undoes.
+#include <umockdev.h>
+
+#include "car-io/car_connection.hpp"
+#include "car-io/hid_device.hpp"
+
+namespace septet::car_io {
+namespace {
+
+std::string hex_of(std::span<const std::uint8_t> bytes) {
+  std::string hex;
+  for (const std::uint8_t byte : bytes) hex += fmt::format("{:02X}", byte);
+  return hex;
+}
+
+/// A hidraw device of the testbed: Septet's car as the kernel would show it.
+class MockedCar {
+ public:
+  ~MockedCar() {
+    if (testbed_) unplug();
+  }
+
+  /// Every plug is a new hidraw node, as with the kernel while the old one is still open, in a new
+  /// testbed, because umockdev keeps a removed device's node.
+  void plug(const std::string& serial) {
+    testbed_ = umockdev_testbed_new();
+    ++minor_;
+    const std::string node = fmt::format("/dev/hidraw{}", minor_);
+    const auto descriptor = car_report_descriptor();
+    add(
+        fmt::format("P: {}\nE: SUBSYSTEM=hid\nE: HID_ID=0003:00001209:00000001\nE: HID_NAME=Septet "
+                    "car\nE: HID_UNIQ={}\n"
+                    "H: report_descriptor={}\n",
+                    hid_path, serial, hex_of(descriptor)));
+    add(
+        fmt::format("P: {}\nN: hidraw{}\nE: DEVNAME={}\nE: SUBSYSTEM=hidraw\nE: MAJOR=240\nE: "
+                    "MINOR={}\nA: dev=240:{}\\n\n"
+                    "L: device=../../../0003:1209:0001.0001\n",
+                    hidraw_path(), minor_, node, minor_, minor_));
+    // hidapi takes a file for a hidraw device where it answers this one.
+    GError* error = nullptr;
+    const std::string ioctls =
+        fmt::format("@DEV {} (HIDRAW)\nHIDIOCGRDESCSIZE 0 {:02X}000000\n", node, descriptor.size());
+    const std::string path = std::string(umockdev_testbed_get_root_dir(testbed_)) + "/ioctls";
+    REQUIRE(g_file_set_contents(path.c_str(), ioctls.c_str(), -1, &error));
+    REQUIRE_MESSAGE(umockdev_testbed_load_ioctl(testbed_, node.c_str(), path.c_str(), &error),
+                    (error ? error->message : ""));
+    fd_ = umockdev_testbed_get_dev_fd(testbed_, node.c_str());
+    REQUIRE(fd_ >= 0);
+  }
+  void unplug() {
+    close(fd_);
+    g_object_unref(testbed_);
+    testbed_ = nullptr;
+  }
+  void send(std::span<const std::byte> report) {
+    REQUIRE(write(fd_, report.data(), report.size()) == static_cast<ssize_t>(report.size()));
+  }
+  Bytes receive() {
+    Bytes bytes(64);
+    const ssize_t count = read(fd_, bytes.data(), bytes.size());
+    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    return bytes;
+  }
+
+ private:
+  void add(const std::string& description) {
+    GError* error = nullptr;
+    const bool added = umockdev_testbed_add_from_string(testbed_, description.c_str(), &error);
+    REQUIRE_MESSAGE(added, (error ? error->message : ""));
+  }
+  std::string hidraw_path() const { return fmt::format("{}/hidraw/hidraw{}", hid_path, minor_); }
+
+  static constexpr const char* hid_path = "/devices/virtual/misc/uhid/0003:1209:0001.0001";
+  UMockdevTestbed* testbed_ = nullptr;
+  int minor_ = -1;
+  int fd_ = -1;
+};
+
+/// Polls until `wanted` or for two seconds.
+template <class Wanted>
+CarReading poll_until(CarConnection& car, Wanted wanted) {
+  CarReading reading;
+  for (int i = 0; i < 400; ++i) {
+    reading = car.poll(i * 0.005);
+    if (wanted(reading)) break;
+    usleep(5000);
+  }
+  return reading;
+}
+
+}  // namespace
+
+TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it again") {
+  MockedCar mocked;
+  CarConnection car(
+      [] {
+        return open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"});
+      },
+      {});
+  CHECK_FALSE(car.poll(0.0).is_connected);
+  CHECK(car.take_error().value().what == "the device is not plugged in");
+
+  mocked.plug("S80-1");
+  const CarReading connected = poll_until(car, [](const CarReading& r) { return r.is_connected; });
+  const auto error = car.take_error();
+  REQUIRE_MESSAGE(connected.is_connected, (error ? describe(*error) : ""));
+
+  DriverInput input;
+  input.accelerator = 0.5;
+  input.sequence = 9;
+  const auto report = encode_controls(input);
+  mocked.send(report);
+  const CarReading read = poll_until(car, [](const CarReading& r) { return r.report.has_value(); });
+  CHECK(read.report == Bytes(report.begin(), report.end()));
+  CHECK(read.input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK_FALSE(read.is_stale);
+
+  const auto actuators = encode_actuators({.fan = 0.25}, 1);
+  REQUIRE(car.write(actuators));
+  CHECK(mocked.receive() == Bytes(actuators.begin(), actuators.end()));
+
+  mocked.unplug();
+  const CarReading lost = poll_until(car, [](const CarReading& r) { return !r.is_connected; });
+  CHECK_FALSE(lost.is_connected);
+  CHECK(lost.input.accelerator == 0.0);
+  CHECK(car.take_error().has_value());
+
+  mocked.plug("S80-1");
+  CHECK(poll_until(car, [](const CarReading& r) { return r.is_connected; }).is_connected);
+}
+
+TEST_CASE("a car with another serial number is told apart") {
+  MockedCar mocked;
+  mocked.plug("S80-2");
+  const auto device =
+      open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"});
+  REQUIRE_FALSE(device.has_value());
+  CHECK(device.error().what ==
+        "a device of this kind is plugged in, but with another serial number");
+  const auto any = open_hid_device({});
+  CHECK_MESSAGE(any.has_value(), (any ? "" : describe(any.error())));
+}
+
+}  // namespace septet::car_io
