@@ -100,7 +100,8 @@ RoadMarkLine read_line(XmlFindings& findings, const pugi::xml_node& node, double
   line.space_m = once ? 0.0 : std::max(0.0, findings.number_or(node, "space", 0.0));
   line.t_offset_m = findings.number_or(node, "tOffset", 0.0);
   line.s_offset_m = findings.number_or(node, "sOffset", 0.0);
-  line.width_m = findings.number_or(node, "width", width);
+  const double own_width = findings.number_or(node, "width", 0.0);
+  line.width_m = own_width > 0.0 ? own_width : width;
   line.once = once;
   return line;
 }
@@ -125,6 +126,7 @@ std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& la
       mark.lines.push_back(read_line(findings, line, mark.width_m, false));
     for (const auto line : node.child("explicit").children("line"))
       mark.lines.push_back(read_line(findings, line, mark.width_m, true));
+    if (mark.type == RoadMarkType::none) mark.lines.clear();
     if (mark.lines.empty()) mark.lines = lines_of(mark.type, mark.width_m, lane);
     if (!marks.empty() && mark.s_m < marks.back().s_m) {
       findings.warning(node, "its sOffset lies before that of the mark before it",

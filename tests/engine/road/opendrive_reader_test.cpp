@@ -169,6 +169,21 @@ TEST_CASE("a road mark without lines gets those of its type and lasts until the 
   CHECK(road_mark_at(network, 0, -1, 60.0) == nullptr);
 }
 
+TEST_CASE("a mark of type none has no lines and a line without a width gets that of its mark") {
+  SmallRoad road;
+  const std::string lines =
+      "<type name=\"x\"><line length=\"2\" space=\"4\" width=\"0\"/></type></roadMark>";
+  road.sections = "<laneSection s=\"0\"><center>" +
+                  lane(0, 0,
+                       "<roadMark sOffset=\"0\" type=\"none\">" + lines +
+                           "<roadMark sOffset=\"30\" type=\"broken\" width=\"0.3\">" + lines) +
+                  "</center><right>" + lane(-1, 3.5) + "</right></laneSection>";
+  const RoadNetwork network = read_or_fail(road.xml());
+  CHECK(road_mark_at(network, 0, 0, 10.0)->lines.empty());
+  REQUIRE(road_mark_at(network, 0, 0, 40.0)->lines.size() == 1);
+  CHECK(road_mark_at(network, 0, 0, 40.0)->lines[0].width_m == 0.3);
+}
+
 TEST_CASE("crossfall and lateral shape lower and raise the surface") {
   SmallRoad road;
   road.profiles =
