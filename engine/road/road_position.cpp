@@ -24,7 +24,7 @@ RoadPoint evaluate(const RoadNetwork& network, const RoadPosition& position) {
   RoadPoint point;
   point.position_m = section.place(position.t_m, surface_offset_m(road, s, position.t_m));
   point.heading_rad = std::atan2(section.plan.direction.y, section.plan.direction.x);
-  point.pitch_rad = -std::atan(section.grade);
+  point.pitch_rad = 0.0 - std::atan(section.grade);  // Never -0.
   point.roll_rad = section.roll_rad;
   point.stretch = 1.0 - curvature * position.t_m;
   point.curvature_per_m = curvature / point.stretch;

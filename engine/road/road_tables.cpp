@@ -19,12 +19,19 @@
 namespace septet::road {
 namespace {
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) {
+    text.remove_suffix(1);
+  }
+  return text;
+}
+
 std::vector<std::string_view> split(std::string_view line) {
   std::vector<std::string_view> fields;
-  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   for (;;) {
     const auto comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
+    fields.push_back(trimmed(line.substr(0, comma)));
     if (comma == std::string_view::npos) return fields;
     line.remove_prefix(comma + 1);
   }
@@ -55,7 +62,7 @@ Expected<void> sample_table(const RoadNetwork& network, std::istream& in, std::o
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const auto fields = split(line);
-    if (line.empty() || (number == 1 && fields[0] == "road_id")) continue;
+    if (trimmed(line).empty() || (number == 1 && fields[0] == "road_id")) continue;
     if (fields.size() < 4)
       return wrong_line(number, "it has fewer than four fields", sample_columns);
     const auto road_index = find_road(network, fields[0]);
@@ -95,7 +102,7 @@ Expected<void> locate_table(const RoadNetwork& network, std::istream& in, std::o
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const auto fields = split(line);
-    if (line.empty() || (number == 1 && fields[0] == "x_m")) continue;
+    if (trimmed(line).empty() || (number == 1 && fields[0] == "x_m")) continue;
     if (fields.size() < 2)
       return wrong_line(number, "it has fewer than two fields", locate_columns);
     const auto x = parse<double>(fields[0]), y = parse<double>(fields[1]);

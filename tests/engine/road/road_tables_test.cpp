@@ -12,16 +12,16 @@ TEST_CASE(
     "the table of samples has a line for each position and fifteen digits are not needed to read "
     "it") {
   const RoadNetwork network = read_or_fail(SmallRoad{}.xml());
-  std::istringstream in("road_id,lane_id,s_m,lane_offset_m\na,1,10.000000,0.3\na,-1,20,0\n");
+  std::istringstream in("road_id,lane_id,s_m,lane_offset_m\na,1,10.000000,0.3\na, -1, 20,0\n");
   std::ostringstream out;
   REQUIRE(sample_table(network, in, out));
   CHECK(out.str() ==
         "road_id,lane_id,s_m,lane_offset_m,x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,lane_width_m,"
         "curvature_per_m,t_m,"
         "drive_heading_rad\n"
-        "a,1,10.000000,0.3,10.00000,1.80000,0.00000,0.0000000,-0.0000000,0.0000000,3.00000,0."
+        "a,1,10.000000,0.3,10.00000,1.80000,0.00000,0.0000000,0.0000000,0.0000000,3.00000,0."
         "00000000,1.80000,3.1415927\n"
-        "a,-1,20,0,20.00000,-1.75000,0.00000,0.0000000,-0.0000000,0.0000000,3.50000,0.00000000,-1."
+        "a,-1,20,0,20.00000,-1.75000,0.00000,0.0000000,0.0000000,0.0000000,3.50000,0.00000000,-1."
         "75000,0.0000000\n");
 }
 
