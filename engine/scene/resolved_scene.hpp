@@ -57,6 +57,9 @@ struct SurfaceMaterial {
   glm::vec3 emission{0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
   bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
   bool wettable = false;     ///< Darkens and mirrors with the road's wetness.
+  /// Of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it. The
+  /// bounds of an instance with a material below ½ dim what drives through them.
+  float share_of_sky = 1.0f;
 };
 
 /// What moves or lights a part of a vehicle.

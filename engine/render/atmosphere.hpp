@@ -1,0 +1,46 @@
+#pragma once
+/// The light of the sky: what the sun, the air and the clouds give at one instant, computed on the CPU.
+///
+/// Single scattering of sunlight by air molecules (Rayleigh), haze (Mie) and absorption by ozone through a spherical
+/// atmosphere, integrated numerically for a table of directions; light that is scattered again is added as an even glow.
+/// Constants: Bruneton and Neyret, "Precomputed Atmospheric Scattering" (2008) and Hillaire, "A Scalable and Production
+/// Ready Sky" (2020), table 1; the haze follows the visibility by Koschmieder's relation β = 3.912 / V. Cornette and
+/// Shanks' phase function stands for the haze.
+///
+/// One unit of radiance is 8000 cd/m², about a clear noon's sky near the horizon; one unit of irradiance is 8000 lx.
+
+#include <array>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/world/snapshot.hpp"
+
+namespace septet::render {
+
+/// Sky radiance by direction. Column: √((1 − cos Δ)/2) of the azimuth Δ from the sun; row: ½ + ½·√z (z ≥ 0) or
+/// ½ − ½·√−z of the direction's height z, so that rows are dense at the horizon. Below it lies the lit ground.
+struct SkyTable {
+  static constexpr std::uint32_t columns = 64, rows = 64;
+  std::vector<glm::vec3> radiance;  ///< Row by row.
+};
+
+struct SkyLight {
+  glm::vec3 light_direction{0.0f, 0.0f, 1.0f};  ///< To the sun, or at night to the moon; world frame.
+  glm::vec3 light_irradiance{0.0f};             ///< On a surface that faces it, clouds included.
+  glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};
+  glm::vec3 sky_irradiance{0.0f};     ///< On a level surface that looks up.
+  glm::vec3 ground_irradiance{0.0f};  ///< On one that looks down.
+  float fog_per_m = 0.0f;             ///< Extinction.
+  float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.
+  float night = 0.0f;                 ///< 0 day to 1 night.
+  float exposure = 1.0f;              ///< Scene radiance to the tone curve's input, in the open.
+  SkyTable table;
+};
+
+SkyLight sky_light(const Environment& environment);
+
+/// Radiance of the table in a direction (unit, world frame), bilinear.
+glm::vec3 sky_radiance(const SkyLight& light, const glm::vec3& direction);
+
+}  // namespace septet::render

@@ -1,0 +1,73 @@
+#pragma once
+/// What one frame shows: the views, the participants and the light of one instant, as plain data.
+///
+/// The scene's meshes, materials and placed instances are not here; Renderer::upload keeps them. World frame, metres,
+/// radians, seconds of simulated time. The same FrameInput gives the same pixels on the same machine.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/math/rigid_transform.hpp"
+#include "engine/render/off_axis_view.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::render {
+
+/// A rectangle of the target, pixels, from the upper left.
+struct PixelRectangle {
+  std::int32_t x = 0, y = 0;
+  std::uint32_t width = 0, height = 0;
+};
+
+/// One view into the world. A frame draws its views in order; a later one lies over an earlier one (mirror insets).
+struct FrameView {
+  OffAxisView projection;
+  RigidTransform world_from_car;
+  PixelRectangle viewport;
+  bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
+};
+
+/// How much of a participant the frame shows. The driver's car in the rig is a real one: there, only its shadow and the
+/// pool of its headlights are drawn.
+enum class Shown : std::uint8_t { whole, shadow_and_light };
+
+/// A participant as the frame shows it: interpolated pose, what it looks like, what is lit, how its wheels stand.
+struct DrawnParticipant {
+  std::uint32_t prototype = 0;  ///< Indexes ResolvedScene::prototypes; one that is not there (yet) is not drawn.
+  RigidTransform world_from_vehicle;
+  glm::vec3 paint{1.0f};  ///< Linear Rec. 709.
+  Lamps lamps;
+  double front_steer_rad = 0.0;
+  double wheel_spin_rad = 0.0;
+  std::array<double, 4> wheel_lift_m{};  ///< Front left, front right, rear left, rear right.
+  double steering_wheel_rad = 0.0;       ///< Turns the part about its object's x axis, positive to the left.
+  Shown shown = Shown::whole;
+};
+
+/// A line of text over the picture.
+struct OverlayText {
+  std::string text;  ///< UTF-8.
+  float x_px = 0.0f, y_px = 0.0f;  ///< Upper left of the line's box, in the target; the middle of it if `centered`.
+  float height_px = 18.0f;         ///< Of one line.
+  glm::vec4 color{1.0f};           ///< sRGB and opacity.
+  glm::vec4 background{0.0f};      ///< sRGB and opacity of the box behind the text.
+  bool centered = false;
+};
+
+struct FrameInput {
+  double simulated_time_s = 0.0;  ///< Moves clouds and flashes beacons.
+  Environment environment;
+  std::vector<FrameView> views;
+  std::vector<DrawnParticipant> participants;
+  std::vector<OverlayText> overlay;
+};
+
+/// The drawn form of a participant as it stands in a snapshot (or between two of them).
+DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t prototype);
+
+}  // namespace septet::render

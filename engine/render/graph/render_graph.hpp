@@ -1,0 +1,97 @@
+#pragma once
+/// The frame as a list of passes that say what they read and write; the barriers between them follow.
+///
+/// A pass is added with its uses of named resources and a function that records it. `compile` drops passes whose results
+/// nobody needs and finds, for each kept pass, the barriers before it; `execute` runs both in order. The graph knows no
+/// Vulkan type, so that what it decides is tested without a device.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace septet::render {
+
+/// How a resource is accessed; it decides the pipeline stage, the memory access and the image layout.
+enum class Access : std::uint8_t {
+  none,  ///< Not used yet: its contents are undefined.
+  color_attachment,
+  depth_attachment,
+  sampled,
+  transfer_source,
+  transfer_destination,
+  present,
+};
+
+constexpr bool writes(Access access) {
+  return access == Access::color_attachment || access == Access::depth_attachment ||
+         access == Access::transfer_destination;
+}
+
+using ResourceId = std::uint32_t;
+
+struct ResourceUse {
+  ResourceId resource = 0;
+  Access access = Access::none;
+};
+
+/// A pass that draws over what is there names the resource under both reads and writes, with the same access.
+struct PassUses {
+  std::vector<ResourceUse> reads, writes;
+};
+
+/// Work before the barrier that accessed the resource as `before` ends, its writes seen, before work that accesses it as
+/// `after` begins. `discard`: the old contents are not needed.
+struct Barrier {
+  ResourceId resource = 0;
+  Access before = Access::none, after = Access::none;
+  bool discard = false;
+  bool operator==(const Barrier&) const = default;
+};
+
+/// What compile found: kept passes in order, each with the barriers before it, then those at the end.
+struct Schedule {
+  struct Step {
+    std::uint32_t pass = 0;
+    std::vector<Barrier> barriers;
+  };
+  std::vector<Step> steps;
+  std::vector<Barrier> last_barriers;
+};
+
+class RenderGraph {
+ public:
+  /// `held`: how the resource was last accessed before this frame.
+  ResourceId add_resource(std::string name, Access held = Access::none);
+  void add_pass(std::string name, PassUses uses, std::function<void()> record);
+  /// The frame's result: keeps the passes that make this resource, and leaves it ready for `access`.
+  void keep(ResourceId resource, Access access);
+
+  /// Checks that no pass reads what nobody has written.
+  Schedule compile() const;
+  /// Records barriers and passes in order.
+  void execute(const std::function<void(std::span<const Barrier>)>& record_barriers) const;
+  /// How each resource is left once the schedule has run.
+  std::vector<Access> left(const Schedule& schedule) const;
+
+  const std::string& pass_name(std::uint32_t pass) const { return passes_[pass].name; }
+
+ private:
+  struct Resource {
+    std::string name;
+    Access held;
+    Access kept = Access::none;
+  };
+  struct Pass {
+    std::string name;
+    PassUses uses;
+    std::function<void()> record;
+  };
+  std::vector<bool> needed_passes() const;
+
+  std::vector<Resource> resources_;
+  std::vector<Pass> passes_;
+};
+
+}  // namespace septet::render

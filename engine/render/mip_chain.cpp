@@ -1,0 +1,99 @@
+#include "engine/render/mip_chain.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+
+namespace septet::render {
+namespace {
+
+/// sRGB to linear (IEC 61966-2-1) and back, by tables; the way back has 4096 steps.
+struct Transfer {
+  std::array<float, 256> linear{};
+  std::array<std::uint8_t, 4097> encoded{};
+
+  explicit Transfer(bool srgb) {
+    for (std::size_t i = 0; i < 256; ++i) {
+      const double v = double(i) / 255.0;
+      linear[i] = static_cast<float>(!srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    for (std::size_t i = 0; i < encoded.size(); ++i) {
+      const double v = double(i) / 4096.0;
+      const double code = !srgb ? v : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+      encoded[i] = static_cast<std::uint8_t>(std::lround(255.0 * code));
+    }
+  }
+  std::uint8_t encode(float value) const {
+    return encoded[static_cast<std::size_t>(std::clamp(value, 0.0f, 1.0f) * 4096.0f + 0.5f)];
+  }
+};
+
+MipLevel half(const MipLevel& from, const Transfer& transfer) {
+  MipLevel to{std::max(1u, from.width / 2), std::max(1u, from.height / 2), {}};
+  to.rgba.resize(std::size_t{4} * to.width * to.height);
+  for (std::uint32_t y = 0; y < to.height; ++y)
+    for (std::uint32_t x = 0; x < to.width; ++x) {
+      std::array<float, 3> color{}, plain{};
+      float alpha = 0.0f;
+      for (std::uint32_t corner = 0; corner < 4; ++corner) {
+        const std::uint32_t sx = std::min(2 * x + (corner & 1), from.width - 1);
+        const std::uint32_t sy = std::min(2 * y + (corner >> 1), from.height - 1);
+        const std::uint8_t* pixel = &from.rgba[(std::size_t{sy} * from.width + sx) * 4];
+        for (std::size_t c = 0; c < 3; ++c) {
+          color[c] += transfer.linear[pixel[c]] * pixel[3];
+          plain[c] += transfer.linear[pixel[c]];
+        }
+        alpha += pixel[3];
+      }
+      std::uint8_t* pixel = &to.rgba[(std::size_t{y} * to.width + x) * 4];
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] = transfer.encode(alpha > 0.0f ? color[c] / alpha : plain[c] / 4.0f);
+      pixel[3] = static_cast<std::uint8_t>(alpha / 4.0f + 0.5f);
+    }
+  return to;
+}
+
+constexpr std::uint8_t cut = 128;
+
+double share_passing(std::span<const std::uint8_t> rgba, double scale) {
+  std::size_t passing = 0;
+  for (std::size_t i = 3; i < rgba.size(); i += 4) passing += rgba[i] * scale >= cut;
+  return static_cast<double>(passing) / (static_cast<double>(rgba.size()) / 4.0);
+}
+
+void keep_coverage(std::vector<std::uint8_t>& rgba, double wanted) {
+  double low = 0.25, high = 8.0;
+  for (int step = 0; step < 10; ++step) {
+    const double middle = 0.5 * (low + high);
+    (share_passing(rgba, middle) < wanted ? low : high) = middle;
+  }
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    rgba[i] = static_cast<std::uint8_t>(std::min(255.0, rgba[i] * high));
+}
+
+}  // namespace
+
+bool has_holes(std::span<const std::uint8_t> rgba) {
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    if (rgba[i] < cut) return true;
+  return false;
+}
+
+std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
+  SEPTET_CHECK(width > 0 && height > 0 && rgba.size() == std::size_t{4} * width * height, "{} × {} pixels in {} bytes",
+               width, height, rgba.size());
+  const Transfer transfer(srgb);
+  const bool holes = has_holes(rgba);
+  const double coverage = holes ? share_passing(rgba, 1.0) : 1.0;
+  std::vector<MipLevel> levels{{width, height, {rgba.begin(), rgba.end()}}};
+  MipLevel unscaled = levels.front();
+  while (unscaled.width > 1 || unscaled.height > 1) {
+    unscaled = half(unscaled, transfer);
+    levels.push_back(unscaled);
+    if (holes) keep_coverage(levels.back().rgba, coverage);
+  }
+  return levels;
+}
+
+}  // namespace septet::render

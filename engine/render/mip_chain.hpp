@@ -1,0 +1,24 @@
+#pragma once
+/// Mip levels of an image: box-filtered in linear light, colours weighted by alpha.
+///
+/// Where alpha cuts holes (leaves, fences), each level's alpha is scaled until as much of it passes the cut as in the full
+/// image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace septet::render {
+
+struct MipLevel {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// All levels, the full image first, down to 1 × 1.
+std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+
+/// Does any pixel fall below the cut at ½?
+bool has_holes(std::span<const std::uint8_t> rgba);
+
+}  // namespace septet::render

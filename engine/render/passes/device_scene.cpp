@@ -1,0 +1,206 @@
+#include "engine/render/passes/device_scene.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/render/mip_chain.hpp"
+#include "engine/render/vulkan/commands.hpp"
+
+namespace septet::render {
+namespace {
+
+using scene::ResolvedScene;
+using scene::SurfaceMaterial;
+using scene::SurfaceMesh;
+using vulkan::Buffer;
+
+/// A staging buffer that goes when the upload is done, also after a failure.
+struct Staging {
+  vulkan::MemoryPool& memory;
+  Buffer buffer;
+  Staging(vulkan::MemoryPool& pool, std::uint64_t size)
+      : memory(pool), buffer(create_buffer(pool, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, vulkan::MemoryUse::written_by_host)) {}
+  ~Staging() { destroy_buffer(memory, buffer); }
+};
+
+bool indices_hold(const SurfaceMesh& mesh) {
+  return std::all_of(mesh.indices.begin(), mesh.indices.end(),
+                     [&](std::uint32_t index) { return index < mesh.vertices.size(); });
+}
+
+void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, const vulkan::Device& device, vulkan::MemoryPool& memory) {
+  destroy_buffer(memory, target.buffer);
+  target = {mesh.revision, true, {}, 0, {}};
+  if (mesh.indices.empty() || !indices_hold(mesh)) return;
+  for (const scene::MeshPart& part : mesh.parts)
+    if (part.index_count > 0 && part.first_index <= mesh.indices.size() &&
+        part.index_count <= mesh.indices.size() - part.first_index)
+      target.parts.push_back(part);
+  const std::uint64_t vertex_bytes = mesh.vertices.size() * sizeof(scene::SurfaceVertex);
+  const std::uint64_t index_bytes = mesh.indices.size() * sizeof(std::uint32_t);
+  target.indices_at = vertex_bytes;
+  target.buffer = create_buffer(memory, vertex_bytes + index_bytes,
+                                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                    VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                vulkan::MemoryUse::device_only);
+  const Staging staging(memory, vertex_bytes + index_bytes);
+  std::memcpy(staging.buffer.mapped, mesh.vertices.data(), vertex_bytes);
+  std::memcpy(staging.buffer.mapped + vertex_bytes, mesh.indices.data(), index_bytes);
+  run_once(device, [&](VkCommandBuffer commands) {
+    const VkBufferCopy region{0, 0, vertex_bytes + index_bytes};
+    vkCmdCopyBuffer(commands, staging.buffer.buffer, target.buffer.buffer, 1, &region);
+  });
+}
+
+DeviceMaterial device_material(const SurfaceMaterial& material, const std::vector<DeviceTexture>& textures) {
+  DeviceMaterial result;
+  const bool textured = material.base_color_image >= 0 && static_cast<std::size_t>(material.base_color_image) < textures.size() &&
+                        textures[static_cast<std::size_t>(material.base_color_image)].image.image;
+  result.image = textured ? material.base_color_image : -1;
+  result.blended = material.opacity < 0.999f;
+  result.cut = textured && !result.blended && textures[static_cast<std::size_t>(material.base_color_image)].holes;
+  result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended);
+  result.wettable = material.wettable && !result.cut;
+  // Fresnel at normal incidence, ((n − 1)/(n + 1))².
+  const float ratio = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
+  result.constants.base_color = glm::vec4(material.base_color, material.opacity);
+  result.constants.emission = glm::vec4(material.emission, std::clamp(material.roughness, 0.05f, 1.0f));
+  result.constants.surface = glm::vec4(material.metallic, ratio * ratio, result.wettable, material.takes_paint);
+  result.constants.light = glm::vec4(material.share_of_sky, 0.0f, 0.0f, 0.0f);
+  return result;
+}
+
+void place_instances(DeviceScene& scene, const ResolvedScene& source) {
+  scene.placed.clear();
+  scene.roofs.clear();
+  for (const scene::Instance& instance : source.instances) {
+    if (instance.mesh >= source.meshes.size()) continue;
+    const SurfaceMesh& mesh = source.meshes[instance.mesh];
+    PlacedMesh placed = place(instance.mesh, scene.summaries[instance.mesh].bounds, instance.world_from_object, instance.scale);
+    placed.visible_from_m = instance.visible_from_m;
+    placed.visible_to_m = instance.visible_to_m;
+    placed.casts_shadow = instance.casts_shadow;
+    scene.placed.push_back(placed);
+    float least = 1.0f;
+    for (const scene::MeshPart& part : mesh.parts)
+      if (part.material < source.materials.size()) least = std::min(least, source.materials[part.material].share_of_sky);
+    if (least < 0.5f) {
+      // A metre more below and at the ends, where wheels and neighbours meet it.
+      const glm::vec3 margin(0.5f);
+      scene.roofs.push_back({inverse(instance.world_from_object), mesh.bounds_min_m * instance.scale - margin,
+                             mesh.bounds_max_m * instance.scale + margin, least});
+    }
+  }
+  std::stable_sort(scene.placed.begin(), scene.placed.end(),
+                   [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
+}
+
+MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMaterial>& materials) {
+  MeshSummary summary{{mesh.bounds_min_m, mesh.bounds_max_m}, glm::vec3(0.0f)};
+  for (const scene::MeshPart& part : mesh.parts) {
+    if (part.material >= materials.size()) continue;
+    const glm::vec3 emission = materials[part.material].emission;
+    if (emission.r + emission.g + emission.b > summary.emission.r + summary.emission.g + summary.emission.b)
+      summary.emission = emission;
+  }
+  return summary;
+}
+
+}  // namespace
+
+vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
+                                   std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
+  const std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
+  std::uint64_t bytes = 0;
+  for (const MipLevel& level : levels) bytes += level.rgba.size();
+  const Staging staging(memory, bytes);
+  std::vector<VkBufferImageCopy> regions;
+  std::uint64_t at = 0;
+  for (const MipLevel& level : levels) {
+    std::memcpy(staging.buffer.mapped + at, level.rgba.data(), level.rgba.size());
+    VkBufferImageCopy region{};
+    region.bufferOffset = at;
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(regions.size()), 0, 1};
+    region.imageExtent = {level.width, level.height, 1};
+    regions.push_back(region);
+    at += level.rgba.size();
+  }
+  vulkan::ImageDescription description;
+  description.width = width;
+  description.height = height;
+  description.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+  description.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  description.mip_levels = static_cast<std::uint32_t>(levels.size());
+  vulkan::DeviceImage image = create_image(memory, description);
+  try {
+    run_once(device, [&](VkCommandBuffer commands) {
+      vulkan::ImageBarrier barrier{&image, VK_NULL_HANDLE, Access::none, Access::transfer_destination, true};
+      vulkan::record_barriers(commands, {&barrier, 1});
+      vkCmdCopyBufferToImage(commands, staging.buffer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                             static_cast<std::uint32_t>(regions.size()), regions.data());
+      barrier = {&image, VK_NULL_HANDLE, Access::transfer_destination, Access::sampled, false};
+      vulkan::record_barriers(commands, {&barrier, 1});
+    });
+  } catch (const vulkan::Failure&) {
+    destroy_image(memory, image);
+    throw;
+  }
+  return image;
+}
+
+void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device, vulkan::MemoryPool& memory) {
+  while (scene.textures.size() > source.images.size()) {
+    destroy_image(memory, scene.textures.back().image);
+    scene.textures.pop_back();
+  }
+  scene.textures.resize(source.images.size());
+  for (std::size_t i = 0; i < source.images.size(); ++i) {
+    const scene::TextureImage& image = source.images[i];
+    DeviceTexture& texture = scene.textures[i];
+    if (texture.image.image && texture.revision == image.revision) continue;
+    destroy_image(memory, texture.image);
+    const std::uint32_t largest = device.properties.limits.maxImageDimension2D;
+    const bool holds = image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
+                       image.rgba.size() == std::size_t{4} * image.width * image.height;
+    texture.revision = image.revision;
+    texture.holes = holds && has_holes(image.rgba);
+    if (holds) texture.image = create_texture(device, memory, image.width, image.height, image.rgba, image.srgb);
+  }
+  scene.materials.clear();
+  for (const SurfaceMaterial& material : source.materials)
+    scene.materials.push_back(device_material(material, scene.textures));
+  while (scene.meshes.size() > source.meshes.size()) {
+    destroy_buffer(memory, scene.meshes.back().buffer);
+    scene.meshes.pop_back();
+  }
+  scene.meshes.resize(source.meshes.size());
+  scene.summaries.clear();
+  for (std::size_t i = 0; i < source.meshes.size(); ++i) {
+    const SurfaceMesh& mesh = source.meshes[i];
+    if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision)
+      upload_mesh(scene.meshes[i], mesh, device, memory);
+    scene.summaries.push_back(summary_of(mesh, source.materials));
+  }
+  place_instances(scene, source);
+  scene.prototypes = source.prototypes;
+  scene.revision = source.revision;
+}
+
+void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory) {
+  for (DeviceMesh& mesh : scene.meshes) destroy_buffer(memory, mesh.buffer);
+  for (DeviceTexture& texture : scene.textures) destroy_image(memory, texture.image);
+  scene = {};
+}
+
+float share_of_sky(const DeviceScene& scene, const Vec3& position_m) {
+  float share = 1.0f;
+  for (const Roof& roof : scene.roofs) {
+    const glm::vec3 p(roof.object_from_world * position_m);
+    if (p.x >= roof.min_m.x && p.y >= roof.min_m.y && p.z >= roof.min_m.z && p.x <= roof.max_m.x && p.y <= roof.max_m.y &&
+        p.z <= roof.max_m.z)
+      share = std::min(share, roof.share_of_sky);
+  }
+  return share;
+}
+
+}  // namespace septet::render

@@ -1,0 +1,75 @@
+#pragma once
+/// The device's copy of a ResolvedScene: meshes, images with mip levels, materials as shader constants, placed instances.
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "engine/render/passes/draw_list.hpp"
+#include "engine/render/passes/participants.hpp"
+#include "engine/render/vulkan/memory.hpp"
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::render {
+
+/// The twin of shaders/material.glsl.
+struct MaterialConstants {
+  glm::vec4 base_color{1.0f};  ///< rgb, opacity.
+  glm::vec4 emission{0.0f};    ///< rgb, roughness.
+  glm::vec4 surface{0.0f};     ///< Metallic, reflectance at normal incidence, wettable, takes paint.
+  glm::vec4 light{1.0f};       ///< x: share of the sky that the surface sees.
+};
+
+struct DeviceMaterial {
+  MaterialConstants constants;
+  std::int32_t image = -1;  ///< −1: none.
+  bool cut = false, blended = false, glossy = false, wettable = false;
+};
+
+struct DeviceMesh {
+  std::uint64_t revision = 0;
+  bool present = false;
+  vulkan::Buffer buffer;  ///< Vertices, then indices.
+  std::uint64_t indices_at = 0;
+  std::vector<scene::MeshPart> parts;
+};
+
+struct DeviceTexture {
+  std::uint64_t revision = 0;
+  bool holes = false;
+  vulkan::DeviceImage image;
+};
+
+/// A box in which the sky is not seen, such as a stretch of tunnel: the bounds of an instance with such a material.
+struct Roof {
+  RigidTransform object_from_world;
+  glm::vec3 min_m{0.0f}, max_m{0.0f};
+  float share_of_sky = 0.0f;
+};
+
+struct DeviceScene {
+  std::optional<std::uint64_t> revision;
+  std::vector<DeviceMesh> meshes;
+  std::vector<DeviceTexture> textures;
+  std::vector<DeviceMaterial> materials;
+  std::vector<PlacedMesh> placed;  ///< Ordered by mesh.
+  std::vector<scene::Prototype> prototypes;
+  std::vector<MeshSummary> summaries;  ///< One a mesh.
+  std::vector<Roof> roofs;
+};
+
+/// Uploads what is new. No frame that uses the scene may be in flight. Parts, instances and images that point outside their
+/// arrays are left out.
+void upload_scene(DeviceScene& scene, const scene::ResolvedScene& source, const vulkan::Device& device,
+                  vulkan::MemoryPool& memory);
+void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
+
+/// Share of the sky at a place: less than 1 under a roof.
+float share_of_sky(const DeviceScene& scene, const Vec3& position_m);
+
+/// Copies all mip levels into a new sampled image.
+vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
+                                   std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+
+}  // namespace septet::render

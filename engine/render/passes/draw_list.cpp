@@ -1,0 +1,71 @@
+#include "engine/render/passes/draw_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace septet::render {
+
+PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
+                 const glm::vec3& scale) {
+  PlacedMesh placed;
+  placed.mesh = mesh;
+  placed.origin_m = world_from_object.position_m;
+  const glm::mat3 rotation(glm::mat3_cast(world_from_object.orientation));
+  placed.world_from_object = glm::mat3(rotation[0] * scale.x, rotation[1] * scale.y, rotation[2] * scale.z);
+  const glm::vec3 middle = 0.5f * (bounds.min_m + bounds.max_m), half = 0.5f * (bounds.max_m - bounds.min_m);
+  placed.centre_m = placed.world_from_object * middle;
+  placed.radius_m = glm::length(half * scale);
+  return placed;
+}
+
+ViewVolume view_volume(const FrameView& view) {
+  const OffAxisView& projection = view.projection;
+  const auto inward = [&](const Vec3& axis, double slope, double sign) {
+    // A point right·x + up·y − back·z is inside the edge where sign·(axis − slope·z) ≥ 0.
+    const Vec3 normal = sign * (axis + slope * projection.back);
+    return glm::vec3(glm::normalize(view.world_from_car.orientation * normal));
+  };
+  return {inward(projection.right, projection.left_slope, 1.0), inward(projection.right, projection.right_slope, -1.0),
+          inward(projection.up, projection.bottom_slope, 1.0), inward(projection.up, projection.top_slope, -1.0)};
+}
+
+bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radius_m) {
+  return std::all_of(volume.begin(), volume.end(),
+                     [&](const glm::vec3& normal) { return glm::dot(normal, centre_m) >= -radius_m; });
+}
+
+void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
+                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep) {
+  Batch batch;
+  const auto close = [&] {
+    if (batch.count > 0) list.batches.push_back(batch);
+  };
+  for (const PlacedMesh& mesh : placed) {
+    const glm::vec3 origin(mesh.origin_m - eye_m);
+    const float square = glm::dot(origin, origin);
+    if (square < mesh.visible_from_m * mesh.visible_from_m || square >= mesh.visible_to_m * mesh.visible_to_m) continue;
+    const glm::vec3 centre = origin + mesh.centre_m;
+    if (!keep(mesh, centre)) continue;
+    if (batch.count == 0 || batch.mesh != mesh.mesh) {
+      close();
+      batch = {mesh.mesh, static_cast<std::uint32_t>(list.records.size()), 0, 1e30f};
+    }
+    const glm::mat3& m = mesh.world_from_object;
+    list.records.push_back({glm::vec4(m[0].x, m[1].x, m[2].x, origin.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin.y),
+                            glm::vec4(m[0].z, m[1].z, m[2].z, origin.z), mesh.tint,
+                            glm::vec4(mesh.share_of_sky, 0.0f, 0.0f, 0.0f)});
+    ++batch.count;
+    batch.nearest_m = std::min(batch.nearest_m, std::max(0.0f, glm::length(centre) - mesh.radius_m));
+  }
+  close();
+}
+
+void sort_by_distance(DrawList& list) {
+  std::stable_sort(list.batches.begin(), list.batches.end(),
+                   [](const Batch& a, const Batch& b) { return a.nearest_m < b.nearest_m; });
+}
+
+}  // namespace septet::render

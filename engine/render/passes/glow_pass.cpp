@@ -1,0 +1,61 @@
+#include "engine/render/passes/glow_pass.hpp"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "engine/render/passes/shaders.hpp"
+
+namespace septet::render {
+
+void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                      const TargetFormats& formats) {
+  vulkan::PipelineDescription description;
+  description.vertex_code = shaders::glow_vert();
+  description.fragment_code = shaders::glow_frag();
+  description.vertex_input = vulkan::VertexInput::none;
+  description.color_format = formats.color;
+  description.depth_format = formats.depth;
+  description.samples = formats.samples;
+  description.blend = vulkan::Blend::add;
+  description.depth_write = false;
+  pass.pipeline = create_pipeline(device, layout, description);
+}
+
+void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
+  if (pass.pipeline) vkDestroyPipeline(device.device, pass.pipeline, nullptr);
+  pass = {};
+}
+
+std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure) {
+  // 0 at noon, 1 at night.
+  const float dark = std::clamp((exposure - 0.5f) / 3.0f, 0.0f, 1.0f);
+  std::vector<GlowRecord> records;
+  for (const LampGlow& glow : glows) {
+    const glm::vec3 relative(glow.position_m - eye_m);
+    const float distance_m = glm::length(relative);
+    if (distance_m < 0.3f || distance_m > 3000.0f) continue;
+    const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
+    const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / distance_m);
+    const float share = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
+    if (share <= 0.0f) continue;
+    const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
+    // The core is whiter than the halo: an eye (and a camera) saturates there.
+    const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);
+    records.push_back({glm::vec4(relative, glow.radius_m * (1.0f + 0.9f * dark)),
+                       glm::vec4(hue * (share * (0.75f + 0.65f * dark)), 0.0f)});
+  }
+  return records;
+}
+
+void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count) {
+  if (count == 0) return;
+  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
+  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+  push_records(context, records);
+  vkCmdDraw(context.slot.commands, 6, count, 0, 0);
+  ++context.statistics.draws;
+  context.statistics.triangles += 2 * count;
+}
+
+}  // namespace septet::render

@@ -1,0 +1,32 @@
+#pragma once
+/// Draws the glow around lamps: squares that face the viewer, added to the picture.
+
+#include <span>
+#include <vector>
+
+#include "engine/render/atmosphere.hpp"
+#include "engine/render/passes/participants.hpp"
+#include "engine/render/passes/pass_context.hpp"
+
+namespace septet::render {
+
+/// The twin of Glow in shaders/glow.vert.
+struct GlowRecord {
+  glm::vec4 position_size{0.0f};  ///< Relative to the eye; radius, m.
+  glm::vec4 color{0.0f};
+};
+
+struct GlowPass {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
+void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                      const TargetFormats& formats);
+void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device);
+
+/// Those of the lamps that face the eye; larger and brighter in the dark.
+std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure);
+
+void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);
+
+}  // namespace septet::render

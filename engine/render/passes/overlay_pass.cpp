@@ -1,0 +1,140 @@
+#include "engine/render/passes/overlay_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/render/passes/shaders.hpp"
+
+namespace septet::render {
+namespace {
+
+constexpr std::uint32_t atlas_width = 1024, atlas_height = 512;
+constexpr std::uint32_t padding = 2;
+constexpr double em_per_line = 0.78;  // Size of the letters to the height of the line's box.
+
+/// The twin of Quad in shaders/overlay.vert.
+struct QuadConstants {
+  glm::vec4 ndc, uv, color, kind;
+};
+
+float linear(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f); }
+
+glm::vec4 premultiplied(const glm::vec4& color) {
+  return {linear(color.r) * color.a, linear(color.g) * color.a, linear(color.b) * color.a, color.a};
+}
+
+std::optional<OverlayPass::Line> find_line(const OverlayPass& pass, const OverlayText& text) {
+  const auto found = std::find_if(pass.lines.begin(), pass.lines.end(), [&](const OverlayPass::Line& line) {
+    return line.text == text.text && line.height_px == text.height_px;
+  });
+  return found == pass.lines.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+void create_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory,
+                         const vulkan::PipelineLayout& layout, const TargetFormats& formats) {
+  vulkan::PipelineDescription description;
+  description.vertex_code = shaders::overlay_vert();
+  description.fragment_code = shaders::overlay_frag();
+  description.vertex_input = vulkan::VertexInput::none;
+  description.color_format = formats.color;
+  description.blend = vulkan::Blend::over;
+  description.depth_write = false;
+  pass.pipeline = create_pipeline(device, layout, description);
+  vulkan::ImageDescription atlas;
+  atlas.width = atlas_width;
+  atlas.height = atlas_height;
+  atlas.format = VK_FORMAT_R8G8B8A8_UNORM;
+  atlas.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  pass.atlas = create_image(memory, atlas);
+}
+
+void destroy_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory) {
+  if (pass.pipeline) vkDestroyPipeline(device.device, pass.pipeline, nullptr);
+  pass.pipeline = VK_NULL_HANDLE;
+  destroy_image(memory, pass.atlas);
+}
+
+bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts) {
+  const bool all_there = std::all_of(texts.begin(), texts.end(),
+                                     [&](const OverlayText& text) { return find_line(pass, text).has_value(); });
+  if (all_there) return false;
+  pass.lines.clear();
+  pass.pixels = image::Image(atlas_width, atlas_height, {255, 255, 255, 0});
+  std::uint32_t y = 0;
+  for (const OverlayText& text : texts) {
+    if (find_line(pass, text)) continue;
+    OverlayPass::Line line{text.text, text.height_px, y, 0, 0};
+    const double size_px = text.height_px * em_per_line;
+    line.height = static_cast<std::uint32_t>(std::ceil(std::clamp(text.height_px, 4.0f, 200.0f)));
+    if (y + line.height + padding > atlas_height) {
+      pass.lines.push_back(line);  // No room: the line is known, and empty.
+      continue;
+    }
+    const double baseline = y + 0.5 * (text.height_px + pass.font.capital_height_px(size_px));
+    pass.font.draw(pass.pixels, padding, std::round(baseline), text.text, size_px, {255, 255, 255, 255});
+    line.width = std::min<std::uint32_t>(
+        atlas_width, static_cast<std::uint32_t>(std::ceil(pass.font.width_px(text.text, size_px))) + 2 * padding);
+    pass.lines.push_back(line);
+    y += line.height + padding;
+  }
+  return true;
+}
+
+void upload_atlas(OverlayPass& pass, PassContext& context) {
+  const FrameData pixels = store(context, std::span<const std::uint8_t>(pass.pixels.rgba));
+  VkBufferImageCopy region{};
+  region.bufferOffset = pixels.offset;
+  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  region.imageExtent = {atlas_width, atlas_height, 1};
+  vkCmdCopyBufferToImage(context.slot.commands, pixels.buffer, pass.atlas.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                         &region);
+}
+
+void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts, VkImageView target,
+                  std::uint32_t width, std::uint32_t height) {
+  const VkCommandBuffer commands = context.slot.commands;
+  VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  color.imageView = target;
+  color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+  rendering.renderArea = {{0, 0}, {width, height}};
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  vkCmdBeginRendering(commands, &rendering);
+  set_viewport(context, {0, 0, width, height});
+  vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+  vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+  push_image(context, pass.atlas.view, context.samplers.table);
+  const auto draw_quad = [&](float x, float y, float w, float h, const glm::vec4& uv, const glm::vec4& rgba, float kind) {
+    const float across = 2.0f / static_cast<float>(width), down = 2.0f / static_cast<float>(height);
+    const QuadConstants quad{{x * across - 1.0f, y * down - 1.0f, (x + w) * across - 1.0f, (y + h) * down - 1.0f}, uv,
+                             premultiplied(rgba), {kind, 0.0f, 0.0f, 0.0f}};
+    push_constants(context, std::as_bytes(std::span(&quad, 1)));
+    vkCmdDraw(commands, 6, 1, 0, 0);
+    ++context.statistics.draws;
+    context.statistics.triangles += 2;
+  };
+  for (const OverlayText& text : texts) {
+    const OverlayPass::Line line = *find_line(pass, text);
+    if (line.width == 0) continue;
+    const auto w = static_cast<float>(line.width), h = static_cast<float>(line.height);
+    // Whole pixels, so that letters stay as sharp as they were rasterised.
+    const float x = std::round(text.x_px - (text.centered ? 0.5f * w : 0.0f));
+    const float y = std::round(text.y_px - (text.centered ? 0.5f * h : 0.0f));
+    const float margin = std::round(0.35f * text.height_px);
+    if (text.background.a > 0.0f)
+      draw_quad(x - margin, y - 2.0f, w + 2.0f * margin, h + 4.0f, glm::vec4(0.0f), text.background, 0.0f);
+    const float top = static_cast<float>(line.y) / atlas_height;
+    draw_quad(x, y, w, h, {0.0f, top, w / atlas_width, top + h / atlas_height}, text.color, 1.0f);
+  }
+  vkCmdEndRendering(commands);
+}
+
+}  // namespace septet::render

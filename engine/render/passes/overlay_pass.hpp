@@ -1,0 +1,40 @@
+#pragma once
+/// Draws lines of text, and the boxes behind them, over the finished picture.
+///
+/// Lines are rasterised on the CPU (engine/image) into one atlas, which is uploaded again only when a text changes.
+
+#include <string>
+#include <vector>
+
+#include "engine/image/font.hpp"
+#include "engine/render/passes/pass_context.hpp"
+
+namespace septet::render {
+
+struct OverlayPass {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  image::Font font;
+  vulkan::DeviceImage atlas;
+  /// What the atlas holds: a line's text, and its box in it.
+  struct Line {
+    std::string text;
+    float height_px = 0.0f;
+    std::uint32_t y = 0, width = 0, height = 0;
+  };
+  std::vector<Line> lines;
+  image::Image pixels;
+};
+
+void create_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory,
+                         const vulkan::PipelineLayout& layout, const TargetFormats& formats);
+void destroy_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
+
+/// Brings the atlas's pixels up to these texts; true if it must be uploaded.
+bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts);
+/// Copies the pixels to the atlas image, which is a transfer destination.
+void upload_atlas(OverlayPass& pass, PassContext& context);
+/// Draws into `target`, over what it holds.
+void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts, VkImageView target,
+                  std::uint32_t width, std::uint32_t height);
+
+}  // namespace septet::render

@@ -1,0 +1,135 @@
+#include "engine/render/passes/participants.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/world/paint.hpp"
+
+namespace septet::render {
+namespace {
+
+using scene::PartRole;
+
+bool is_lamp(PartRole role) { return role >= PartRole::lamp_brake && role <= PartRole::beacon; }
+
+/// Index of a wheel (front left, front right, rear left, rear right), or −1.
+int wheel_index(PartRole role) {
+  const int index = static_cast<int>(role) - static_cast<int>(PartRole::wheel_front_left);
+  return index >= 0 && index < 4 ? index : -1;
+}
+
+float glow_radius_m(PartRole role) {
+  switch (role) {
+    case PartRole::lamp_head: return 0.55f;
+    case PartRole::beacon: return 1.3f;
+    case PartRole::lamp_tail: return 0.22f;
+    default: return 0.38f;
+  }
+}
+
+/// Which way a lamp shines, vehicle frame.
+Vec3 facing(PartRole role, double x_m) {
+  switch (role) {
+    case PartRole::lamp_head: return {1, 0, 0};
+    case PartRole::lamp_brake:
+    case PartRole::lamp_tail:
+    case PartRole::lamp_reverse: return {-1, 0, 0};
+    case PartRole::lamp_indicator_left:
+    case PartRole::lamp_indicator_right: return {x_m > 1.0 ? 1.0 : -1.0, 0, 0};
+    default: return {0, 0, 0};
+  }
+}
+
+}  // namespace
+
+bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m) {
+  const bool beams = lamps.has(Lamp::low_beam) || lamps.has(Lamp::high_beam);
+  switch (role) {
+    case PartRole::lamp_brake: return lamps.has(Lamp::brake);
+    case PartRole::lamp_reverse: return lamps.has(Lamp::reverse);
+    case PartRole::lamp_indicator_left: return lamps.has(Lamp::indicator_left);
+    case PartRole::lamp_indicator_right: return lamps.has(Lamp::indicator_right);
+    case PartRole::lamp_head: return beams;
+    case PartRole::lamp_tail: return beams;
+    case PartRole::beacon: {
+      if (!lamps.has(Lamp::beacon)) return false;
+      const double phase_s = std::fmod(simulated_time_s, 0.5) - (beacon_y_m < -0.05 ? 0.25 : 0.0);
+      return (phase_s >= 0.0 && phase_s < 0.06) || (phase_s >= 0.12 && phase_s < 0.18);
+    }
+    default: return true;
+  }
+}
+
+RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant) {
+  RigidTransform result = part.world_from_object;
+  if (const int wheel = wheel_index(part.role); wheel >= 0) {
+    result.position_m.z += participant.wheel_lift_m[static_cast<std::size_t>(wheel)];
+    const double steer = wheel < 2 ? participant.front_steer_rad : 0.0;
+    result.orientation = glm::angleAxis(steer, Vec3(0, 0, 1)) *
+                         glm::angleAxis(participant.wheel_spin_rad, Vec3(0, 1, 0)) * result.orientation;
+  } else if (part.role == PartRole::steering_wheel) {
+    // Its axis points forward and away from the driver: a turn to the left is against the clock for him.
+    result.orientation = result.orientation * glm::angleAxis(-participant.steering_wheel_rad, Vec3(1, 0, 0));
+  }
+  return result;
+}
+
+PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
+                                      std::span<const scene::Prototype> prototypes,
+                                      std::span<const MeshSummary> meshes, double simulated_time_s) {
+  PlacedParticipants result;
+  for (const DrawnParticipant& participant : participants) {
+    if (participant.prototype >= prototypes.size()) continue;
+    const bool whole = participant.shown == Shown::whole;
+    Vec3 lamps_m(0.0);
+    int head_lamps = 0;
+    for (const scene::Instance& part : prototypes[participant.prototype].parts) {
+      if (part.mesh >= meshes.size()) continue;
+      const MeshSummary& mesh = meshes[part.mesh];
+      const RigidTransform in_vehicle = vehicle_from_part(part, participant);
+      PlacedMesh placed = place(part.mesh, mesh.bounds, participant.world_from_vehicle * in_vehicle, part.scale);
+      const Vec3 middle_m = in_vehicle * Vec3(0.5f * (mesh.bounds.min_m + mesh.bounds.max_m) * part.scale);
+      const bool lit = shines(part.role, participant.lamps, simulated_time_s, middle_m.y);
+      placed.visible_from_m = part.visible_from_m;
+      placed.visible_to_m = part.visible_to_m;
+      placed.casts_shadow = part.casts_shadow;
+      placed.seen = whole;
+      placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);
+      result.meshes.push_back(placed);
+      if (part.role == PartRole::lamp_head) {
+        lamps_m += middle_m;
+        ++head_lamps;
+      }
+      if (is_lamp(part.role) && lit && whole)
+        result.glows.push_back({participant.world_from_vehicle * middle_m,
+                                glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
+                                mesh.emission, glow_radius_m(part.role)});
+    }
+    if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
+      constexpr double dip_rad = 0.021;  // 1.2° below the level.
+      const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
+      result.headlights.push_back({participant.world_from_vehicle * lamp_m,
+                                   glm::vec3(participant.world_from_vehicle.orientation *
+                                             Vec3(std::cos(dip_rad), 0, -std::sin(dip_rad)))});
+    }
+  }
+  std::stable_sort(result.meshes.begin(), result.meshes.end(),
+                   [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
+  return result;
+}
+
+DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t prototype) {
+  DrawnParticipant drawn;
+  drawn.prototype = prototype;
+  drawn.world_from_vehicle = participant.world_from_vehicle;
+  drawn.paint = body_color(participant.paint);
+  drawn.lamps = participant.lamps;
+  drawn.front_steer_rad = participant.front_steer_rad;
+  drawn.wheel_spin_rad = participant.wheel_spin_rad;
+  drawn.wheel_lift_m = participant.wheel_lift_m;
+  return drawn;
+}
+
+}  // namespace septet::render

@@ -1,0 +1,48 @@
+#pragma once
+/// From participants to placed meshes: wheels that turn, lamps that light, and the glow and pool of light around them.
+
+#include <span>
+#include <vector>
+
+#include "engine/render/passes/draw_list.hpp"
+
+namespace septet::render {
+
+/// A lamp that shines now.
+struct LampGlow {
+  Vec3 position_m{0.0};          ///< World.
+  glm::vec3 facing{0.0f};        ///< Unit, world axes; zero: all around.
+  glm::vec3 color{1.0f};         ///< Emission of its material.
+  float radius_m = 0.3f;
+};
+
+/// Where the headlights of one vehicle stand and point.
+struct Headlight {
+  Vec3 position_m{0.0};
+  glm::vec3 direction{1.0f, 0.0f, 0.0f};
+};
+
+struct PlacedParticipants {
+  std::vector<PlacedMesh> meshes;  ///< Ordered by mesh.
+  std::vector<LampGlow> glows;
+  std::vector<Headlight> headlights;
+};
+
+/// What the placing needs to know of each mesh.
+struct MeshSummary {
+  MeshBounds bounds;
+  glm::vec3 emission{0.0f};  ///< Of its brightest material.
+};
+
+/// Does the lamp of this role shine? Lamps of vehicle state; beacons flash with time, those to the left and to the right of
+/// the vehicle's middle in turn: two pulses of 60 ms, twice a second.
+bool shines(scene::PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m);
+
+/// Where a part stands in its vehicle now: steered, rolled and lifted.
+RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant);
+
+PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
+                                      std::span<const scene::Prototype> prototypes,
+                                      std::span<const MeshSummary> meshes, double simulated_time_s);
+
+}  // namespace septet::render

@@ -1,0 +1,106 @@
+#include "engine/render/passes/pass_context.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace septet::render {
+namespace {
+
+VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode address, float anisotropy, bool compare) {
+  VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+  info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+  info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  info.addressModeU = info.addressModeV = info.addressModeW = address;
+  info.maxLod = VK_LOD_CLAMP_NONE;
+  info.anisotropyEnable = anisotropy > 1.0f;
+  info.maxAnisotropy = std::min(anisotropy, device.properties.limits.maxSamplerAnisotropy);
+  info.compareEnable = compare;
+  info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  VkSampler sampler = VK_NULL_HANDLE;
+  vulkan::require(vkCreateSampler(device.device, &info, nullptr, &sampler), "vkCreateSampler");
+  return sampler;
+}
+
+VkWriteDescriptorSet write(std::uint32_t binding, VkDescriptorType type) {
+  VkWriteDescriptorSet result{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  result.dstBinding = binding;
+  result.descriptorCount = 1;
+  result.descriptorType = type;
+  return result;
+}
+
+void push(PassContext& context, std::span<const VkWriteDescriptorSet> writes) {
+  vkCmdPushDescriptorSetKHR(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, context.layout.layout, 0,
+                            static_cast<std::uint32_t>(writes.size()), writes.data());
+}
+
+}  // namespace
+
+void create_samplers(Samplers& samplers, const vulkan::Device& device) {
+  samplers.surface = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, 1.0f, false);
+  samplers.road = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, 4.0f, false);
+  samplers.table = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 1.0f, false);
+  samplers.shadow = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 1.0f, true);
+}
+
+void destroy_samplers(Samplers& samplers, const vulkan::Device& device) {
+  for (const VkSampler sampler : {samplers.surface, samplers.road, samplers.table, samplers.shadow})
+    if (sampler) vkDestroySampler(device.device, sampler, nullptr);
+  samplers = {};
+}
+
+FrameData store(PassContext& context, std::span<const std::byte> bytes) {
+  const std::uint64_t size = std::max<std::uint64_t>(bytes.size(), 256);
+  const vulkan::FrameArena::Slice slice = allocate(context.memory, context.slot.arena, size);
+  if (!bytes.empty()) std::memcpy(slice.data, bytes.data(), bytes.size());
+  return {slice.buffer, slice.offset, size};
+}
+
+void push_view(PassContext& context, const ViewBindings& bindings) {
+  const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
+  const VkDescriptorBufferInfo records{bindings.records.buffer, bindings.records.offset, bindings.records.size};
+  const VkDescriptorImageInfo images[3] = {
+      {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
+  VkWriteDescriptorSet writes[5] = {
+      write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+      write(vulkan::binding_instances, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
+      write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+  writes[0].pBufferInfo = &uniforms;
+  writes[1].pBufferInfo = &records;
+  for (int i = 0; i < 3; ++i) writes[2 + i].pImageInfo = &images[i];
+  push(context, writes);
+}
+
+void push_records(PassContext& context, const FrameData& records) {
+  const VkDescriptorBufferInfo buffer{records.buffer, records.offset, records.size};
+  VkWriteDescriptorSet instances = write(vulkan::binding_instances, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  instances.pBufferInfo = &buffer;
+  push(context, {&instances, 1});
+}
+
+void push_image(PassContext& context, VkImageView view, VkSampler sampler) {
+  const VkDescriptorImageInfo info{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  VkWriteDescriptorSet image = write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+  image.pImageInfo = &info;
+  push(context, {&image, 1});
+}
+
+void push_constants(PassContext& context, std::span<const std::byte> bytes) {
+  vkCmdPushConstants(context.slot.commands, context.layout.layout,
+                     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                     static_cast<std::uint32_t>(bytes.size()), bytes.data());
+}
+
+void set_viewport(PassContext& context, const PixelRectangle& rectangle) {
+  const VkViewport viewport{static_cast<float>(rectangle.x), static_cast<float>(rectangle.y),
+                            static_cast<float>(rectangle.width), static_cast<float>(rectangle.height), 0.0f, 1.0f};
+  const VkRect2D scissor{{rectangle.x, rectangle.y}, {rectangle.width, rectangle.height}};
+  vkCmdSetViewport(context.slot.commands, 0, 1, &viewport);
+  vkCmdSetScissor(context.slot.commands, 0, 1, &scissor);
+}
+
+}  // namespace septet::render

@@ -1,0 +1,67 @@
+#pragma once
+/// What every pass needs to record itself, and the few calls that they share.
+
+#include <cstdint>
+#include <span>
+
+#include "engine/render/frame_input.hpp"
+#include "engine/render/passes/draw_list.hpp"
+#include "engine/render/renderer.hpp"
+#include "engine/render/vulkan/commands.hpp"
+#include "engine/render/vulkan/memory.hpp"
+#include "engine/render/vulkan/pipeline.hpp"
+
+namespace septet::render {
+
+struct Samplers {
+  VkSampler surface = VK_NULL_HANDLE;  ///< Repeats, trilinear.
+  VkSampler road = VK_NULL_HANDLE;     ///< Repeats, trilinear and anisotropic: markings stay sharp at grazing angles.
+  VkSampler table = VK_NULL_HANDLE;    ///< Clamps, bilinear.
+  VkSampler shadow = VK_NULL_HANDLE;   ///< Compares: 1 where nothing is nearer to the light.
+};
+
+void create_samplers(Samplers& samplers, const vulkan::Device& device);
+void destroy_samplers(Samplers& samplers, const vulkan::Device& device);
+
+struct TargetFormats {
+  VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
+  VkFormat depth = VK_FORMAT_D32_SFLOAT;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
+};
+
+struct PassContext {
+  const vulkan::Device& device;
+  vulkan::MemoryPool& memory;
+  const vulkan::PipelineLayout& layout;
+  const Samplers& samplers;
+  const TargetFormats& formats;
+  vulkan::FrameSlot& slot;
+  RenderStatistics& statistics;
+};
+
+/// Bytes that were copied into the frame's arena.
+struct FrameData {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  std::uint64_t offset = 0, size = 0;
+};
+
+/// Copies into the arena; an empty span still gets a place, so that it can be bound.
+FrameData store(PassContext& context, std::span<const std::byte> bytes);
+template <class T>
+FrameData store(PassContext& context, std::span<const T> values) {
+  return store(context, std::as_bytes(values));
+}
+
+/// What is bound for a whole view.
+struct ViewBindings {
+  FrameData uniforms, records;
+  VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE;
+};
+
+void push_view(PassContext& context, const ViewBindings& bindings);
+void push_records(PassContext& context, const FrameData& records);
+void push_image(PassContext& context, VkImageView view, VkSampler sampler);
+void push_constants(PassContext& context, std::span<const std::byte> bytes);
+void set_viewport(PassContext& context, const PixelRectangle& rectangle);
+
+}  // namespace septet::render

@@ -1,0 +1,50 @@
+#include "engine/render/passes/shaders.hpp"
+
+namespace septet::render::shaders {
+namespace {
+
+constexpr std::uint32_t surface_vert_code[] = {
+#include "engine/render/shaders/surface.vert.inc"
+};
+constexpr std::uint32_t surface_frag_code[] = {
+#include "engine/render/shaders/surface.frag.inc"
+};
+constexpr std::uint32_t shadow_vert_code[] = {
+#include "engine/render/shaders/shadow.vert.inc"
+};
+constexpr std::uint32_t shadow_cut_frag_code[] = {
+#include "engine/render/shaders/shadow_cut.frag.inc"
+};
+constexpr std::uint32_t sky_vert_code[] = {
+#include "engine/render/shaders/sky.vert.inc"
+};
+constexpr std::uint32_t sky_frag_code[] = {
+#include "engine/render/shaders/sky.frag.inc"
+};
+constexpr std::uint32_t glow_vert_code[] = {
+#include "engine/render/shaders/glow.vert.inc"
+};
+constexpr std::uint32_t glow_frag_code[] = {
+#include "engine/render/shaders/glow.frag.inc"
+};
+constexpr std::uint32_t overlay_vert_code[] = {
+#include "engine/render/shaders/overlay.vert.inc"
+};
+constexpr std::uint32_t overlay_frag_code[] = {
+#include "engine/render/shaders/overlay.frag.inc"
+};
+
+}  // namespace
+
+std::span<const std::uint32_t> surface_vert() { return surface_vert_code; }
+std::span<const std::uint32_t> surface_frag() { return surface_frag_code; }
+std::span<const std::uint32_t> shadow_vert() { return shadow_vert_code; }
+std::span<const std::uint32_t> shadow_cut_frag() { return shadow_cut_frag_code; }
+std::span<const std::uint32_t> sky_vert() { return sky_vert_code; }
+std::span<const std::uint32_t> sky_frag() { return sky_frag_code; }
+std::span<const std::uint32_t> glow_vert() { return glow_vert_code; }
+std::span<const std::uint32_t> glow_frag() { return glow_frag_code; }
+std::span<const std::uint32_t> overlay_vert() { return overlay_vert_code; }
+std::span<const std::uint32_t> overlay_frag() { return overlay_frag_code; }
+
+}  // namespace septet::render::shaders

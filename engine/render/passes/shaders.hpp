@@ -1,0 +1,20 @@
+#pragma once
+/// SPIR-V of engine/render/shaders, compiled by glslc at build time and embedded.
+
+#include <cstdint>
+#include <span>
+
+namespace septet::render::shaders {
+
+std::span<const std::uint32_t> surface_vert();
+std::span<const std::uint32_t> surface_frag();
+std::span<const std::uint32_t> shadow_vert();
+std::span<const std::uint32_t> shadow_cut_frag();
+std::span<const std::uint32_t> sky_vert();
+std::span<const std::uint32_t> sky_frag();
+std::span<const std::uint32_t> glow_vert();
+std::span<const std::uint32_t> glow_frag();
+std::span<const std::uint32_t> overlay_vert();
+std::span<const std::uint32_t> overlay_frag();
+
+}  // namespace septet::render::shaders

@@ -1,0 +1,42 @@
+#pragma once
+/// Two orthographic views along the light around the eye: a fine one near it, a coarse one further out.
+///
+/// They depend on the eye and the light alone, not on where a screen looks, so that the shadows of neighbouring screens
+/// agree; and they move in whole texels over the world, so that still shadows do not crawl.
+
+#include <array>
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::render {
+
+inline constexpr std::size_t cascade_count = 2;
+inline constexpr std::uint32_t cascade_texels = 1024;
+
+struct Cascade {
+  glm::vec3 right{0.0f}, up{0.0f}, to_light{0.0f};  ///< World axes of the light's view.
+  glm::vec2 middle_m{0.0f};  ///< Along right and up, relative to the eye.
+  float half_side_m = 1.0f;
+  float half_depth_m = 1.0f;
+  float texel_m = 1.0f;
+};
+
+struct ShadowCascades {
+  Vec3 eye_m{0.0};  ///< World.
+  std::array<Cascade, cascade_count> cascades;
+};
+
+ShadowCascades shadow_cascades(const Vec3& eye_m, const glm::vec3& to_light);
+
+/// Clip space of the cascade from points relative to its eye; depth grows towards the light.
+glm::mat4 clip_from_relative(const Cascade& cascade);
+/// Texture coordinates and depth from points relative to another eye, which lies `offset_m` from the cascade's.
+glm::mat4 texture_from_relative(const Cascade& cascade, const glm::vec3& offset_m);
+/// Whether a sphere lies in the cascade's square, seen along the light.
+bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
+
+}  // namespace septet::render

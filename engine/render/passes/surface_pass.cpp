@@ -1,0 +1,93 @@
+#include "engine/render/passes/surface_pass.hpp"
+
+#include <algorithm>
+
+#include "engine/render/passes/shaders.hpp"
+
+namespace septet::render {
+namespace {
+
+/// What the pipeline of a material is specialised for.
+struct Variant {
+  bool textured, glossy;
+  SurfaceKind kind;
+  std::uint32_t key() const {
+    return static_cast<std::uint32_t>(textured) | static_cast<std::uint32_t>(glossy) << 1 |
+           static_cast<std::uint32_t>(kind) << 2;
+  }
+};
+
+SurfaceKind kind_of(const DeviceMaterial& material) {
+  return material.blended ? SurfaceKind::blended : material.cut ? SurfaceKind::cut : SurfaceKind::opaque;
+}
+
+VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& variant) {
+  VkPipeline& pipeline = pass.pipelines[variant.key()];
+  if (pipeline) return pipeline;
+  const bool multisampled = context.formats.samples != VK_SAMPLE_COUNT_1_BIT;
+  const bool cut = variant.kind == SurfaceKind::cut, blended = variant.kind == SurfaceKind::blended;
+  vulkan::PipelineDescription description;
+  description.vertex_code = shaders::surface_vert();
+  description.fragment_code = shaders::surface_frag();
+  description.color_format = context.formats.color;
+  description.depth_format = context.formats.depth;
+  description.samples = context.formats.samples;
+  description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
+  description.depth_write = !blended;
+  description.alpha_to_coverage = cut && multisampled;
+  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended};
+  pipeline = create_pipeline(context.device, context.layout, description);
+  return pipeline;
+}
+
+}  // namespace
+
+void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device) {
+  for (const auto& [key, pipeline] : pass.pipelines)
+    if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
+  pass.pipelines.clear();
+}
+
+void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
+                   SurfaceKind kind, bool wet) {
+  const VkCommandBuffer commands = context.slot.commands;
+  vkCmdSetCullMode(commands, kind == SurfaceKind::opaque ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+  VkPipeline bound_pipeline = VK_NULL_HANDLE;
+  std::int32_t bound_image = -1;
+  const auto draw_batch = [&](const Batch& batch) {
+    const DeviceMesh& mesh = scene.meshes[batch.mesh];
+    bool bound_mesh = false;
+    for (const scene::MeshPart& part : mesh.parts) {
+      if (part.material >= scene.materials.size()) continue;
+      const DeviceMaterial& material = scene.materials[part.material];
+      if (kind_of(material) != kind) continue;
+      const bool textured = material.image >= 0;
+      const VkPipeline pipeline = pipeline_of(pass, context, {textured, material.glossy || (wet && material.wettable), kind});
+      if (pipeline != bound_pipeline) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        bound_pipeline = pipeline;
+      }
+      if (textured && material.image != bound_image) {
+        push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
+                   material.wettable ? context.samplers.road : context.samplers.surface);
+        bound_image = material.image;
+      }
+      if (!bound_mesh) {
+        const VkDeviceSize at = 0;
+        vkCmdBindVertexBuffers(commands, 0, 1, &mesh.buffer.buffer, &at);
+        vkCmdBindIndexBuffer(commands, mesh.buffer.buffer, mesh.indices_at, VK_INDEX_TYPE_UINT32);
+        bound_mesh = true;
+      }
+      push_constants(context, std::as_bytes(std::span(&material.constants, 1)));
+      vkCmdDrawIndexed(commands, part.index_count, batch.count, part.first_index, 0, batch.first);
+      context.statistics.triangles += part.index_count / 3 * batch.count;
+      ++context.statistics.draws;
+    }
+  };
+  if (kind == SurfaceKind::blended)
+    std::for_each(list.batches.rbegin(), list.batches.rend(), draw_batch);
+  else
+    std::for_each(list.batches.begin(), list.batches.end(), draw_batch);
+}
+
+}  // namespace septet::render

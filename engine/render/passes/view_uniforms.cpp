@@ -1,0 +1,80 @@
+#include "engine/render/passes/view_uniforms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace septet::render {
+namespace {
+
+/// Headlights count where it is dark: at night, and under roofs by day.
+constexpr float headlight_intensity = 420.0f;
+
+void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights, bool dark) {
+  std::vector<const Headlight*> nearest;
+  if (dark)
+    for (const Headlight& light : headlights) nearest.push_back(&light);
+  const auto distance = [&](const Headlight* light) { return glm::dot(light->position_m - eye_m, light->position_m - eye_m); };
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [&](const Headlight* a, const Headlight* b) { return distance(a) < distance(b); });
+  nearest.resize(std::min(nearest.size(), most_headlights));
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    uniforms.headlight_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), headlight_intensity);
+    uniforms.headlight_direction[i] = glm::vec4(nearest[i]->direction, 0.0f);
+  }
+  uniforms.wind.z = static_cast<float>(nearest.size());
+}
+
+}  // namespace
+
+Vec3 world_eye(const FrameView& view) { return view.world_from_car * view.projection.eye_m; }
+
+ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const SkyLight& light,
+                           const ShadowCascades& shadows, std::span<const Headlight> headlights, float exposure) {
+  ViewUniforms uniforms{};
+  const OffAxisView& projection = view.projection;
+  const Quat world_from_car = view.world_from_car.orientation;
+  glm::dmat4 clip = projection.clip_from_eye_relative * glm::dmat4(glm::mat4_cast(glm::conjugate(world_from_car)));
+  if (view.mirrored) clip = glm::dmat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1) * clip;
+  uniforms.clip_from_relative = glm::mat4(clip);
+
+  const Vec3 eye_m = world_eye(view);
+  for (std::size_t i = 0; i < cascade_count; ++i)
+    uniforms.shadow_from_relative[i] = texture_from_relative(shadows.cascades[i], glm::vec3(eye_m - shadows.eye_m));
+
+  uniforms.light_direction = glm::vec4(light.light_direction, shadows.cascades[0].texel_m);
+  uniforms.light_irradiance = glm::vec4(light.light_irradiance, exposure);
+  uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, light.fog_per_m);
+  uniforms.ground_irradiance = glm::vec4(light.ground_irradiance, light.night);
+  uniforms.sun_direction = glm::vec4(light.sun_direction, shadows.cascades[1].texel_m);
+  const glm::vec2 sun(light.sun_direction);
+  const glm::vec2 sun_level = glm::length(sun) > 1e-6f ? glm::normalize(sun) : glm::vec2(1.0f, 0.0f);
+  uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(input.environment.cloud_cover));
+
+  // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.
+  const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
+  const double across = 0.5 * (projection.right_slope - projection.left_slope) * (view.mirrored ? -1.0 : 1.0);
+  const double down = 0.5 * (projection.top_slope - projection.bottom_slope);
+  uniforms.ray_middle = world(-projection.back + 0.5 * (projection.right_slope + projection.left_slope) * projection.right +
+                              0.5 * (projection.top_slope + projection.bottom_slope) * projection.up);
+  uniforms.ray_right = world(across * projection.right);
+  uniforms.ray_down = world(-down * projection.up);
+  uniforms.billboard_right = world(projection.right);
+  uniforms.billboard_right.w = static_cast<float>(2.0 * down / std::max(1u, view.viewport.height));
+  uniforms.billboard_up = world(projection.up);
+
+  const Environment& environment = input.environment;
+  uniforms.weather = glm::vec4(environment.road_wetness, environment.snow_cover,
+                               std::fmod(input.simulated_time_s, 3600.0), environment.rain_mm_per_h);
+  // Clouds drift with the wind, which blows twice as fast up there; the noise repeats after 9 km.
+  const double drift_m = std::fmod(input.simulated_time_s * 2.0 * environment.wind_speed_mps, 9000.0);
+  uniforms.wind = glm::vec4(-drift_m * std::cos(environment.wind_direction_rad),
+                            -drift_m * std::sin(environment.wind_direction_rad), 0.0, 0.0);
+  set_headlights(uniforms, eye_m, headlights, exposure > 1.0f);
+  return uniforms;
+}
+
+}  // namespace septet::render

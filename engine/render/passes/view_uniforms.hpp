@@ -1,0 +1,37 @@
+#pragma once
+/// What the shaders of one view know: the twin of shaders/view.glsl, and how it is filled.
+
+#include <array>
+#include <span>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/render/atmosphere.hpp"
+#include "engine/render/frame_input.hpp"
+#include "engine/render/passes/participants.hpp"
+#include "engine/render/passes/shadow_cascades.hpp"
+
+namespace septet::render {
+
+inline constexpr std::size_t most_headlights = 4;
+
+struct ViewUniforms {
+  glm::mat4 clip_from_relative;
+  std::array<glm::mat4, cascade_count> shadow_from_relative;
+  glm::vec4 light_direction, light_irradiance, sky_irradiance, ground_irradiance, sun_direction, sun_level;
+  glm::vec4 ray_middle, ray_right, ray_down;
+  glm::vec4 billboard_right, billboard_up;
+  glm::vec4 weather, wind;
+  std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
+};
+static_assert(sizeof(ViewUniforms) == (4 * 3 + 13 + 8) * 16);
+
+/// Eye of a view in the world.
+Vec3 world_eye(const FrameView& view);
+
+/// `exposure`: from scene radiance to the tone curve. Of the headlights the nearest count.
+ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const SkyLight& light,
+                           const ShadowCascades& shadows, std::span<const Headlight> headlights, float exposure);
+
+}  // namespace septet::render

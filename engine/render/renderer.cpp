@@ -1,0 +1,339 @@
+#include "engine/render/renderer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "engine/core/check.hpp"
+#include "engine/render/atmosphere.hpp"
+#include "engine/render/frame_targets.hpp"
+#include "engine/render/graph/render_graph.hpp"
+#include "engine/render/passes/device_scene.hpp"
+#include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/overlay_pass.hpp"
+#include "engine/render/passes/shadow_pass.hpp"
+#include "engine/render/passes/sky_pass.hpp"
+#include "engine/render/passes/surface_pass.hpp"
+#include "engine/render/passes/view_uniforms.hpp"
+
+namespace septet::render {
+namespace {
+
+/// What one view draws, ready on the CPU and in the frame's arena.
+struct PreparedView {
+  const FrameView* view = nullptr;
+  DrawList list;
+  ViewBindings bindings;
+  FrameData glows;
+  std::uint32_t glow_count = 0;
+};
+
+}  // namespace
+
+struct Renderer::Parts {
+  RendererOptions options;
+  vulkan::Device device;
+  vulkan::MemoryPool memory;
+  vulkan::FrameRing ring;
+  vulkan::PipelineLayout layout;
+  Samplers samplers;
+  TargetFormats formats;
+  FrameTargets targets;
+  vulkan::DeviceImage sky_table, noise;
+  DeviceScene scene;
+  SurfacePass surface_pass;
+  ShadowPass shadow_pass;
+  SkyPass sky_pass;
+  GlowPass glow_pass;
+  std::optional<OverlayPass> overlay_pass;
+  std::optional<Environment> lit_environment;  ///< That `light` was computed for.
+  SkyLight light;
+  Access sky_table_access = Access::none, atlas_access = Access::none;
+  bool drawn = false;
+  RenderStatistics statistics;
+
+  ~Parts() { destroy(); }
+  void create(const RendererOptions& wanted);
+  void destroy();
+  void draw(const FrameInput& input);
+  float exposure(const FrameView& view) const;
+  PreparedView prepare_view(PassContext& context, const FrameView& view, const FrameInput& input,
+                            const ShadowCascades& shadows, const PlacedParticipants& participants) const;
+  DrawList casters(const FrameInput& input, const ShadowCascades& shadows, std::size_t cascade,
+                   std::span<const PlacedMesh> participants) const;
+  void draw_views(PassContext& context, std::span<const PreparedView> views, bool wet);
+};
+
+void Renderer::Parts::create(const RendererOptions& wanted) {
+  options = wanted;
+  memory.device = &device;
+  create_device(device, {wanted.device == DevicePreference::software, wanted.validation, {}, {}});
+  const VkSampleCountFlags samples = device.properties.limits.framebufferColorSampleCounts &
+                                     device.properties.limits.framebufferDepthSampleCounts;
+  formats.samples = wanted.multisampled && (samples & VK_SAMPLE_COUNT_4_BIT) ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  create_frame_ring(ring, device);
+  create_pipeline_layout(layout, device);
+  create_samplers(samplers, device);
+  create_frame_targets(targets, memory, formats, wanted.width, wanted.height);
+  vulkan::ImageDescription table;
+  table.width = SkyTable::columns;
+  table.height = SkyTable::rows;
+  table.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  table.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  sky_table = create_image(memory, table);
+  noise = create_texture(device, memory, noise_side, noise_side, cloud_noise(), false);
+  create_shadow_pass(shadow_pass, device, layout, formats.depth);
+  create_sky_pass(sky_pass, device, layout, formats);
+  create_glow_pass(glow_pass, device, layout, formats);
+  Expected<image::Font> font = image::Font::find(image::FontStyle::bold);
+  if (!font) throw vulkan::Failure{font.error()};
+  overlay_pass.emplace(OverlayPass{VK_NULL_HANDLE, std::move(*font), {}, {}, {}});
+  create_overlay_pass(*overlay_pass, device, memory, layout, formats);
+}
+
+void Renderer::Parts::destroy() {
+  if (!device.device) {
+    destroy_device(device);
+    return;
+  }
+  vkDeviceWaitIdle(device.device);
+  if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
+  destroy_glow_pass(glow_pass, device);
+  destroy_sky_pass(sky_pass, device);
+  destroy_shadow_pass(shadow_pass, device);
+  destroy_surface_pass(surface_pass, device);
+  destroy_scene(scene, memory);
+  destroy_image(memory, noise);
+  destroy_image(memory, sky_table);
+  destroy_frame_targets(targets, memory);
+  destroy_samplers(samplers, device);
+  destroy_pipeline_layout(layout, device);
+  destroy_frame_ring(ring, device, memory);
+  destroy_memory(memory);
+  destroy_device(device);
+}
+
+/// The eye adapts to a roofed place ahead of and around the car, in the same way on every screen.
+float Renderer::Parts::exposure(const FrameView& view) const {
+  constexpr float roofed_exposure = 2.2f;
+  constexpr int samples = 9;
+  float roofed = 0.0f;
+  for (int i = 0; i < samples; ++i) {
+    const Vec3 ahead = view.world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2);
+    roofed += (1.0f - share_of_sky(scene, ahead)) / samples;
+  }
+  return light.exposure * std::pow(std::max(1.0f, roofed_exposure / light.exposure), roofed);
+}
+
+PreparedView Renderer::Parts::prepare_view(PassContext& context, const FrameView& view, const FrameInput& input,
+                                           const ShadowCascades& shadows, const PlacedParticipants& participants) const {
+  PreparedView prepared;
+  prepared.view = &view;
+  const Vec3 eye_m = world_eye(view);
+  const ViewVolume volume = view_volume(view);
+  const auto seen = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
+    return mesh.seen && intersects(volume, centre_m, mesh.radius_m);
+  };
+  append_visible(prepared.list, scene.placed, eye_m, seen);
+  append_visible(prepared.list, participants.meshes, eye_m, seen);
+  sort_by_distance(prepared.list);
+  const float view_exposure = exposure(view);
+  const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, view_exposure);
+  prepared.bindings.uniforms = store(context, std::span(&uniforms, 1));
+  prepared.bindings.records = store(context, std::span<const InstanceRecord>(prepared.list.records));
+  prepared.bindings.sky_table = sky_table.view;
+  prepared.bindings.shadow_map = targets.shadow_map.view;
+  prepared.bindings.noise = noise.view;
+  const std::vector<GlowRecord> glows = glow_records(participants.glows, eye_m, view_exposure);
+  prepared.glows = store(context, std::span<const GlowRecord>(glows));
+  prepared.glow_count = static_cast<std::uint32_t>(glows.size());
+  context.statistics.instances += static_cast<std::uint32_t>(prepared.list.records.size());
+  return prepared;
+}
+
+/// What casts a shadow into a cascade that some view may see.
+DrawList Renderer::Parts::casters(const FrameInput& input, const ShadowCascades& shadows, std::size_t index,
+                                  std::span<const PlacedMesh> participants) const {
+  DrawList list;
+  const Cascade& cascade = shadows.cascades[index];
+  const float least_radius_m = 0.75f * cascade.texel_m;
+  // A shadow falls away from the light; no further than a high thing's at a low sun.
+  const glm::vec3 reach = light.light_direction * -120.0f;
+  std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
+  for (const FrameView& view : input.views)
+    volumes.emplace_back(view_volume(view), glm::vec3(shadows.eye_m - world_eye(view)));
+  const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
+    if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const auto& view) {
+      const glm::vec3 from = centre_m + view.second, to = from + reach;
+      return std::all_of(view.first.begin(), view.first.end(), [&](const glm::vec3& normal) {
+        return std::max(glm::dot(normal, from), glm::dot(normal, to)) >= -mesh.radius_m;
+      });
+    });
+  };
+  append_visible(list, scene.placed, shadows.eye_m, casts);
+  append_visible(list, participants, shadows.eye_m, casts);
+  return list;
+}
+
+void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, bool wet) {
+  begin_view_rendering(context, targets);
+  for (const PreparedView& prepared : views) {
+    if (prepared.view != views.front().view) clear_inset(context, prepared.view->viewport);
+    set_viewport(context, prepared.view->viewport);
+    vkCmdSetFrontFace(context.slot.commands,
+                      prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    push_view(context, prepared.bindings);
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::opaque, wet);
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::cut, wet);
+    draw_sky(sky_pass, context);
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::blended, wet);
+    draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
+  }
+  vkCmdEndRendering(context.slot.commands);
+}
+
+void Renderer::Parts::draw(const FrameInput& input) {
+  statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
+  PassContext context{device, memory, layout, samplers, formats, begin_frame(ring, device), statistics};
+
+  const bool new_light = !lit_environment || *lit_environment != input.environment;
+  if (new_light) light = sky_light(input.environment);
+  lit_environment = input.environment;
+
+  PlacedParticipants participants =
+      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
+  for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
+
+  const ShadowCascades shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
+  std::vector<PreparedView> views;
+  for (const FrameView& view : input.views) views.push_back(prepare_view(context, view, input, shadows, participants));
+  std::array<DrawList, cascade_count> caster_lists;
+  std::array<FrameData, cascade_count> caster_records;
+  for (std::size_t i = 0; i < cascade_count; ++i) {
+    caster_lists[i] = casters(input, shadows, i, participants.meshes);
+    caster_records[i] = store(context, std::span<const InstanceRecord>(caster_lists[i].records));
+  }
+  const bool new_text = lay_out(*overlay_pass, input.overlay);
+
+  RenderGraph graph;
+  std::vector<vulkan::ImageBarrier> images;  // By resource.
+  const auto add_image = [&](const char* name, const vulkan::DeviceImage& image, Access held) {
+    images.push_back({&image, VK_NULL_HANDLE, Access::none, Access::none, false});
+    return graph.add_resource(name, held);
+  };
+  const ResourceId table = add_image("sky table", sky_table, sky_table_access);
+  const ResourceId shadow_map = add_image("shadow map", targets.shadow_map, targets.shadow_access);
+  const ResourceId depth = add_image("depth", targets.depth, targets.depth_access);
+  const ResourceId picture = add_image("picture", targets.picture, targets.picture_access);
+  const ResourceId atlas = add_image("text atlas", overlay_pass->atlas, atlas_access);
+  std::optional<ResourceId> samples;
+  if (targets.multisampled()) samples = add_image("samples", targets.samples, targets.samples_access);
+
+  if (new_light)
+    graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}},
+                   [&] {
+                     const std::vector<std::uint64_t> texels = packed(light.table);
+                     upload_texels(context, sky_table, std::as_bytes(std::span(texels)));
+                   });
+  graph.add_pass("shadows", {{}, {{shadow_map, Access::depth_attachment}}}, [&] {
+    for (std::size_t i = 0; i < cascade_count; ++i)
+      draw_shadows(shadow_pass, context, scene, caster_lists[i], caster_records[i], shadows.cascades[i],
+                   targets.shadow_map.layer_views[i]);
+  });
+  PassUses view_uses{{{table, Access::sampled}, {shadow_map, Access::sampled}},
+                     {{picture, Access::color_attachment}, {depth, Access::depth_attachment}}};
+  if (samples) view_uses.writes.push_back({*samples, Access::color_attachment});
+  graph.add_pass("views", view_uses, [&] { draw_views(context, views, input.environment.road_wetness > 0.0); });
+  if (new_text)
+    graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}}, [&] { upload_atlas(*overlay_pass, context); });
+  if (!input.overlay.empty())
+    graph.add_pass("overlay",
+                   {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
+                   [&] { draw_overlay(*overlay_pass, context, input.overlay, targets.picture.view, targets.width, targets.height); });
+  graph.keep(picture, Access::transfer_source);
+
+  graph.execute([&](std::span<const Barrier> barriers) {
+    std::vector<vulkan::ImageBarrier> list;
+    for (const Barrier& barrier : barriers) {
+      list.push_back(images[barrier.resource]);
+      list.back().before = barrier.before;
+      list.back().after = barrier.after;
+      list.back().discard = barrier.discard;
+    }
+    record_barriers(context.slot.commands, list);
+  });
+  const std::vector<Access> left = graph.left(graph.compile());
+  sky_table_access = left[table];
+  targets.shadow_access = left[shadow_map];
+  targets.depth_access = left[depth];
+  targets.picture_access = left[picture];
+  atlas_access = left[atlas];
+  if (samples) targets.samples_access = left[*samples];
+  submit(ring, context.slot, device);
+  drawn = true;
+  if (device.validation_log) {
+    statistics.validation_messages = device.validation_log->messages;
+    const std::lock_guard lock(device.validation_log->mutex);
+    statistics.first_validation_message = device.validation_log->first;
+  }
+}
+
+Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Expected<Renderer> Renderer::create(const RendererOptions& options) {
+  if (options.width == 0 || options.height == 0 || options.width > 16384 || options.height > 16384)
+    return failure("the picture is " + std::to_string(options.width) + " × " + std::to_string(options.height) + " pixels",
+                   "screen size", "give a width and height from 1 to 16384 pixels");
+  auto parts = std::make_unique<Parts>();
+  try {
+    parts->create(options);
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  return Renderer(std::move(parts));
+}
+
+Expected<void> Renderer::upload(const scene::ResolvedScene& scene) {
+  if (parts_->scene.revision == scene.revision) return {};
+  try {
+    wait_for_frames(parts_->ring, parts_->device);
+    upload_scene(parts_->scene, scene, parts_->device, parts_->memory);
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  return {};
+}
+
+Expected<void> Renderer::draw(const FrameInput& input) {
+  SEPTET_CHECK(!input.views.empty(), "a frame without a view");
+  try {
+    parts_->draw(input);
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  return {};
+}
+
+Expected<image::Image> Renderer::read_back() {
+  image::Image picture(parts_->targets.width, parts_->targets.height);
+  if (!parts_->drawn) return picture;
+  try {
+    read_picture(parts_->targets, parts_->device, parts_->memory, picture.rgba);
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  return picture;
+}
+
+std::uint32_t Renderer::width() const { return parts_->targets.width; }
+std::uint32_t Renderer::height() const { return parts_->targets.height; }
+const RenderStatistics& Renderer::statistics() const { return parts_->statistics; }
+std::string_view Renderer::device_name() const { return parts_->device.properties.deviceName; }
+
+}  // namespace septet::render

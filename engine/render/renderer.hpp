@@ -1,0 +1,72 @@
+#pragma once
+/// The rasteriser: draws a ResolvedScene and the participants of one instant, off-screen or into a window.
+///
+/// Call `upload` when the scene's revision changes, `draw` once a frame, and `read_back` for the pixels of the last frame.
+/// All calls of one Renderer come from one thread. It never reads a clock, a file or the network. Errors are those of the
+/// device (no Vulkan 1.3, out of memory, device lost); after one from `draw` or `upload`, make a new Renderer.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "engine/core/expected.hpp"
+#include "engine/image/image.hpp"
+#include "engine/render/frame_input.hpp"
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::render {
+
+class Window;
+
+enum class DevicePreference : std::uint8_t {
+  any,       ///< The most capable device: discrete, integrated, then software.
+  software,  ///< Mesa lavapipe: the same pixels wherever it runs on the same kind of processor.
+};
+
+struct RendererOptions {
+  std::uint32_t width = 0, height = 0;  ///< Of the target, pixels.
+  DevicePreference device = DevicePreference::any;
+  bool validation = false;        ///< Turns the Khronos validation layer on; its messages are counted in the statistics.
+  bool multisampled = true;       ///< Four samples a pixel.
+  Window* window = nullptr;       ///< Where to present; null draws off-screen. Outlives the renderer.
+};
+
+/// What the last frame cost to submit, and what the validation layer has said since the start.
+struct RenderStatistics {
+  std::uint32_t triangles = 0;         ///< Submitted, shadows included.
+  std::uint32_t shadow_triangles = 0;
+  std::uint32_t draws = 0;
+  std::uint32_t instances = 0;         ///< That passed culling, shadows not included.
+  std::uint32_t validation_messages = 0;
+  std::string first_validation_message;
+};
+
+class Renderer {
+ public:
+  static Expected<Renderer> create(const RendererOptions& options);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// Brings the device's copy up to the scene's: uploads what has a newer revision than was last seen.
+  Expected<void> upload(const scene::ResolvedScene& scene);
+
+  /// Draws one frame and, with a window, presents it. A window that was resized changes width() and height().
+  Expected<void> draw(const FrameInput& input);
+
+  /// The last frame: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
+  Expected<image::Image> read_back();
+
+  std::uint32_t width() const;
+  std::uint32_t height() const;
+  const RenderStatistics& statistics() const;
+  std::string_view device_name() const;
+
+ private:
+  struct Parts;
+  explicit Renderer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace septet::render

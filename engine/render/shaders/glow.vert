@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+// A lamp's glow: a square that faces the viewer. The host's twin is GlowRecord in passes/glow_pass.hpp.
+struct Glow {
+  vec4 position_size;  // Relative to the eye; radius, m.
+  vec4 color;          // Display light of the glow at its middle.
+};
+layout(set = 0, binding = 1, std430) readonly buffer Glows { Glow glows[]; };
+
+layout(location = 0) out vec2 out_at;
+layout(location = 1) flat out vec3 out_color;
+
+void main() {
+  Glow glow = glows[gl_InstanceIndex];
+  const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+  vec2 at = corners[gl_VertexIndex];
+  vec3 middle = glow.position_size.xyz;
+  float distance_m = length(middle);
+  // Never smaller than a few pixels, so that a far lamp is still seen; pulled out of its own housing.
+  float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 2.5);
+  middle *= 1.0 - min(0.5, (0.25 + 0.2 * radius) / distance_m);
+  out_at = at;
+  out_color = glow.color.rgb * (exp(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 0.7));
+  gl_Position = view.clip_from_relative *
+                vec4(middle + (view.billboard_right.xyz * at.x + view.billboard_up.xyz * at.y) * radius, 1.0);
+}

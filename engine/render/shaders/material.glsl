@@ -1,0 +1,8 @@
+// The material of one draw. The host's twin is MaterialConstants in passes/surface_pass.hpp.
+
+layout(push_constant) uniform Material {
+  vec4 base_color;  // rgb, opacity.
+  vec4 emission;    // rgb, roughness.
+  vec4 surface;     // Metallic, reflectance at normal incidence, wettable, takes paint.
+  vec4 light;       // x: share of the sky that the surface sees.
+} material;

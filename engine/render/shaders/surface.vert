@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "instances.glsl"
+#include "material.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 uv;
+layout(location = 2) in vec3 normal;
+
+layout(location = 0) out vec3 out_relative;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec2 out_uv;
+layout(location = 3) flat out vec4 out_color;     // Base colour and opacity.
+layout(location = 4) flat out vec4 out_emission;  // rgb, w: share of the sky.
+
+void main() {
+  Instance instance = instances[gl_InstanceIndex];
+  out_relative = placed(instance, position);
+  out_normal = turned_normal(instance, normal);
+  out_uv = uv;
+  vec3 paint = material.surface.w > 0.5 ? instance.tint.rgb : vec3(1.0);
+  out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
+  out_emission = vec4(material.emission.rgb * instance.tint.a, material.light.x * instance.light.x);
+  gl_Position = view.clip_from_relative * vec4(out_relative, 1.0);
+}

@@ -1,0 +1,42 @@
+// What every pass of a view sees. The host's twin is ViewUniforms in passes/view_uniforms.hpp.
+//
+// Positions are relative to the eye, along the world's axes, metres. Radiance: see atmosphere.hpp.
+
+layout(set = 0, binding = 0, std140) uniform View {
+  mat4 clip_from_relative;
+  mat4 shadow_from_relative[2];  // To texture coordinates and depth of a cascade.
+  vec4 light_direction;    // xyz: to the sun or moon. w: side of a near cascade's texel, m.
+  vec4 light_irradiance;   // rgb. w: exposure.
+  vec4 sky_irradiance;     // rgb. w: extinction of the fog per metre.
+  vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
+  vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
+  vec4 sun_level;          // xy: the sun's direction on the level, unit. z: overcast, w: cloud cover.
+  vec4 ray_middle, ray_right, ray_down;  // Direction to a pixel: middle + right·x + down·y in NDC.
+  vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
+  vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
+  vec4 wind;               // xy: drift of the clouds, m. z: number of headlights.
+  vec4 headlight_position[4];   // xyz relative. w: intensity.
+  vec4 headlight_direction[4];  // xyz unit.
+} view;
+
+layout(set = 0, binding = 2) uniform sampler2D sky_table;
+layout(set = 0, binding = 3) uniform sampler2DArrayShadow shadow_map;
+layout(set = 0, binding = 4) uniform sampler2D noise;
+layout(set = 0, binding = 5) uniform sampler2D image;
+
+const float pi = 3.14159265;
+
+// Row and column of the sky table for a direction.
+vec2 sky_coordinates(vec3 direction) {
+  float per_level = inversesqrt(max(dot(direction.xy, direction.xy), 1e-8));
+  float cosine = dot(direction.xy, view.sun_level.xy) * per_level;
+  return vec2(sqrt(max(0.0, 0.5 - 0.5 * cosine)), 0.5 + 0.5 * sign(direction.z) * sqrt(abs(direction.z)));
+}
+
+vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
+
+// Scene radiance to display light: Narkowicz, "ACES Filmic Tone Mapping Curve" (2015).
+vec3 tone_mapped(vec3 radiance) {
+  vec3 x = radiance * view.light_irradiance.w;
+  return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}

@@ -1,0 +1,71 @@
+#pragma once
+/// Recording and submitting: barriers, one-off commands, and the slots of frames in flight.
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/render/graph/render_graph.hpp"
+#include "engine/render/vulkan/memory.hpp"
+
+namespace septet::render::vulkan {
+
+/// A change of use of a whole image.
+struct ImageBarrier {
+  const DeviceImage* image = nullptr;
+  VkImage swapchain_image = VK_NULL_HANDLE;  ///< Instead of `image`.
+  Access before = Access::none, after = Access::none;
+  bool discard = false;
+};
+
+void record_barriers(VkCommandBuffer commands, std::span<const ImageBarrier> barriers);
+
+/// Records, submits and waits: for uploads and reading back.
+void run_once(const Device& device, const std::function<void(VkCommandBuffer)>& record);
+
+/// Host-written memory that lives for one frame: uniforms, instance records, texts.
+struct FrameArena {
+  struct Slice {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    std::uint64_t offset = 0;
+    std::byte* data = nullptr;
+  };
+  std::vector<Buffer> chunks;
+  std::size_t chunk = 0;
+  std::uint64_t used = 0;
+};
+
+FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t size);
+
+/// What one frame in flight owns.
+struct FrameSlot {
+  VkCommandPool pool = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkSemaphore image_acquired = VK_NULL_HANDLE;
+  std::uint64_t finished_value = 0;  ///< Of the timeline, once the device is done with the slot.
+  FrameArena arena;
+};
+
+inline constexpr std::size_t frames_in_flight = 2;
+
+struct FrameRing {
+  std::array<FrameSlot, frames_in_flight> slots;
+  VkSemaphore timeline = VK_NULL_HANDLE;
+  std::uint64_t submitted = 0;
+};
+
+void create_frame_ring(FrameRing& ring, const Device& device);
+void destroy_frame_ring(FrameRing& ring, const Device& device, MemoryPool& pool);
+/// Waits until the slot of the next frame is free and begins its commands.
+FrameSlot& begin_frame(FrameRing& ring, const Device& device);
+/// What else a submission waits for and signals; null: nothing.
+struct PresentSync {
+  VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
+};
+/// Ends the slot's commands and submits them.
+void submit(FrameRing& ring, FrameSlot& slot, const Device& device, const PresentSync& sync = {});
+/// Waits until every frame that was submitted is finished.
+void wait_for_frames(const FrameRing& ring, const Device& device);
+
+}  // namespace septet::render::vulkan

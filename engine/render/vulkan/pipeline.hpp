@@ -1,0 +1,54 @@
+#pragma once
+/// Graphics pipelines: one layout for all of them, dynamic rendering, and what differs as plain data.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "engine/render/vulkan/device.hpp"
+
+namespace septet::render::vulkan {
+
+/// Bindings of the one descriptor set, pushed while recording.
+enum Binding : std::uint32_t {
+  binding_view = 0,       ///< Uniforms of the view.
+  binding_instances = 1,  ///< Storage: what is drawn many times.
+  binding_sky = 2,
+  binding_shadow = 3,
+  binding_noise = 4,
+  binding_image = 5,      ///< The material's image, or the overlay's.
+  binding_count = 6,
+};
+
+inline constexpr std::uint32_t push_constant_bytes = 128;
+
+struct PipelineLayout {
+  VkDescriptorSetLayout set = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+};
+
+void create_pipeline_layout(PipelineLayout& layout, const Device& device);
+void destroy_pipeline_layout(PipelineLayout& layout, const Device& device);
+
+enum class Blend : std::uint8_t { none, over, add };
+/// What of a scene::SurfaceVertex the vertex shader takes: position, texture coordinates, normal at locations 0, 1, 2.
+enum class VertexInput : std::uint8_t { none, position_uv, surface };
+
+struct PipelineDescription {
+  std::span<const std::uint32_t> vertex_code, fragment_code;  ///< SPIR-V; no fragment code: depth only.
+  VertexInput vertex_input = VertexInput::surface;
+  VkFormat color_format = VK_FORMAT_UNDEFINED, depth_format = VK_FORMAT_UNDEFINED;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  Blend blend = Blend::none;
+  bool depth_write = true;
+  VkCompareOp depth_compare = VK_COMPARE_OP_GREATER_OR_EQUAL;  ///< Depth is reversed.
+  bool alpha_to_coverage = false;
+  float depth_bias = 0.0f, depth_bias_slope = 0.0f;
+  bool clamp_depth = false;
+  std::array<std::uint32_t, 4> constants{};  ///< Specialization constants 0 to 3 of both stages.
+};
+
+/// Viewport, scissor, cull mode and front face are dynamic.
+VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, const PipelineDescription& description);
+
+}  // namespace septet::render::vulkan
