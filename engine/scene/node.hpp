@@ -107,6 +107,10 @@ constexpr std::uint32_t layer_width(LayerType type) {
                                                                                : 1;
 }
 
+/// The base layers, for subscriptions; other layers have lower ids.
+inline constexpr PartId base_vertex_layer = 0xFFFF;
+inline constexpr PartId base_polygon_layer = 0xFFFE;
+
 /// A named value for every vertex, corner or face. Exactly one of the two arrays is in use, of
 /// (vertices or polygons) × layer_width values.
 struct GeometryLayer {

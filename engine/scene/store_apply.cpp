@@ -245,6 +245,8 @@ struct Store::Application {
   Expected<void> operator()(const GeometryLayerSet& c) const {
     const auto found = node_with<GeometryData>(c.node);
     if (!found) return tl::unexpected(found.error());
+    if (c.layer >= base_polygon_layer)
+      return no("the id is that of a base layer", "use an id below 65534");
     GeometryData& geometry = *found->second;
     const auto existing = geometry.layers.find(c.layer);
     const bool keeps_values = existing != geometry.layers.end() && existing->second.type == c.type;

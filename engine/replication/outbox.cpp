@@ -1,0 +1,121 @@
+#include "engine/replication/outbox.hpp"
+
+#include <algorithm>
+
+#include "engine/scene/command_codec.hpp"
+
+namespace septet::replication {
+namespace {
+
+constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Of a range, before it is packed.
+constexpr std::size_t most_ranges = 64;  ///< More are taken together, with what lies between.
+
+using Ranges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+void add_range(Ranges& ranges, std::uint32_t first, std::uint32_t end) {
+  auto at =
+      std::lower_bound(ranges.begin(), ranges.end(), first,
+                       [](const auto& range, std::uint32_t value) { return range.second < value; });
+  // Everything from `at` on that touches the new range is taken into it.
+  auto last = at;
+  for (; last != ranges.end() && last->first <= end; ++last) {
+    first = std::min(first, last->first);
+    end = std::max(end, last->second);
+  }
+  at = ranges.erase(at, last);
+  ranges.insert(at, {first, end});
+  if (ranges.size() > most_ranges) ranges = {{ranges.front().first, ranges.back().second}};
+}
+
+}  // namespace
+
+void Outbox::mark(const Change& change) {
+  const auto [found, added] = waiting_.try_emplace(change.subject);
+  Waiting& waiting = found->second;
+  if (added) {
+    waiting.change = change;
+    order_.push_back(change.subject);
+  } else {
+    waiting.change.renew = waiting.change.renew || change.renew;
+    waiting.change.smallest_vertices =
+        std::min(waiting.change.smallest_vertices, change.smallest_vertices);
+    waiting.change.smallest_polygons =
+        std::min(waiting.change.smallest_polygons, change.smallest_polygons);
+  }
+  if (is_range(change.subject.kind)) add_range(waiting.ranges, change.first, change.end);
+}
+
+void Outbox::forget(const Subject& first, const Subject& last) {
+  waiting_.erase(waiting_.lower_bound(first), waiting_.upper_bound(last));
+}
+
+void Outbox::write_whole(const scene::Store& store, const Subject& subject, Bytes& out,
+                         std::vector<Change>& sent) {
+  const auto found = waiting_.find(subject);
+  if (found == waiting_.end()) return;
+  describe_change(store, found->second.change,
+                  [&](const scene::Command& command) { encode(command, out); });
+  sent.push_back(found->second.change);
+  waiting_.erase(found);
+}
+
+void Outbox::write_what_it_needs(const scene::Store& store, const Subject& subject, Bytes& out,
+                                 std::vector<Change>& sent) {
+  const auto first = [&](SubjectKind kind, PartId part) {
+    write_whole(store, Subject{subject.node, kind, part, 0}, out, sent);
+  };
+  if (subject.kind == SubjectKind::existence) return;
+  first(SubjectKind::existence, 0);
+  switch (subject.kind) {
+    case SubjectKind::tag:
+      return first(SubjectKind::tag_group, subject.part);
+    case SubjectKind::vertices:
+    case SubjectKind::polygons:
+      return first(SubjectKind::geometry_size, 0);
+    case SubjectKind::layer_values:
+      first(SubjectKind::geometry_size, 0);
+      return first(SubjectKind::geometry_layer, subject.part);
+    case SubjectKind::tiles:
+      first(SubjectKind::bitmap_size, 0);
+      return first(SubjectKind::bitmap_layer, subject.part);
+    default:
+      return;
+  }
+}
+
+void Outbox::write(const scene::Store& store, std::size_t bytes, Bytes& out,
+                   std::vector<Change>& sent) {
+  while (out.size() < bytes && !order_.empty()) {
+    const Subject subject = order_.front();
+    const auto found = waiting_.find(subject);
+    if (found == waiting_.end()) {
+      order_.pop_front();
+      continue;
+    }
+    write_what_it_needs(store, subject, out, sent);
+    if (!is_range(subject.kind)) {
+      write_whole(store, subject, out, sent);
+      order_.pop_front();
+      continue;
+    }
+    auto& ranges = found->second.ranges;
+    const std::uint32_t count = element_count(store, subject);
+    Change piece = found->second.change;
+    piece.first = ranges.front().first;
+    piece.end = std::min(ranges.front().second, count);
+    if (piece.first < piece.end) {
+      piece.end = std::min(piece.end, piece.first + elements_in(store, subject, chunk_bytes));
+      describe_change(store, piece, [&](const scene::Command& command) { encode(command, out); });
+      sent.push_back(piece);
+      ranges.front().first = piece.end;
+    } else {
+      ranges.front().first = ranges.front().second;  // Cut off meanwhile.
+    }
+    if (ranges.front().first >= ranges.front().second) ranges.erase(ranges.begin());
+    if (!ranges.empty()) continue;
+    waiting_.erase(found);
+    order_.pop_front();
+  }
+}
+
+}  // namespace septet::replication

@@ -1,0 +1,223 @@
+#include "engine/replication/replication_client.hpp"
+
+#include <deque>
+#include <limits>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/replication/message.hpp"
+#include "engine/scene/command_codec.hpp"
+
+namespace septet::replication {
+
+using namespace scene;
+
+namespace {
+
+constexpr std::size_t batch_bytes = 32 * 1024;
+
+struct SentBatch {
+  std::uint64_t sequence = 0;
+  Bytes commands;
+};
+
+}  // namespace
+
+struct ReplicationClient::State {
+  SubscriptionPolicy policy;
+  StoreLimits limits;
+
+  std::unique_ptr<Store> shown = std::make_unique<Store>();
+  std::unique_ptr<Store> filling;  ///< Where it is another than the one shown.
+  std::uint64_t generation = 0;
+  std::set<std::tuple<NodeId, PartKind, PartId>> subscribed_parts;
+
+  std::uint64_t token = 0;
+  std::uint64_t received = 0;  ///< The server's last batch.
+  std::uint64_t sent = 0;
+  std::deque<SentBatch> unacknowledged;
+  std::size_t to_repeat = 0;  ///< The last so many of them are to be sent (again).
+  Bytes queued;               ///< Commands that are in no batch yet.
+  bool hello_due = false, welcomed = false, owes_acknowledgement = false;
+
+  bool ever_complete = false;
+  std::uint64_t answered = 0, revision = 0;
+
+  Store& mirror() { return filling ? *filling : *shown; }
+  bool complete() const { return ever_complete && queued.empty() && answered == sent; }
+
+  void start_anew(std::uint64_t new_token) {
+    token = new_token;
+    received = sent = answered = 0;
+    unacknowledged.clear();
+    to_repeat = 0;
+    queued.clear();
+    subscribed_parts.clear();
+    ever_complete = false;
+    owes_acknowledgement = false;
+    filling = std::make_unique<Store>(limits);
+    if (shown->revision() == 0) show();  // Nothing to hold on to: show it as it comes.
+    queue(NodeIndexSubscribe{policy.node_types});
+  }
+  void show() {
+    shown = std::move(filling);
+    ++generation;
+  }
+
+  // ---- what to ask for
+
+  void queue(const Command& command) {
+    scene::encode(command, queued);
+    if (queued.size() >= batch_bytes) close_batch();
+  }
+  void close_batch() {
+    if (queued.empty()) return;
+    unacknowledged.push_back({++sent, std::exchange(queued, {})});
+    ++to_repeat;
+  }
+  void subscribe(NodeId node, NodeType type, PartKind kind, PartId part, std::string_view name) {
+    if (policy.wants_part && !policy.wants_part(type, kind, name)) return;
+    if (subscribed_parts.insert({node, kind, part}).second)
+      queue(PartSubscribe{node, kind, part, true});
+  }
+  void forget_parts(NodeId node) {
+    constexpr PartId last = std::numeric_limits<PartId>::max();
+    subscribed_parts.erase(subscribed_parts.lower_bound({node, PartKind::tag_group, 0}),
+                           subscribed_parts.upper_bound({node, PartKind::layer, last}));
+  }
+
+  /// Subscribes to what a command tells of.
+  void learn_from(const Command& command) {
+    if (const auto* c = std::get_if<NodeCreate>(&command)) {
+      queue(NodeSubscribe{c->node, true});
+      if (c->type == NodeType::geometry) {
+        subscribe(c->node, c->type, PartKind::layer, base_vertex_layer, "vertex");
+        subscribe(c->node, c->type, PartKind::layer, base_polygon_layer, "polygon");
+      }
+    } else if (const auto* destroyed = std::get_if<NodeDestroy>(&command)) {
+      forget_parts(destroyed->node);
+    } else if (const auto* group = std::get_if<TagGroupSet>(&command)) {
+      subscribe(group->node, mirror().find(group->node)->type(), PartKind::tag_group, group->group,
+                group->name);
+    } else if (const auto* no_group = std::get_if<TagGroupDestroy>(&command)) {
+      subscribed_parts.erase({no_group->node, PartKind::tag_group, no_group->group});
+    } else if (const auto* layer = std::get_if<GeometryLayerSet>(&command)) {
+      subscribe(layer->node, NodeType::geometry, PartKind::layer, layer->layer, layer->name);
+    } else if (const auto* no_layer = std::get_if<GeometryLayerDestroy>(&command)) {
+      subscribed_parts.erase({no_layer->node, PartKind::layer, no_layer->layer});
+    } else if (const auto* pixels = std::get_if<BitmapLayerSet>(&command)) {
+      subscribe(pixels->node, NodeType::bitmap, PartKind::layer, pixels->layer, pixels->name);
+    } else if (const auto* no_pixels = std::get_if<BitmapLayerDestroy>(&command)) {
+      subscribed_parts.erase({no_pixels->node, PartKind::layer, no_pixels->layer});
+    }
+  }
+
+  // ---- messages
+
+  Expected<void> operator()(const Welcome& message) {
+    if (welcomed) return failure("a second welcome", "replication server", "welcome a client once");
+    welcomed = true;
+    if (!message.resumed || message.token != token || token == 0) {
+      start_anew(message.token);
+      return {};
+    }
+    acknowledge(message.received);
+    to_repeat = unacknowledged.size();
+    return {};
+  }
+
+  Expected<void> operator()(const CommandBatch& message) {
+    acknowledge(message.received);
+    if (message.sequence <= received) return {};
+    if (message.sequence != received + 1)
+      return failure(fmt::format("batch {} follows {}", message.sequence, received),
+                     "replication server", "connect again");
+    ByteReader in(message.commands);
+    while (!in.at_end()) {
+      const auto command = scene::decode(in);
+      if (!command) return tl::unexpected(command.error());
+      if (auto applied = mirror().apply(*command); !applied) return applied;
+      learn_from(*command);
+    }
+    received = message.sequence;
+    owes_acknowledgement = true;
+    return {};
+  }
+
+  Expected<void> operator()(const Complete& message) {
+    answered = message.answered;
+    revision = message.revision;
+    // Before the first batch is out nothing was asked for, so nothing can be complete.
+    ever_complete = ever_complete || answered > 0;
+    if (filling && complete()) show();
+    return {};
+  }
+  Expected<void> operator()(const Received& message) {
+    acknowledge(message.sequence);
+    return {};
+  }
+  Expected<void> operator()(const Hello&) {
+    return failure("a message that only a client sends", "replication server",
+                   "connect to a server");
+  }
+
+  void acknowledge(std::uint64_t sequence) {
+    while (!unacknowledged.empty() && unacknowledged.front().sequence <= sequence)
+      unacknowledged.pop_front();
+    to_repeat = std::min(to_repeat, unacknowledged.size());
+  }
+
+  void pump(const Send& send) {
+    if (hello_due) {
+      if (!send(encode(Hello{token, received}))) return;
+      hello_due = false;
+    }
+    if (!welcomed) return;
+    close_batch();
+    for (; to_repeat > 0; --to_repeat) {
+      const SentBatch& batch = unacknowledged[unacknowledged.size() - to_repeat];
+      if (!send(encode(CommandBatch{batch.sequence, received, batch.commands}))) return;
+      owes_acknowledgement = false;
+    }
+    if (owes_acknowledgement && send(encode(Received{received}))) owes_acknowledgement = false;
+  }
+};
+
+ReplicationClient::ReplicationClient(SubscriptionPolicy policy, const StoreLimits& limits)
+    : state_(std::make_unique<State>()) {
+  state_->policy = std::move(policy);
+  state_->limits = limits;
+}
+ReplicationClient::~ReplicationClient() = default;
+
+void ReplicationClient::connected() {
+  state_->hello_due = true;
+  state_->welcomed = false;
+}
+
+void ReplicationClient::disconnected() { state_->hello_due = state_->welcomed = false; }
+
+Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
+  const auto decoded = decode(message);
+  Expected<void> done;
+  if (!decoded)
+    done = tl::unexpected(decoded.error());
+  else if (!state_->welcomed && !std::holds_alternative<Welcome>(*decoded))
+    done = failure("a message before the welcome", "replication server", "welcome a client first");
+  else
+    done = std::visit(*state_, *decoded);
+  if (!done) state_->token = 0;  // A mirror that missed something is not taken up again.
+  return done;
+}
+
+void ReplicationClient::pump(const Send& send) { state_->pump(send); }
+void ReplicationClient::request(Command command) { state_->queue(command); }
+const Store& ReplicationClient::store() const { return *state_->shown; }
+std::uint64_t ReplicationClient::generation() const { return state_->generation; }
+bool ReplicationClient::complete() const { return state_->complete(); }
+std::uint64_t ReplicationClient::complete_revision() const { return state_->revision; }
+
+}  // namespace septet::replication

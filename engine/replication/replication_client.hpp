@@ -1,0 +1,61 @@
+#pragma once
+/// A client's side of replication: a mirror of what it subscribed to (REPLICATION.md).
+///
+///     on a connection:  client.connected();
+///     on a message:     client.receive(bytes);   // an error: drop the connection
+///     on a loss:        client.disconnected();
+///     every frame:      client.pump(send); if (resolver generation differs) resolver.forget();
+///     resolver.update(client.store())
+///
+/// Bytes in, bytes out; single-threaded.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "engine/core/expected.hpp"
+#include "engine/replication/replication_server.hpp"
+#include "engine/scene/store.hpp"
+
+namespace septet::replication {
+
+/// What a client subscribes to of what it learns of. The default, a screen's: everything.
+struct SubscriptionPolicy {
+  std::uint32_t node_types = (1u << scene::node_type_count) - 1u;
+  /// Whether to subscribe to a tag group or layer of that name (base layers: "vertex", "polygon");
+  /// empty: to all.
+  std::function<bool(scene::NodeType, scene::PartKind, std::string_view name)> wants_part;
+};
+
+class ReplicationClient {
+ public:
+  explicit ReplicationClient(SubscriptionPolicy policy = {}, const scene::StoreLimits& limits = {});
+  ~ReplicationClient();
+
+  void connected();
+  void disconnected();
+  Expected<void> receive(std::span<const std::byte> message);
+  /// Sends what there is to say: subscriptions, requests, acknowledgements.
+  void pump(const Send& send);
+
+  /// Asks the server for a change (its answer is the same command, or nothing) or for a
+  /// subscription beyond the policy's. Requests of a session that is not resumed are lost.
+  void request(scene::Command command);
+  /// What is to be shown: the mirror, or, while a new connection fills a new one, the last complete
+  /// one.
+  const scene::Store& store() const;
+  /// Changes whenever `store()` is another one than before.
+  std::uint64_t generation() const;
+
+  /// Whether the mirror that is being kept holds all that was subscribed to, up to
+  /// `complete_revision` of the server's store.
+  bool complete() const;
+  std::uint64_t complete_revision() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::replication

@@ -1,0 +1,373 @@
+#include "engine/replication/replication_server.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/core/check.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/replication/message.hpp"
+#include "engine/replication/outbox.hpp"
+#include "engine/scene/command_codec.hpp"
+
+namespace septet::replication {
+
+using namespace scene;
+
+namespace {
+
+constexpr int nodes_listed_at_once = 256;
+constexpr int requests_per_pump = 8192;
+
+/// A batch on its way: what to say again if it does not arrive.
+struct Unacknowledged {
+  std::uint64_t sequence = 0;
+  std::size_t bytes = 0;
+  std::vector<Change> changes;
+};
+
+struct Session {
+  std::uint64_t token = 0;
+  std::string identity;
+
+  std::uint32_t node_types = 0;
+  NodeId next_listed =
+      no_node;  ///< From here on the index is still to be listed; no_node: nothing is.
+  std::set<NodeId> announced;
+  std::map<NodeId, std::set<std::pair<PartKind, PartId>>> subscriptions;
+
+  Outbox outbox;
+  std::deque<Command> requests;  ///< Subscriptions that are not answered yet.
+  std::uint64_t received = 0;    ///< The client's last batch.
+  bool owes_acknowledgement = false;
+  std::uint64_t sent = 0;
+  std::deque<Unacknowledged> unacknowledged;
+  std::size_t unacknowledged_bytes = 0;
+  bool told_complete = false;
+  std::uint64_t told_revision = 0, told_answered = 0;
+
+  bool wants(const Subject& subject) const {
+    const auto node = subscriptions.find(subject.node);
+    if (node == subscriptions.end()) return false;
+    if (subject.kind == SubjectKind::tag)
+      return node->second.contains({PartKind::tag_group, subject.part});
+    if (is_range(subject.kind)) return node->second.contains({PartKind::layer, subject.part});
+    return true;
+  }
+
+  void acknowledge(std::uint64_t sequence) {
+    while (!unacknowledged.empty() && unacknowledged.front().sequence <= sequence) {
+      unacknowledged_bytes -= unacknowledged.front().bytes;
+      unacknowledged.pop_front();
+    }
+  }
+
+  /// After a loss: what did not arrive is said again.
+  void rewind(std::uint64_t arrived) {
+    acknowledge(arrived);
+    for (const Unacknowledged& lost : unacknowledged)
+      for (const Change& change : lost.changes)
+        if (change.subject.kind == SubjectKind::existence || wants(change.subject))
+          outbox.mark(change);
+    unacknowledged.clear();
+    unacknowledged_bytes = 0;
+    sent = arrived;
+    told_complete = false;
+  }
+};
+
+struct Connection {
+  std::string identity;
+  std::unique_ptr<Session> session;  ///< From its hello on.
+  Bytes unsent;                      ///< A message that the lane did not take.
+};
+
+/// The subjects of a part's content.
+void forget_content(Outbox& outbox, const Subject& definition) {
+  const auto [node, kind, part, item] = definition;
+  if (kind == SubjectKind::tag_group)
+    outbox.forget({node, SubjectKind::tag, part, 0}, {node, SubjectKind::tag, part, 0xFFFF});
+  if (kind == SubjectKind::geometry_layer)
+    outbox.forget({node, SubjectKind::layer_values, part, 0},
+                  {node, SubjectKind::layer_values, part, 0xFFFF});
+  if (kind == SubjectKind::bitmap_layer)
+    outbox.forget({node, SubjectKind::tiles, part, 0}, {node, SubjectKind::tiles, part, 0xFFFF});
+}
+
+}  // namespace
+
+struct ReplicationServer::State {
+  const Store& store;
+  std::uint64_t instance;
+  ReplicationOptions options;
+  std::map<ConnectionId, Connection> connections;
+  std::deque<std::unique_ptr<Session>> lost;  ///< Oldest first.
+  std::uint64_t sessions_made = 0;
+
+  // ---- changes of the store
+
+  void tell(Session& session, const Change& change, const Command& command) {
+    const NodeId node = change.subject.node;
+    if (change.subject.kind == SubjectKind::existence) {
+      if (const auto* created = std::get_if<NodeCreate>(&command)) {
+        const bool already_listed = node < session.next_listed;
+        if (!(session.node_types >> static_cast<int>(created->type) & 1) || !already_listed) return;
+        session.announced.insert(node);
+      } else {
+        if (session.announced.erase(node) == 0) return;
+        session.subscriptions.erase(node);
+        session.outbox.forget({node, SubjectKind::name, 0, 0},
+                              {node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
+      }
+      return session.outbox.mark(change);
+    }
+    if (!session.wants(change.subject)) return;
+    if (change.renew) {
+      const PartKind kind =
+          change.subject.kind == SubjectKind::tag_group ? PartKind::tag_group : PartKind::layer;
+      session.subscriptions[node].erase({kind, change.subject.part});
+      forget_content(session.outbox, change.subject);
+    }
+    session.outbox.mark(change);
+  }
+
+  // ---- requests
+
+  void answer(Session& session, const Command& request) {
+    const Mark mark = [&](const Change& change) { session.outbox.mark(change); };
+    if (const auto* index = std::get_if<NodeIndexSubscribe>(&request)) {
+      session.node_types = index->type_mask;
+      session.next_listed = index->type_mask == 0 ? no_node : 0;
+    } else if (const auto* subscription = std::get_if<NodeSubscribe>(&request)) {
+      const Node* node = store.find(subscription->node);
+      if (!subscription->subscribe) {
+        session.subscriptions.erase(subscription->node);
+        session.outbox.forget({subscription->node, SubjectKind::name, 0, 0},
+                              {subscription->node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
+      } else if (node) {
+        session.subscriptions.try_emplace(subscription->node);
+        // Who subscribes without the index still learns of the node's end.
+        session.announced.insert(subscription->node);
+        mark_node(*node, mark);
+      }
+    } else if (const auto* part = std::get_if<PartSubscribe>(&request)) {
+      const auto subscribed = session.subscriptions.find(part->node);
+      if (subscribed == session.subscriptions.end()) return;
+      if (!part->subscribe) {
+        subscribed->second.erase({part->kind, part->part});
+        return;
+      }
+      if (!has_part(*part)) return;
+      subscribed->second.insert({part->kind, part->part});
+      mark_part(store, part->node, part->kind, part->part, mark);
+    }
+  }
+
+  bool has_part(const PartSubscribe& part) const {
+    const Node* node = store.find(part.node);
+    if (!node) return false;
+    if (part.kind == PartKind::tag_group) return node->tag_groups.contains(part.part);
+    if (const auto* geometry = std::get_if<GeometryData>(&node->data))
+      return part.part >= base_polygon_layer || geometry->layers.contains(part.part);
+    const auto* bitmap = std::get_if<BitmapData>(&node->data);
+    return bitmap && bitmap->layers.contains(part.part);
+  }
+
+  /// Marks the next nodes of the index.
+  void list_nodes(Session& session) {
+    auto node = store.nodes().lower_bound(session.next_listed);
+    for (int i = 0; i < nodes_listed_at_once && node != store.nodes().end(); ++i, ++node)
+      if (session.node_types >> static_cast<int>(node->second.type()) & 1)
+        if (session.announced.insert(node->first).second)
+          session.outbox.mark({{node->first, SubjectKind::existence, 0, 0}});
+    session.next_listed = node == store.nodes().end() ? no_node : node->first;
+  }
+
+  /// Makes something to say out of what the client asked for. False when there is nothing left.
+  bool go_on(Session& session, int& requests) {
+    if (session.next_listed != no_node) return list_nodes(session), true;
+    if (session.requests.empty() || requests <= 0) return false;
+    --requests;
+    answer(session, session.requests.front());
+    session.requests.pop_front();
+    return true;
+  }
+
+  // ---- messages
+
+  Expected<void> hello(Connection& connection, const Hello& message) {
+    if (connection.session)
+      return failure("a second hello", "replication client " + connection.identity,
+                     "say hello once");
+    // A client may be back before the loss of its old connection was noticed.
+    for (auto& [id, other] : connections)
+      if (other.session && other.session->token == message.token &&
+          other.identity == connection.identity)
+        lost.push_back(std::move(other.session));
+    const auto found = std::find_if(lost.begin(), lost.end(), [&](const auto& session) {
+      return message.token != 0 && session->token == message.token &&
+             session->identity == connection.identity && message.received <= session->sent &&
+             (session->unacknowledged.empty()
+                  ? message.received == session->sent
+                  : message.received + 1 >= session->unacknowledged.front().sequence);
+    });
+    const bool resumed = found != lost.end();
+    if (resumed) {
+      connection.session = std::move(*found);
+      lost.erase(found);
+      connection.session->rewind(message.received);
+    } else {
+      StateHash token;
+      token.add(instance);
+      token.add(++sessions_made);
+      connection.session = std::make_unique<Session>();
+      connection.session->token = std::max<std::uint64_t>(1, token.value());
+      connection.session->identity = connection.identity;
+    }
+    connection.unsent =
+        encode(Welcome{connection.session->token, resumed, connection.session->received});
+    return {};
+  }
+
+  Expected<std::vector<Command>> batch(Session& session, const CommandBatch& message) {
+    if (message.sequence <= session.received) return std::vector<Command>{};
+    if (message.sequence != session.received + 1)
+      return failure(fmt::format("batch {} follows {}", message.sequence, session.received),
+                     "replication client " + session.identity,
+                     "repeat unanswered batches in order");
+    std::vector<Command> changes;
+    ByteReader in(message.commands);
+    while (!in.at_end()) {
+      auto command = scene::decode(in);
+      if (!command) return tl::unexpected(command.error());
+      constexpr std::size_t subscription_kinds = 3;
+      if (command->index() >= subscription_kinds)
+        changes.push_back(std::move(*command));
+      else if (session.requests.size() < options.waiting_requests)
+        session.requests.push_back(std::move(*command));
+      else
+        return failure("too many subscriptions wait", "replication client " + session.identity,
+                       "subscribe to each part once");
+    }
+    session.received = message.sequence;
+    session.owes_acknowledgement = true;
+    return changes;
+  }
+
+  Pumped pump(Connection& connection, std::size_t max_bytes, const Send& send) {
+    Pumped pumped;
+    const auto offer = [&](Bytes message) {
+      ++pumped.messages;
+      pumped.bytes += message.size();
+      if (send(message)) return true;
+      connection.unsent = std::move(message);
+      return false;
+    };
+    if (!connection.unsent.empty() && !offer(std::exchange(connection.unsent, {}))) return pumped;
+    if (!connection.session) return pumped;
+    Session& session = *connection.session;
+
+    int requests = requests_per_pump;
+    for (std::size_t written = 0;
+         written < max_bytes && session.unacknowledged_bytes < options.window_bytes;) {
+      Unacknowledged batch{session.sent + 1, 0, {}};
+      Bytes commands;
+      const std::size_t limit = std::min(options.batch_bytes, max_bytes - written);
+      while (commands.size() < limit) {
+        if (session.outbox.empty() && !go_on(session, requests)) break;
+        session.outbox.write(store, limit, commands, batch.changes);
+      }
+      if (commands.empty()) break;
+      batch.bytes = commands.size();
+      written += commands.size();
+      session.sent = batch.sequence;
+      session.unacknowledged_bytes += batch.bytes;
+      session.unacknowledged.push_back(std::move(batch));
+      session.owes_acknowledgement = false;
+      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands)})))
+        return pumped;
+    }
+
+    const bool all_said =
+        session.outbox.empty() && session.requests.empty() && session.next_listed == no_node;
+    const bool news = !session.told_complete || session.told_revision != store.revision() ||
+                      session.told_answered != session.received;
+    if (all_said && news) {
+      session.told_complete = true;
+      session.told_revision = store.revision();
+      session.told_answered = session.received;
+      if (!offer(encode(Complete{session.told_revision, session.told_answered}))) return pumped;
+    }
+    if (session.owes_acknowledgement) {
+      session.owes_acknowledgement = false;
+      if (!offer(encode(Received{session.received}))) return pumped;
+    }
+    pumped.finished = all_said;
+    return pumped;
+  }
+};
+
+ReplicationServer::ReplicationServer(const Store& store, std::uint64_t instance,
+                                     const ReplicationOptions& options)
+    : state_(new State{store, instance, options, {}, {}, 0}) {}
+ReplicationServer::~ReplicationServer() = default;
+
+void ReplicationServer::connect(ConnectionId connection, std::string identity) {
+  disconnect(connection);
+  state_->connections[connection].identity = std::move(identity);
+}
+
+void ReplicationServer::disconnect(ConnectionId connection) {
+  const auto found = state_->connections.find(connection);
+  if (found == state_->connections.end()) return;
+  if (found->second.session) state_->lost.push_back(std::move(found->second.session));
+  while (state_->lost.size() > state_->options.lost_sessions) state_->lost.pop_front();
+  state_->connections.erase(found);
+}
+
+Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection,
+                                                          std::span<const std::byte> message) {
+  const auto found = state_->connections.find(connection);
+  SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);
+  Connection& from = found->second;
+  auto decoded = decode(message);
+  if (!decoded) return tl::unexpected(decoded.error());
+  if (const auto* hello = std::get_if<Hello>(&*decoded)) {
+    if (auto done = state_->hello(from, *hello); !done) return tl::unexpected(done.error());
+    return std::vector<Command>{};
+  }
+  if (!from.session)
+    return failure("a message before the hello", "replication client " + from.identity,
+                   "say hello first");
+  if (const auto* batch = std::get_if<CommandBatch>(&*decoded)) {
+    from.session->acknowledge(batch->received);
+    return state_->batch(*from.session, *batch);
+  }
+  if (const auto* received = std::get_if<Received>(&*decoded)) {
+    from.session->acknowledge(received->sequence);
+    return std::vector<Command>{};
+  }
+  return failure("a message that only a server sends", "replication client " + from.identity,
+                 "send hello, commands or received");
+}
+
+void ReplicationServer::applied(const Command& command) {
+  const auto change = change_of(command, state_->store);
+  if (!change) return;
+  for (auto& [id, connection] : state_->connections)
+    if (connection.session) state_->tell(*connection.session, *change, command);
+  for (auto& session : state_->lost) state_->tell(*session, *change, command);
+}
+
+ReplicationServer::Pumped ReplicationServer::pump(ConnectionId connection, std::size_t max_bytes,
+                                                  const Send& send) {
+  const auto found = state_->connections.find(connection);
+  SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);
+  return state_->pump(found->second, max_bytes, send);
+}
+
+}  // namespace septet::replication
