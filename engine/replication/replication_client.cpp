@@ -202,14 +202,16 @@ void ReplicationClient::disconnected() { state_->hello_due = state_->welcomed = 
 
 Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
   const auto decoded = decode(message);
-  Expected<void> done;
-  if (!decoded)
-    done = tl::unexpected(decoded.error());
-  else if (!state_->welcomed && !std::holds_alternative<Welcome>(*decoded))
-    done = failure("a message before the welcome", "replication server", "welcome a client first");
-  else
-    done = std::visit(*state_, *decoded);
-  if (!done) state_->token = 0;  // A mirror that missed something is not taken up again.
+  // Until the welcome, messages of an earlier session may still be on their way.
+  if (decoded && !state_->welcomed && !std::holds_alternative<Welcome>(*decoded)) return {};
+  auto done =
+      decoded ? std::visit(*state_, *decoded) : Expected<void>(tl::unexpected(decoded.error()));
+  if (!done) {
+    // A mirror that missed something is not gone on with.
+    state_->token = 0;
+    state_->welcomed = false;
+    state_->hello_due = true;
+  }
   return done;
 }
 

@@ -2,7 +2,7 @@
 /// A client's side of replication: a mirror of what it subscribed to (REPLICATION.md).
 ///
 ///     on a connection:  client.connected();
-///     on a message:     client.receive(bytes);   // an error: drop the connection
+///     on a message:     client.receive(bytes);   // an error: log it
 ///     on a loss:        client.disconnected();
 ///     every frame:      client.pump(send); if (resolver generation differs) resolver.forget();
 ///     resolver.update(client.store())
@@ -35,6 +35,7 @@ class ReplicationClient {
 
   void connected();
   void disconnected();
+  /// After an error, which is to be logged, the client says hello again and fills a new mirror.
   Expected<void> receive(std::span<const std::byte> message);
   /// Sends what there is to say: subscriptions, requests, acknowledgements.
   void pump(const Send& send);

@@ -200,14 +200,12 @@ struct ReplicationServer::State {
   // ---- messages
 
   Expected<void> hello(Connection& connection, const Hello& message) {
-    if (connection.session)
-      return failure("a second hello", "replication client " + connection.identity,
-                     "say hello once");
     // A client may be back before the loss of its old connection was noticed.
     for (auto& [id, other] : connections)
       if (other.session && other.session->token == message.token &&
           other.identity == connection.identity)
         lost.push_back(std::move(other.session));
+    connection.session.reset();  // A client that found a fault starts anew without a token.
     const auto found = std::find_if(lost.begin(), lost.end(), [&](const auto& session) {
       return message.token != 0 && session->token == message.token &&
              session->identity == connection.identity && message.received <= session->sent &&
@@ -327,6 +325,10 @@ void ReplicationServer::disconnect(ConnectionId connection) {
   if (found->second.session) state_->lost.push_back(std::move(found->second.session));
   while (state_->lost.size() > state_->options.lost_sessions) state_->lost.pop_front();
   state_->connections.erase(found);
+}
+
+bool ReplicationServer::knows(ConnectionId connection) const {
+  return state_->connections.contains(connection);
 }
 
 Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection,

@@ -50,6 +50,7 @@ class ReplicationServer {
   void connect(ConnectionId connection, std::string identity);
   /// Its session is kept for a while.
   void disconnect(ConnectionId connection);
+  bool knows(ConnectionId connection) const;
 
   /// Answers the changes that the client asks for, for the owner of the store to apply or not.
   /// After an error the connection is to be dropped.

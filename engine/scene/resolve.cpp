@@ -30,7 +30,7 @@ struct DrawnObject {
   float visible_from_m = 0.0f, visible_to_m = 1e9f;
   PartRole role = PartRole::fixed;
   bool casts_shadow = true;
-  std::uint32_t mesh = 0;  ///< Its slot, where it has a geometry.
+  std::uint32_t mesh = 0;  ///< Its slot when it was last placed.
 };
 
 /// Meshes are shared by objects that have geometry and materials in common.
@@ -160,13 +160,19 @@ struct Resolver::State {
 
   // ---- objects to instances
 
-  std::uint32_t mesh_slot(const DrawnObject& object) {
-    const MeshKey key{object.geometry, object.materials};
-    const std::uint32_t slot = mesh_slots.of(key, scene.meshes);
-    if (slot >= meshes.size()) meshes.resize(slot + 1);
-    if (meshes[slot].key != key || meshes[slot].last_used == 0) meshes[slot] = {key, 0, placing};
-    meshes[slot].last_used = placing;
-    return slot;
+  std::uint32_t mesh_slot(DrawnObject& object) {
+    const auto is_of = [&](const MeshSlot& slot) {
+      return slot.last_used != 0 && slot.key.first == object.geometry &&
+             slot.key.second == object.materials;
+    };
+    if (object.mesh >= meshes.size() || !is_of(meshes[object.mesh])) {
+      const MeshKey key{object.geometry, object.materials};
+      object.mesh = mesh_slots.of(key, scene.meshes);
+      if (object.mesh >= meshes.size()) meshes.resize(object.mesh + 1);
+      if (!is_of(meshes[object.mesh])) meshes[object.mesh] = {key, 0, placing};
+    }
+    meshes[object.mesh].last_used = placing;
+    return object.mesh;
   }
 
   struct Placement {
@@ -202,15 +208,16 @@ struct Resolver::State {
 
   void place_instances() {
     ++placing;
-    std::set<NodeId> children;
+    std::vector<NodeId> children;
     for (const auto& [id, object] : objects)
-      children.insert(object.children.begin(), object.children.end());
+      children.insert(children.end(), object.children.begin(), object.children.end());
+    std::sort(children.begin(), children.end());
     scene.instances.clear();
     scene.prototypes.clear();
     std::vector<NodeId> path;
     std::size_t visits = 0;
     for (auto& [id, object] : objects) {
-      if (children.contains(id)) continue;
+      if (std::binary_search(children.begin(), children.end(), id)) continue;
       if (object.name.starts_with(prototype_prefix)) {
         Prototype& prototype = scene.prototypes.emplace_back();
         prototype.name = object.name.substr(prototype_prefix.size());
@@ -232,9 +239,7 @@ struct Resolver::State {
 
   // ---- meshes
 
-  std::uint32_t material_slot(NodeId id) {
-    return material_slots.of(id, scene.materials);
-  }
+  std::uint32_t material_slot(NodeId id) { return material_slots.of(id, scene.materials); }
 
   void make_meshes(const Store& store, std::size_t budget) {
     pending = 0;

@@ -243,6 +243,18 @@ TEST_CASE("after a restart of the server the old picture stays until the new one
   CHECK(same_content(again.client->store(), restarted.store));
 }
 
+TEST_CASE("a client that finds a fault says hello again and is whole in the end") {
+  Wire wire;
+  fill(wire);
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  CHECK_FALSE(end.client->receive(Bytes(3, std::byte{0xff})).has_value());
+  CHECK(same_content(end.client->store(), wire.store));
+  wire.build.apply(HideSet{1, false});
+  REQUIRE(wire.settle(end));
+  CHECK(same_content(end.client->store(), wire.store));
+}
+
 TEST_CASE("a change that a client asks for is handed to the owner of the store") {
   Wire wire;
   fill(wire);
