@@ -1,0 +1,111 @@
+#pragma once
+/// Actions of the storyboard and of Init (OpenSCENARIO XML 1.3), as plain data. SI units
+/// throughout.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/scenario/position.hpp"
+#include "engine/world/lamps.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::scenario {
+
+enum class DynamicsShape : std::uint8_t { step, linear, sinusoidal, cubic };
+enum class DynamicsDimension : std::uint8_t { time, distance, rate };
+
+/// How a quantity goes from one value to another: in a time (s), over a distance (m), or at a rate
+/// (units/s; for curved shapes the greatest rate).
+struct TransitionDynamics {
+  DynamicsShape shape = DynamicsShape::step;
+  DynamicsDimension dimension = DynamicsDimension::time;
+  double value = 0.0;
+};
+
+struct SpeedAction {
+  TransitionDynamics dynamics;
+  EntityIndex reference = no_entity;  ///< None: value is the speed.
+  double value = 0.0;  ///< m/s; added to the reference's speed, or multiplied with it if `factor`.
+  bool factor = false;
+  bool continuous = false;  ///< Follows the reference's speed for ever.
+};
+
+struct LaneChangeAction {
+  TransitionDynamics dynamics;
+  EntityIndex reference = no_entity;  ///< None: `lane` is the lane's id.
+  int lane = 0;  ///< With a reference: lanes to the left of its lane, as it drives.
+  double target_offset_m =
+      0.0;  ///< From the centre of the target lane, positive to the left as the actor drives.
+};
+
+struct LaneOffsetAction {
+  DynamicsShape shape = DynamicsShape::step;
+  std::optional<double> max_lateral_acceleration_mps2;
+  EntityIndex reference = no_entity;  ///< None: `offset_m` is from the lane's centre.
+  double offset_m = 0.0;              ///< Positive to the left as the actor drives.
+  bool continuous = false;            ///< Keeps the offset for ever, once reached.
+};
+
+struct TeleportAction {
+  Position position;
+};
+
+/// Only what the file says changes.
+struct EnvironmentAction {
+  std::string name;
+  std::optional<double> sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux;
+  std::optional<double> visibility_m, cloud_cover, rain_mm_per_h, snow_mm_per_h, road_wetness,
+      friction_scale;
+  std::optional<double> temperature_k, wind_speed_mps, wind_direction_rad;
+};
+
+enum class LightMode : std::uint8_t { off, on, flashing };
+
+/// LightStateAction. `lamps` are the lamps that the standard's light type stands for; the
+/// indicators flash by themselves.
+struct LightStateAction {
+  Lamps lamps;
+  LightMode mode = LightMode::off;
+};
+
+/// UserDefinedAction with type "septet:siren" and content "ENTITY on" or "ENTITY off": the standard
+/// knows lights, but no siren.
+struct SirenAction {
+  EntityIndex entity = no_entity;
+  bool on = false;
+};
+
+/// TrafficSwarmAction: keep `vehicle_count` vehicles around the central entity, within the ellipse
+/// and outside the circle.
+struct TrafficSwarmAction {
+  std::string name;
+  EntityIndex central = no_entity;
+  double inner_radius_m = 0.0;
+  double semi_major_axis_m = 0.0;  ///< Along the central entity's x axis.
+  double semi_minor_axis_m = 0.0;
+  double offset_m = 0.0;  ///< Of the ellipse's centre along the central entity's x axis.
+  std::uint32_t vehicle_count = 0;
+  double lowest_initial_speed_mps = 0.0,
+         highest_initial_speed_mps = 0.0;  ///< Both 0: as the traffic's own drivers like.
+  double same_direction_weight = 1.0, opposite_direction_weight = 1.0;
+  struct CategoryWeight {
+    std::string category;
+    double weight = 0.0;
+  };
+  std::vector<CategoryWeight> categories;
+};
+
+struct TrafficStopAction {
+  std::string name;
+};
+
+/// Nothing: the file used an action that is not supported yet, which was reported when it was read.
+/// It ends at once.
+using ActionVariant = std::variant<std::monostate, SpeedAction, LaneChangeAction, LaneOffsetAction,
+                                   TeleportAction, EnvironmentAction, LightStateAction, SirenAction,
+                                   TrafficSwarmAction, TrafficStopAction>;
+
+}  // namespace septet::scenario

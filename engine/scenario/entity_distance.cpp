@@ -1,0 +1,208 @@
+#include "engine/scenario/entity_distance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace septet::scenario {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t most_roads = 100;
+
+std::array<Vec2, 4> corners(const RigidTransform& pose, const BoundingBox& box) {
+  std::array<Vec2, 4> result;
+  const double y = box.width_m / 2.0;
+  const std::array<Vec2, 4> local{{{box.front_m(), box.centre_m.y + y},
+                                   {box.rear_m(), box.centre_m.y + y},
+                                   {box.rear_m(), box.centre_m.y - y},
+                                   {box.front_m(), box.centre_m.y - y}}};
+  for (std::size_t i = 0; i < 4; ++i) result[i] = Vec2(pose * Vec3(local[i], 0.0));
+  return result;
+}
+
+double point_to_segment_m(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length2 = glm::dot(along, along);
+  const double part =
+      length2 > 0.0 ? std::clamp(glm::dot(point - a, along) / length2, 0.0, 1.0) : 0.0;
+  return glm::length(point - a - part * along);
+}
+
+bool contains(const std::array<Vec2, 4>& box, const Vec2& point) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 edge = box[(i + 1) % 4] - box[i], to = point - box[i];
+    if (edge.x * to.y - edge.y * to.x < 0.0) return false;
+  }
+  return true;
+}
+
+/// Convex boxes that do not cross are nearest at a corner of one of them; crossing ones nearly
+/// always hold a corner.
+double box_distance_m(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
+  double least = infinite;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (contains(a, b[i]) || contains(b, a[i])) return 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      least = std::min({least, point_to_segment_m(a[i], b[k], b[(k + 1) % 4]),
+                        point_to_segment_m(b[i], a[k], a[(k + 1) % 4])});
+    }
+  }
+  return least;
+}
+
+/// Distance between two intervals; 0 where they overlap.
+double interval_gap_m(double low_a, double high_a, double low_b, double high_b) {
+  return std::max({low_b - high_a, low_a - high_b, 0.0});
+}
+
+double along_own_axis_m(const Entity& entity, const EntityState& from, const Target& target,
+                        bool lateral, bool freespace) {
+  const RigidTransform own_from_world = inverse(from.world_from_entity);
+  const auto component = [&](const Vec3& world) {
+    return lateral ? (own_from_world * world).y : (own_from_world * world).x;
+  };
+  const double middle = component(target.placement.pose.position_m);
+  if (!freespace) return std::abs(middle);
+  double low = middle, high = middle;
+  if (target.box != nullptr) {
+    low = infinite;
+    high = -infinite;
+    for (const Vec2& corner : corners(target.placement.pose, *target.box)) {
+      const double at = component(Vec3(corner, target.placement.pose.position_m.z));
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+  }
+  const double y = entity.box.centre_m.y, half = entity.box.width_m / 2.0;
+  if (lateral) return interval_gap_m(y - half, y + half, low, high);
+  return interval_gap_m(entity.box.rear_m(), entity.box.front_m(), low, high);
+}
+
+double along_road_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from,
+                    const Target& target, const DistanceMeasure& measure) {
+  if (!from.on_road || !target.placement.on_road) return infinite;
+  const auto& to = target.placement.lane;
+  if (measure.type == DistanceType::lateral) {
+    const bool lane = measure.system == CoordinateSystem::lane;
+    const double apart = lane ? to.offset_m - from.lane.offset_m
+                              : lateral_t_m(network, to) - lateral_t_m(network, from.lane);
+    const double widths =
+        0.5 * (entity.box.width_m + (target.box != nullptr ? target.box->width_m : 0.0));
+    return measure.freespace ? std::max(0.0, std::abs(apart) - widths) : std::abs(apart);
+  }
+  const double ahead = road_distance_m(network, from.lane, from.along_s, to);
+  if (!measure.freespace) return std::abs(ahead);
+  const double low = ahead + (target.box != nullptr ? target.box->rear_m() : 0.0);
+  const double high = ahead + (target.box != nullptr ? target.box->front_m() : 0.0);
+  return interval_gap_m(entity.box.rear_m(), entity.box.front_m(), low, high);
+}
+
+struct Reached {
+  road::RoadIndex road;
+  road::ContactPoint entered;
+  double way_m;
+};
+
+/// The roads that begin where this one ends (or begins).
+void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving,
+                double way_m, std::vector<Reached>& found) {
+  const auto add = [&](road::RoadIndex to, road::ContactPoint contact) {
+    const auto same = [&](const Reached& r) { return r.road == to; };
+    if (found.size() < most_roads && std::none_of(found.begin(), found.end(), same))
+      found.push_back({to, contact, way_m});
+  };
+  const road::RoadLink& link = leaving == road::ContactPoint::end
+                                   ? network.roads[index].successor
+                                   : network.roads[index].predecessor;
+  if (link.road != road::no_index) add(link.road, link.contact);
+  if (link.junction == road::no_index) return;
+  for (const auto& connection : network.junctions[link.junction].connections) {
+    if (connection.incoming == index) add(connection.connecting, connection.contact);
+  }
+}
+
+/// Way from one end of a road to a position on another.
+double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index,
+                      road::ContactPoint leaving, double to_end_m, const road::LanePosition& to) {
+  std::vector<Reached> reached;
+  add_linked(network, index, leaving, to_end_m, reached);
+  double least = infinite;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const Reached at = reached[i];
+    const double length = network.roads[at.road].length_m;
+    const bool from_start = at.entered == road::ContactPoint::start;
+    if (at.road == to.road) {
+      least = std::min(least, at.way_m + (from_start ? to.s_m : length - to.s_m));
+      continue;
+    }
+    add_linked(network, at.road, from_start ? road::ContactPoint::end : road::ContactPoint::start,
+               at.way_m + length, reached);
+  }
+  return least;
+}
+
+}  // namespace
+
+double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from,
+                       bool along_s, const road::LanePosition& to) {
+  double ahead = infinite, behind = infinite;
+  const double length = network.roads[from.road].length_m;
+  if (from.road == to.road) {
+    const double ds = along_s ? to.s_m - from.s_m : from.s_m - to.s_m;
+    (ds >= 0.0 ? ahead : behind) = std::abs(ds);
+  }
+  // On the same road the way round a ring may be the shorter one.
+  if (from.road != to.road || network.roads[from.road].successor.road == from.road) {
+    const double to_end =
+        way_from_end_m(network, from.road, road::ContactPoint::end, length - from.s_m, to);
+    const double to_start =
+        way_from_end_m(network, from.road, road::ContactPoint::start, from.s_m, to);
+    ahead = std::min(ahead, along_s ? to_end : to_start);
+    behind = std::min(behind, along_s ? to_start : to_end);
+  }
+  return ahead <= behind ? ahead : -behind;
+}
+
+double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from,
+                  const Target& target, const DistanceMeasure& measure) {
+  const Vec3 apart = target.placement.pose.position_m - from.world_from_entity.position_m;
+  if (measure.type == DistanceType::euclidean) {
+    if (!measure.freespace) return glm::length(apart);
+    const auto own = corners(from.world_from_entity, entity.box);
+    if (target.box != nullptr)
+      return box_distance_m(own, corners(target.placement.pose, *target.box));
+    std::array<Vec2, 4> point;
+    point.fill(Vec2(target.placement.pose.position_m));
+    return box_distance_m(own, point);
+  }
+  const bool lateral = measure.type == DistanceType::lateral;
+  switch (measure.system) {
+    case CoordinateSystem::entity:
+      return along_own_axis_m(entity, from, target, lateral, measure.freespace);
+    case CoordinateSystem::world:
+      return std::abs(lateral ? apart.y : apart.x);
+    case CoordinateSystem::lane:
+    case CoordinateSystem::road:
+      return along_road_m(network, entity, from, target, measure);
+  }
+  return infinite;
+}
+
+double closing_speed_mps(const EntityState& from, const Placement& target,
+                         const Vec3& target_velocity_mps, const DistanceMeasure& measure) {
+  const Vec3 apart = target.pose.position_m - from.world_from_entity.position_m;
+  Vec3 direction = apart;
+  if (measure.type != DistanceType::euclidean) {
+    const Vec3 axis = measure.type == DistanceType::lateral ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
+    direction = from.world_from_entity.orientation * axis;
+    if (glm::dot(direction, apart) < 0.0) direction = -direction;
+  }
+  const double length = glm::length(direction);
+  if (length <= 0.0) return 0.0;
+  return glm::dot(from.velocity_mps - target_velocity_mps, direction / length);
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,268 @@
+#include "engine/scenario/entity_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/core/check.hpp"
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/scenario/transition.hpp"
+
+namespace septet::scenario {
+namespace {
+
+constexpr double standing_mps = 1e-3;
+
+double centre_t_m(const road::RoadNetwork& network, const road::LanePosition& lane, int of) {
+  const auto& on = network.roads[lane.road];
+  return road::lane_borders(on, road::section_at(on, lane.s_m), of, lane.s_m).centre_t_m();
+}
+
+double followed_speed_mps(const SpeedControl& control, const ScenarioState& state) {
+  return control.follow_factor * state.entities[control.follow].speed_mps +
+         control.follow_delta_mps;
+}
+
+/// The speed at the end of the step.
+double next_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
+                      EntityState& entity, std::vector<ElementIndex>& ended) {
+  SpeedControl& control = entity.speed_control;
+  if (!control.active) return entity.speed_mps;
+  double speed = entity.speed_mps;
+  if (control.follow != no_entity && state.entities[control.follow].active) {
+    speed = followed_speed_mps(control, state);
+    if (control.transition.shape != DynamicsShape::step) {
+      const double most =
+          (speed > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2) *
+          dt_s;
+      speed = std::clamp(speed, entity.speed_mps - most, entity.speed_mps + most);
+    }
+  } else {
+    advance_transition(control.transition, dt_s, std::abs(entity.speed_mps) * dt_s);
+    speed = value_of(control.transition);
+    if (is_done(control.transition)) {
+      control.active = false;
+      if (control.action != no_element) ended.push_back(control.action);
+    }
+  }
+  return std::clamp(speed, -limits.max_speed_mps, limits.max_speed_mps);
+}
+
+/// Metres to the left of travel by which the offset changes in this step.
+double lateral_step_m(double dt_s, double way_m, EntityState& entity,
+                      std::vector<ElementIndex>& ended) {
+  LateralControl& control = entity.lateral_control;
+  if (!control.active) return 0.0;
+  const double before = entity.lane.offset_m;
+  advance_transition(control.transition, dt_s, std::abs(way_m));
+  entity.lane.offset_m = value_of(control.transition);
+  if (is_done(control.transition)) {
+    control.active = false;
+    if (control.action != no_element) ended.push_back(control.action);
+  }
+  return entity.along_s ? entity.lane.offset_m - before : before - entity.lane.offset_m;
+}
+
+/// Where the target lane ends but the road goes on, the entity keeps its t in the lane that is
+/// there.
+bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity,
+                           Progress& progress) {
+  const auto& on = network.roads[progress.lane.road];
+  const double t = lateral_t_m(network, progress.lane);
+  const double s = progress.lane.s_m + (progress.along_s ? 0.01 : -0.01);
+  if (s <= 0.0 || s >= on.length_m) return false;
+  const int lane = road::lanes_at(on, s, t).lane_any_type;
+  if (lane == 0 || lane == progress.lane.lane) return false;
+  road::LanePosition beside{progress.lane.road, lane, s, 0.0};
+  beside.offset_m = t - centre_t_m(network, beside, lane);
+  const double shift = beside.offset_m - progress.lane.offset_m;
+  entity.lateral_control.transition.from += shift;
+  entity.lateral_control.transition.to += shift;
+  const Progress rest = go_along(network, beside, progress.along_s, progress.left_over_m);
+  progress = rest;
+  return true;
+}
+
+void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, double dt_s,
+             EntityState& entity) {
+  const road::LanePoint point = road::evaluate_lane(network, entity.lane);
+  const double forward_m =
+      std::copysign(std::sqrt(std::max(0.0, way_m * way_m - lateral_m * lateral_m)), way_m);
+  // Metres along the lane's centre per metre of s.
+  const double stretch = std::max(0.05, std::hypot(point.road.stretch, point.lane_slope));
+  Progress progress = go_along(network, entity.lane, entity.along_s, forward_m / stretch);
+  if (progress.left_over_m > 0.0) step_into_lane_beside(network, entity, progress);
+  const bool turned = progress.along_s != entity.along_s;
+  if (turned) {
+    // The next road's s runs the other way: offsets change their sign.
+    Transition& transition = entity.lateral_control.transition;
+    transition.from = -transition.from;
+    transition.to = -transition.to;
+  }
+  entity.lane = progress.lane;
+  entity.along_s = progress.along_s;
+  entity.travelled_m += std::max(0.0, std::abs(forward_m) - progress.left_over_m * stretch);
+  if (progress.left_over_m > 0.0 || (entity.at_road_end_s > 0.0 && forward_m == 0.0)) {
+    entity.speed_mps = 0.0;
+    entity.at_road_end_s += dt_s;
+  } else {
+    entity.at_road_end_s = 0.0;
+  }
+  const double slope = forward_m != 0.0 ? lateral_m / forward_m : 0.0;
+  entity.world_from_entity =
+      lane_pose(network, entity.lane, entity.along_s, slope, entity.heading_offset_rad);
+}
+
+}  // namespace
+
+void place_entity(EntityState& entity, const Placement& placement) {
+  entity.active = true;
+  entity.on_road = placement.on_road;
+  entity.lane = placement.lane;
+  entity.along_s = placement.along_s;
+  entity.heading_offset_rad = placement.heading_offset_rad;
+  entity.world_from_entity = placement.pose;
+  entity.velocity_mps = placement.pose.orientation * Vec3(entity.speed_mps, 0.0, 0.0);
+  entity.angular_velocity_radps = entity.acceleration_vector_mps2 = Vec3(0.0);
+  entity.at_road_end_s = 0.0;
+}
+
+void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
+                 ElementIndex action, EntityIndex who, EntityState& entity) {
+  SpeedControl control;
+  control.active = true;
+  control.action = action;
+  double target = what.value;
+  if (what.reference != no_entity) {
+    const double reference = state.entities[what.reference].speed_mps;
+    control.follow_factor = what.factor ? what.value : 1.0;
+    control.follow_delta_mps = what.factor ? 0.0 : what.value;
+    target = control.follow_factor * reference + control.follow_delta_mps;
+    if (what.continuous) control.follow = what.reference;
+  }
+  const Performance& limits = scenario.entities[who].performance;
+  target = std::clamp(target, -limits.max_speed_mps, limits.max_speed_mps);
+  const double strongest =
+      target > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
+  control.transition = speed_transition(what.dynamics, entity.speed_mps, target, strongest);
+  if (control.transition.shape == DynamicsShape::step) entity.speed_mps = target;
+  entity.speed_control = control;
+}
+
+bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
+                       const LaneChangeAction& what, ElementIndex action, EntityState& entity) {
+  if (!entity.on_road) return false;
+  int lane = what.lane;
+  if (what.reference != no_entity) {
+    const EntityState& reference = state.entities[what.reference];
+    if (!reference.active || !reference.on_road) return false;
+    lane = lane_beside(lane_of(network, reference), reference.along_s, what.lane);
+  }
+  const auto& section = road::section_at(network.roads[entity.lane.road], entity.lane.s_m);
+  if (lane == 0 || !section.has_lane(lane)) return false;
+  const double side = entity.along_s ? 1.0 : -1.0;
+  const double from = lateral_t_m(network, entity.lane) - centre_t_m(network, entity.lane, lane);
+  entity.lane.lane = lane;
+  entity.lane.offset_m = from;
+  LateralControl control;
+  control.active = true;
+  control.action = action;
+  control.transition = offset_transition(what.dynamics, from, side * what.target_offset_m);
+  control.lane_change = true;
+  control.to_the_left = side * (control.transition.to - from) > 0.0;
+  if (is_done(control.transition)) entity.lane.offset_m = control.transition.to;
+  entity.lateral_control = control;
+  return true;
+}
+
+bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state,
+                       const LaneOffsetAction& what, ElementIndex action, EntityState& entity) {
+  if (!entity.on_road) return false;
+  const double side = entity.along_s ? 1.0 : -1.0;
+  double to = side * what.offset_m;
+  if (what.reference != no_entity) {
+    const EntityState& reference = state.entities[what.reference];
+    if (!reference.active || !reference.on_road) return false;
+    to += lateral_t_m(network, reference.lane) - centre_t_m(network, entity.lane, entity.lane.lane);
+  }
+  LateralControl control;
+  control.active = true;
+  control.action = action;
+  const bool bounded =
+      what.max_lateral_acceleration_mps2 && *what.max_lateral_acceleration_mps2 > 0.0;
+  control.transition =
+      bounded ? bounded_offset_transition(what.shape, *what.max_lateral_acceleration_mps2,
+                                          entity.lane.offset_m, to)
+              : Transition{DynamicsShape::step, false, 0.0, 0.0, entity.lane.offset_m, to};
+  if (is_done(control.transition)) entity.lane.offset_m = to;
+  entity.lateral_control = control;
+  return true;
+}
+
+void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
+                 const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
+                 std::vector<ElementIndex>& ended) {
+  const double speed_before = entity.speed_mps;
+  const double speed_after =
+      next_speed_mps(state, scenario.entities[who].performance, dt_s, entity, ended);
+  entity.speed_mps = speed_after;
+  const double way_m = 0.5 * (speed_before + speed_after) * dt_s;
+  const RigidTransform before = entity.world_from_entity;
+  if (entity.on_road) {
+    const double lateral_m = lateral_step_m(dt_s, way_m, entity, ended);
+    roll_on(network, way_m, lateral_m, dt_s, entity);
+  } else {
+    entity.world_from_entity.position_m += before.orientation * Vec3(way_m, 0.0, 0.0);
+    entity.travelled_m += std::abs(way_m);
+  }
+  entity.standing_s = std::abs(entity.speed_mps) < standing_mps ? entity.standing_s + dt_s : 0.0;
+  entity.acceleration_mps2 = (entity.speed_mps - speed_before) / dt_s;
+
+  const Quat& orientation = entity.world_from_entity.orientation;
+  const Quat turn = orientation * glm::conjugate(before.orientation);
+  const double sign = turn.w < 0.0 ? -1.0 : 1.0;
+  // For the small turn of one step, twice the vector part is the rotation vector.
+  entity.angular_velocity_radps = sign * 2.0 / dt_s * Vec3(turn.x, turn.y, turn.z);
+  entity.velocity_mps = orientation * Vec3(entity.speed_mps, 0.0, 0.0);
+  entity.acceleration_vector_mps2 = orientation * Vec3(entity.acceleration_mps2, 0.0, 0.0) +
+                                    glm::cross(entity.angular_velocity_radps, entity.velocity_mps);
+  const double radius = std::max(0.1, 0.5 * scenario.entities[who].front_axle.wheel_diameter_m);
+  entity.wheel_angle_rad =
+      std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
+  if (entity.wheel_angle_rad < 0.0) entity.wheel_angle_rad += 2.0 * std::numbers::pi;
+}
+
+void place_external(const road::RoadNetwork& network, EntityIndex index,
+                    const RigidTransform& world_from_entity, const Vec3& velocity_mps,
+                    const Vec3& acceleration_mps2, ScenarioState& state) {
+  SEPTET_CHECK(index < state.entities.size(), "entity {} of {}", index, state.entities.size());
+  EntityState& entity = state.entities[index];
+  const Vec3 forward = world_from_entity.orientation * Vec3(1.0, 0.0, 0.0);
+  entity.travelled_m +=
+      entity.active
+          ? glm::length(world_from_entity.position_m - entity.world_from_entity.position_m)
+          : 0.0;
+  entity.active = true;
+  entity.world_from_entity = world_from_entity;
+  entity.velocity_mps = velocity_mps;
+  entity.acceleration_vector_mps2 = acceleration_mps2;
+  entity.speed_mps = glm::dot(velocity_mps, forward);
+  entity.acceleration_mps2 = glm::dot(acceleration_mps2, forward);
+
+  const road::RoadPosition hint{entity.lane.road, entity.lane.s_m, 0.0};
+  const auto found =
+      road::locate(network, Vec2(world_from_entity.position_m), entity.on_road ? &hint : nullptr);
+  entity.on_road = found && found->lanes.lane_any_type != 0;
+  if (!entity.on_road) return;
+  const int lane = found->lanes.lane_any_type;
+  entity.lane = {found->position.road, lane, found->position.s_m, 0.0};
+  entity.lane.offset_m = found->position.t_m - lateral_t_m(network, entity.lane);
+  const double turn = heading_rad(world_from_entity.orientation) -
+                      road::evaluate(network, found->position).heading_rad;
+  entity.along_s = std::cos(turn) >= 0.0;
+}
+
+}  // namespace septet::scenario

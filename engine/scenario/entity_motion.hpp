@@ -1,0 +1,33 @@
+#pragma once
+/// The motion of the entities that a scenario drives: a follower of the road's lanes whose rear
+/// axle runs exactly where the speed and lateral transitions say, with a heading tangent to its
+/// path.
+
+#include <vector>
+
+#include "engine/road/road_network.hpp"
+#include "engine/scenario/resolve_position.hpp"
+#include "engine/scenario/scenario_state.hpp"
+
+namespace septet::scenario {
+
+/// Puts an entity somewhere; its controls of lane offset end, its speed stays.
+void place_entity(EntityState& entity, const Placement& placement);
+
+/// Starts a control in place of the one that runs. `action` is the storyboard element that asks for
+/// it.
+void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
+                 ElementIndex action, EntityIndex who, EntityState& entity);
+/// False where the target lane does not exist.
+bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
+                       const LaneChangeAction& what, ElementIndex action, EntityState& entity);
+bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state,
+                       const LaneOffsetAction& what, ElementIndex action, EntityState& entity);
+
+/// Moves an entity by dt. The storyboard elements of controls that came to their end are added to
+/// `ended`.
+void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
+                 const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
+                 std::vector<ElementIndex>& ended);
+
+}  // namespace septet::scenario

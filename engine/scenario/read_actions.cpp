@@ -1,0 +1,186 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/scenario/scenario_parts.hpp"
+
+namespace septet::scenario {
+namespace {
+
+constexpr int most_lanes = 1000;
+
+DynamicsShape read_shape(const Element& element) {
+  return element.word<DynamicsShape>("dynamicsShape",
+                                     {{"step", DynamicsShape::step},
+                                      {"linear", DynamicsShape::linear},
+                                      {"sinusoidal", DynamicsShape::sinusoidal},
+                                      {"cubic", DynamicsShape::cubic}},
+                                     DynamicsShape::step);
+}
+
+ActionVariant read_speed(Reading& reading, const Element& element) {
+  SpeedAction action;
+  action.dynamics = read_dynamics(element.required("SpeedActionDynamics"));
+  const Element target = element.required("SpeedActionTarget");
+  if (const Element absolute = target.child("AbsoluteTargetSpeed")) {
+    action.value = absolute.number("value");
+  } else if (const Element relative = target.child("RelativeTargetSpeed")) {
+    action.reference = read_entity_reference(reading, relative);
+    action.value = relative.number("value");
+    action.factor =
+        relative.word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
+    action.continuous = relative.boolean_or("continuous", false);
+  } else {
+    target.error("it has no target speed", "add <AbsoluteTargetSpeed> or <RelativeTargetSpeed>");
+  }
+  return action;
+}
+
+ActionVariant read_lane_change(Reading& reading, const Element& element) {
+  LaneChangeAction action;
+  action.dynamics = read_dynamics(element.required("LaneChangeActionDynamics"));
+  action.target_offset_m = element.number_or("targetLaneOffset", 0.0);
+  const Element target = element.required("LaneChangeTarget");
+  if (const Element absolute = target.child("AbsoluteTargetLane")) {
+    action.lane = absolute.integer("value", -most_lanes, most_lanes);
+  } else if (const Element relative = target.child("RelativeTargetLane")) {
+    action.reference = read_entity_reference(reading, relative);
+    action.lane = relative.integer("value", -most_lanes, most_lanes);
+  } else {
+    target.error("it has no target lane", "add <AbsoluteTargetLane> or <RelativeTargetLane>");
+  }
+  return action;
+}
+
+ActionVariant read_lane_offset(Reading& reading, const Element& element) {
+  LaneOffsetAction action;
+  action.continuous = element.boolean_or("continuous", false);
+  const Element dynamics = element.required("LaneOffsetActionDynamics");
+  action.shape = read_shape(dynamics);
+  action.max_lateral_acceleration_mps2 = dynamics.optional_number("maxLateralAcc");
+  const Element target = element.required("LaneOffsetTarget");
+  if (const Element absolute = target.child("AbsoluteTargetLaneOffset")) {
+    action.offset_m = absolute.number("value");
+  } else if (const Element relative = target.child("RelativeTargetLaneOffset")) {
+    action.reference = read_entity_reference(reading, relative);
+    action.offset_m = relative.number("value");
+  } else {
+    target.error("it has no target offset",
+                 "add <AbsoluteTargetLaneOffset> or <RelativeTargetLaneOffset>");
+  }
+  return action;
+}
+
+Lamps lamps_of(std::initializer_list<Lamp> lamps) {
+  Lamps result;
+  for (const Lamp lamp : lamps) result.set(lamp, true);
+  return result;
+}
+
+ActionVariant read_light(const Element& element) {
+  LightStateAction action;
+  const Element light = element.required("LightType").child("VehicleLight");
+  const Element state = element.required("LightState");
+  action.mode = state.word<LightMode>(
+      "mode", {{"off", LightMode::off}, {"on", LightMode::on}, {"flashing", LightMode::flashing}},
+      LightMode::off);
+  if (!light) return std::monostate{};
+  action.lamps =
+      light.word<Lamps>("vehicleLightType",
+                        {{"daytimeRunningLights", Lamps{}},
+                         {"lowBeam", lamps_of({Lamp::low_beam})},
+                         {"highBeam", lamps_of({Lamp::high_beam})},
+                         {"fogLights", lamps_of({Lamp::rear_fog})},
+                         {"fogLightsRear", lamps_of({Lamp::rear_fog})},
+                         {"brakeLights", lamps_of({Lamp::brake})},
+                         {"warningLights", lamps_of({Lamp::indicator_left, Lamp::indicator_right})},
+                         {"indicatorLeft", lamps_of({Lamp::indicator_left})},
+                         {"indicatorRight", lamps_of({Lamp::indicator_right})},
+                         {"reversingLights", lamps_of({Lamp::reverse})},
+                         {"specialPurposeLights", lamps_of({Lamp::beacon})},
+                         {"fogLightsFront", Lamps{}},
+                         {"licensePlateIllumination", Lamps{}}},
+                        Lamps{});
+  if (action.lamps == Lamps{})
+    light.warning("no vehicle of Septet has this lamp", "expect no effect");
+  return action;
+}
+
+}  // namespace
+
+TransitionDynamics read_dynamics(const Element& element) {
+  TransitionDynamics dynamics;
+  dynamics.shape = read_shape(element);
+  dynamics.dimension = element.word<DynamicsDimension>("dynamicsDimension",
+                                                       {{"time", DynamicsDimension::time},
+                                                        {"distance", DynamicsDimension::distance},
+                                                        {"rate", DynamicsDimension::rate}},
+                                                       DynamicsDimension::time);
+  // Older files write a braking rate with its sign; the direction follows from the target.
+  dynamics.value = std::abs(element.number("value"));
+  if (dynamics.shape != DynamicsShape::step && dynamics.value == 0.0 &&
+      dynamics.dimension == DynamicsDimension::rate) {
+    element.error("a rate of 0 never reaches its target", "give a positive rate");
+  }
+  element.word<int>("followingMode", {{"position", 0}, {"follow", 1}}, 0);
+  return dynamics;
+}
+
+ActionVariant read_private_action(Reading& reading, const Element& action) {
+  if (const Element longitudinal = action.child("LongitudinalAction")) {
+    if (const Element found = longitudinal.child("SpeedAction")) return read_speed(reading, found);
+    return {};
+  }
+  if (const Element lateral = action.child("LateralAction")) {
+    if (const Element found = lateral.child("LaneChangeAction"))
+      return read_lane_change(reading, found);
+    if (const Element found = lateral.child("LaneOffsetAction"))
+      return read_lane_offset(reading, found);
+    return {};
+  }
+  if (const Element found = action.child("TeleportAction"))
+    return TeleportAction{read_position(reading, found)};
+  // Seen, so that what is in them is named, not they.
+  action.child("RoutingAction");
+  action.child("ControllerAction");
+  if (const Element appearance = action.child("AppearanceAction")) {
+    if (const Element found = appearance.child("LightStateAction")) return read_light(found);
+  }
+  return {};
+}
+
+ActionVariant read_global_action(Reading& reading, const Element& action) {
+  if (const Element found = action.child("EnvironmentAction"))
+    return read_environment(reading, found);
+  if (const Element traffic = action.child("TrafficAction")) {
+    const std::string name = traffic.text_or("trafficName", "");
+    if (const Element found = traffic.child("TrafficSwarmAction")) {
+      TrafficSwarmAction swarm = read_traffic_swarm(reading, found);
+      swarm.name = name;
+      return swarm;
+    }
+    if (traffic.child("TrafficStopAction")) return TrafficStopAction{name};
+  }
+  return {};
+}
+
+ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
+  const Element command = action.child("CustomCommandAction");
+  if (!command) return {};
+  if (command.text("type") != "septet:siren") {
+    command.warning("this command is not known and has no effect", "Septet knows septet:siren");
+    return {};
+  }
+  const std::string content = command.content();
+  const auto space = content.rfind(' ');
+  const auto entity = find_entity(reading.scenario, content.substr(0, space));
+  const std::string state = space == std::string::npos ? "" : content.substr(space + 1);
+  if (!entity || (state != "on" && state != "off")) {
+    command.error("it does not say whose siren is on or off",
+                  "write an entity's name and on or off");
+    return {};
+  }
+  return SirenAction{*entity, state == "on"};
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,106 @@
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "engine/scenario/scenario_parts.hpp"
+
+namespace septet::scenario {
+namespace {
+
+Axle read_axle(const Element& axle) {
+  if (!axle) return {};
+  return {axle.number("maxSteering"), axle.number("wheelDiameter", 0.0),
+          axle.number("trackWidth", 0.0), axle.number("positionX"), axle.number("positionZ")};
+}
+
+void read_vehicle(const Element& vehicle, Entity& entity) {
+  entity.kind = EntityKind::vehicle;
+  entity.category = vehicle.text("vehicleCategory");
+  entity.role = vehicle.text_or("role", "none");
+  const Element performance = vehicle.required("Performance");
+  if (performance) {
+    entity.performance = {performance.number("maxSpeed", 0.0),
+                          performance.number("maxAcceleration", 0.0),
+                          performance.number("maxDeceleration", 0.0)};
+  }
+  const Element axles = vehicle.required("Axles");
+  entity.front_axle = read_axle(axles.child("FrontAxle"));
+  entity.rear_axle = read_axle(axles.child("RearAxle"));
+}
+
+/// A vehicle, pedestrian or misc object, from the scenario or a catalog.
+void read_object(const Element& object, Entity& entity) {
+  entity.type_name = object.label("name");
+  entity.mass_kg = object.number_or("mass", 0.0, 0.0);
+  object.text_or("model3d", "");
+  if (object.name() == "Vehicle") {
+    read_vehicle(object, entity);
+  } else if (object.name() == "Pedestrian") {
+    entity.kind = EntityKind::pedestrian;
+    entity.category = object.text("pedestrianCategory");
+    entity.role = object.text_or("role", "none");
+    object.text_or("model", "");
+  } else {
+    entity.kind = EntityKind::misc_object;
+    entity.category = object.text("miscObjectCategory");
+  }
+  entity.box = read_bounding_box(object);
+  for (const Element& property : object.child("Properties").children("Property")) {
+    entity.properties[property.label("name")] = property.label("value");
+  }
+}
+
+Element find_object(Reading& reading, const Element& parent) {
+  for (const char* kind : {"Vehicle", "Pedestrian", "MiscObject"}) {
+    if (const Element found = parent.child(kind)) return with_declared_parameters(found);
+  }
+  const Element reference = parent.child("CatalogReference");
+  if (!reference) {
+    parent.error("it names no vehicle, pedestrian or misc object",
+                 "add <Vehicle>, <Pedestrian>, <MiscObject> or <CatalogReference>");
+    return {};
+  }
+  return resolve_catalog_reference(reading, parent, {"Vehicle", "Pedestrian", "MiscObject"});
+}
+
+}  // namespace
+
+BoundingBox read_bounding_box(const Element& parent) {
+  const Element box = parent.required("BoundingBox");
+  const Element centre = box.required("Center"), dimensions = box.required("Dimensions");
+  BoundingBox result;
+  if (centre) result.centre_m = {centre.number("x"), centre.number("y"), centre.number("z")};
+  if (dimensions) {
+    result.length_m = dimensions.number("length", 0.0);
+    result.width_m = dimensions.number("width", 0.0);
+    result.height_m = dimensions.number("height", 0.0);
+  }
+  return result;
+}
+
+void read_entities(Reading& reading, const Element& entities) {
+  for (const Element& object : entities.children("ScenarioObject")) {
+    Entity entity;
+    entity.name = object.text("name");
+    if (find_entity(reading.scenario, entity.name)) {
+      object.error(fmt::format("there are two entities named \"{}\"", entity.name),
+                   "give each its own name");
+      continue;
+    }
+    if (const Element found = find_object(reading, object)) read_object(found, entity);
+    entity.model = match_vehicle_model(entity);
+    reading.scenario.entities.push_back(std::move(entity));
+  }
+}
+
+EntityIndex read_entity_reference(Reading& reading, const Element& element, const char* attribute) {
+  const std::string name = element.text(attribute);
+  if (name.empty()) return no_entity;
+  if (const auto found = find_entity(reading.scenario, name)) return *found;
+  element.error(fmt::format("no entity is named \"{}\"", name),
+                "name a <ScenarioObject> of this file");
+  return no_entity;
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,89 @@
+#include "engine/scenario/scenario_parts.hpp"
+
+namespace septet::scenario {
+namespace {
+
+constexpr int most_lanes = 1000;
+
+Orientation read_orientation(const Element& position, bool relative_by_default) {
+  const Element orientation = position.child("Orientation");
+  if (!orientation) return {};
+  Orientation result;
+  result.relative = orientation.word<bool>("type", {{"relative", true}, {"absolute", false}},
+                                           relative_by_default);
+  result.heading_rad = orientation.number_or("h", 0.0);
+  result.pitch_rad = orientation.number_or("p", 0.0);
+  result.roll_rad = orientation.number_or("r", 0.0);
+  return result;
+}
+
+WorldPosition read_world(const Element& element) {
+  WorldPosition position;
+  position.position_m = {element.number("x"), element.number("y"), element.number_or("z", 0.0)};
+  position.height_m = element.optional_number("z");
+  position.heading_rad = element.number_or("h", 0.0);
+  position.pitch_rad = element.number_or("p", 0.0);
+  position.roll_rad = element.number_or("r", 0.0);
+  return position;
+}
+
+LaneCoordinates read_lane(const Element& element) {
+  LaneCoordinates position;
+  position.road = element.text("roadId");
+  position.lane = element.integer("laneId", -most_lanes, most_lanes);
+  position.s_m = element.number("s", 0.0);
+  position.offset_m = element.number_or("offset", 0.0);
+  position.orientation = read_orientation(element, false);
+  return position;
+}
+
+RelativeLanePosition read_relative_lane(Reading& reading, const Element& element) {
+  RelativeLanePosition position;
+  position.entity = read_entity_reference(reading, element);
+  position.lanes_to_the_left = element.integer("dLane", -most_lanes, most_lanes);
+  position.along_lane = element.has("dsLane");
+  position.ds_m = position.along_lane ? element.number("dsLane") : element.number("ds");
+  position.offset_m = element.number_or("offset", 0.0);
+  position.orientation = read_orientation(element, false);
+  return position;
+}
+
+template <class Relative>
+Relative read_offset(Reading& reading, const Element& element) {
+  Relative position;
+  position.entity = read_entity_reference(reading, element);
+  position.delta_m = {element.number("dx"), element.number("dy"), element.number_or("dz", 0.0)};
+  position.orientation = read_orientation(element, false);
+  return position;
+}
+
+}  // namespace
+
+Position read_position(Reading& reading, const Element& parent) {
+  const Element position = parent.required("Position");
+  if (!position) return {};
+  if (const Element found = position.child("LanePosition")) return read_lane(found);
+  if (const Element found = position.child("RelativeLanePosition"))
+    return read_relative_lane(reading, found);
+  if (const Element found = position.child("WorldPosition")) return read_world(found);
+  if (const Element found = position.child("RelativeWorldPosition"))
+    return read_offset<RelativeWorldPosition>(reading, found);
+  if (const Element found = position.child("RelativeObjectPosition"))
+    return read_offset<RelativeObjectPosition>(reading, found);
+  if (const Element found = position.child("RoadPosition")) {
+    RoadCoordinates road{found.text("roadId"), found.number("s", 0.0), found.number("t"), {}};
+    road.orientation = read_orientation(found, false);
+    return road;
+  }
+  if (const Element found = position.child("RelativeRoadPosition")) {
+    RelativeRoadPosition road{
+        read_entity_reference(reading, found), found.number("ds"), found.number("dt"), {}};
+    road.orientation = read_orientation(found, false);
+    return road;
+  }
+  if (position.all_children().empty())
+    position.error("it is empty", "add a position such as <LanePosition>");
+  return {};
+}
+
+}  // namespace septet::scenario

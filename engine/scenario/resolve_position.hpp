@@ -1,0 +1,48 @@
+#pragma once
+/// From a position as the file gives it to a place on the road and in the world.
+
+#include <optional>
+
+#include "engine/road/road_network.hpp"
+#include "engine/scenario/scenario_state.hpp"
+
+namespace septet::scenario {
+
+/// Where something stands. Off every road only the pose counts.
+struct Placement {
+  bool on_road = false;
+  road::LanePosition lane;
+  bool along_s = true;  ///< Faces increasing s.
+  double heading_offset_rad =
+      0.0;  ///< Against the direction of travel of the lane, in (−π/2, π/2].
+  RigidTransform pose;
+};
+
+/// Nothing where the position is not supported, names no road or lane of the network, or hangs on
+/// an entity that has no position. Stations beyond a road's end go on along its lanes.
+std::optional<Placement> resolve_position(const road::RoadNetwork& network,
+                                          const ScenarioState& state, const Position& position);
+
+/// t of an entity on its road.
+double lateral_t_m(const road::RoadNetwork& network, const road::LanePosition& lane);
+/// The lane that holds the entity, which during a lane change is not the one it is going to.
+int lane_of(const road::RoadNetwork& network, const EntityState& entity);
+/// The lane `count` lanes to the left as one drives; lane 0 does not count.
+int lane_beside(int lane, bool along_s, int count);
+
+/// The pose on a lane, facing along or against s, its path leaving the lane's centre line by
+/// `slope` metres per metre of travel to the left.
+RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosition& lane,
+                         bool along_s, double slope, double heading_offset_rad);
+
+/// Goes on along the lane in the way one faces (backwards if negative), straight on at junctions.
+/// `left_over_m` is what could not be driven because the road ends.
+struct Progress {
+  road::LanePosition lane;
+  bool along_s = true;
+  double left_over_m = 0.0;
+};
+Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s,
+                  double distance_m);
+
+}  // namespace septet::scenario

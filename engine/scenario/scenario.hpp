@@ -1,0 +1,91 @@
+#pragma once
+/// A scenario as plain data: what an OpenSCENARIO XML 1.3 file says, checked, with names turned
+/// into indices.
+///
+/// Made by read_scenario (scenario_reader.hpp), immutable afterwards. It is run by
+/// storyboard_runtime.hpp.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/scenario/action.hpp"
+#include "engine/scenario/condition.hpp"
+#include "engine/scenario/entity.hpp"
+
+namespace septet::scenario {
+
+struct FileHeader {
+  int revision_major = 1, revision_minor = 0;
+  std::string description, author, date;
+};
+
+enum class EventPriority : std::uint8_t { overwrite, skip, parallel };
+
+struct Action {
+  std::string name;
+  ElementIndex element = no_element;
+  ActionVariant what;
+};
+
+struct Event {
+  std::string name;
+  ElementIndex element = no_element;
+  EventPriority priority = EventPriority::overwrite;
+  std::uint32_t maximum_executions = 1;
+  std::vector<Action> actions;
+  Trigger start;
+};
+
+struct Maneuver {
+  std::string name;
+  ElementIndex element = no_element;
+  std::vector<Event> events;
+};
+
+struct ManeuverGroup {
+  std::string name;
+  ElementIndex element = no_element;
+  std::uint32_t maximum_executions = 1;
+  std::vector<EntityIndex> actors;
+  bool actors_are_triggering_entities = false;
+  std::vector<Maneuver> maneuvers;
+};
+
+struct Act {
+  std::string name;
+  ElementIndex element = no_element;
+  std::vector<ManeuverGroup> groups;
+  Trigger start, stop;
+};
+
+struct Story {
+  std::string name;
+  ElementIndex element = no_element;
+  std::vector<Act> acts;
+};
+
+/// One action of Init; `entity` is none for a global one.
+struct InitAction {
+  EntityIndex entity = no_entity;
+  ActionVariant what;
+};
+
+struct Scenario {
+  FileHeader header;
+  std::string road_file;  ///< As the file gives it: relative to the scenario's folder.
+  std::vector<Entity> entities;
+  std::vector<InitAction> init;
+  std::vector<Story> stories;
+  Trigger stop;
+  ElementIndex storyboard_element = 0;
+  std::uint32_t element_count = 1;
+  std::uint32_t condition_count = 0;
+  /// The name of each element, "story::act::group::maneuver::event::action", for messages and logs.
+  std::vector<std::string> element_names;
+};
+
+std::optional<EntityIndex> find_entity(const Scenario& scenario, std::string_view name);
+
+}  // namespace septet::scenario

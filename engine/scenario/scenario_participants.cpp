@@ -1,0 +1,73 @@
+#include <cmath>
+
+#include "engine/scenario/storyboard_runtime.hpp"
+
+namespace septet::scenario {
+namespace {
+
+constexpr double blink_period_s = 0.7;
+constexpr double braking_mps2 = -0.7;  ///< Gentler deceleration comes from lifting the accelerator.
+
+Lamps lamps_now(const EntityState& entity, double time_s) {
+  Lamps lamps = entity.lamps;
+  const bool blink = std::fmod(time_s, blink_period_s) < 0.5 * blink_period_s;
+  if (entity.lateral_control.active && entity.lateral_control.lane_change) {
+    lamps.set(entity.lateral_control.to_the_left ? Lamp::indicator_left : Lamp::indicator_right,
+              true);
+  }
+  for (const Lamp indicator : {Lamp::indicator_left, Lamp::indicator_right}) {
+    if (lamps.has(indicator)) lamps.set(indicator, blink);
+  }
+  if (entity.acceleration_mps2 < braking_mps2) lamps.set(Lamp::brake, true);
+  return lamps;
+}
+
+}  // namespace
+
+void append_participants(const Scenario& scenario, const ScenarioState& state,
+                         ParticipantId first_id, std::vector<Participant>& participants) {
+  for (EntityIndex i = 0; i < state.entities.size(); ++i) {
+    const EntityState& from = state.entities[i];
+    const Entity& entity = scenario.entities[i];
+    if (!from.active || from.external) continue;
+    Participant participant;
+    participant.id = first_id + i;
+    participant.model = entity.model;
+    participant.lamps = lamps_now(from, state.time_s);
+    participant.world_from_vehicle = from.world_from_entity;
+    participant.velocity_mps = from.velocity_mps;
+    participant.acceleration_mps2 = from.acceleration_vector_mps2;
+    participant.angular_velocity_radps = from.angular_velocity_radps;
+    const VehicleModel& model = vehicle_models()[entity.model];
+    const Vec3 up = from.world_from_entity.orientation * Vec3(0.0, 0.0, 1.0);
+    const double speed = from.speed_mps;
+    if (std::abs(speed) > 0.5) {
+      participant.front_steer_rad =
+          std::atan(model.wheelbase_m * glm::dot(from.angular_velocity_radps, up) / speed);
+    }
+    participant.wheel_spin_rad = from.wheel_angle_rad;
+    participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;
+    participants.push_back(participant);
+  }
+}
+
+void add_to_hash(const ScenarioState& state, StateHash& hash) {
+  hash.add(state.time_s);
+  hash.add(state.sequence);
+  for (const EntityState& entity : state.entities) {
+    const Vec3& p = entity.world_from_entity.position_m;
+    const Quat& q = entity.world_from_entity.orientation;
+    for (const double value :
+         {p.x, p.y, p.z, q.w, q.x, q.y, q.z, entity.speed_mps, entity.travelled_m})
+      hash.add(value);
+    hash.add(entity.lane.road);
+    hash.add(entity.lane.lane);
+    hash.add(entity.lamps.bits);
+  }
+  for (const ElementState& element : state.elements) {
+    hash.add(static_cast<int>(element.status));
+    hash.add(element.executions);
+  }
+}
+
+}  // namespace septet::scenario

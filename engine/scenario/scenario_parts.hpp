@@ -1,0 +1,61 @@
+#pragma once
+/// The parts of the scenario reader and what they share while one scenario is read. Used by the
+/// reader only.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/scenario_xml.hpp"
+
+namespace septet::scenario {
+
+struct Reading {
+  const ScenarioFiles& files;
+  Scenario scenario;
+  std::vector<std::shared_ptr<XmlFile>> xml_files;  ///< The scenario first, then catalogs.
+  std::vector<std::pair<std::string, std::string>> catalog_locations;  ///< Element name, folder.
+  /// Catalogs by name: their <Catalog> elements. Filled on the first reference to a catalog.
+  std::map<std::string, Element> catalogs;
+  bool catalogs_loaded = false;
+  std::vector<Element> used_entries;  ///< Entries of catalogs that were referred to.
+  ElementIndex next_element = 1;      ///< Of the storyboard element to be read next.
+  std::vector<std::string>
+      element_types;  ///< Of each storyboard element, in the words of the standard.
+};
+
+/// The parameters of `element`'s <ParameterDeclarations> over those of its surroundings. `assigned`
+/// values win.
+Element with_declared_parameters(const Element& element, const Parameters& assigned = {});
+
+/// <CatalogReference> inside `parent` resolved to the catalog's entry of one of these kinds of
+/// element, with its parameters; empty if there is none or it cannot be found (an error).
+Element resolve_catalog_reference(Reading& reading, const Element& parent,
+                                  std::initializer_list<std::string_view> kinds);
+
+void read_entities(Reading& reading, const Element& entities);
+/// An entity by name; an unknown one is an error and no_entity.
+EntityIndex read_entity_reference(Reading& reading, const Element& element,
+                                  const char* attribute = "entityRef");
+BoundingBox read_bounding_box(const Element& parent);
+
+/// The position inside `parent`, an element of the standard's type Position.
+Position read_position(Reading& reading, const Element& parent);
+
+TransitionDynamics read_dynamics(const Element& element);
+ActionVariant read_private_action(Reading& reading, const Element& action);
+ActionVariant read_global_action(Reading& reading, const Element& action);
+ActionVariant read_user_defined_action(Reading& reading, const Element& action);
+EnvironmentAction read_environment(Reading& reading, const Element& action);
+TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& action);
+
+Trigger read_trigger(Reading& reading, const Element& trigger);
+void read_storyboard(Reading& reading, const Element& storyboard);
+
+/// The storyboard element of this name, or "path::name"; none or several are an error or a warning.
+ElementIndex read_element_reference(Reading& reading, const Element& condition);
+
+}  // namespace septet::scenario

@@ -1,0 +1,108 @@
+#include "engine/scenario/start_action.hpp"
+
+#include "engine/scenario/entity_motion.hpp"
+#include "engine/scenario/resolve_position.hpp"
+
+namespace septet::scenario {
+namespace {
+
+void change_environment(const EnvironmentAction& action, Environment& environment) {
+  const auto take = [](const std::optional<double>& from, double& to) { to = from.value_or(to); };
+  take(action.sun_azimuth_rad, environment.sun_azimuth_rad);
+  take(action.sun_elevation_rad, environment.sun_elevation_rad);
+  take(action.sun_illuminance_lux, environment.sun_illuminance_lux);
+  take(action.visibility_m, environment.visibility_m);
+  take(action.cloud_cover, environment.cloud_cover);
+  take(action.rain_mm_per_h, environment.rain_mm_per_h);
+  take(action.road_wetness, environment.road_wetness);
+  take(action.temperature_k, environment.temperature_k);
+  take(action.wind_speed_mps, environment.wind_speed_mps);
+  take(action.wind_direction_rad, environment.wind_direction_rad);
+}
+
+/// Starts an action of one entity; answers whether it goes on.
+struct StartPrivate {
+  const Scenario& scenario;
+  const road::RoadNetwork& network;
+  ElementIndex action;
+  EntityIndex actor;
+  ScenarioState& state;
+  StepResult& result;
+  std::vector<ElementIndex>& replaced;
+
+  EntityState& entity() const { return state.entities[actor]; }
+
+  template <class Control>
+  void take_over(Control& control) const {
+    if (control.active && control.action != no_element) replaced.push_back(control.action);
+    control = {};
+  }
+
+  bool operator()(const TeleportAction& teleport) const {
+    const auto placement = resolve_position(network, state, teleport.position);
+    if (!placement) return false;
+    take_over(entity().lateral_control);
+    place_entity(entity(), *placement);
+    result.teleported.push_back(actor);
+    return false;
+  }
+  bool operator()(const LightStateAction& light) const {
+    const std::uint16_t now = entity().lamps.bits, bits = light.lamps.bits;
+    const bool off = light.mode == LightMode::off;
+    entity().lamps.bits = static_cast<std::uint16_t>(off ? now & ~bits : now | bits);
+    return false;
+  }
+  bool operator()(const SpeedAction& speed) const {
+    take_over(entity().speed_control);
+    start_speed(scenario, state, speed, action, actor, entity());
+    // A step is there at once, unless it follows another entity for ever.
+    SpeedControl& control = entity().speed_control;
+    control.active = control.follow != no_entity || control.transition.shape != DynamicsShape::step;
+    return control.active;
+  }
+  bool operator()(const LaneChangeAction& change) const {
+    take_over(entity().lateral_control);
+    return start_lane_change(network, state, change, action, entity()) && keep_lateral();
+  }
+  bool operator()(const LaneOffsetAction& offset) const {
+    take_over(entity().lateral_control);
+    return start_lane_offset(network, state, offset, action, entity()) && keep_lateral();
+  }
+  /// What concerns no single entity.
+  template <class Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+
+ private:
+  bool keep_lateral() const {
+    LateralControl& control = entity().lateral_control;
+    control.active = control.transition.shape != DynamicsShape::step;
+    return control.active;
+  }
+};
+
+}  // namespace
+
+StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network,
+                           const ActionVariant& what, ElementIndex action,
+                           const std::vector<EntityIndex>& actors, ScenarioState& state,
+                           StepResult& result) {
+  StartedAction started;
+  if (const auto* environment = std::get_if<EnvironmentAction>(&what)) {
+    change_environment(*environment, state.environment);
+  } else if (const auto* swarm = std::get_if<TrafficSwarmAction>(&what)) {
+    result.swarms.push_back(*swarm);
+  } else if (const auto* stop = std::get_if<TrafficStopAction>(&what)) {
+    result.stopped_traffic.push_back(stop->name);
+  } else if (const auto* siren = std::get_if<SirenAction>(&what)) {
+    state.entities[siren->entity].lamps.set(Lamp::siren, siren->on);
+  }
+  for (const EntityIndex actor : actors) {
+    const StartPrivate start{scenario, network, action, actor, state, result, started.replaced};
+    started.goes_on = std::visit(start, what) || started.goes_on;
+  }
+  return started;
+}
+
+}  // namespace septet::scenario

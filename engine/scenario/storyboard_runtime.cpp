@@ -1,0 +1,314 @@
+#include "engine/scenario/storyboard_runtime.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/core/check.hpp"
+#include "engine/scenario/condition_evaluation.hpp"
+#include "engine/scenario/entity_motion.hpp"
+#include "engine/scenario/start_action.hpp"
+
+namespace septet::scenario {
+namespace {
+
+/// One step of a scenario: everything it reads and writes.
+class Step {
+ public:
+  Step(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state,
+       StepResult& result)
+      : scenario_(scenario), network_(network), state_(state), result_(result) {}
+
+  void run_storyboard() {
+    if (state_.finished) return;
+    if (evaluate(scenario_.stop)) {
+      finish(scenario_.storyboard_element, ElementTransition::stop, ElementStatus::complete);
+      for (EntityState& entity : state_.entities)
+        entity.speed_control = {}, entity.lateral_control = {};
+      state_.finished = true;
+      return;
+    }
+    begin(scenario_.storyboard_element);
+    for (const Story& story : scenario_.stories) {
+      if (element(story.element).status == ElementStatus::complete) continue;
+      begin(story.element);
+      for (const Act& act : story.acts) run_act(act);
+    }
+    start_pending();
+    settle();
+  }
+
+  void move_entities(double dt_s) {
+    std::vector<ElementIndex> ended;
+    for (EntityIndex i = 0; i < state_.entities.size(); ++i) {
+      EntityState& entity = state_.entities[i];
+      if (!entity.active || entity.external) continue;
+      move_entity(network_, scenario_, state_, dt_s, i, entity, ended);
+    }
+    for (const ElementIndex action : ended) end_action(action);
+    settle();
+  }
+
+ private:
+  ElementState& element(ElementIndex index) { return state_.elements[index]; }
+  bool evaluate(const Trigger& trigger) {
+    return evaluate_trigger(scenario_, network_, trigger, state_);
+  }
+  /// A start trigger that is missing or empty holds at once.
+  bool may_start(const Trigger& trigger) { return trigger.groups.empty() || evaluate(trigger); }
+
+  void transit(ElementIndex index, ElementTransition transition, ElementStatus to) {
+    ElementState& at = element(index);
+    at.initialised = true;
+    at.last_transition = transition;
+    at.transition_sequence = state_.sequence++;
+    at.status = to;
+    result_.events.push_back({state_.time_s, index, transition, to});
+  }
+  void begin(ElementIndex index) {
+    if (element(index).status != ElementStatus::standby) return;
+    ++element(index).executions;
+    transit(index, ElementTransition::start, ElementStatus::running);
+  }
+  void finish(ElementIndex index, ElementTransition transition, ElementStatus to) {
+    if (element(index).status == ElementStatus::running || transition == ElementTransition::stop)
+      transit(index, transition, to);
+  }
+
+  void run_act(const Act& act) {
+    ElementState& at = element(act.element);
+    at.initialised = true;
+    if (at.status == ElementStatus::complete) return;
+    if (at.status == ElementStatus::standby) {
+      if (!may_start(act.start)) return;
+      begin(act.element);
+      for (const ManeuverGroup& group : act.groups) begin_group(group);
+    } else if (evaluate(act.stop)) {
+      for (const ManeuverGroup& group : act.groups) stop_group(group);
+      finish(act.element, ElementTransition::stop, ElementStatus::complete);
+      return;
+    }
+    for (const ManeuverGroup& group : act.groups) {
+      if (element(group.element).status != ElementStatus::running) continue;
+      for (const Maneuver& maneuver : group.maneuvers) run_maneuver(group, maneuver);
+    }
+  }
+
+  void begin_group(const ManeuverGroup& group) {
+    if (group.maximum_executions == 0) {
+      transit(group.element, ElementTransition::skip, ElementStatus::complete);
+      return;
+    }
+    element(group.element).status = ElementStatus::standby;
+    begin(group.element);
+    for (const Maneuver& maneuver : group.maneuvers) {
+      element(maneuver.element).status = ElementStatus::standby;
+      begin(maneuver.element);
+      for (const Event& event : maneuver.events) {
+        ElementState& at = element(event.element);
+        at.initialised = true;
+        at.executions = 0;
+        at.status =
+            event.maximum_executions == 0 ? ElementStatus::complete : ElementStatus::standby;
+        forget_trigger(event.start, state_);
+      }
+    }
+  }
+
+  void run_maneuver(const ManeuverGroup& group, const Maneuver& maneuver) {
+    for (const Event& event : maneuver.events) {
+      if (element(event.element).status != ElementStatus::standby || !may_start(event.start))
+        continue;
+      const auto runs = [&](const Event& other) {
+        return &other != &event && element(other.element).status == ElementStatus::running;
+      };
+      if (event.priority == EventPriority::skip &&
+          std::any_of(maneuver.events.begin(), maneuver.events.end(), runs)) {
+        transit(event.element, ElementTransition::skip, ElementStatus::standby);
+        continue;
+      }
+      if (event.priority == EventPriority::overwrite) {
+        for (const Event& other : maneuver.events) {
+          if (runs(other)) stop_event(other);
+        }
+      }
+      start_event(group, event);
+    }
+  }
+
+  void start_event(const ManeuverGroup& group, const Event& event) {
+    begin(event.element);
+    const std::vector<EntityIndex> actors =
+        group.actors_are_triggering_entities ? triggering_entities(event) : group.actors;
+    for (const Action& action : event.actions) {
+      transit(action.element, ElementTransition::start, ElementStatus::running);
+      pending_.push_back({&action, actors});
+    }
+  }
+
+  /// All triggers of a step see the world as it was when the step began; then its actions start.
+  void start_pending() {
+    for (const PendingAction& pending : pending_) {
+      const Action& action = *pending.action;
+      if (element(action.element).status != ElementStatus::running) continue;
+      const StartedAction started = start_action(scenario_, network_, action.what, action.element,
+                                                 pending.actors, state_, result_);
+      for (const ElementIndex replaced : started.replaced) {
+        finish(replaced, ElementTransition::stop, ElementStatus::complete);
+      }
+      if (!started.goes_on) {
+        finish(action.element, ElementTransition::end, ElementStatus::complete);
+      }
+    }
+    pending_.clear();
+  }
+
+  static std::vector<EntityIndex> triggering_entities(const Event& event) {
+    std::vector<EntityIndex> found;
+    for (const ConditionGroup& group : event.start.groups) {
+      for (const Condition& condition : group.conditions) {
+        for (const EntityIndex entity : condition.triggering_entities) {
+          if (std::find(found.begin(), found.end(), entity) == found.end()) found.push_back(entity);
+        }
+      }
+    }
+    return found;
+  }
+
+  void end_action(ElementIndex action) {
+    // An action of several actors ends with the last of them.
+    for (const EntityState& entity : state_.entities) {
+      if (entity.speed_control.active && entity.speed_control.action == action) return;
+      if (entity.lateral_control.active && entity.lateral_control.action == action) return;
+    }
+    finish(action, ElementTransition::end, ElementStatus::complete);
+  }
+
+  void stop_event(const Event& event) {
+    for (const Action& action : event.actions) {
+      if (element(action.element).status != ElementStatus::running) continue;
+      for (EntityState& entity : state_.entities) {
+        if (entity.speed_control.action == action.element) entity.speed_control = {};
+        if (entity.lateral_control.action == action.element) entity.lateral_control = {};
+      }
+      finish(action.element, ElementTransition::stop, ElementStatus::complete);
+    }
+    finish(event.element, ElementTransition::stop, after_execution(event));
+  }
+  ElementStatus after_execution(const Event& event) {
+    return element(event.element).executions < event.maximum_executions ? ElementStatus::standby
+                                                                        : ElementStatus::complete;
+  }
+
+  void stop_group(const ManeuverGroup& group) {
+    for (const Maneuver& maneuver : group.maneuvers) {
+      for (const Event& event : maneuver.events) {
+        if (element(event.element).status == ElementStatus::running) stop_event(event);
+        if (element(event.element).status == ElementStatus::standby)
+          transit(event.element, ElementTransition::stop, ElementStatus::complete);
+      }
+      if (element(maneuver.element).status == ElementStatus::running)
+        finish(maneuver.element, ElementTransition::stop, ElementStatus::complete);
+    }
+    if (element(group.element).status == ElementStatus::running)
+      finish(group.element, ElementTransition::stop, ElementStatus::complete);
+  }
+
+  bool complete(ElementIndex index) { return element(index).status == ElementStatus::complete; }
+  template <class Children>
+  bool all_complete(const Children& children) {
+    return std::all_of(children.begin(), children.end(),
+                       [&](const auto& child) { return complete(child.element); });
+  }
+
+  /// Ends what has nothing left to do, from the inside out.
+  void settle() {
+    for (const Story& story : scenario_.stories) {
+      for (const Act& act : story.acts) {
+        if (element(act.element).status != ElementStatus::running) continue;
+        for (const ManeuverGroup& group : act.groups) settle_group(group);
+        if (all_complete(act.groups))
+          finish(act.element, ElementTransition::end, ElementStatus::complete);
+      }
+      if (all_complete(story.acts))
+        finish(story.element, ElementTransition::end, ElementStatus::complete);
+    }
+  }
+
+  void settle_group(const ManeuverGroup& group) {
+    if (element(group.element).status != ElementStatus::running) return;
+    for (const Maneuver& maneuver : group.maneuvers) {
+      for (const Event& event : maneuver.events) {
+        if (element(event.element).status == ElementStatus::running &&
+            all_complete(event.actions)) {
+          finish(event.element, ElementTransition::end, after_execution(event));
+        }
+      }
+      if (all_complete(maneuver.events))
+        finish(maneuver.element, ElementTransition::end, ElementStatus::complete);
+    }
+    if (!all_complete(group.maneuvers)) return;
+    finish(group.element, ElementTransition::end, ElementStatus::complete);
+    if (!group.maneuvers.empty() && element(group.element).executions < group.maximum_executions)
+      begin_group(group);
+  }
+
+  const Scenario& scenario_;
+  const road::RoadNetwork& network_;
+  ScenarioState& state_;
+  StepResult& result_;
+  struct PendingAction {
+    const Action* action;
+    std::vector<EntityIndex> actors;
+  };
+  std::vector<PendingAction> pending_;
+};
+
+}  // namespace
+
+Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network,
+                                       EntityIndex external, StepResult& result) {
+  ScenarioState state;
+  state.entities.resize(scenario.entities.size());
+  state.elements.resize(scenario.element_count);
+  state.conditions.resize(scenario.condition_count);
+  if (external != no_entity) state.entities[external].external = true;
+  // Positions first: a speed or a lane may hang on where another entity is.
+  for (const bool positions : {true, false}) {
+    for (const InitAction& action : scenario.init) {
+      const auto* teleport = std::get_if<TeleportAction>(&action.what);
+      if ((teleport != nullptr) != positions) continue;
+      std::vector<EntityIndex> actors;
+      if (action.entity != no_entity) actors.push_back(action.entity);
+      start_action(scenario, network, action.what, no_element, actors, state, result);
+      if (teleport == nullptr || state.entities[action.entity].active) continue;
+      if (std::holds_alternative<std::monostate>(teleport->position)) continue;
+      return failure(fmt::format("the position of {} is not on the road",
+                                 scenario.entities[action.entity].name),
+                     "Init", "name a road, lane and station that the OpenDRIVE file has");
+    }
+  }
+  for (EntityState& entity : state.entities) {
+    entity.velocity_mps = entity.world_from_entity.orientation * Vec3(entity.speed_mps, 0.0, 0.0);
+  }
+  return state;
+}
+
+StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,
+                            ScenarioState& state) {
+  SEPTET_CHECK(dt_s > 0.0, "dt {}", dt_s);
+  StepResult result;
+  state.step_sequence = state.sequence++;
+  Step step(scenario, network, state, result);
+  step.run_storyboard();
+  step.move_entities(dt_s);
+  for (EntityState& entity : state.entities) {
+    if (!entity.external) continue;
+    entity.standing_s = std::abs(entity.speed_mps) < 0.05 ? entity.standing_s + dt_s : 0.0;
+  }
+  state.time_s += dt_s;
+  return result;
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,212 @@
+/// Third-party scenarios against the traces that another player made of them; see the conformance
+/// set's README.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/road/road_position.hpp"
+#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenario/storyboard_runtime.hpp"
+
+namespace septet::scenario {
+namespace {
+namespace fs = std::filesystem;
+
+fs::path conformance_folder() {
+  if (const char* folder = std::getenv("SEPTET_CONFORMANCE_DIR"))
+    return fs::path(folder) / "scenarios";
+  return fs::path(SEPTET_SOURCE_DIR) / ".." / "shared" / "conformance" / "scenarios";
+}
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Loaded {
+  Scenario scenario;
+  road::RoadNetwork network;
+  std::vector<Finding> warnings;
+};
+
+Loaded load(const std::string& name) {
+  const fs::path folder = conformance_folder() / "xosc";
+  Loaded loaded;
+  auto scenario = read_scenario(content(folder / (name + ".xosc")), name + ".xosc",
+                                files_in(folder.string()), &loaded.warnings);
+  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  loaded.scenario = std::move(*scenario);
+  auto network =
+      road::read_opendrive(content(folder / loaded.scenario.road_file), loaded.scenario.road_file);
+  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  loaded.network = std::move(*network);
+  return loaded;
+}
+
+struct TraceRow {
+  double time_s;
+  std::string name;
+  Vec3 position_m;
+  double heading_rad, speed_mps;
+};
+
+std::vector<TraceRow> trace(const std::string& name) {
+  std::ifstream in(conformance_folder() / "traces" / (name + ".trace.csv"));
+  std::vector<TraceRow> rows;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    rows.push_back({std::stod(cells[0]),
+                    cells[1],
+                    {std::stod(cells[2]), std::stod(cells[3]), std::stod(cells[4])},
+                    std::stod(cells[5]),
+                    std::stod(cells[8])});
+  }
+  return rows;
+}
+
+struct State {
+  Vec3 position_m;
+  double heading, speed;
+};
+
+/// How far a state is from a row, in units of the tolerances of the README. The trace was
+/// integrated with the speed at the end of each step of 0.01 s, so that its way differs by half a
+/// step times all changes of speed so far.
+double misfit(const TraceRow& row, const State& state, double speed_changes_mps,
+              bool with_heading) {
+  const double position = glm::length(state.position_m - row.position_m) /
+                          (0.05 + 0.03 * std::abs(row.speed_mps) + 0.005 * speed_changes_mps);
+  const double turn = std::abs(road::wrap_angle(state.heading - row.heading_rad)) / 0.02;
+  const double heading = with_heading ? turn : 0.0;
+  const double speed = std::abs(state.speed - row.speed_mps) / (0.05 + 0.03 * 10.0);
+  return std::max({position, heading, speed});
+}
+
+/// Every entity's state at every step of 0.01 s, by name, until the scenario's end or a minute.
+std::map<std::string, std::vector<State>> run(const Loaded& loaded, double end_s) {
+  StepResult result;
+  auto started = start_scenario(loaded.scenario, loaded.network, no_entity, result);
+  REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
+  ScenarioState state = std::move(*started);
+  std::map<std::string, std::vector<State>> states;
+  for (int step = 0;; ++step) {
+    for (EntityIndex i = 0; i < state.entities.size(); ++i) {
+      const EntityState& entity = state.entities[i];
+      states[loaded.scenario.entities[i].name].push_back(
+          {entity.world_from_entity.position_m, heading_rad(entity.world_from_entity.orientation),
+           entity.speed_mps});
+    }
+    if (step * 0.01 >= end_s - 1e-6) return states;
+    const StepResult happened = advance_scenario(loaded.scenario, loaded.network, 0.01, state);
+    if (std::getenv("SEPTET_SHOW_EVENTS") == nullptr) continue;
+    for (const StoryboardEvent& event : happened.events) {
+      MESSAGE(event.time_s << " " << loaded.scenario.element_names[event.element] << " "
+                           << static_cast<int>(event.transition));
+    }
+  }
+}
+
+void check_against_trace(const std::string& name, bool with_heading = true) {
+  if (!fs::exists(conformance_folder())) {
+    MESSAGE("no conformance set: skipped");
+    return;
+  }
+  const Loaded loaded = load(name);
+  std::vector<TraceRow> rows = trace(name);
+  // Trailers are entities of their own in the trace; the reader names them as not supported.
+  std::erase_if(rows, [&](const TraceRow& row) { return row.name.ends_with('+'); });
+  REQUIRE_FALSE(rows.empty());
+  const auto states = run(loaded, rows.back().time_s + 0.03);
+  double worst = 0.0;
+  std::string worst_row;
+  std::map<std::string, std::pair<double, double>> speeds;  // The last one, the sum of all changes.
+  for (const TraceRow& row : rows) {
+    auto& [last, changes] = speeds.try_emplace(row.name, row.speed_mps, 0.0).first->second;
+    changes += std::abs(row.speed_mps - last);
+    last = row.speed_mps;
+    const auto& of_entity = states.at(row.name);
+    const auto step = static_cast<std::ptrdiff_t>(std::lround(row.time_s / 0.01));
+    // A slack of 0.02 s around events: the best of the steps before and after counts.
+    double least = 1e300;
+    for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, step - 2); k <= step + 2; ++k) {
+      least = std::min(least, misfit(row,
+                                     of_entity[static_cast<std::size_t>(
+                                         std::min<std::ptrdiff_t>(k, of_entity.size() - 1))],
+                                     changes, with_heading));
+    }
+    if (least > worst) {
+      worst = least;
+      const State& at = of_entity[static_cast<std::size_t>(step)];
+      std::ostringstream text;
+      text << row.name << " at " << row.time_s << " s: (" << at.position_m.x << ", "
+           << at.position_m.y << ", " << at.position_m.z << ") " << at.heading << " rad, "
+           << at.speed << " m/s; trace (" << row.position_m.x << ", " << row.position_m.y << ", "
+           << row.position_m.z << ") " << row.heading_rad << " rad, " << row.speed_mps << " m/s";
+      worst_row = text.str();
+    }
+  }
+  INFO(name << ": worst misfit " << worst << " of the tolerance, " << worst_row);
+  CHECK(worst <= 1.0);
+  if (std::getenv("SEPTET_SHOW_EVENTS") != nullptr)
+    MESSAGE(name << ": worst misfit " << worst << " " << worst_row);
+}
+
+}  // namespace
+
+TEST_CASE("cut-in follows the reference trace") { check_against_trace("cut-in"); }
+TEST_CASE("cut-in on curves follows the reference trace") { check_against_trace("cut-in_cr"); }
+TEST_CASE("simple lane change follows the reference trace") {
+  check_against_trace("lane_change_simple");
+}
+TEST_CASE("velodrome follows the reference trace") {
+  // The trace turns the entities in the banked bends by the change of the bank; see the set's
+  // README.
+  check_against_trace("velodrome", false);
+}
+TEST_CASE("slow lead vehicle follows the reference trace") {
+  check_against_trace("slow-lead-vehicle");
+}
+TEST_CASE("left-hand traffic follows the reference trace") {
+  check_against_trace("left-hand-traffic_using_road_rule");
+}
+TEST_CASE("two plus one road follows the reference trace") {
+  check_against_trace("two_plus_one_road");
+}
+
+TEST_CASE("every scenario of the conformance set loads and names what it does not support") {
+  if (!fs::exists(conformance_folder())) {
+    MESSAGE("no conformance set: skipped");
+    return;
+  }
+  for (const auto& entry : fs::directory_iterator(conformance_folder() / "xosc")) {
+    if (entry.path().extension() != ".xosc") continue;
+    const std::string name = entry.path().stem().string();
+    CAPTURE(name);
+    const Loaded loaded = load(name);
+    for (const Finding& warning : loaded.warnings) {
+      CHECK(warning.line > 0);
+      if (std::getenv("SEPTET_SHOW_EVENTS") != nullptr) MESSAGE(describe(warning.error));
+    }
+    StepResult result;
+    auto state = start_scenario(loaded.scenario, loaded.network, no_entity, result);
+    REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+    for (int step = 0; step < 1000; ++step)
+      advance_scenario(loaded.scenario, loaded.network, 0.01, *state);
+  }
+}
+
+}  // namespace septet::scenario

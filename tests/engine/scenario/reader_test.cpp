@@ -1,0 +1,203 @@
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/core/random.hpp"
+#include "engine/scenario/expression.hpp"
+#include "tests/engine/scenario/scenario_text.hpp"
+
+namespace septet::scenario {
+namespace {
+
+std::string value_of(const std::string& text, const Parameters& parameters = {}) {
+  const auto value = substitute(text, parameters);
+  return value ? *value : "error: " + value.error().what;
+}
+
+bool has_finding(const std::vector<Finding>& findings, Severity severity, const std::string& part) {
+  for (const Finding& finding : findings) {
+    if (finding.severity == severity && describe(finding.error).find(part) != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+std::string motorway_folder() {
+  return std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance";
+}
+std::string motorway_text() {
+  std::ifstream in(motorway_folder() + "/motorway-ambulance.xosc");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("expressions follow the standard's operators functions and precedence") {
+  const Parameters parameters{{"speed", "90"}, {"fast", "true"}, {"name", "Ego"}};
+  CHECK(value_of("$name", parameters) == "Ego");
+  CHECK(value_of("plain text") == "plain text");
+  CHECK(value_of("${$speed / 3.6}", parameters) == "25");
+  CHECK(value_of("${2 + 3 * -4}") == "-10");
+  CHECK(value_of("${(2 + 3) * 4 % 7}") == "6");
+  CHECK(value_of("${max(1, pow(2, 3)) - sqrt(16)}") == "4");
+  CHECK(value_of("${round(2.5) + floor(2.9) + ceil(2.1) + abs(-1) + sign(-7)}") == "8");
+  CHECK(value_of("${$fast and not false}", parameters) == "true");
+  CHECK(value_of("${true and false or false}") == "false");
+}
+
+TEST_CASE("a wrong expression says what is wrong") {
+  CHECK(value_of("$missing") == "error: no parameter is named \"missing\"");
+  CHECK(value_of("${1 +}").starts_with("error:"));
+  CHECK(value_of("${1 / 0}") == "error: the value is not finite");
+  CHECK(value_of("${nothing(1)}").starts_with("error:"));
+  CHECK(value_of("${" + std::string(100000, '(') + "}").starts_with("error:"));
+  CHECK(value_of("${" + std::string(100000, '-') + "1}").starts_with("error:"));
+}
+
+TEST_CASE("what is not supported is named with its line") {
+  const std::string text = scenario_text(
+      private_text("A", place_text(-1, 10)) + private_text("B", place_text(-2, 10)),
+      "\n\n" + story_text(event_text(
+                   "e",
+                   "<PrivateAction><LongitudinalAction><LongitudinalDistanceAction/></"
+                   "LongitudinalAction></PrivateAction>",
+                   trigger_text(of_entity_text("A", "<OffroadCondition duration=\"1\"/>")))));
+  std::vector<Finding> warnings;
+  const auto scenario = read_scenario(text, "test.xosc", files_in("."), &warnings);
+  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  CHECK(warnings.size() == 2);
+  CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <LongitudinalDistanceAction>"));
+  CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <OffroadCondition>"));
+}
+
+TEST_CASE("a wrong file names line element and remedy") {
+  const auto error_of = [](const std::string& text) {
+    const auto scenario = read_scenario(text, "test.xosc", files_in("."));
+    return scenario ? std::string() : describe(scenario.error());
+  };
+  CHECK(error_of("<OpenSCENARIO").find("not XML") != std::string::npos);
+  CHECK(error_of("<OpenDRIVE/>").find("not an OpenSCENARIO file") != std::string::npos);
+  CHECK(error_of(scenario_text(private_text("nobody", ""), ""))
+            .find("no entity is named \"nobody\"") != std::string::npos);
+  CHECK(error_of(scenario_text(private_text("A", speed_text(10, "wobbly")), "")).find("wobbly") !=
+        std::string::npos);
+  const std::string reference =
+      R"(<ByValueCondition><StoryboardElementStateCondition storyboardElementType="event" storyboardElementRef="x" state="completeState"/></ByValueCondition>)";
+  CHECK(error_of(
+            scenario_text("", story_text(event_text("e", speed_text(1), trigger_text(reference)))))
+            .find("no event is named \"x\"") != std::string::npos);
+  const std::string no_dynamics =
+      "<PrivateAction><LongitudinalAction><SpeedAction/></LongitudinalAction></PrivateAction>";
+  CHECK(error_of(scenario_text(private_text("A", no_dynamics), ""))
+            .find("<SpeedActionDynamics> is missing") != std::string::npos);
+}
+
+TEST_CASE("parameters given from outside win over those of the file") {
+  const std::string declared =
+      R"(<ParameterDeclarations><ParameterDeclaration name="s" parameterType="double" value="100"/></ParameterDeclarations>)";
+  std::string text = scenario_text(private_text("A", place_text(-1, 10)), "", declared);
+  text.replace(text.find("10.000000"), 9, "${$s * 2}");
+  const auto plain = read_scenario(text, "test.xosc", files_in("."));
+  const auto given = read_scenario(text, "test.xosc", files_in("."), nullptr, {{"s", "7"}});
+  REQUIRE(plain);
+  REQUIRE(given);
+  const auto s_of = [](const Scenario& scenario) {
+    return std::get<LaneCoordinates>(std::get<TeleportAction>(scenario.init.at(0).what).position)
+        .s_m;
+  };
+  CHECK(s_of(*plain) == doctest::Approx(200.0));
+  CHECK(s_of(*given) == doctest::Approx(14.0));
+}
+
+TEST_CASE("a catalog entry takes its parameters from the reference") {
+  ScenarioFiles files;
+  files.list = [](const std::string&) -> Expected<std::vector<std::string>> {
+    return std::vector<std::string>{"cars.xosc"};
+  };
+  files.read = [](const std::string&) -> Expected<std::string> {
+    return std::string(
+        R"(<OpenSCENARIO><Catalog name="cars"><Vehicle name="small" vehicleCategory="car"><ParameterDeclarations>)"
+        R"(<ParameterDeclaration name="top" parameterType="double" value="40"/></ParameterDeclarations>)"
+        R"(<BoundingBox><Center x="1.4" y="0" z="0.7"/><Dimensions width="1.7" length="4" height="1.4"/></BoundingBox>)"
+        R"(<Performance maxSpeed="$top" maxAcceleration="3" maxDeceleration="9"/><Axles/></Vehicle></Catalog></OpenSCENARIO>)");
+  };
+  std::string text = scenario_text("", "");
+  const std::string reference =
+      R"(<ScenarioObject name="C"><CatalogReference catalogName="cars" entryName="small"><ParameterAssignments>)"
+      R"(<ParameterAssignment parameterRef="top" value="55"/></ParameterAssignments></CatalogReference></ScenarioObject>)";
+  text.insert(text.find("</Entities>"), reference);
+  text.replace(
+      text.find("<CatalogLocations/>"), 19,
+      R"(<CatalogLocations><VehicleCatalog><Directory path="catalogs"/></VehicleCatalog></CatalogLocations>)");
+  const auto scenario = read_scenario(text, "test.xosc", files);
+  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  const Entity& car = scenario->entities.at(2);
+  CHECK(car.performance.max_speed_mps == 55.0);
+  CHECK(vehicle_models()[car.model].name == "hatchback");
+}
+
+TEST_CASE("an entity is drawn as the model of its name or the nearest of its kind") {
+  Entity entity;
+  entity.type_name = "volvo-s80";
+  CHECK(vehicle_models()[match_vehicle_model(entity)].name == "volvo-s80");
+  entity.type_name = "unknown";
+  entity.category = "truck";
+  CHECK(vehicle_models()[match_vehicle_model(entity)].name == "lorry");
+  entity.category = "van";
+  entity.role = "ambulance";
+  CHECK(vehicle_models()[match_vehicle_model(entity)].name == "ambulance");
+}
+
+TEST_CASE("the motorway scenario loads without a warning") {
+  std::vector<Finding> findings =
+      check_scenario(motorway_text(), "motorway-ambulance.xosc", files_in(motorway_folder()));
+  for (const Finding& finding : findings) MESSAGE(describe(finding.error));
+  CHECK(findings.empty());
+}
+
+TEST_CASE("no mutation of a scenario crashes the reader or the runtime") {
+  const std::string original = motorway_text();
+  REQUIRE_FALSE(original.empty());
+  std::ifstream in(motorway_folder() + "/motorway.xodr");
+  const auto network =
+      road::read_opendrive(std::string{std::istreambuf_iterator<char>(in), {}}, "motorway.xodr");
+  REQUIRE(network.has_value());
+  Random random(7);
+  int started = 0;
+  const std::string pieces[] = {"-1",        "0", "1e12", "nan",          "\"",
+                                "<",         ">", "$",    "${",           "}",
+                                "ambulance", "",  "/",    "999999999999", "-4"};
+  for (int round = 0; round < 200; ++round) {
+    std::string text = original;
+    for (std::uint64_t change = 1 + random.below(2); change > 0; --change) {
+      const std::size_t at = random.below(text.size());
+      if (random.below(2) == 0) {
+        // The value of an attribute.
+        const std::size_t open = text.find('"', at),
+                          close = open == text.npos ? open : text.find('"', open + 1);
+        if (close == text.npos) continue;
+        text.replace(open + 1, close - open - 1, pieces[random.below(std::size(pieces))]);
+      } else if (random.below(2) == 0) {
+        text.replace(at, random.below(40), pieces[random.below(std::size(pieces))]);
+      } else {
+        text.resize(at + 1);
+      }
+    }
+    const auto scenario = read_scenario(text, "mutated.xosc", files_in(motorway_folder()));
+    if (!scenario) {
+      CHECK_FALSE(scenario.error().where.empty());
+      continue;
+    }
+    StepResult result;
+    auto state = start_scenario(*scenario, *network, no_entity, result);
+    if (!state) continue;
+    ++started;
+    for (int step = 0; step < 20; ++step) advance_scenario(*scenario, *network, 0.5, *state);
+  }
+  CHECK(started > 10);
+}
+
+}  // namespace septet::scenario

@@ -1,0 +1,252 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/scenario/scenario_text.hpp"
+
+namespace septet::scenario {
+namespace {
+
+std::string state_text(const std::string& type, const std::string& name, const std::string& state) {
+  return "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"" + type +
+         "\" storyboardElementRef=\"" + name + "\" state=\"" + state + "\"/></ByValueCondition>";
+}
+std::string at(double time_s) { return trigger_text(time_text(time_s)); }
+
+const std::string two_cars = private_text("A", place_text(-2, 100) + speed_text(20)) +
+                             private_text("B", place_text(-2, 200) + speed_text(10));
+
+}  // namespace
+
+TEST_CASE("every shape takes its time and ends at its speed") {
+  for (const std::string shape : {"linear", "sinusoidal", "cubic"}) {
+    CAPTURE(shape);
+    Drive drive(scenario_text(
+        two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at(1.0)))));
+    drive.run_until(3.0);
+    CHECK(drive.a().speed_mps == doctest::Approx(25.0).epsilon(0.001));
+    drive.run_until(6.0);
+    CHECK(drive.a().speed_mps == 30.0);
+    // 1 s at 20, 4 s at a mean of 25, 1 s at 30 m/s.
+    CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(250.0).epsilon(1e-4));
+    CHECK(drive.time_of("e", ElementTransition::end) == doctest::Approx(4.99));
+  }
+}
+
+TEST_CASE("a rate is the greatest rate and a distance is kept") {
+  Drive rate(scenario_text(
+      two_cars, story_text(event_text("e", speed_text(30, "sinusoidal", "rate", 2.0), at(0.0)))));
+  double greatest = 0.0;
+  while (rate.state.time_s < 10.0) {
+    rate.run_until(rate.state.time_s + 0.01);
+    greatest = std::max(greatest, rate.a().acceleration_mps2);
+  }
+  CHECK(greatest == doctest::Approx(2.0).epsilon(0.001));
+  Drive distance(scenario_text(
+      two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at(0.0)))));
+  distance.run_until(4.0);
+  CHECK(distance.a().speed_mps == doctest::Approx(28.0));
+  distance.run_until(5.0);
+  CHECK(distance.a().speed_mps == 30.0);
+  CHECK(distance.a().world_from_entity.position_m.x == doctest::Approx(225.0).epsilon(1e-3));
+}
+
+TEST_CASE("acceleration never exceeds what the vehicle can do") {
+  Drive drive(scenario_text(
+      two_cars, story_text(event_text("e", speed_text(50, "cubic", "time", 0.5), at(0.0)))));
+  double greatest = 0.0;
+  while (drive.state.time_s < 8.0) {
+    drive.run_until(drive.state.time_s + 0.01);
+    greatest = std::max(greatest, drive.a().acceleration_mps2);
+  }
+  CHECK(greatest == doctest::Approx(10.0).epsilon(0.001));
+  CHECK(drive.a().speed_mps == 50.0);
+}
+
+TEST_CASE("a lane change is one smooth curve to the centre of the next lane") {
+  for (const std::string dimension : {"time", "distance", "rate"}) {
+    CAPTURE(dimension);
+    const double value = dimension == "time"       ? 4.0
+                         : dimension == "distance" ? 80.0
+                                                   : 3.5 * std::numbers::pi / 8.0;
+    Drive drive(scenario_text(
+        two_cars,
+        story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at(0.0)))));
+    CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-5.25));
+    drive.run_until(2.0);
+    CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-3.5).epsilon(0.01));
+    const double slope = 3.5 * std::numbers::pi / 8.0 / 20.0;
+    CHECK(heading_rad(drive.a().world_from_entity.orientation) ==
+          doctest::Approx(slope).epsilon(0.01));
+    drive.run_until(4.2);
+    CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-1.75));
+    CHECK(heading_rad(drive.a().world_from_entity.orientation) == doctest::Approx(0.0));
+    CHECK(drive.a().lane.lane == -1);
+  }
+}
+
+TEST_CASE("a rising edge fires once and none fires while the condition holds") {
+  Drive rising(scenario_text(
+      two_cars, story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising"),
+                                      "parallel", 5))));
+  rising.run_until(3.0);
+  CHECK(rising.count_of("e", ElementTransition::start) == 1);
+  CHECK(rising.time_of("e", ElementTransition::start) == doctest::Approx(1.0));
+  Drive none(scenario_text(
+      two_cars,
+      story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0)), "parallel", 5))));
+  none.run_until(3.0);
+  CHECK(none.count_of("e", ElementTransition::start) == 5);
+}
+
+TEST_CASE("a delay holds the condition back by its time") {
+  Drive drive(scenario_text(
+      two_cars,
+      story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising", 0.5)))));
+  drive.run_until(3.0);
+  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(1.5));
+}
+
+TEST_CASE("distance conditions fire where the distance is") {
+  const std::string apart =
+      R"(<RelativeDistanceCondition entityRef="B" relativeDistanceType="longitudinal" coordinateSystem="road" freespace="true" rule="lessThan" value="50"/>)";
+  Drive drive(scenario_text(
+      two_cars,
+      story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", apart))) +
+                 event_text("f", speed_text(20),
+                            trigger_text(of_entity_text(
+                                "A", R"(<TraveledDistanceCondition value="40"/>)"))))));
+  drive.run_until(6.0);
+  // 100 m apart, closing at 10 m/s; 2.3 + 1.4 − 0.9 m of the boxes lie between the reference
+  // points: 4.6 m in all.
+  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(4.54).epsilon(0.005));
+  CHECK(drive.time_of("f", ElementTransition::start) == doctest::Approx(2.0).epsilon(0.006));
+}
+
+TEST_CASE("overwrite stops the running event skip waits and parallel goes along") {
+  const std::string slow = speed_text(30, "linear", "time", 4.0);
+  const std::string first = event_text("first", slow, at(0.0));
+  const auto with = [&](const std::string& priority) {
+    Drive drive(scenario_text(
+        two_cars,
+        story_text(first + event_text("second", lane_change_text(1, "linear", "time", 1.0), at(1.0),
+                                      priority))));
+    drive.run_until(6.0);
+    return drive;
+  };
+  const Drive overwrite = with("override");
+  CHECK(overwrite.time_of("first", ElementTransition::stop) == doctest::Approx(1.0));
+  CHECK(overwrite.a().speed_mps == doctest::Approx(22.5));
+  const Drive skip = with("skip");
+  CHECK(skip.count_of("second", ElementTransition::skip) > 100);
+  CHECK(skip.time_of("second", ElementTransition::start) == doctest::Approx(4.0));
+  const Drive parallel = with("parallel");
+  CHECK(parallel.time_of("second", ElementTransition::start) == doctest::Approx(1.0));
+  CHECK(parallel.time_of("first", ElementTransition::end) == doctest::Approx(3.99));
+}
+
+TEST_CASE("a later event hears of the end of an earlier one and the act completes") {
+  Drive drive(scenario_text(
+      two_cars,
+      story_text(event_text("first", speed_text(30, "linear", "time", 1.0), at(0.5)) +
+                 event_text("second", speed_text(10),
+                            trigger_text(state_text("event", "first", "endTransition"))))));
+  drive.run_until(3.0);
+  CHECK(drive.time_of("second", ElementTransition::start) == doctest::Approx(1.5));
+  CHECK(drive.a().speed_mps == 10.0);
+  CHECK(drive.time_of("act", ElementTransition::end) == doctest::Approx(1.5));
+}
+
+TEST_CASE("a new speed action takes the entity over from the old one") {
+  Drive drive(scenario_text(
+      two_cars, story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
+                           event_text("second", speed_text(15, "linear", "time", 1.0), at(1.0)))));
+  drive.run_until(3.0);
+  CHECK(drive.a().speed_mps == 15.0);
+  CHECK(drive.time_of("first action", ElementTransition::stop) == doctest::Approx(1.0));
+}
+
+TEST_CASE("the stop trigger ends the scenario") {
+  std::string stop = trigger_text(time_text(2.0));
+  stop.replace(1, 5, "Stop");
+  stop.replace(stop.rfind("StartTrigger"), 5, "Stop");
+  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30), at(5.0))) + stop));
+  drive.run_until(6.0);
+  CHECK(drive.state.finished);
+  CHECK(drive.count_of("e", ElementTransition::start) == 0);
+}
+
+TEST_CASE("a position off the road is refused with the entity's name") {
+  const Scenario scenario = read_or_stop(scenario_text(private_text("A", place_text(-7, 10)), ""));
+  StepResult result;
+  const auto state = start_scenario(scenario, test_road(), no_entity, result);
+  REQUIRE_FALSE(state.has_value());
+  CHECK(describe(state.error()).find("position of A") != std::string::npos);
+}
+
+TEST_CASE("an external entity is where it was put and triggers like any other") {
+  const std::string near_b =
+      R"(<RelativeDistanceCondition entityRef="B" relativeDistanceType="euclidianDistance" freespace="false" rule="lessThan" value="5"/>)";
+  Drive drive(scenario_text(
+      two_cars,
+      story_text(event_text("e", speed_text(30), trigger_text(of_entity_text("A", near_b))))));
+  drive.state.entities[0].external = true;
+  drive.run_until(1.0);
+  CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(100.0));
+  RigidTransform pose = drive.b().world_from_entity;
+  pose.position_m.y += 4.0;
+  place_external(drive.network, 0, pose, Vec3(25.0, 0.0, 0.0), Vec3(0.0), drive.state);
+  CHECK(drive.a().lane.lane == -1);
+  CHECK(drive.a().speed_mps == doctest::Approx(25.0));
+  drive.run_until(1.02);
+  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(1.0));
+}
+
+TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon and siren on") {
+  const std::string folder = std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance";
+  const auto content = [&](const std::string& name) {
+    std::ifstream in(folder + "/" + name);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const auto scenario = read_scenario(content("motorway-ambulance.xosc"), "motorway-ambulance.xosc",
+                                      files_in(folder));
+  REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
+  const auto network = road::read_opendrive(content(scenario->road_file), scenario->road_file);
+  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  StepResult result;
+  auto state = start_scenario(*scenario, *network, no_entity, result);
+  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  REQUIRE(result.swarms.size() == 1);
+  CHECK(result.swarms[0].vehicle_count == 200);
+  CHECK(result.swarms[0].central == find_entity(*scenario, "ego"));
+  CHECK(state->environment.cloud_cover == 0.25);
+
+  const EntityIndex ambulance = *find_entity(*scenario, "ambulance");
+  CHECK(state->entities[ambulance].lamps.has(Lamp::beacon));
+  CHECK(state->entities[ambulance].lamps.has(Lamp::siren));
+  bool changed_lane = false, slowed = false;
+  double fastest = 0.0;
+  double way = 0.0;
+  while (state->time_s < 30.0) {
+    const Vec3 before = state->entities[ambulance].world_from_entity.position_m;
+    advance_scenario(*scenario, *network, 1.0 / 120.0, *state);
+    const EntityState& now = state->entities[ambulance];
+    way += glm::length(now.world_from_entity.position_m - before);
+    changed_lane = changed_lane || now.lane.lane == -3;
+    fastest = std::max(fastest, now.speed_mps);
+    slowed = slowed || (state->time_s > 15.0 && now.speed_mps < 30.5);
+  }
+  CHECK(changed_lane);
+  CHECK(slowed);
+  CHECK(fastest > 32.0);
+  CHECK(way == doctest::Approx(state->entities[ambulance].travelled_m).epsilon(0.002));
+  std::vector<Participant> participants;
+  append_participants(*scenario, *state, 1, participants);
+  CHECK(participants.size() == 2);
+}
+
+}  // namespace septet::scenario
