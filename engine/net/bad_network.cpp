@@ -56,6 +56,7 @@ void BadNetwork::send(const Address& from, const Address& to, std::span<const st
   TrafficCount& count = sent_[from];
   ++count.datagrams;
   count.bytes += bytes.size();
+  count.largest_bytes = std::max(count.largest_bytes, bytes.size());
   for (Socket* socket : sockets_) {
     if (socket->hears != to) continue;
     if (random_.uniform() >= faults_.loss) launch(from, *socket, bytes);

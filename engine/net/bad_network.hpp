@@ -32,6 +32,7 @@ struct NetworkFaults {
 struct TrafficCount {
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
+  std::size_t largest_bytes = 0;
 };
 
 class BadNetwork {

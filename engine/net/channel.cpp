@@ -6,6 +6,8 @@ namespace septet::net {
 namespace {
 
 constexpr std::size_t largest_datagram = 65507;
+/// Fits every Ethernet, tunnels included; loopback carries 64 KiB in one piece.
+constexpr std::size_t lan_datagram = 1200, loopback_datagram = 16384;
 constexpr std::size_t max_unreliable_bytes = 256 * 1024;
 constexpr std::size_t max_pongs = 8;
 /// Whatever the other end claims to bear.
@@ -56,12 +58,15 @@ std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram) 
   return reader.get<std::uint32_t>();
 }
 
-Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, std::size_t peers) {
+Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer,
+               std::size_t sharers) {
+  const std::size_t automatic = is_loopback(peer) ? loopback_datagram : lan_datagram;
+  const std::size_t datagram =
+      limits.max_datagram_bytes == 0 ? automatic : limits.max_datagram_bytes;
   // Linux counts the memory that a datagram occupies, twice its length for one of 1,200 bytes; a
   // third leaves air.
-  const std::size_t flight = socket.receive_buffer_bytes() / 3 / std::max<std::size_t>(peers, 1);
-  return {.max_datagram_bytes =
-              static_cast<std::uint32_t>(std::min(limits.max_datagram_bytes, largest_datagram)),
+  const std::size_t flight = socket.receive_buffer_bytes() / 3 / std::max<std::size_t>(sharers, 1);
+  return {.max_datagram_bytes = static_cast<std::uint32_t>(std::min(datagram, largest_datagram)),
           .max_message_bytes = limits.max_message_bytes,
           .window_bytes =
               static_cast<std::uint32_t>(std::min<std::size_t>(limits.window_bytes, 1u << 30)),

@@ -22,8 +22,10 @@ inline constexpr std::size_t data_header_bytes = scene_prefix_bytes + 4 + 8;
 
 /// Connection number of a data datagram; none if it is too short to be one.
 std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram);
-/// What this end announces, from its limits and its socket's buffer shared by `peers`.
-Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, std::size_t peers);
+/// What this end announces to `peer`, from its limits and its socket's buffer, which `sharers`
+/// other ends fill.
+Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer,
+               std::size_t sharers);
 /// Whether a connection can be kept on these terms at all.
 bool are_usable(const Terms& terms);
 

@@ -37,7 +37,8 @@ enum class SendResult : std::uint8_t {
 };
 
 struct ChannelLimits {
-  std::size_t max_datagram_bytes = 1200;      ///< UDP payload; the smaller of the two ends' counts.
+  /// UDP payload; the smaller of the two ends' counts. 0: 1,200, and 16,384 over loopback.
+  std::size_t max_datagram_bytes = 0;
   std::size_t max_message_bytes = 64u << 20;  ///< Of one reliable message, both ways.
   std::size_t max_queue_bytes = 256u
                                 << 20;  ///< Waiting to be sent or acknowledged, per connection.

@@ -138,7 +138,7 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   const Channel::Options channel_options{.connection = connected.connection,
                                          .peer = options.server,
                                          .keys = connected.keys,
-                                         .own = terms_of(options.limits, socket, 1),
+                                         .own = terms_of(options.limits, socket, options.server, 1),
                                          .theirs = connected.server,
                                          .limits = options.limits};
   channel.emplace(channel_options, now_s);
@@ -166,7 +166,7 @@ void SecureClient::State::knock() {
   const bool stale = handshake && handshake->has_cookie() && now_s - cookie_s > cookie_life_s;
   if (!handshake || stale)
     handshake = ClientHandshake::start(options.identity, options.server_key,
-                                       terms_of(options.limits, socket, 1));
+                                       terms_of(options.limits, socket, options.server, 1));
   if (!handshake) return;  // The pinned key is none; no server can have it.
   socket.send(options.server,
               handshake->has_cookie() ? handshake->initiation() : handshake->hello());

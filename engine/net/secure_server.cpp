@@ -126,7 +126,7 @@ void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
   std::erase_if(connections, [&](const auto& entry) {
     return !entry.second.confirmed && entry.second.client.key == client->key;
   });
-  const Terms own = terms_of(options.limits, socket, options.allowed.size());
+  const Terms own = terms_of(options.limits, socket, datagram.from, options.allowed.size());
   const std::uint32_t number = unused_number();
   auto answer = handshake->respond(number, options.session, own);
   if (!answer) {

@@ -2,12 +2,11 @@
 #include <cmath>
 
 #include "engine/physics/vehicle/body_contact.hpp"
+#include "engine/physics/vehicle/equations_of_motion.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
 #include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 
-// Equations of motion. The unsprung masses move up and down along the body's z axis; across it they
-// move with the body, whose mass is therefore the whole car's in x and y and the sprung mass in z.
 // Velocities are advanced with forces at the old positions, positions with the new velocities
 // (symplectic Euler); brakes and tyres are implicit in wheel spin and in deflection. Left out:
 // gyroscopic moments of the wheels.
@@ -42,7 +41,8 @@ double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double i
 /// Contact, tyre force and new spin of one wheel.
 WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& known, int index,
                         const ChassisInput& input, const WheelGround& ground, double dt_s,
-                        const VehicleState& state, const Vec3& velocity_mps, WheelState& wheel) {
+                        const VehicleState& state, const Vec3& velocity_mps,
+                        double opposite_rate_mps, WheelState& wheel) {
   const TyreParameters& tyre = parameters.tyre;
   const Quat world_from_body = state.world_from_body.orientation;
   WheelLoad load;
@@ -69,7 +69,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   if (touching) {
     const Vec3 forward = across / across_size;
     const Vec3 left = glm::cross(normal, forward);
-    load.contact_m = centre_m - Vec3(0.0, 0.0, height_m / normal.z);
+    load.contact_m = Vec3(load.place.contact_m, centre_m.z - height_m / normal.z);
     const Vec3 path{load.place.contact_slope, 1.0};
     const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) +
                            wheel.travel_rate_mps * path;
@@ -82,8 +82,14 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.rolling_mps = wheel.spin_radps * effective_radius_m;
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
-    if (parameters.slip_without_roll_rate)
-      contact.sliding_mps.y -= state.angular_velocity_radps.x * -load.contact_m.z * left.y;
+    if (parameters.slip_as_published) {
+      const double axle_roll_radps = state.angular_velocity_radps.x +
+                                     side_of(index) * (wheel.travel_rate_mps - opposite_rate_mps) /
+                                         parameters.suspension[axle_of(index)].track_m;
+      const double sideways_mps =
+          velocity_mps.y + state.angular_velocity_radps.z * centre_m.x + axle_roll_radps * height_m;
+      contact.sliding_mps.y = patch_mps.x * left.x + sideways_mps * left.y;
+    }
     contact.inclination_rad = glm::dot(axis, normal);
     contact.length_m = std::sqrt(8.0 * tyre.radius_m * deflection_m);
     if (load_n > 1.0) {
@@ -150,60 +156,69 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     spring_n[i] = suspension_force_n(parameters, known, i, state.wheels);
 
   std::array<WheelLoad, wheel_count> loads;
-  Vec3 force_n{0.0},
-      moment_nm{0.0};  // On the body, without gravity; force.z on the sprung mass only.
+  std::array<WheelPlace, wheel_count> places;
   for (int i = 0; i < wheel_count; ++i) {
     loads[i] = advance_wheel(parameters, known, i, input, ground[i], dt_s, state, velocity_mps,
-                             state.wheels[i]);
-    force_n.x += loads[i].force_n.x;
-    force_n.y += loads[i].force_n.y;
+                             state.wheels[i ^ 1].travel_rate_mps, state.wheels[i]);
+    places[i] = loads[i].place;
+  }
+
+  Vec3 force_n{0.0}, moment_nm{0.0};  // On the whole car, about the centre of the sprung mass.
+  Coordinates generalised{};
+  for (int i = 0; i < wheel_count; ++i) {
+    const WheelLoad& load = loads[i];
+    const WheelPlace& place = places[i];
+    const Vec3& tyre_n = load.force_n;
+    const Vec3& contact = load.contact_m;
+    force_n += tyre_n;
+    moment_nm += load.aligning_nm;
+    moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y;
+    moment_nm.y += place.centre_m.z * tyre_n.x - contact.x * tyre_n.z - load.shaft_torque_nm;
+    moment_nm.z += contact.x * tyre_n.y - contact.y * tyre_n.x;
+
+    // A rigid axle leans about its one joint, so only the difference of its wheels' forces works on
+    // a lean.
+    const SuspensionParameters& suspension = parameters.suspension[axle_of(i)];
+    const double lean =
+        side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) / suspension.track_m;
+    const double sideways_n = suspension.rigid_axle
+                                  ? 0.5 * (tyre_n.y - loads[i ^ 1].force_n.y) * lean
+                                  : tyre_n.y * place.contact_slope.y;
+    // Virtual work along the wheel's path: longitudinal forces act at the centre, as the wheel
+    // turns freely, and the brake turns with the carrier.
+    const double radius_m = std::max(0.1, place.centre_m.z - contact.z);
+    generalised[5 + i] =
+        tyre_n.z - spring_n[i] + tyre_n.x * place.centre_slope.x +
+        load.brake_torque_nm / radius_m * (place.contact_slope.x - place.centre_slope.x) +
+        sideways_n;
+
+    // Yaw takes the centres of the sprung mass and of the whole car to coincide in plan, so the
+    // wheels' weight on a leaning car must not turn it either.
+    const double mass_kg = suspension.unsprung_mass_kg;
+    moment_nm.z += mass_kg * (place.centre_m.x * gravity.y - place.centre_m.y * gravity.x);
+    const double centripetal_n = mass_kg * glm::cross(omega, glm::cross(omega, place.centre_m)).z;
+    generalised[2] -= centripetal_n;
+    generalised[3] -= centripetal_n * place.centre_m.y;
+    generalised[4] += centripetal_n * place.centre_m.x;
+    generalised[5 + i] -= centripetal_n;
   }
   add_aerodynamics(body, known, velocity_mps, force_n, moment_nm);
   add_body_contact(parameters, ground, state, velocity_mps, force_n, moment_nm);
+  moment_nm -= glm::cross(omega, body.inertia_kgm2 * omega);
+  for (int i = 0; i < 3; ++i) generalised[i] += force_n[i];
+  generalised[3] += moment_nm.x;
+  generalised[4] += moment_nm.y;
 
-  // What the links carry: tyre force less the unsprung mass's own share of the acceleration felt in
-  // x and y.
-  const Vec2 felt_mps2 = Vec2(force_n) / body.mass_kg;
-  std::array<double, wheel_count>
-      wheel_force_n{};  // Along the body's z on the unsprung mass, without gravity.
+  const Coordinates felt = accelerations(parameters, known, places, generalised);
+  const Vec3 linear = Vec3(felt[0], felt[1], felt[2]) + gravity;
+  const Vec3 angular{felt[3], felt[4], moment_nm.z / body.inertia_kgm2.z};
   for (int i = 0; i < wheel_count; ++i) {
-    const WheelLoad& load = loads[i];
-    const SuspensionParameters& suspension = parameters.suspension[axle_of(i)];
-    const Vec2 contact_n{load.force_n}, inertia_n = suspension.unsprung_mass_kg * felt_mps2;
-    const double radius_m = std::max(0.1, load.place.centre_m.z - load.contact_m.z);
-    // Virtual work along the wheel's path: longitudinal forces act at the centre, the brake turns
-    // with the carrier.
-    const double path_n =
-        (contact_n.x - inertia_n.x) * load.place.centre_slope.x +
-        load.brake_torque_nm / radius_m * (load.place.contact_slope.x - load.place.centre_slope.x) +
-        contact_n.y * load.place.contact_slope.y - inertia_n.y * load.place.centre_slope.y;
-    const double lift_n = spring_n[i] - path_n;
-    wheel_force_n[i] = load.force_n.z - lift_n;
-    force_n.z += lift_n;
-
-    const Vec3& centre = load.place.centre_m;
-    const Vec3& contact = load.force_n.z > 0.0 ? load.contact_m : centre;
-    moment_nm.x += centre.y * lift_n - contact.z * contact_n.y + centre.z * inertia_n.y;
-    moment_nm.y +=
-        centre.z * (contact_n.x - inertia_n.x) - centre.x * lift_n - load.shaft_torque_nm;
-    moment_nm.z += contact.x * contact_n.y - contact.y * contact_n.x;
-    moment_nm += load.aligning_nm;
-  }
-
-  const Vec3 inertia = body.inertia_kgm2;
-  const Vec3 angular = (moment_nm - glm::cross(omega, inertia * omega)) / inertia;
-  const Vec3 linear{force_n.x / body.mass_kg + gravity.x, force_n.y / body.mass_kg + gravity.y,
-                    force_n.z / known.sprung_mass_kg + gravity.z};
-  for (int i = 0; i < wheel_count; ++i) {
-    const Vec3& centre = loads[i].place.centre_m;
-    const Vec3 carried =
-        linear + glm::cross(angular, centre) + glm::cross(omega, glm::cross(omega, centre));
-    const double mass_kg = parameters.suspension[axle_of(i)].unsprung_mass_kg;
     WheelState& wheel = state.wheels[i];
-    wheel.travel_rate_mps += dt_s * (wheel_force_n[i] / mass_kg + gravity.z - carried.z);
+    wheel.travel_rate_mps += dt_s * felt[5 + i];
     wheel.travel_m += dt_s * wheel.travel_rate_mps;
   }
   state.acceleration_mps2 = world_from_body * linear;
+  state.whole_acceleration_mps2 = world_from_body * (force_n / body.mass_kg + gravity);
   state.angular_acceleration_radps2 = angular;
   state.velocity_mps += dt_s * state.acceleration_mps2;
   state.angular_velocity_radps += dt_s * angular;

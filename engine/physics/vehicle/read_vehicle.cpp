@@ -139,6 +139,7 @@ void read_body(Entries& in, BodyParameters& body) {
 void read_suspension(Entries& in, const std::string& axle, SuspensionParameters& out) {
   const auto at = [&](const char* entry) { return "suspension." + axle + "." + entry; };
   in.number(at("track_m"), out.track_m, 0.8, 3);
+  in.flag(at("rigid_axle"), out.rigid_axle);
   in.number(at("unsprung_mass_kg"), out.unsprung_mass_kg, 10, 500);
   in.number(at("wheel_inertia_kgm2"), out.wheel_inertia_kgm2, 0.3, 50);
   in.table(at("spring_force_n"), out.spring_force_n);
@@ -146,10 +147,10 @@ void read_suspension(Entries& in, const std::string& axle, SuspensionParameters&
   in.number(at("anti_roll_npm"), out.anti_roll_npm, -1e5, 2e5);
   in.table(at("camber_rad"), out.camber_rad);
   in.table(at("toe_rad"), out.toe_rad);
-  in.table(at("contact_lateral_m"), out.contact_lateral_m);
-  in.table(at("contact_longitudinal_m"), out.contact_longitudinal_m);
-  in.table(at("centre_lateral_m"), out.centre_lateral_m);
-  in.table(at("centre_longitudinal_m"), out.centre_longitudinal_m);
+  in.table(at("contact_lateral_slope"), out.contact_lateral_slope);
+  in.table(at("contact_longitudinal_slope"), out.contact_longitudinal_slope);
+  in.table(at("centre_lateral_slope"), out.centre_lateral_slope);
+  in.table(at("centre_longitudinal_slope"), out.centre_longitudinal_slope);
   in.number(at("toe_out_by_lateral_force_radpn"), out.toe_out_by_lateral_force_radpn, -1e-5, 1e-5);
   in.number(at("steer_by_aligning_torque_radpnm"), out.steer_by_aligning_torque_radpnm, 0, 1e-3);
   in.number(at("camber_by_lateral_force_radpn"), out.camber_by_lateral_force_radpn, -1e-5, 1e-5);
@@ -301,7 +302,7 @@ Expected<VehicleParameters> read_vehicle(std::string_view text, std::string_view
   read_powertrain(in, parameters.powertrain);
   read_brakes(in, parameters.brakes);
   if (in.has("verification"))
-    in.flag("verification.slip_without_roll_rate", parameters.slip_without_roll_rate);
+    in.flag("verification.slip_as_published", parameters.slip_as_published);
   const double unsprung_kg =
       2.0 * (parameters.suspension[0].unsprung_mass_kg + parameters.suspension[1].unsprung_mass_kg);
   if (unsprung_kg > 0.6 * parameters.body.mass_kg)

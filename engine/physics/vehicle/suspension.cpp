@@ -32,13 +32,18 @@ WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& stati
   const SuspensionParameters& suspension = parameters.suspension[axle];
   const double travel = state.travel_m;
   WheelPlace place;
-  place.centre_m = {statics.axle_x_m[axle] + suspension.centre_longitudinal_m(travel),
-                    side * (0.5 * suspension.track_m + suspension.centre_lateral_m(travel)),
+  const auto path_m = [&](const Table& slope) {
+    return 0.5 * travel * (slope(0.0) + slope(travel));
+  };
+  place.centre_m = {statics.axle_x_m[axle] + path_m(suspension.centre_longitudinal_slope),
+                    side * (0.5 * suspension.track_m + path_m(suspension.centre_lateral_slope)),
                     statics.centre_z_m[axle] - parameters.body.mass_centre_z_m + travel};
-  place.contact_slope = {suspension.contact_longitudinal_m.slope(travel),
-                         side * suspension.contact_lateral_m.slope(travel)};
-  place.centre_slope = {suspension.centre_longitudinal_m.slope(travel),
-                        side * suspension.centre_lateral_m.slope(travel)};
+  place.contact_m = {statics.axle_x_m[axle] + path_m(suspension.contact_longitudinal_slope),
+                     side * (0.5 * suspension.track_m + path_m(suspension.contact_lateral_slope))};
+  place.contact_slope = {suspension.contact_longitudinal_slope(travel),
+                         side * suspension.contact_lateral_slope(travel)};
+  place.centre_slope = {suspension.centre_longitudinal_slope(travel),
+                        side * suspension.centre_lateral_slope(travel)};
   // Camber is outward on either side; about the forward axis that is negative on the left. A force
   // to the left at the contact pushes both wheels' lower edge to the left.
   const double inclination_rad = -side * suspension.camber_rad(travel) +

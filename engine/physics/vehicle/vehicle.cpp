@@ -5,6 +5,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/physics/vehicle/controls.hpp"
+#include "engine/physics/vehicle/equations_of_motion.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
 
 namespace septet::vehicle {
@@ -126,7 +127,7 @@ VehicleOutputs outputs(const VehicleParameters& parameters, const VehicleState& 
   result.yaw_rate_radps = result.angular_velocity_radps.z;
   const double heading = std::atan2(forward.y, forward.x);
   const Vec2 ahead{std::cos(heading), std::sin(heading)};
-  const Vec2 acceleration{state.acceleration_mps2};
+  const Vec2 acceleration{state.whole_acceleration_mps2};
   result.longitudinal_acceleration_mps2 = glm::dot(acceleration, ahead);
   result.lateral_acceleration_mps2 = ahead.x * acceleration.y - ahead.y * acceleration.x;
   result.specific_force_mps2 =
@@ -157,19 +158,22 @@ double mechanical_energy_j(const VehicleParameters& parameters, const VehicleSta
   const BodyParameters& body = parameters.body;
   const Vec3 v = glm::conjugate(state.world_from_body.orientation) * state.velocity_mps;
   const Vec3& w = state.angular_velocity_radps;
-  double energy =
-      0.5 * (body.mass_kg * (v.x * v.x + v.y * v.y) + known.sprung_mass_kg * v.z * v.z) +
-      0.5 * glm::dot(w, body.inertia_kgm2 * w) +
-      known.sprung_mass_kg * gravity_mps2 * state.world_from_body.position_m.z;
+  double energy = 0.5 * known.sprung_mass_kg * glm::dot(v, v) +
+                  0.5 * glm::dot(w, body.inertia_kgm2 * w) +
+                  known.sprung_mass_kg * gravity_mps2 * state.world_from_body.position_m.z;
+  Coordinates rates{v.x, v.y, v.z, w.x, w.y};
+  for (int i = 0; i < wheel_count; ++i) rates[5 + i] = state.wheels[i].travel_rate_mps;
   for (int i = 0; i < wheel_count; ++i) {
     const SuspensionParameters& axle = parameters.suspension[axle_of(i)];
     const WheelState& wheel = state.wheels[i];
-    const Vec3 centre = place_wheel(parameters, known, i, wheel, wheel.steer_rad).centre_m;
-    const double rise = v.z + glm::cross(w, centre).z + wheel.travel_rate_mps;
-    const double height = (state.world_from_body * centre).z;
-    energy += 0.5 * axle.unsprung_mass_kg * rise * rise +
-              0.5 * axle.wheel_inertia_kgm2 * wheel.spin_radps * wheel.spin_radps +
-              axle.unsprung_mass_kg * gravity_mps2 * height;
+    const WheelPlace place = place_wheel(parameters, known, i, wheel, wheel.steer_rad);
+    for (const Coordinates& row : centre_jacobian(place, i)) {
+      double speed = 0.0;
+      for (int k = 0; k < coordinate_count; ++k) speed += row[k] * rates[k];
+      energy += 0.5 * axle.unsprung_mass_kg * speed * speed;
+    }
+    energy += 0.5 * axle.wheel_inertia_kgm2 * wheel.spin_radps * wheel.spin_radps +
+              axle.unsprung_mass_kg * gravity_mps2 * (state.world_from_body * place.centre_m).z;
     // Springs and tyre, from the state at rest; the spring by Simpson's rule, exact for straight
     // segments' sum closely.
     const double z = wheel.travel_m;

@@ -56,7 +56,7 @@ struct VehicleOutputs {
   double speed_mps = 0.0;             ///< Along the car's x axis.
   double yaw_rate_radps = 0.0;        ///< About the world's vertical.
   double lateral_acceleration_mps2 =
-      0.0;  ///< Of the centre of mass, horizontal, to the left (ISO 8855).
+      0.0;  ///< Of the whole car's centre of mass, horizontal, to the left (ISO 8855).
   double longitudinal_acceleration_mps2 = 0.0;  ///< Likewise, forward.
   Vec3 specific_force_mps2{
       0.0};  ///< At the centre of mass in the body frame: what a person in the car feels.

@@ -32,6 +32,7 @@ struct BodyParameters {
 /// Kinematics and compliance of one axle's wheels.
 struct SuspensionParameters {
   double track_m = 0.0;
+  bool rigid_axle = false;          ///< The wheels lean together, joined to the body in one point.
   double unsprung_mass_kg = 0.0;    ///< Per wheel.
   double wheel_inertia_kgm2 = 0.0;  ///< About the spin axis, with what turns with it.
   Table spring_force_n;  ///< At the wheel, above the static load, over travel; includes the bump
@@ -40,11 +41,11 @@ struct SuspensionParameters {
   double anti_roll_npm =
       0.0;  ///< Force at each wheel per metre of difference of travel, left against right.
   Table camber_rad, toe_rad;  ///< Over travel.
-  /// Paths over travel, outward and forward. The lateral slope of the contact's path is the height
-  /// of the roll centre over half the track; the longitudinal slopes are the anti-dive (contact:
-  /// braking) and anti-squat (wheel centre: driving).
-  Table contact_lateral_m, contact_longitudinal_m;
-  Table centre_lateral_m, centre_longitudinal_m;
+  /// Slopes of the paths that contact and wheel centre take over travel, outward and forward. The
+  /// contact's lateral slope is the height of the roll centre over half the track; the longitudinal
+  /// slopes are anti-dive (contact: braking) and anti-squat (centre: driving).
+  Table contact_lateral_slope, contact_longitudinal_slope;
+  Table centre_lateral_slope, centre_longitudinal_slope;
   double toe_out_by_lateral_force_radpn =
       0.0;  ///< Compliance: steer away from the force, that is, understeer in front.
   double steer_by_aligning_torque_radpnm = 0.0;
@@ -119,9 +120,10 @@ struct VehicleParameters {
   SteeringParameters steering;
   PowertrainParameters powertrain;
   BrakeParameters brakes;
-  /// Verification only. The published model measures slip with the lateral velocity of the centre
-  /// of mass, without the share of rolling; see vehicles/README.md.
-  bool slip_without_roll_rate = false;
+  /// Verification only: slip as in the published equations, from the sideways velocity of the
+  /// centre of mass and the rolling of the axle, not from that of the contact; see
+  /// vehicles/README.md.
+  bool slip_as_published = false;
 };
 
 }  // namespace septet::vehicle

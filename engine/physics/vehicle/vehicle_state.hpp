@@ -60,7 +60,8 @@ struct VehicleState {
   PowertrainState powertrain;
   BrakeState brakes;
   // Of the last step.
-  Vec3 acceleration_mps2{0.0};  ///< World frame, without gravity's reaction: zero at rest.
+  Vec3 acceleration_mps2{0.0};            ///< Of the centre of the sprung mass, world frame.
+  Vec3 whole_acceleration_mps2{0.0};      ///< Of the whole car's centre of mass, world frame.
   Vec3 angular_acceleration_radps2{0.0};  ///< Body frame.
   std::uint32_t bad_numbers = 0;  ///< Steps that were thrown away because a number was not finite.
 };

@@ -55,6 +55,33 @@ TEST_CASE("a message of several megabytes arrives unchanged through a bad networ
   CHECK(site.received[0][0] == large);
 }
 
+TEST_CASE("no datagram of the scene lane exceeds 1200 bytes unless both ends allow more") {
+  for (const std::size_t limit : {0u, 600u, 9000u}) {
+    ChannelLimits limits;
+    limits.max_datagram_bytes = limit;
+    Site site(1, {}, limits);
+    site.run(0.1);
+    site.server->send(site.id_of(0), random_bytes(200'000, 1), Reliability::reliable);
+    site.run(0.1);
+    REQUIRE(site.received[0].size() == 1);
+    CHECK(site.network.sent_by(server_address).largest_bytes == (limit == 0 ? 1200 : limit));
+  }
+}
+
+TEST_CASE("what is lost is resent within ten milliseconds on a local network") {
+  Site site(1, {});
+  site.run(1.0);
+  site.server->send(site.id_of(0), bytes_of("warm up"), Reliability::reliable);
+  site.run(0.05);
+  site.network.set_faults({.loss = 1.0});
+  site.server->send(site.id_of(0), bytes_of("lost at first"), Reliability::reliable);
+  site.run(0.001);
+  site.network.set_faults({});
+  site.run(0.010);
+  REQUIRE(site.received[0].size() == 2);
+  CHECK(text_of(site.received[0][1]) == "lost at first");
+}
+
 TEST_CASE("unreliable messages arrive at most once and never without authentication") {
   Site site(1, {.duplication = 0.5});
   site.run(0.2);

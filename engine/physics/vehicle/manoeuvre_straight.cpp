@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+#include "engine/physics/vehicle/manoeuvre_car.hpp"
+#include "engine/physics/vehicle/suspension.hpp"
+#include "engine/physics/vehicle/tyre.hpp"
+
+// Stop (ISO 21994), coast-down, acceleration; and the list of all manoeuvres.
+
+namespace septet::vehicle {
+namespace {
+
+/// Slip at which the tyre brakes hardest under this load on this surface.
+double best_braking_slip(const TyreParameters& tyre, double load_n, double friction) {
+  double best_slip = 0.0, best_n = 0.0;
+  for (double slip = 0.002; slip < 0.4; slip += 0.002) {
+    TyreContact contact;
+    contact.load_n = load_n;
+    contact.friction = friction;
+    contact.forward_mps = 20.0;
+    contact.rolling_mps = 20.0 * (1.0 - slip);
+    contact.sliding_mps = {20.0 * slip, 0.0};
+    const double force_n = -steady_force(tyre, contact).force_n.x;
+    if (force_n > best_n) {
+      best_n = force_n;
+      best_slip = slip;
+    }
+  }
+  return best_slip;
+}
+
+/// Brake torques that hold every wheel at its best slip, building up over 0.15 s.
+ChassisInput ideal_braking(const ManoeuvreCar& car, double slip, double speed_mps) {
+  constexpr double build_up_s = 0.15, rate_per_s = 100.0;
+  const VehicleParameters& parameters = car.parameters();
+  ChassisInput chassis;
+  for (int i = 0; i < wheel_count; ++i) {
+    const WheelState& wheel = car.state().wheels[i];
+    const double radius_m = parameters.tyre.radius_m;
+    const double wanted_radps = (1.0 - slip) * speed_mps / radius_m;
+    const double torque_nm =
+        -wheel.force_n.x * radius_m + parameters.suspension[axle_of(i)].wheel_inertia_kgm2 *
+                                          rate_per_s * (wheel.spin_radps - wanted_radps);
+    const double full_nm = 2.0 * wheel.force_n.z * radius_m;
+    chassis.brake_torque_nm[i] =
+        std::clamp(torque_nm, 0.0, full_nm * std::min(1.0, car.time_s() / build_up_s));
+  }
+  return chassis;
+}
+
+}  // namespace
+
+ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
+  const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 100.0 / 3.6;
+  ManoeuvreCar car(parameters, options, speed_mps);
+  const double load_n = 0.25 * parameters.body.mass_kg * gravity_mps2;
+  const double slip = best_braking_slip(parameters.tyre, load_n, car.friction());
+  const double entry_mps = car.sample().speed_mps;
+  car.begin();
+  car.input().accelerator = 0.0;
+  car.input().brake = 1.0;
+  double distance_from_80_m = 0.0, distance_from_10_m = 0.0;
+  while (car.time_s() < 120.0) {
+    car.record();
+    const ManoeuvreSample now = car.sample();
+    if (now.speed_mps > 0.8 * entry_mps) distance_from_80_m = now.x_m;
+    if (now.speed_mps > 0.1 * entry_mps) distance_from_10_m = now.x_m;
+    if (now.speed_mps < 0.02) break;
+    if (parameters.brakes.anti_lock)
+      car.advance(0.0);
+    else
+      car.advance_with_torques(ideal_braking(car, slip, now.speed_mps));
+  }
+  const double distance_m = car.sample().x_m;
+  // Mean fully developed deceleration, from 80 to 10 % of the speed (UNECE R13-H).
+  const double developed_mps2 = (0.64 - 0.01) * entry_mps * entry_mps /
+                                (2.0 * std::max(distance_from_10_m - distance_from_80_m, 1e-9));
+  return {"stop",
+          "ISO 21994",
+          {{"speed", entry_mps * 3.6, "km/h"},
+           {"friction", car.friction(), "1"},
+           {"stopping distance", distance_m, "m"},
+           {"stopping time", car.time_s(), "s"},
+           {"mean fully developed deceleration", developed_mps2, "m/s2"},
+           {"lateral deviation", car.sample().y_m, "m"}},
+          car.series()};
+}
+
+ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
+  const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 120.0 / 3.6;
+  ManoeuvreCar car(parameters, options, speed_mps);
+  car.begin();
+  car.input().accelerator = 0.0;
+  car.input().selector = GearSelector::neutral;
+  double at_100_mps2 = 0.0, at_50_mps2 = 0.0;
+  while (car.time_s() < 300.0) {
+    car.record();
+    const ManoeuvreSample now = car.sample();
+    if (now.speed_mps > 100.0 / 3.6) at_100_mps2 = now.longitudinal_acceleration_mps2;
+    if (now.speed_mps > 50.0 / 3.6) at_50_mps2 = now.longitudinal_acceleration_mps2;
+    if (now.speed_mps < 20.0 / 3.6) break;
+    car.advance(0.0);
+  }
+  return {"coast-down",
+          "ISO 10521-1, in neutral",
+          {{"speed", speed_mps * 3.6, "km/h"},
+           {"deceleration at 100 km/h", -at_100_mps2, "m/s2"},
+           {"deceleration at 50 km/h", -at_50_mps2, "m/s2"},
+           {"time", car.time_s(), "s"},
+           {"distance", car.sample().x_m, "m"}},
+          car.series()};
+}
+
+ManoeuvreReport acceleration(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
+  constexpr double sixty_mph_mps = 26.8224;
+  ManoeuvreCar car(parameters, options, 0.0);
+  car.input().brake = 1.0;
+  for (int i = 0; i < 1500; ++i) car.advance(0.0);  // In gear, on the brake.
+  car.begin();
+  car.input().brake = 0.0;
+  car.input().accelerator = 1.0;
+  while (car.time_s() < 100.0) {
+    car.record();
+    car.advance(0.0);
+  }
+  const auto speed = [](const ManoeuvreSample& s) { return s.speed_mps; };
+  const auto time = [](const ManoeuvreSample& s) { return s.time_s; };
+  const auto& series = car.series();
+  return {"acceleration",
+          "full throttle from rest",
+          {{"0-60 mph", first_crossing(series, speed, sixty_mph_mps, time), "s"},
+           {"0-100 km/h", first_crossing(series, speed, 100.0 / 3.6, time), "s"},
+           {"top speed", series.back().speed_mps * 3.6, "km/h"},
+           {"top speed in mph", series.back().speed_mps * 2.2369362920544, "mph"}},
+          series};
+}
+
+double ManoeuvreReport::figure(std::string_view name) const {
+  for (const Figure& figure : figures)
+    if (figure.name == name) return figure.value;
+  SEPTET_CHECK(false, "no figure \"{}\" in {}", name, manoeuvre);
+}
+
+namespace {
+struct Entry {
+  std::string_view name;
+  ManoeuvreReport (*run)(const VehicleParameters&, const ManoeuvreOptions&);
+};
+constexpr Entry entries[] = {
+    {"steady-circle", steady_circle},
+    {"step-steer", step_steer},
+    {"double-lane-change", double_lane_change},
+    {"sine-with-dwell", sine_with_dwell},
+    {"stop", stop},
+    {"coast-down", coast_down},
+    {"acceleration", acceleration},
+};
+}  // namespace
+
+std::vector<std::string_view> manoeuvre_names() {
+  std::vector<std::string_view> names;
+  for (const Entry& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+Expected<ManoeuvreReport> run_manoeuvre(std::string_view name, const VehicleParameters& parameters,
+                                        const ManoeuvreOptions& options) {
+  std::string known;
+  for (const Entry& entry : entries) {
+    if (entry.name == name) return entry.run(parameters, options);
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return failure("is not a manoeuvre", std::string(name), "use one of " + known);
+}
+
+}  // namespace septet::vehicle
