@@ -8,7 +8,7 @@
 namespace septet::render {
 
 void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, const TargetFormats& formats,
-                          std::uint32_t width, std::uint32_t height) {
+                          std::uint32_t width, std::uint32_t height, bool smoothed) {
   targets.width = width;
   targets.height = height;
   vulkan::ImageDescription description;
@@ -17,6 +17,10 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
   description.format = formats.color;
   description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   targets.picture = create_image(memory, description);
+  if (smoothed) {
+    description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    targets.drawn = create_image(memory, description);
+  }
   description.samples = formats.samples;
   if (formats.samples != VK_SAMPLE_COUNT_1_BIT) {
     description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
@@ -35,14 +39,14 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
 }
 
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory) {
-  for (vulkan::DeviceImage* image : {&targets.samples, &targets.depth, &targets.picture, &targets.shadow_map})
+  for (vulkan::DeviceImage* image : {&targets.samples, &targets.depth, &targets.drawn, &targets.picture, &targets.shadow_map})
     destroy_image(memory, *image);
   targets = {};
 }
 
 void begin_view_rendering(PassContext& context, const FrameTargets& targets) {
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-  color.imageView = targets.picture.view;
+  color.imageView = targets.smoothed() ? targets.drawn.view : targets.picture.view;
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;

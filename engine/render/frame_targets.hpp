@@ -12,17 +12,19 @@ struct FrameTargets {
   std::uint32_t width = 0, height = 0;
   vulkan::DeviceImage samples;  ///< Four colours a pixel; absent without multisampling.
   vulkan::DeviceImage depth;
-  vulkan::DeviceImage picture;  ///< The finished frame, sRGB.
+  vulkan::DeviceImage drawn;    ///< One colour a pixel, before smoothing; absent without it.
+  vulkan::DeviceImage picture;  ///< The finished frame, sRGB codes.
   vulkan::DeviceImage shadow_map;
   /// How each was left by the last frame.
-  Access samples_access = Access::none, depth_access = Access::none, picture_access = Access::none,
-         shadow_access = Access::none;
+  Access samples_access = Access::none, depth_access = Access::none, drawn_access = Access::none,
+         picture_access = Access::none, shadow_access = Access::none;
 
   bool multisampled() const { return samples.image != VK_NULL_HANDLE; }
+  bool smoothed() const { return drawn.image != VK_NULL_HANDLE; }
 };
 
 void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, const TargetFormats& formats,
-                          std::uint32_t width, std::uint32_t height);
+                          std::uint32_t width, std::uint32_t height, bool smoothed);
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
 /// Begins drawing into all of the target, cleared to an empty depth.

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "engine/core/check.hpp"
 #include "engine/render/atmosphere.hpp"
 #include "engine/render/frame_targets.hpp"
@@ -15,8 +17,12 @@
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
 #include "engine/render/passes/sky_pass.hpp"
+#include "engine/render/passes/smoothing_pass.hpp"
 #include "engine/render/passes/surface_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
+#include "engine/render/vulkan/swapchain.hpp"
+#include "engine/render/window.hpp"
+#include "engine/render/window_surface.hpp"
 
 namespace septet::render {
 namespace {
@@ -28,7 +34,15 @@ struct PreparedView {
   ViewBindings bindings;
   FrameData glows;
   std::uint32_t glow_count = 0;
+  bool lit_by_headlights = false;
 };
+
+Expected<void> check_size(std::uint32_t width, std::uint32_t height) {
+  constexpr std::uint32_t largest = 16384;
+  if (width > 0 && height > 0 && width <= largest && height <= largest) return {};
+  return failure(fmt::format("the picture is {} × {} pixels", width, height), "screen size",
+                 fmt::format("give a width and height from 1 to {} pixels", largest));
+}
 
 }  // namespace
 
@@ -41,16 +55,19 @@ struct Renderer::Parts {
   Samplers samplers;
   TargetFormats formats;
   FrameTargets targets;
+  vulkan::Swapchain swapchain;  ///< Only with a window.
   vulkan::DeviceImage sky_table, noise;
   DeviceScene scene;
   SurfacePass surface_pass;
   ShadowPass shadow_pass;
   SkyPass sky_pass;
   GlowPass glow_pass;
+  SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;  ///< That `light` was computed for.
   SkyLight light;
   Access sky_table_access = Access::none, atlas_access = Access::none;
+  bool smoothed = false;
   bool drawn = false;
   RenderStatistics statistics;
 
@@ -58,25 +75,34 @@ struct Renderer::Parts {
   void create(const RendererOptions& wanted);
   void destroy();
   void draw(const FrameInput& input);
+  std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
   float exposure(const FrameView& view) const;
   PreparedView prepare_view(PassContext& context, const FrameView& view, const FrameInput& input,
                             const ShadowCascades& shadows, const PlacedParticipants& participants) const;
   DrawList casters(const FrameInput& input, const ShadowCascades& shadows, std::size_t cascade,
                    std::span<const PlacedMesh> participants) const;
-  void draw_views(PassContext& context, std::span<const PreparedView> views, bool wet);
+  void draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input);
 };
 
 void Renderer::Parts::create(const RendererOptions& wanted) {
   options = wanted;
   memory.device = &device;
-  create_device(device, {wanted.device == DevicePreference::software, wanted.validation, {}, {}});
+  vulkan::DeviceOptions device_options{wanted.device == DevicePreference::software, wanted.validation, {}, {}};
+  if (wanted.window) add_window(device_options, *wanted.window);
+  create_device(device, device_options);
   const VkSampleCountFlags samples = device.properties.limits.framebufferColorSampleCounts &
                                      device.properties.limits.framebufferDepthSampleCounts;
-  formats.samples = wanted.multisampled && (samples & VK_SAMPLE_COUNT_4_BIT) ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  const bool software = device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  Antialiasing antialiasing = wanted.antialiasing;
+  if (antialiasing == Antialiasing::automatic)
+    antialiasing = software ? Antialiasing::smoothing : Antialiasing::multisampled;
+  const bool multisampled = antialiasing == Antialiasing::multisampled && (samples & VK_SAMPLE_COUNT_4_BIT);
+  formats.samples = multisampled ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  smoothed = antialiasing == Antialiasing::smoothing;
   create_frame_ring(ring, device);
   create_pipeline_layout(layout, device);
   create_samplers(samplers, device);
-  create_frame_targets(targets, memory, formats, wanted.width, wanted.height);
+  create_frame_targets(targets, memory, formats, wanted.width, wanted.height, smoothed);
   vulkan::ImageDescription table;
   table.width = SkyTable::columns;
   table.height = SkyTable::rows;
@@ -85,8 +111,8 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   sky_table = create_image(memory, table);
   noise = create_texture(device, memory, noise_side, noise_side, cloud_noise(), false);
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
-  create_sky_pass(sky_pass, device, layout, formats);
   create_glow_pass(glow_pass, device, layout, formats);
+  create_smoothing_pass(smoothing_pass, device, layout, formats.color);
   Expected<image::Font> font = image::Font::find(image::FontStyle::bold);
   if (!font) throw vulkan::Failure{font.error()};
   overlay_pass.emplace(OverlayPass{VK_NULL_HANDLE, std::move(*font), {}, {}, {}});
@@ -100,6 +126,7 @@ void Renderer::Parts::destroy() {
   }
   vkDeviceWaitIdle(device.device);
   if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
+  destroy_smoothing_pass(smoothing_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
   destroy_shadow_pass(shadow_pass, device);
@@ -108,6 +135,7 @@ void Renderer::Parts::destroy() {
   destroy_image(memory, noise);
   destroy_image(memory, sky_table);
   destroy_frame_targets(targets, memory);
+  destroy_swapchain(swapchain, device);
   destroy_samplers(samplers, device);
   destroy_pipeline_layout(layout, device);
   destroy_frame_ring(ring, device, memory);
@@ -141,6 +169,7 @@ PreparedView Renderer::Parts::prepare_view(PassContext& context, const FrameView
   sort_by_distance(prepared.list);
   const float view_exposure = exposure(view);
   const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, view_exposure);
+  prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.bindings.uniforms = store(context, std::span(&uniforms, 1));
   prepared.bindings.records = store(context, std::span<const InstanceRecord>(prepared.list.records));
   prepared.bindings.sky_table = sky_table.view;
@@ -178,7 +207,8 @@ DrawList Renderer::Parts::casters(const FrameInput& input, const ShadowCascades&
   return list;
 }
 
-void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, bool wet) {
+void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input) {
+  const Environment& environment = input.environment;
   begin_view_rendering(context, targets);
   for (const PreparedView& prepared : views) {
     if (prepared.view != views.front().view) clear_inset(context, prepared.view->viewport);
@@ -186,13 +216,23 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
     vkCmdSetFrontFace(context.slot.commands,
                       prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
     push_view(context, prepared.bindings);
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::opaque, wet);
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::cut, wet);
-    draw_sky(sky_pass, context);
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::blended, wet);
+    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0};
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::opaque, surface_light);
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::cut, surface_light);
+    draw_sky(sky_pass, context, environment.cloud_cover > 0.0, light.night > 0.0f);
+    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::blended, surface_light);
     draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
   }
   vkCmdEndRendering(context.slot.commands);
+}
+
+std::optional<std::uint32_t> Renderer::Parts::next_window_image(const vulkan::FrameSlot& slot) {
+  if (!options.window) return std::nullopt;
+  if (swapchain.stale) {
+    vkDeviceWaitIdle(device.device);
+    renew_swapchain(swapchain, device, options.window->width(), options.window->height());
+  }
+  return acquire(swapchain, device, slot.image_acquired);
 }
 
 void Renderer::Parts::draw(const FrameInput& input) {
@@ -229,7 +269,8 @@ void Renderer::Parts::draw(const FrameInput& input) {
   const ResourceId depth = add_image("depth", targets.depth, targets.depth_access);
   const ResourceId picture = add_image("picture", targets.picture, targets.picture_access);
   const ResourceId atlas = add_image("text atlas", overlay_pass->atlas, atlas_access);
-  std::optional<ResourceId> samples;
+  std::optional<ResourceId> samples, stairs;
+  if (targets.smoothed()) stairs = add_image("before smoothing", targets.drawn, targets.drawn_access);
   if (targets.multisampled()) samples = add_image("samples", targets.samples, targets.samples_access);
 
   if (new_light)
@@ -244,9 +285,13 @@ void Renderer::Parts::draw(const FrameInput& input) {
                    targets.shadow_map.layer_views[i]);
   });
   PassUses view_uses{{{table, Access::sampled}, {shadow_map, Access::sampled}},
-                     {{picture, Access::color_attachment}, {depth, Access::depth_attachment}}};
+                     {{stairs.value_or(picture), Access::color_attachment}, {depth, Access::depth_attachment}}};
   if (samples) view_uses.writes.push_back({*samples, Access::color_attachment});
-  graph.add_pass("views", view_uses, [&] { draw_views(context, views, input.environment.road_wetness > 0.0); });
+  graph.add_pass("views", view_uses, [&] { draw_views(context, views, input); });
+  if (stairs)
+    graph.add_pass("smoothing", {{{*stairs, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
+      draw_smoothed(smoothing_pass, context, targets.drawn.view, targets.picture.view, targets.width, targets.height);
+    });
   if (new_text)
     graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}}, [&] { upload_atlas(*overlay_pass, context); });
   if (!input.overlay.empty())
@@ -254,6 +299,14 @@ void Renderer::Parts::draw(const FrameInput& input) {
                    {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
                    [&] { draw_overlay(*overlay_pass, context, input.overlay, targets.picture.view, targets.width, targets.height); });
   graph.keep(picture, Access::transfer_source);
+  const std::optional<std::uint32_t> window_image = next_window_image(context.slot);
+  if (window_image) {
+    images.push_back({nullptr, swapchain.images[*window_image], Access::none, Access::none, false});
+    const ResourceId window = graph.add_resource("window", Access::present);
+    graph.add_pass("present", {{{picture, Access::transfer_source}}, {{window, Access::transfer_destination}}},
+                   [&] { record_copy(context.slot.commands, targets.picture, swapchain, *window_image); });
+    graph.keep(window, Access::present);
+  }
 
   graph.execute([&](std::span<const Barrier> barriers) {
     std::vector<vulkan::ImageBarrier> list;
@@ -271,8 +324,14 @@ void Renderer::Parts::draw(const FrameInput& input) {
   targets.depth_access = left[depth];
   targets.picture_access = left[picture];
   atlas_access = left[atlas];
+  if (stairs) targets.drawn_access = left[*stairs];
   if (samples) targets.samples_access = left[*samples];
-  submit(ring, context.slot, device);
+  if (window_image) {
+    submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});
+    present(swapchain, device, *window_image);
+  } else {
+    submit(ring, context.slot, device);
+  }
   drawn = true;
   if (device.validation_log) {
     statistics.validation_messages = device.validation_log->messages;
@@ -287,9 +346,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Expected<Renderer> Renderer::create(const RendererOptions& options) {
-  if (options.width == 0 || options.height == 0 || options.width > 16384 || options.height > 16384)
-    return failure("the picture is " + std::to_string(options.width) + " × " + std::to_string(options.height) + " pixels",
-                   "screen size", "give a width and height from 1 to 16384 pixels");
+  if (auto possible = check_size(options.width, options.height); !possible) return tl::unexpected(possible.error());
   auto parts = std::make_unique<Parts>();
   try {
     parts->create(options);
@@ -310,8 +367,28 @@ Expected<void> Renderer::upload(const scene::ResolvedScene& scene) {
   return {};
 }
 
+Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
+  if (auto possible = check_size(width, height); !possible) return possible;
+  if (width == parts_->targets.width && height == parts_->targets.height) return {};
+  try {
+    wait_for_frames(parts_->ring, parts_->device);
+    destroy_frame_targets(parts_->targets, parts_->memory);
+    create_frame_targets(parts_->targets, parts_->memory, parts_->formats, width, height, parts_->smoothed);
+    parts_->drawn = false;
+    parts_->swapchain.stale = true;
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  return {};
+}
+
 Expected<void> Renderer::draw(const FrameInput& input) {
   SEPTET_CHECK(!input.views.empty(), "a frame without a view");
+  for (const FrameView& view : input.views) {
+    const auto& [x, y, w, h] = view.viewport;
+    SEPTET_CHECK(x >= 0 && y >= 0 && w > 0 && h > 0 && x + std::int64_t{w} <= width() && y + std::int64_t{h} <= height(),
+                 "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
+  }
   try {
     parts_->draw(input);
   } catch (const vulkan::Failure& refused) {

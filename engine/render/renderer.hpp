@@ -24,12 +24,20 @@ enum class DevicePreference : std::uint8_t {
   software,  ///< Mesa lavapipe: the same pixels wherever it runs on the same kind of processor.
 };
 
+/// How the stairs of edges are smoothed.
+enum class Antialiasing : std::uint8_t {
+  automatic,     ///< Four samples a pixel on a graphics card, smoothing on a software device, where samples cost as much again.
+  none,
+  smoothing,     ///< After drawing, from the picture alone.
+  multisampled,  ///< Four samples a pixel.
+};
+
 struct RendererOptions {
   std::uint32_t width = 0, height = 0;  ///< Of the target, pixels.
   DevicePreference device = DevicePreference::any;
-  bool validation = false;        ///< Turns the Khronos validation layer on; its messages are counted in the statistics.
-  bool multisampled = true;       ///< Four samples a pixel.
-  Window* window = nullptr;       ///< Where to present; null draws off-screen. Outlives the renderer.
+  bool validation = false;  ///< Turns the Khronos validation layer on; its messages are counted in the statistics.
+  Antialiasing antialiasing = Antialiasing::automatic;
+  Window* window = nullptr;  ///< Where to present; null draws off-screen. Outlives the renderer.
 };
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.
@@ -52,7 +60,10 @@ class Renderer {
   /// Brings the device's copy up to the scene's: uploads what has a newer revision than was last seen.
   Expected<void> upload(const scene::ResolvedScene& scene);
 
-  /// Draws one frame and, with a window, presents it. A window that was resized changes width() and height().
+  /// Gives the picture another size, such as that of a window that was resized.
+  Expected<void> resize(std::uint32_t width, std::uint32_t height);
+
+  /// Draws one frame and, with a window, presents it, scaled to the window. Views lie within the picture (checked).
   Expected<void> draw(const FrameInput& input);
 
   /// The last frame: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.

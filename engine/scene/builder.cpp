@@ -206,6 +206,8 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   apply(TagSet{id, surface_group, tag++, {"metallic", double{parameters.metallic}}});
   if (parameters.takes_paint) apply(TagSet{id, surface_group, tag++, {"takes_paint", true}});
   if (parameters.wettable) apply(TagSet{id, surface_group, tag++, {"wettable", true}});
+  if (parameters.share_of_sky != 1.0f)
+    apply(TagSet{id, surface_group, tag++, {"share_of_sky", double{parameters.share_of_sky}}});
   return id;
 }
 

@@ -38,6 +38,7 @@ struct MaterialParameters {
   glm::vec3 emission{0.0f};
   bool takes_paint = false;
   bool wettable = false;
+  float share_of_sky = 1.0f;  ///< 0 in a tunnel: see SurfaceMaterial.
 };
 
 struct ObjectParameters {

@@ -226,6 +226,8 @@ SurfaceMaterial evaluate_material(const Node& node,
       static_cast<float>(std::clamp(tag_or(node, "roughness", roughness), 0.0, 1.0));
   material.takes_paint = tag_or(node, "takes_paint", false);
   material.wettable = tag_or(node, "wettable", false);
+  material.share_of_sky =
+      static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
   return material;
 }
 

@@ -1,6 +1,8 @@
 #include "engine/render/passes/device_scene.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 #include "engine/render/mip_chain.hpp"
@@ -108,6 +110,22 @@ MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMateria
 
 }  // namespace
 
+namespace {
+
+/// From 8-bit codes to the square root of linear light: a square in the shader decodes it, where decoding sRGB texels costs
+/// a software rasteriser more than all other shading.
+std::array<std::uint8_t, 256> square_root_code(bool srgb) {
+  std::array<std::uint8_t, 256> code;
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    const double v = double(i) / 255.0;
+    const double linear = !srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    code[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(linear)));
+  }
+  return code;
+}
+
+}  // namespace
+
 vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
                                    std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
   const std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
@@ -116,8 +134,10 @@ vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryP
   const Staging staging(memory, bytes);
   std::vector<VkBufferImageCopy> regions;
   std::uint64_t at = 0;
+  const std::array<std::uint8_t, 256> code = square_root_code(srgb);
   for (const MipLevel& level : levels) {
-    std::memcpy(staging.buffer.mapped + at, level.rgba.data(), level.rgba.size());
+    for (std::size_t i = 0; i < level.rgba.size(); ++i)
+      staging.buffer.mapped[at + i] = std::byte{i % 4 == 3 ? level.rgba[i] : code[level.rgba[i]]};
     VkBufferImageCopy region{};
     region.bufferOffset = at;
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(regions.size()), 0, 1};
@@ -128,7 +148,7 @@ vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryP
   vulkan::ImageDescription description;
   description.width = width;
   description.height = height;
-  description.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
+  description.format = VK_FORMAT_R8G8B8A8_UNORM;
   description.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   description.mip_levels = static_cast<std::uint32_t>(levels.size());
   vulkan::DeviceImage image = create_image(memory, description);

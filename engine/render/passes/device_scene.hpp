@@ -68,7 +68,7 @@ void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
 /// Share of the sky at a place: less than 1 under a roof.
 float share_of_sky(const DeviceScene& scene, const Vec3& position_m);
 
-/// Copies all mip levels into a new sampled image.
+/// Copies all mip levels into a new sampled image, as the square root of linear light.
 vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
                                    std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
 

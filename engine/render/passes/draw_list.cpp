@@ -58,12 +58,19 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
                             glm::vec4(m[0].z, m[1].z, m[2].z, origin.z), mesh.tint,
                             glm::vec4(mesh.share_of_sky, 0.0f, 0.0f, 0.0f)});
     ++batch.count;
-    batch.nearest_m = std::min(batch.nearest_m, std::max(0.0f, glm::length(centre) - mesh.radius_m));
+    batch.nearest_m = std::min(batch.nearest_m, glm::length(centre));
   }
   close();
 }
 
 void sort_by_distance(DrawList& list) {
+  // Within a batch too: trees in front hide those behind before they are shaded.
+  const auto square = [](const InstanceRecord& record) {
+    return record.row0.w * record.row0.w + record.row1.w * record.row1.w + record.row2.w * record.row2.w;
+  };
+  for (const Batch& batch : list.batches)
+    std::stable_sort(list.records.begin() + batch.first, list.records.begin() + batch.first + batch.count,
+                     [&](const InstanceRecord& a, const InstanceRecord& b) { return square(a) < square(b); });
   std::stable_sort(list.batches.begin(), list.batches.end(),
                    [](const Batch& a, const Batch& b) { return a.nearest_m < b.nearest_m; });
 }

@@ -52,7 +52,7 @@ PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransf
 struct Batch {
   std::uint32_t mesh = 0;
   std::uint32_t first = 0, count = 0;
-  float nearest_m = 0.0f;  ///< Between the eye and the nearest bounding sphere's surface.
+  float nearest_m = 0.0f;  ///< From the eye to the nearest bounding sphere's middle, so that wide ground comes late.
 };
 
 struct DrawList {

@@ -18,11 +18,7 @@ struct QuadConstants {
   glm::vec4 ndc, uv, color, kind;
 };
 
-float linear(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f); }
-
-glm::vec4 premultiplied(const glm::vec4& color) {
-  return {linear(color.r) * color.a, linear(color.g) * color.a, linear(color.b) * color.a, color.a};
-}
+glm::vec4 premultiplied(const glm::vec4& color) { return {glm::vec3(color) * color.a, color.a}; }
 
 std::optional<OverlayPass::Line> find_line(const OverlayPass& pass, const OverlayText& text) {
   const auto found = std::find_if(pass.lines.begin(), pass.lines.end(), [&](const OverlayPass::Line& line) {

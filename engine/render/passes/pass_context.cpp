@@ -6,10 +6,11 @@
 namespace septet::render {
 namespace {
 
-VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode address, float anisotropy, bool compare) {
+VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode address, VkSamplerMipmapMode mip_levels,
+                         float anisotropy, bool compare) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-  info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  info.mipmapMode = mip_levels;
   info.addressModeU = info.addressModeV = info.addressModeW = address;
   info.maxLod = VK_LOD_CLAMP_NONE;
   info.anisotropyEnable = anisotropy > 1.0f;
@@ -37,10 +38,13 @@ void push(PassContext& context, std::span<const VkWriteDescriptorSet> writes) {
 }  // namespace
 
 void create_samplers(Samplers& samplers, const vulkan::Device& device) {
-  samplers.surface = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, 1.0f, false);
-  samplers.road = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_REPEAT, 4.0f, false);
-  samplers.table = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 1.0f, false);
-  samplers.shadow = create_sampler(device, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, 1.0f, true);
+  samplers.anisotropic = device.properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
+  constexpr VkSamplerAddressMode repeat = VK_SAMPLER_ADDRESS_MODE_REPEAT, clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  constexpr VkSamplerMipmapMode nearest = VK_SAMPLER_MIPMAP_MODE_NEAREST, linear = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  samplers.surface = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, 1.0f, false);
+  samplers.road = create_sampler(device, repeat, linear, samplers.anisotropic ? 16.0f : 1.0f, false);
+  samplers.table = create_sampler(device, clamp, nearest, 1.0f, false);
+  samplers.shadow = create_sampler(device, clamp, nearest, 1.0f, true);
 }
 
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device) {

@@ -14,8 +14,9 @@
 namespace septet::render {
 
 struct Samplers {
-  VkSampler surface = VK_NULL_HANDLE;  ///< Repeats, trilinear.
+  VkSampler surface = VK_NULL_HANDLE;  ///< Repeats; trilinear, bilinear in the nearest level on a software device.
   VkSampler road = VK_NULL_HANDLE;     ///< Repeats, trilinear and anisotropic: markings stay sharp at grazing angles.
+  bool anisotropic = false;            ///< False on a software device, where shaders do it at a tenth of the cost.
   VkSampler table = VK_NULL_HANDLE;    ///< Clamps, bilinear.
   VkSampler shadow = VK_NULL_HANDLE;   ///< Compares: 1 where nothing is nearer to the light.
 };
@@ -24,7 +25,7 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device);
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device);
 
 struct TargetFormats {
-  VkFormat color = VK_FORMAT_R8G8B8A8_SRGB;
+  VkFormat color = VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: shaders encode, at no cost (shaders/view.glsl).
   VkFormat depth = VK_FORMAT_D32_SFLOAT;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 };

@@ -47,6 +47,14 @@ glm::mat4 texture_from_relative(const Cascade& cascade, const glm::vec3& offset_
   return texture_from_clip * clip_from_relative(cascade) * glm::translate(glm::mat4(1.0f), offset_m);
 }
 
+glm::vec4 far_from_near(const ShadowCascades& shadows) {
+  const Cascade &near = shadows.cascades[0], &far = shadows.cascades[1];
+  // t = ½ + (p − middle)/(2·half), so far = ½ + ((near − ½)·2·half_near + middle_near − middle_far)/(2·half_far).
+  const float scale = near.half_side_m / far.half_side_m;
+  const glm::vec2 shift = 0.5f - 0.5f * scale + 0.5f * (near.middle_m - far.middle_m) / far.half_side_m;
+  return {scale, scale, shift.x, shift.y};
+}
+
 bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m) {
   const float reach = cascade.half_side_m + radius_m;
   return std::abs(glm::dot(centre_m, cascade.right) - cascade.middle_m.x) < reach &&

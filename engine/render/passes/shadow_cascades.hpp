@@ -36,6 +36,8 @@ ShadowCascades shadow_cascades(const Vec3& eye_m, const glm::vec3& to_light);
 glm::mat4 clip_from_relative(const Cascade& cascade);
 /// Texture coordinates and depth from points relative to another eye, which lies `offset_m` from the cascade's.
 glm::mat4 texture_from_relative(const Cascade& cascade, const glm::vec3& offset_m);
+/// Texture coordinates of the far cascade from those of the near one: xy·near + zw. Depth is the same in both.
+glm::vec4 far_from_near(const ShadowCascades& shadows);
 /// Whether a sphere lies in the cascade's square, seen along the light.
 bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
 

@@ -30,27 +30,28 @@ float value_noise(float x, float y, std::uint32_t period, std::uint32_t octave) 
 
 }  // namespace
 
-void create_sky_pass(SkyPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                     const TargetFormats& formats) {
-  vulkan::PipelineDescription description;
-  description.vertex_code = shaders::sky_vert();
-  description.fragment_code = shaders::sky_frag();
-  description.vertex_input = vulkan::VertexInput::none;
-  description.color_format = formats.color;
-  description.depth_format = formats.depth;
-  description.samples = formats.samples;
-  description.depth_write = false;  // At depth 0 it passes only where the depth is still cleared.
-  pass.pipeline = create_pipeline(device, layout, description);
-}
-
 void destroy_sky_pass(SkyPass& pass, const vulkan::Device& device) {
-  if (pass.pipeline) vkDestroyPipeline(device.device, pass.pipeline, nullptr);
+  for (const VkPipeline pipeline : pass.pipelines)
+    if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
   pass = {};
 }
 
-void draw_sky(const SkyPass& pass, PassContext& context) {
+void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry) {
+  VkPipeline& pipeline = pass.pipelines[std::size_t{clouded} + 2 * std::size_t{starry}];
+  if (!pipeline) {
+    vulkan::PipelineDescription description;
+    description.vertex_code = shaders::sky_vert();
+    description.fragment_code = shaders::sky_frag();
+    description.vertex_input = vulkan::VertexInput::none;
+    description.color_format = context.formats.color;
+    description.depth_format = context.formats.depth;
+    description.samples = context.formats.samples;
+    description.depth_write = false;  // At depth 0 it passes only where the depth is still cleared.
+    description.constants = {clouded, starry};
+    pipeline = create_pipeline(context.device, context.layout, description);
+  }
   vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
-  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
   vkCmdDraw(context.slot.commands, 3, 1, 0, 0);
   ++context.statistics.draws;
   ++context.statistics.triangles;
@@ -67,18 +68,23 @@ std::vector<std::uint8_t> cloud_noise() {
   std::vector<float> sum(noise_side * noise_side, 0.0f);
   std::uint32_t period = 4;
   float weight = 0.5f;
-  for (std::uint32_t octave = 0; octave < 5; ++octave, period *= 2, weight *= 0.5f)
+  for (std::uint32_t octave = 0; octave < 6; ++octave, period *= 2, weight *= 0.55f)
     for (std::uint32_t y = 0; y < noise_side; ++y)
       for (std::uint32_t x = 0; x < noise_side; ++x)
         sum[y * noise_side + x] += weight * value_noise(static_cast<float>(x * period) / noise_side,
                                                         static_cast<float>(y * period) / noise_side, period, octave);
-  // Spread over the whole range.
+  // Each value becomes its rank, so that a share c of the tile lies above 1 − c.
   const auto [low, high] = std::minmax_element(sum.begin(), sum.end());
-  const float least = *low, span = *high - *low;
+  constexpr std::size_t bins = 4096;
+  const float least = *low, scale = (bins - 1) / (*high - *low);
+  const auto bin = [&](float value) { return static_cast<std::size_t>((value - least) * scale); };
+  std::vector<std::uint32_t> below(bins + 1, 0);
+  for (const float value : sum) ++below[bin(value) + 1];
+  for (std::size_t i = 1; i <= bins; ++i) below[i] += below[i - 1];
   std::vector<std::uint8_t> rgba;
   rgba.reserve(sum.size() * 4);
   for (const float value : sum)
-    rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>(255.0f * (value - least) / span + 0.5f));
+    rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>(std::uint64_t{255} * below[bin(value)] / sum.size()));
   return rgba;
 }
 

@@ -1,25 +1,26 @@
 #pragma once
 /// Draws the sky where nothing else was drawn: the table's light, clouds, sun and stars.
 
+#include <array>
+#include <vector>
+
 #include "engine/render/atmosphere.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
 
 struct SkyPass {
-  VkPipeline pipeline = VK_NULL_HANDLE;
+  std::array<VkPipeline, 4> pipelines{};  ///< By clouds and stars; made when first drawn.
 };
 
-void create_sky_pass(SkyPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                     const TargetFormats& formats);
 void destroy_sky_pass(SkyPass& pass, const vulkan::Device& device);
-void draw_sky(const SkyPass& pass, PassContext& context);
+void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry);
 
 /// The table as half floats, RGBA, for a texture of SkyTable's size.
 std::vector<std::uint64_t> packed(const SkyTable& table);
 
-/// A tile of noise for clouds: five octaves of value noise, 8 bits, RGBA alike, that repeats at its edges.
-inline constexpr std::uint32_t noise_side = 256;
+/// A tile of noise for clouds: six octaves of value noise, as ranks of 8 bits, RGBA alike; it repeats at its edges.
+inline constexpr std::uint32_t noise_side = 512;
 std::vector<std::uint8_t> cloud_noise();
 
 }  // namespace septet::render

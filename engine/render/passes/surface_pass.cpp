@@ -9,11 +9,12 @@ namespace {
 
 /// What the pipeline of a material is specialised for.
 struct Variant {
-  bool textured, glossy;
+  std::uint32_t textured;  ///< As in shaders/surface.frag.
+  bool glossy, dark, snowy;
   SurfaceKind kind;
   std::uint32_t key() const {
-    return static_cast<std::uint32_t>(textured) | static_cast<std::uint32_t>(glossy) << 1 |
-           static_cast<std::uint32_t>(kind) << 2;
+    return textured | std::uint32_t{glossy} << 2 | std::uint32_t{dark} << 3 | std::uint32_t{snowy} << 4 |
+           static_cast<std::uint32_t>(kind) << 5;
   }
 };
 
@@ -35,7 +36,8 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
   description.depth_write = !blended;
   description.alpha_to_coverage = cut && multisampled;
-  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended};
+  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended, variant.dark,
+                           variant.snowy};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }
@@ -49,7 +51,7 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device) {
 }
 
 void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
-                   SurfaceKind kind, bool wet) {
+                   SurfaceKind kind, const SurfaceLight& light) {
   const VkCommandBuffer commands = context.slot.commands;
   vkCmdSetCullMode(commands, kind == SurfaceKind::opaque ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
@@ -62,7 +64,9 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
       const DeviceMaterial& material = scene.materials[part.material];
       if (kind_of(material) != kind) continue;
       const bool textured = material.image >= 0;
-      const VkPipeline pipeline = pipeline_of(pass, context, {textured, material.glossy || (wet && material.wettable), kind});
+      const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
+      const bool glossy = material.glossy || (light.wet && material.wettable);
+      const VkPipeline pipeline = pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, kind});
       if (pipeline != bound_pipeline) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
         bound_pipeline = pipeline;

@@ -16,9 +16,15 @@ struct SurfacePass {
 
 void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
 
-/// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first). `wet`: wettable materials
-/// mirror.
+/// What of the weather and the light shaders are specialised for.
+struct SurfaceLight {
+  bool wet = false;   ///< Wettable materials mirror.
+  bool dark = false;  ///< Headlights light what they reach.
+  bool snowy = false;
+};
+
+/// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).
 void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
-                   SurfaceKind kind, bool wet);
+                   SurfaceKind kind, const SurfaceLight& light);
 
 }  // namespace septet::render

@@ -18,14 +18,16 @@ inline constexpr std::size_t most_headlights = 4;
 
 struct ViewUniforms {
   glm::mat4 clip_from_relative;
-  std::array<glm::mat4, cascade_count> shadow_from_relative;
+  glm::mat4 shadow_from_relative;
+  glm::vec4 far_from_near;
   glm::vec4 light_direction, light_irradiance, sky_irradiance, ground_irradiance, sun_direction, sun_level;
   glm::vec4 ray_middle, ray_right, ray_down;
   glm::vec4 billboard_right, billboard_up;
   glm::vec4 weather, wind;
+  glm::vec4 fog_middle, fog_slope, fog_bend;
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 3 + 13 + 8) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8) * 16);
 
 /// Eye of a view in the world.
 Vec3 world_eye(const FrameView& view);

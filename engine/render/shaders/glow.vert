@@ -22,7 +22,7 @@ void main() {
   float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 2.5);
   middle *= 1.0 - min(0.5, (0.25 + 0.2 * radius) / distance_m);
   out_at = at;
-  out_color = glow.color.rgb * (exp(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 0.7));
+  out_color = glow.color.rgb * (exp2(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 0.7));
   gl_Position = view.clip_from_relative *
                 vec4(middle + (view.billboard_right.xyz * at.x + view.billboard_up.xyz * at.y) * radius, 1.0);
 }

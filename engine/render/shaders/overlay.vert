@@ -3,7 +3,7 @@
 layout(push_constant) uniform Quad {
   vec4 ndc;    // Left, top, right, bottom.
   vec4 uv;     // The same in the atlas.
-  vec4 color;  // Linear, premultiplied.
+  vec4 color;  // sRGB, premultiplied.
   vec4 kind;   // x: 1 text from the atlas, 0 a plain box.
 } quad;
 

@@ -2,14 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
+layout(constant_id = 0) const uint clouded = 0;
+layout(constant_id = 1) const uint starry = 0;
+
 layout(location = 0) in vec3 direction;
 layout(location = 0) out vec4 result;
 
+// The noise holds ranks: a share of the sky as large as the cover lies above its limit. The square undoes the images' code.
 float cloud_density(vec2 at) {
-  float coarse = textureLod(noise, at, 0.0).r;
-  float fine = textureLod(noise, at * 3.3 + 0.37, 0.0).r;
-  float closed = 1.0 - view.sun_level.w;
-  return smoothstep(closed * 0.55 + 0.12, closed * 0.55 + 0.45, 0.68 * coarse + 0.32 * fine);
+  float rank = textureLod(noise, at, 0.0).r;
+  float limit = 1.0 - view.sun_level.w;
+  return smoothstep(limit - 0.05, limit + 0.22, rank * rank);
 }
 
 void main() {
@@ -24,26 +27,25 @@ void main() {
   vec3 sun_color = view.light_irradiance.rgb * (1.0 - view.ground_irradiance.w);
 
   float cover = 0.0;
-  if (view.sun_level.w > 0.0 && d.z > 0.01) {
+  if (clouded != 0) {
     // Clouds on a plane 1.6 km up; the noise repeats after 9 km.
-    vec2 at = (d.xy * (1600.0 / (d.z + 0.12)) + view.wind.xy) / 9000.0;
+    vec2 at = (d.xy * (1600.0 / (max(d.z, 0.0) + 0.12)) + view.wind.xy) / 9000.0;
     float density = cloud_density(at);
-    if (density > 0.0) {
-      float beyond = cloud_density(at + view.sun_direction.xy * 0.012);
-      float light = exp(-1.6 * beyond - 0.5 * density);
-      vec3 white = view.light_irradiance.rgb * (0.40 * light * (1.0 + 1.2 * pow(max(toward_sun, 0.0), 6.0))) +
-                   view.sky_irradiance.rgb * (0.24 + 0.16 * light);
-      cover = density * smoothstep(0.015, 0.16, d.z) * (0.95 - 0.45 * view.sun_level.z);
-      radiance = mix(radiance, white, cover);
-    }
+    float beyond = cloud_density(at + view.sun_direction.xy * 0.012);
+    float light = exp2(-2.3 * beyond - 0.7 * density);
+    float forward = max(toward_sun, 0.0) * max(toward_sun, 0.0);
+    vec3 white = view.light_irradiance.rgb * (0.40 * light * (1.0 + 1.2 * forward * forward * forward)) +
+                 view.sky_irradiance.rgb * (0.24 + 0.16 * light);
+    cover = density * smoothstep(0.015, 0.16, d.z) * (0.95 - 0.45 * view.sun_level.z);
+    radiance = mix(radiance, white, cover);
   }
-  if (view.ground_irradiance.w > 0.0 && d.z > 0.0) {
+  if (starry != 0) {
     // At most one star in each cell of a fine grid over the sky.
     vec3 cell = floor(d * 300.0);
     float seed = fract(sin(dot(cell, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
     vec3 from_middle = d * 300.0 - cell - 0.5;
     float star = step(0.996, seed) * exp(-dot(from_middle, from_middle) * 9.0) * fract(seed * 917.0);
-    radiance += vec3(star * 0.05 * view.ground_irradiance.w * (1.0 - cover) * clear);
+    radiance += vec3(step(0.0, d.z) * star * 0.05 * view.ground_irradiance.w * (1.0 - cover) * clear);
   }
   radiance += sun_color * ((disc * 60.0 + glare) * clear * step(-0.01, d.z) * (1.0 - 0.97 * cover));
   result = vec4(tone_mapped(radiance), 1.0);

@@ -4,10 +4,11 @@
 
 layout(set = 0, binding = 0, std140) uniform View {
   mat4 clip_from_relative;
-  mat4 shadow_from_relative[2];  // To texture coordinates and depth of a cascade.
+  mat4 shadow_from_relative;  // To texture coordinates and depth of the near cascade.
+  vec4 far_from_near;         // Texture coordinates of the far cascade: xy·near + zw.
   vec4 light_direction;    // xyz: to the sun or moon. w: side of a near cascade's texel, m.
   vec4 light_irradiance;   // rgb. w: exposure.
-  vec4 sky_irradiance;     // rgb. w: extinction of the fog per metre.
+  vec4 sky_irradiance;     // rgb. w: halvings by fog per metre.
   vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
   vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
   vec4 sun_level;          // xy: the sun's direction on the level, unit. z: overcast, w: cloud cover.
@@ -15,6 +16,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
   vec4 wind;               // xy: drift of the clouds, m. z: number of headlights.
+  vec4 fog_middle, fog_slope, fog_bend;  // Horizon light: middle + slope·c + bend·c², c the cosine to the sun's azimuth.
   vec4 headlight_position[4];   // xyz relative. w: intensity.
   vec4 headlight_direction[4];  // xyz unit.
 } view;
@@ -35,8 +37,14 @@ vec2 sky_coordinates(vec3 direction) {
 
 vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
 
-// Scene radiance to display light: Narkowicz, "ACES Filmic Tone Mapping Curve" (2015).
+// Scene radiance to the display's code: the filmic curve of Hejl and Burgess-Dawson (2010), which holds the display's
+// gamma, so that neither a power nor an sRGB target is needed.
 vec3 tone_mapped(vec3 radiance) {
-  vec3 x = radiance * view.light_irradiance.w;
-  return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  vec3 x = max(vec3(0.0), radiance * view.light_irradiance.w - 0.004);
+  return x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
 }
+
+// Images hold the square root of linear light: a square decodes them.
+vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }
+
+float fifth_power(float x) { return x * x * x * x * x; }

@@ -94,7 +94,8 @@ void record_barriers(VkCommandBuffer commands, std::span<const ImageBarrier> bar
     info.newLayout = after.layout;
     info.srcQueueFamilyIndex = info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     info.image = barrier.image ? barrier.image->image : barrier.swapchain_image;
-    const VkImageAspectFlags aspect = barrier.image ? barrier.image->description.aspect : VK_IMAGE_ASPECT_COLOR_BIT;
+    const VkImageAspectFlags aspect = 
+        barrier.image ? barrier.image->description.aspect : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT};
     info.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
     list.push_back(info);
   }

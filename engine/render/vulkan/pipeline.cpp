@@ -74,9 +74,9 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
     }
   } modules{device.device, {}};
 
-  std::array<VkSpecializationMapEntry, 4> entries;
+  std::array<VkSpecializationMapEntry, 6> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, i * 4, 4};
-  const VkSpecializationInfo constants{4, entries.data(), sizeof description.constants, description.constants.data()};
+  const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof description.constants, description.constants.data()};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   const auto add_stage = [&](VkShaderStageFlagBits stage, std::span<const std::uint32_t> code) {
     if (code.empty()) return;

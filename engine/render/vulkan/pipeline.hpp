@@ -45,7 +45,7 @@ struct PipelineDescription {
   bool alpha_to_coverage = false;
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 4> constants{};  ///< Specialization constants 0 to 3 of both stages.
+  std::array<std::uint32_t, 6> constants{};  ///< Specialization constants 0 to 5 of both stages.
 };
 
 /// Viewport, scissor, cull mode and front face are dynamic.

@@ -40,7 +40,7 @@ FrameInput traffic(const ReferenceScene& reference, Lamps lamps) {
 }  // namespace
 
 TEST_CASE("the reference scene by day and dusk and night in rain and in a tunnel draws without a word of the validation layer") {
-  Expected<Renderer> renderer = Renderer::create({width, height, DevicePreference::software, true, true, nullptr});
+  Expected<Renderer> renderer = Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   ReferenceOptions options;
   ReferenceScene reference = reference_scene(options);

@@ -126,13 +126,13 @@ scene::TextureImage leaves(Random& random) {
 }
 
 void add_instance(ResolvedScene& scene, std::uint32_t mesh, const Vec3& at_m, double heading = 0.0, float scale = 1.0f,
-                  float from_m = 0.0f, float to_m = 1e9f) {
+                  float to_m = 1e9f, bool casts_shadow = true) {
   scene::Instance instance;
   instance.mesh = mesh;
   instance.world_from_object = {at_m, orientation_from_angles(heading, 0.0, 0.0)};
   instance.scale = glm::vec3(scale);
-  instance.visible_from_m = from_m;
   instance.visible_to_m = to_m;
+  instance.casts_shadow = casts_shadow;
   scene.instances.push_back(instance);
 }
 
@@ -268,9 +268,9 @@ ReferenceScene reference_scene(const ReferenceOptions& options) {
     end_part(strip, inside ? road_inside_id : road_id);
     const std::uint32_t mesh = add_mesh(scene, strip);
     for (int i = -1; i < 12; ++i)
-      if (inside == (options.tunnel && i >= 1 && i < 3)) add_instance(scene, mesh, o + Vec3(i * 120.0, 0, 0.02));
+      if (inside == (options.tunnel && i >= 1 && i < 3)) add_instance(scene, mesh, o + Vec3(i * 120.0, 0, 0.02), 0.0, 1.0f, 1e9f, false);
   }
-  add_instance(scene, add_mesh(scene, hills(meadow_id)), o);
+  add_instance(scene, add_mesh(scene, hills(meadow_id)), o, 0.0, 1.0f, 1e9f, false);
 
   SurfaceMesh rail;
   add_box(rail, {0, -0.05f, 0.45f}, {4.0f, 0.05f, 0.75f});
@@ -278,7 +278,7 @@ ReferenceScene reference_scene(const ReferenceOptions& options) {
   end_part(rail, steel_id);
   const std::uint32_t rail_mesh = add_mesh(scene, rail);
   for (int i = -10; i < 100; ++i)
-    for (const double y : {10.2, -10.2}) add_instance(scene, rail_mesh, o + Vec3(i * 4.0, y, 0), 0.0, 1.0f, 0.0f, 220.0f);
+    for (const double y : {10.2, -10.2}) add_instance(scene, rail_mesh, o + Vec3(i * 4.0, y, 0), 0.0, 1.0f, 220.0f);
 
   SurfaceMesh gantry;
   add_box(gantry, {-0.2f, -11.2f, 0}, {0.2f, -10.8f, 7.0f});

@@ -1,0 +1,30 @@
+#pragma once
+/// The images of a window: acquired, filled by a scaled copy of the finished picture, presented.
+
+#include <optional>
+#include <vector>
+
+#include "engine/render/vulkan/memory.hpp"
+
+namespace septet::render::vulkan {
+
+struct Swapchain {
+  VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+  VkExtent2D extent{};
+  std::vector<VkImage> images;
+  std::vector<VkSemaphore> finished;  ///< One an image: drawn, ready to present.
+  bool stale = true;                  ///< The window has changed; make it anew.
+};
+
+/// Makes the images anew for a window of this size; does nothing while the window has no area. Nothing may be in flight.
+void renew_swapchain(Swapchain& swapchain, const Device& device, std::uint32_t width, std::uint32_t height);
+void destroy_swapchain(Swapchain& swapchain, const Device& device);
+
+/// Index of the next image, or nothing where there is none now (minimised, resized).
+std::optional<std::uint32_t> acquire(Swapchain& swapchain, const Device& device, VkSemaphore acquired);
+void present(Swapchain& swapchain, const Device& device, std::uint32_t index);
+
+/// Copies the picture over the whole of the window's image, scaled; a transfer source and a transfer destination.
+void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain, std::uint32_t index);
+
+}  // namespace septet::render::vulkan

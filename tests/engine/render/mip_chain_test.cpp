@@ -1,0 +1,44 @@
+#include "engine/render/mip_chain.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/core/random.hpp"
+
+namespace septet::render {
+
+TEST_CASE("levels halve down to one pixel for odd and even sizes") {
+  const std::vector<MipLevel> levels = mip_chain(13, 4, std::vector<std::uint8_t>(13 * 4 * 4, 100), false);
+  REQUIRE(levels.size() == 4);
+  CHECK(levels[1].width == 6);
+  CHECK(levels[1].height == 2);
+  CHECK(levels[3].width == 1);
+  CHECK(levels[3].height == 1);
+}
+
+TEST_CASE("black and white average to half the light and not to half the code") {
+  const std::vector<std::uint8_t> stripes{0, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255};
+  CHECK(mip_chain(2, 2, stripes, true)[1].rgba[0] == 188);  // sRGB code of one half.
+  CHECK(mip_chain(2, 2, stripes, false)[1].rgba[0] == 128);
+}
+
+TEST_CASE("the colour of what is cut away does not bleed in") {
+  const std::vector<std::uint8_t> leaf{40, 200, 40, 255, 255, 0, 255, 0, 40, 200, 40, 255, 255, 0, 255, 0};
+  const std::vector<MipLevel> levels = mip_chain(2, 2, leaf, true);
+  CHECK(levels[1].rgba[0] == doctest::Approx(40).epsilon(0.03));
+  CHECK(levels[1].rgba[1] == doctest::Approx(200).epsilon(0.01));
+}
+
+TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
+  Random random(5);
+  std::vector<std::uint8_t> rgba;
+  for (int i = 0; i < 64 * 64; ++i) rgba.insert(rgba.end(), {60, 90, 40, static_cast<std::uint8_t>(random.uniform() < 0.3 ? 255 : 0)});
+  const std::vector<MipLevel> levels = mip_chain(64, 64, rgba, true);
+  for (std::size_t level = 1; level <= 3; ++level) {
+    int passing = 0;
+    const std::size_t pixels = levels[level].rgba.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i) passing += levels[level].rgba[4 * i + 3] >= 128;
+    CHECK(static_cast<double>(passing) / static_cast<double>(pixels) == doctest::Approx(0.3).epsilon(0.4));
+  }
+}
+
+}  // namespace septet::render

@@ -1,0 +1,94 @@
+#include "engine/render/passes/participants.hpp"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/engine/render/reference_scene.hpp"
+
+namespace septet::render {
+namespace {
+
+using scene::PartRole;
+
+std::vector<MeshSummary> summaries(const scene::ResolvedScene& scene) {
+  std::vector<MeshSummary> result;
+  for (const scene::SurfaceMesh& mesh : scene.meshes) result.push_back({{mesh.bounds_min_m, mesh.bounds_max_m}, glm::vec3(1.0f)});
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("front wheels steer and every wheel rolls forward and lifts") {
+  DrawnParticipant car;
+  car.front_steer_rad = 0.2;
+  car.wheel_spin_rad = 0.5;
+  car.wheel_lift_m = {0.03, 0.0, 0.0, -0.02};
+  scene::Instance wheel;
+  wheel.world_from_object.position_m = {2.7, 0.8, 0.3};
+  wheel.role = PartRole::wheel_front_left;
+  const RigidTransform front = vehicle_from_part(wheel, car);
+  CHECK(front.position_m.z == doctest::Approx(0.33));
+  CHECK(glm::length(front.orientation * Vec3(0, 1, 0) - Vec3(-std::sin(0.2), std::cos(0.2), 0)) < 1e-12);
+  wheel.role = PartRole::wheel_rear_right;
+  const RigidTransform rear = vehicle_from_part(wheel, car);
+  CHECK(rear.position_m.z == doctest::Approx(0.28));
+  // The wheel's top moves forward.
+  CHECK((rear.orientation * Vec3(0, 0, 1)).x == doctest::Approx(std::sin(0.5)));
+}
+
+TEST_CASE("a beacon flashes twice in its half of every half second and not when it is off") {
+  Lamps on;
+  on.set(Lamp::beacon, true);
+  for (const double y_m : {0.4, -0.4}) {
+    int lit = 0, edges = 0;
+    bool before = false;
+    for (int i = 0; i < 1000; ++i) {
+      const bool now = shines(PartRole::beacon, on, 7.0 + i * 0.001, y_m);
+      lit += now;
+      edges += now && !before;
+      before = now;
+      CHECK_FALSE(shines(PartRole::beacon, {}, 7.0 + i * 0.001, y_m));
+    }
+    CHECK(edges == 4);
+    CHECK(lit == doctest::Approx(240).epsilon(0.02));
+  }
+  CHECK(shines(PartRole::beacon, on, 0.03, 0.4));
+  CHECK_FALSE(shines(PartRole::beacon, on, 0.03, -0.4));
+}
+
+TEST_CASE("only lit lamps shine and glow") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  const std::vector<MeshSummary> meshes = summaries(reference.scene);
+  DrawnParticipant car = reference_car(reference, {0, 0, 0});
+  const auto glows = [&] {
+    return place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0).glows.size();
+  };
+  CHECK(glows() == 0);
+  car.lamps.set(Lamp::brake, true);
+  CHECK(glows() == 2);
+  car.lamps.set(Lamp::indicator_left, true);
+  CHECK(glows() == 3);
+}
+
+TEST_CASE("a car that is shown by its shadow and light alone has both and nothing to see") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  DrawnParticipant car = reference_car(reference, {0, 0, 0});
+  car.lamps.set(Lamp::low_beam, true);
+  car.shown = Shown::shadow_and_light;
+  const PlacedParticipants placed =
+      place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0);
+  CHECK_FALSE(placed.meshes.empty());
+  for (const PlacedMesh& mesh : placed.meshes) CHECK_FALSE(mesh.seen);
+  CHECK(placed.headlights.size() == 1);
+  CHECK(placed.glows.empty());
+}
+
+TEST_CASE("a participant whose prototype has not arrived is left out") {
+  DrawnParticipant car;
+  car.prototype = 5;
+  CHECK(place_participants(std::span(&car, 1), {}, {}, 0.0).meshes.empty());
+}
+
+}  // namespace septet::render
