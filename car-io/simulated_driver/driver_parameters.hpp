@@ -1,0 +1,90 @@
+#pragma once
+/// Who the simulated driver is: a few named parameters, and the sets that stand for kinds of
+/// drivers.
+///
+/// None is fitted to a histogram or a participant. The steering gains follow from the driver's
+/// knowledge of the car and the natural frequency and damping with which they keep the lane; noise
+/// and delays are of the size that the literature names (README.md beside this file).
+
+#include <string>
+#include <string_view>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::car_io {
+
+/// What the driver knows of the car from having driven it.
+struct CarKnowledge {
+  double steering_ratio = 16.0;
+  double wheelbase_m = 2.8;
+  double understeer_radps2pm =
+      0.005;  ///< Road-wheel angle per lateral acceleration beyond the geometric one.
+  double power_per_mass_wpkg = 72.0;         ///< At the wheels.
+  double strongest_acceleration_mps2 = 3.5;  ///< In low gears.
+  double drag_per_speed2_pm = 2.1e-4;        ///< Deceleration by air per speed squared.
+  double rolling_drag_mps2 = 0.12;
+  double strongest_braking_mps2 = 9.5;  ///< At full pedal.
+};
+
+/// Two-point visual steering.
+struct SteeringParameters {
+  double natural_frequency_radps = 0.6;  ///< Of returning to the lane's middle.
+  double damping = 0.9;
+  double integral_per_s = 0.12;        ///< Weight of the lasting error against the present one.
+  double near_distance_m = 10.0;       ///< Salvucci and Gray's near point…
+  double far_time_s = 2.0;             ///< …and far point.
+  double near_angle_limit_rad = 0.03;  ///< The most that counts as lasting error.
+  double delay_s = 0.20;               ///< From eye to hand.
+  double hand_lag_s = 0.10;
+  double largest_rate_radps = 6.0;
+  double peripheral_share =
+      0.6;  ///< Of what changes on the road, answered while looking elsewhere.
+  double position_noise_m = 0.19,
+         position_noise_s = 2.5;  ///< Of the perceived place in the lane: SD, correlation time.
+  double heading_noise_rad = 0.0018, heading_noise_s = 0.6;
+};
+
+/// Speed and gap: the intelligent driver model behind a reaction time.
+struct SpeedParameters {
+  double limit_factor = 1.0;        ///< Desired speed over the limit.
+  double desired_speed_mps = 33.3;  ///< Where no limit is posted.
+  double time_gap_s = 1.5;
+  double acceleration_mps2 = 1.6, braking_mps2 = 2.0;
+  double standstill_gap_m = 3.0;
+  double reaction_time_s = 0.7;
+  double distance_noise = 0.06,
+         noise_s = 8.0;  ///< Relative SD of perceived distances and speeds, correlation time.
+  double largest_jerk_mps3 = 2.5;  ///< Of the wish, unless it is an emergency.
+};
+
+struct LaneChoiceParameters {
+  double threshold_mps2 = 0.25;        ///< Gain for which a change is worth it.
+  double follow_ambulance_mps2 = 0.7;  ///< Worth of being in the ambulance's lane.
+  double keep_out_mps2 = 0.3;          ///< Worth of one lane further from the middle of the road.
+  double safe_braking_mps2 = 2.5;      ///< The most that a change may ask of the one behind.
+  double signal_s = 1.5;               ///< Indicator before the wheel turns.
+  double duration_s = 5.0;
+  double pause_s = 4.0;  ///< Between two changes.
+};
+
+struct MirrorParameters {
+  double interval_s = 8.0;  ///< Mean time between glances that no manoeuvre calls for.
+  double glance_s = 0.7, glance_spread = 0.3,
+         longest_glance_s = 1.4;  ///< Median duration, and SD of its logarithm.
+  double ease_m = 0.5;   ///< Nearer than this to the path, the driver feels free to look away.
+  double turn_s = 0.25;  ///< Head to the mirror, or back.
+};
+
+struct DriverParameters {
+  std::string name = "plain";
+  CarKnowledge car;
+  SteeringParameters steering;
+  SpeedParameters speed;
+  LaneChoiceParameters lanes;
+  MirrorParameters mirrors;
+};
+
+/// One of: plain, novice, experienced, tired.
+Expected<DriverParameters> find_driver(std::string_view name);
+
+}  // namespace septet::car_io

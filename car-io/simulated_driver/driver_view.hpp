@@ -1,0 +1,62 @@
+#pragma once
+/// What the driver can see from the seat: the place in the lane, the road ahead, and the vehicles
+/// around.
+///
+/// Made from a const Snapshot and the road, and from nothing else. Lanes are counted as the
+/// corridor counts them, outwards from the middle of the road; "left" and "right" are the driver's.
+
+#include <optional>
+#include <vector>
+
+#include "engine/road/road_network.hpp"
+#include "engine/road/road_position.hpp"
+#include "engine/traffic/corridor.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::car_io {
+
+/// Where the driver's own car is.
+struct OwnPlace {
+  road::RoadPosition position;
+  double x_m = 0.0;  ///< Along the corridor, of the car's origin.
+  int lane = 0;
+  double offset_m = 0.0;  ///< From the lane's centre, positive to the left.
+  double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;      ///< Forward.
+  double front_m = 0.0, rear_m = 0.0;  ///< From the origin to the bumpers.
+};
+
+struct SeenVehicle {
+  ParticipantId id = 0;
+  int lane = 0;
+  int also_in_lane = 0;  ///< The lane beside it that its body reaches into; 0: none.
+  bool is_ahead = false;
+  double gap_m = 0.0;  ///< Bumper to bumper; negative while it is alongside.
+  double speed_mps = 0.0;
+  bool is_ambulance = false;  ///< With its beacon on.
+};
+
+/// Bearings of two points of the intended path from the car's origin, against its heading, positive
+/// to the left.
+struct PathAngles {
+  double near_rad = 0.0, far_rad = 0.0;
+};
+
+/// The corridor that the car is in; none off the road.
+std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network,
+                                               const Snapshot& snapshot);
+
+/// Nothing where the car is off the corridor.
+std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
+                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
+                                      const std::optional<road::RoadPosition>& hint);
+
+/// All vehicles of the corridor within 250 m.
+std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
+                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
+                                      const OwnPlace& own);
+
+/// Whether lane numbers grow to the right, as in right-hand traffic.
+bool lanes_grow_to_the_right(const traffic::CorridorPiece& piece);
+
+}  // namespace septet::car_io

@@ -1,0 +1,62 @@
+#pragma once
+/// Which lane, and the way there: wish, mirror, indicator, look again, go.
+///
+/// The wish weighs the acceleration that each lane offers (MOBIL's incentive without politeness: A.
+/// Kesting, M. Treiber and D. Helbing, "General lane-changing model MOBIL for car-following
+/// models", 2007) with keeping to the outer lanes, where nobody is passed, and with the lane of an
+/// ambulance that the driver follows.
+/// Nothing behind is known without a glance, so that every change has its glances.
+
+#include <optional>
+#include <span>
+
+#include "car-io/simulated_driver/driver_parameters.hpp"
+#include "car-io/simulated_driver/driver_view.hpp"
+#include "car-io/simulated_driver/mirrors.hpp"
+#include "car-io/simulated_driver/pedals.hpp"
+
+namespace septet::car_io {
+
+enum class LanePhase : std::uint8_t {
+  keep,
+  look,    ///< The mirror of the wished side.
+  signal,  ///< The indicator is on.
+  look_again,
+  change,  ///< The wheel turns.
+};
+
+struct LaneState {
+  LanePhase phase = LanePhase::keep;
+  int lane = 0;          ///< Where the car belongs: the lane that a change begins in.
+  int target = 0;        ///< Where it shall go; equal to `lane` while keeping it.
+  double phase_s = 0.0;  ///< Time in the phase.
+  double since_change_s = 1e9;
+  double next_thought_s = 0.0;
+};
+
+/// What the choice is made from.
+struct LaneScene {
+  const OwnPlace& own;
+  std::span<const SeenVehicle> vehicles;
+  double desired_speed_mps = 0.0;
+  bool grows_to_the_right = true;
+  bool open_inside = false,
+       open_outside =
+           false;  ///< Lane number one less and one more can be driven on, here and ahead.
+  double lane_ends_in_m = 1e9;  ///< The present lane.
+};
+
+/// The vehicle ahead in a lane, or nothing. An ambulance counts in every lane: it is followed and
+/// never passed.
+std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane);
+/// Whether a change into this lane leaves everyone room.
+bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver);
+/// How far along its way a change is, 0 to 1, at a time in phase `change`.
+double change_progress(const LaneChoiceParameters& lanes, double phase_s);
+
+/// Thinks, looks and decides. `looked` is the mirror whose glance just ended.
+void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene,
+                         MirrorState& mirrors, const std::optional<Mirror>& looked, double dt_s,
+                         Random& random);
+
+}  // namespace septet::car_io

@@ -1,0 +1,168 @@
+#include "car-io/simulated_driver/simulated_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "car-io/car_report.hpp"
+#include "engine/road/lane_geometry.hpp"
+
+namespace septet::car_io {
+namespace {
+
+constexpr double look_around_interval_s = 0.05;
+constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
+
+/// A point of the intended path: the lane's centre, or the way between two while changing.
+Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
+                double ahead_m, double speed_mps) {
+  const LaneState& lanes = driver.lanes;
+  const traffic::Corridor& corridor = *driver.corridor;
+  const double x = std::min(
+      x_m + ahead_m, corridor.closed ? std::numeric_limits<double>::max() : corridor.length_m);
+  const auto centre = [&](int lane) {
+    return road::evaluate_lane(network,
+                               traffic::position_at(corridor, traffic::wrap_x(corridor, x), lane))
+        .road.position_m;
+  };
+  const Vec3 here = centre(lanes.lane);
+  if (lanes.phase != LanePhase::change) return here;
+  const double progress =
+      change_progress(driver.parameters.lanes, lanes.phase_s + ahead_m / std::max(speed_mps, 1.0));
+  return here + progress * (centre(lanes.target) - here);
+}
+
+double bearing_rad(const RigidTransform& world_from_vehicle, const Vec3& point_m) {
+  const Vec3 seen =
+      glm::conjugate(world_from_vehicle.orientation) * (point_m - world_from_vehicle.position_m);
+  return std::atan2(seen.y, seen.x);
+}
+
+PathAngles see_path(const SimulatedDriver& driver, const road::RoadNetwork& network,
+                    const Participant& body, const OwnPlace& own) {
+  const SteeringParameters& steering = driver.parameters.steering;
+  const double near_m = steering.near_distance_m,
+               far_m = std::max(near_m, steering.far_time_s * own.speed_mps);
+  return {bearing_rad(body.world_from_vehicle,
+                      path_point(driver, network, own.x_m, near_m, own.speed_mps)),
+          bearing_rad(body.world_from_vehicle,
+                      path_point(driver, network, own.x_m, far_m, own.speed_mps))};
+}
+
+/// How far the lane stays open, up to the preview.
+double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& corridor, double x_m,
+                  int lane) {
+  if (lane < 1) return 0.0;
+  for (double ahead_m = 0.0; ahead_m <= lane_preview_m; ahead_m += 50.0) {
+    const double x = traffic::wrap_x(corridor, x_m + ahead_m);
+    if ((!corridor.closed && x >= corridor.length_m) ||
+        !traffic::lane_open(network, corridor, x, lane))
+      return ahead_m;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network,
+                         const OwnPlace& own) {
+  const SpeedParameters& speed = driver.parameters.speed;
+  const double limit =
+      road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
+  return limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
+}
+
+/// The nearer of the obstacles in the lane and, during a change, in the one to come; the road's end
+/// counts as one.
+std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, const LaneScene& scene) {
+  std::optional<Obstacle> nearest = obstacle_in_lane(scene, driver.lanes.lane);
+  const auto consider = [&](const std::optional<Obstacle>& other) {
+    if (other && (!nearest || other->gap_m < nearest->gap_m)) nearest = other;
+  };
+  if (driver.lanes.phase == LanePhase::change)
+    consider(obstacle_in_lane(scene, driver.lanes.target));
+  if (scene.lane_ends_in_m < lane_preview_m) consider(Obstacle{scene.lane_ends_in_m, 0.0});
+  return nearest;
+}
+
+/// No road in sight: hold the wheel, brake.
+DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
+  driver.pedals.accelerator = 0.0;
+  driver.pedals.brake = std::min(0.6, driver.pedals.brake + dt_s);
+  DriverInput input;
+  input.steering_wheel_rad = driver.steering.hands_rad;
+  input.brake = driver.pedals.brake;
+  input.hazard_lights = true;
+  return input;
+}
+
+}  // namespace
+
+DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
+                    const Snapshot& snapshot, double dt_s) {
+  driver.now_s += dt_s;
+  ++driver.sequence;
+  if (!driver.corridor) driver.corridor = find_corridor(network, snapshot);
+  const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
+  const auto own = driver.corridor
+                       ? see_own_place(network, *driver.corridor, snapshot, driver.place)
+                       : std::nullopt;
+  if (!own || !body) {
+    driver.corridor.reset();
+    driver.place.reset();
+    driver.lanes = {};
+    DriverInput input = stop_off_road(driver, dt_s);
+    input.sequence = driver.sequence;
+    return input;
+  }
+  driver.place = own->position;
+  if (driver.lanes.lane == 0) driver.lanes.lane = driver.lanes.target = own->lane;
+  if (driver.now_s >= driver.next_look_around_s) {
+    driver.vehicles = see_vehicles(network, *driver.corridor, snapshot, *own);
+    driver.next_look_around_s = driver.now_s + look_around_interval_s;
+  }
+
+  const DriverParameters& parameters = driver.parameters;
+  LaneScene scene{.own = *own, .vehicles = driver.vehicles};
+  scene.desired_speed_mps = desired_speed_mps(driver, network, *own);
+  scene.grows_to_the_right = lanes_grow_to_the_right(traffic::piece_at(*driver.corridor, own->x_m));
+  scene.open_inside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane - 1));
+  scene.open_outside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane + 1));
+  scene.lane_ends_in_m =
+      std::min(1e9, open_for_m(network, *driver.corridor, own->x_m, driver.lanes.lane));
+
+  const PathAngles path = see_path(driver, network, *body, *own);
+  const bool at_ease =
+      std::abs(path.near_rad) * parameters.steering.near_distance_m < parameters.mirrors.ease_m;
+  const auto looked =
+      advance_mirrors(driver.mirrors, parameters.mirrors, at_ease, dt_s, driver.head_random);
+  advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s,
+                      driver.head_random);
+  advance_pedals(driver.pedals, parameters.speed, parameters.car, *own, scene.desired_speed_mps,
+                 obstacle_ahead(driver, scene), driver.now_s, dt_s, driver.foot_random);
+
+  DriverInput input;
+  input.steering_wheel_rad = advance_steering(driver.steering, parameters.steering, parameters.car,
+                                              path, sees_road(driver.mirrors), own->speed_mps,
+                                              driver.now_s, dt_s, driver.hands_random);
+  input.accelerator = driver.pedals.accelerator;
+  input.brake = driver.pedals.brake;
+  const bool signals = driver.lanes.phase >= LanePhase::signal;
+  if (signals)
+    input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right
+                          ? IndicatorStalk::left
+                          : IndicatorStalk::right;
+  input.gaze_heading_rad = driver.mirrors.head_rad;
+  input.sequence = driver.sequence;
+  return input;
+}
+
+SimulatedDriverCar::SimulatedDriverCar(DriverParameters parameters, std::uint64_t seed,
+                                       const road::RoadNetwork& network)
+    : driver_(std::move(parameters), seed), network_(&network) {
+  port_.plug();
+}
+
+void SimulatedDriverCar::drive(const Snapshot& snapshot, double dt_s) {
+  port_.send(encode_controls(advance(driver_, *network_, snapshot, dt_s)));
+}
+
+}  // namespace septet::car_io
