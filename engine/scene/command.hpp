@@ -19,7 +19,6 @@
 namespace septet::scene {
 
 // ---- subscriptions: from a client; they do not change a store
-// -----------------------------------------------------
 
 /// Asks to be told which nodes of these types exist; bit k is NodeType k. Zero ends the
 /// subscription.
@@ -49,7 +48,6 @@ struct PartSubscribe {
 };
 
 // ---- every node
-// --------------------------------------------------------------------------------------------------
 
 /// As a request the id is `no_node`; the server assigns one (Store::assign_id).
 struct NodeCreate {
@@ -92,7 +90,6 @@ struct TagDestroy {
 };
 
 // ---- object
-// ------------------------------------------------------------------------------------------------------
 
 struct TransformSet {
   NodeId node = no_node;
@@ -122,7 +119,6 @@ struct HideSet {
 };
 
 // ---- geometry
-// ----------------------------------------------------------------------------------------------------
 
 /// Grows or cuts the arrays; what is new has vertices at the origin, polygons that are not there,
 /// layers at their default.
@@ -187,7 +183,6 @@ struct CreaseSet {
 };
 
 // ---- material
-// ----------------------------------------------------------------------------------------------------
 
 struct FragmentSet {
   NodeId node = no_node;
@@ -202,7 +197,6 @@ struct FragmentDestroy {
 };
 
 // ---- bitmap
-// ------------------------------------------------------------------------------------------------------
 
 /// Every layer is cleared to zero.
 struct BitmapSizeSet {

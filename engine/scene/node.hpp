@@ -33,7 +33,6 @@ inline constexpr int node_type_count = 7;
 using PartId = std::uint16_t;  ///< Of a tag group, tag, link, layer within its node.
 
 // ---- tags (every node)
-// -------------------------------------------------------------------------------------------
 
 /// A tag's value that points at a node (Verse: VN_TAG_LINK).
 struct NodeReference {
@@ -56,7 +55,6 @@ struct TagGroup {
 };
 
 // ---- object
-// ------------------------------------------------------------------------------------------------------
 
 struct Transform {
   Vec3 position_m{0.0};
@@ -80,7 +78,6 @@ struct ObjectData {
 };
 
 // ---- geometry
-// ----------------------------------------------------------------------------------------------------
 
 /// Numbered as on the wire.
 enum class LayerType : std::uint8_t {
@@ -141,14 +138,12 @@ struct GeometryData {
 };
 
 // ---- material
-// ----------------------------------------------------------------------------------------------------
 
 struct MaterialData {
   std::map<FragmentId, Fragment> fragments;
 };
 
 // ---- bitmap
-// ------------------------------------------------------------------------------------------------------
 
 /// Numbered as on the wire.
 enum class PixelType : std::uint8_t { bit, byte, word, real32, real64 };
@@ -182,7 +177,6 @@ constexpr std::uint64_t tile_count(std::uint32_t width, std::uint32_t height, st
 }
 
 // ---- node
-// --------------------------------------------------------------------------------------------------------
 
 using NodeData = std::variant<ObjectData, GeometryData, MaterialData, BitmapData>;
 

@@ -42,20 +42,22 @@ void describe(NodeId id, const GeometryData& geometry, const Emit& emit, std::si
           [&](std::uint32_t first, std::size_t count) {
             emit(PolygonsSet{id, first, slice(geometry.polygons, first, count)});
           });
-  for (const auto& [layer_id, layer] : geometry.layers) {
+  for (const auto& entry : geometry.layers) {
+    const PartId layer_id = entry.first;
+    const GeometryLayer& layer = entry.second;
     emit(GeometryLayerSet{id, layer_id, layer.name, layer.type, layer.default_integer,
                           layer.default_real});
     const std::size_t width = layer_width(layer.type);
     const std::size_t elements = (layer.integers.size() + layer.reals.size()) / width;
-    in_runs(
-        elements, std::max<std::size_t>(1, run / width),
-        [&, part = layer_id](std::uint32_t first, std::size_t count) {
-          if (is_real_layer(layer.type))
-            emit(LayerRealsSet{id, part, first, slice(layer.reals, first * width, count * width)});
-          else
-            emit(LayerIntegersSet{id, part, first,
-                                  slice(layer.integers, first * width, count * width)});
-        });
+    in_runs(elements, std::max<std::size_t>(1, run / width),
+            [&](std::uint32_t first, std::size_t count) {
+              if (is_real_layer(layer.type))
+                emit(LayerRealsSet{id, layer_id, first,
+                                   slice(layer.reals, first * width, count * width)});
+              else
+                emit(LayerIntegersSet{id, layer_id, first,
+                                      slice(layer.integers, first * width, count * width)});
+            });
   }
 }
 
@@ -66,18 +68,20 @@ void describe(NodeId id, const MaterialData& material, const Emit& emit, std::si
 void describe(NodeId id, const BitmapData& bitmap, const Emit& emit, std::size_t run) {
   if (bitmap.width != 0 || bitmap.height != 0 || bitmap.depth != 1)
     emit(BitmapSizeSet{id, bitmap.width, bitmap.height, bitmap.depth});
-  for (const auto& [layer_id, layer] : bitmap.layers) {
+  for (const auto& entry : bitmap.layers) {
+    const PartId layer_id = entry.first;
+    const BitmapLayer& layer = entry.second;
     emit(BitmapLayerSet{id, layer_id, layer.name, layer.type});
     const std::size_t size = tile_bytes(layer.type);
-    in_runs(layer.tiles.size() / size, std::max<std::size_t>(1, run / size),
-            [&, part = layer_id](std::uint32_t first, std::size_t count) {
-              emit(BitmapTilesSet{id, part, first, slice(layer.tiles, first * size, count * size)});
-            });
+    in_runs(
+        layer.tiles.size() / size, std::max<std::size_t>(1, run / size),
+        [&](std::uint32_t first, std::size_t count) {
+          emit(BitmapTilesSet{id, layer_id, first, slice(layer.tiles, first * size, count * size)});
+        });
   }
 }
 
 // ---- comparison: everything but revisions
-// ---------------------------------------------------------------------------
 
 bool same(const TagGroup& a, const TagGroup& b) { return a.name == b.name && a.tags == b.tags; }
 bool same(const GeometryLayer& a, const GeometryLayer& b) {

@@ -1,0 +1,105 @@
+#pragma once
+/// The fields of commands in bytes (COMMANDS.md). Writer and Reader have the same functions, so
+/// that one description of each command's fields serves both ways: `fields(writer, command)` and
+/// `fields(reader, command)`.
+
+#include <type_traits>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/scene/node.hpp"
+#include "engine/scene/run_codec.hpp"
+
+namespace septet::scene {
+
+/// Appends to the bytes that it was made with.
+struct Writer {
+  static constexpr bool writes = true;
+  ByteWriter out;
+
+  void node(NodeId id) { out.put_varint(id + 1u); }
+  void part(PartId id) { out.put_varint(id); }
+  void fragment(FragmentId id) { out.put_varint(static_cast<FragmentId>(id + 1u)); }
+  void number(std::uint32_t value) { out.put_varint(value); }
+  void flag(bool value) { out.put(static_cast<std::uint8_t>(value)); }
+  void real(float value) { out.put(value); }
+  void real(double value) { out.put(value); }
+  void text(const std::string& text, std::size_t) { out.put_string(text); }
+  template <class Enumeration>
+  void kind(Enumeration value, Enumeration) {
+    out.put(static_cast<std::uint8_t>(value));
+  }
+  template <class T>
+  std::size_t count(const std::vector<T>& values, std::size_t) {
+    out.put_varint(values.size());
+    return values.size();
+  }
+  void bytes(const std::vector<std::uint8_t>& bytes, std::size_t) {
+    out.put_varint(bytes.size());
+    out.put_bytes(std::as_bytes(std::span(bytes)));
+  }
+  void reals(std::span<const float> values, std::size_t stride) { put_reals(out, values, stride); }
+  void integers(std::span<const std::uint32_t> values) { put_integers(out, values); }
+  void corners(std::span<const PolygonCorners> polygons) { put_corners(out, polygons); }
+};
+
+/// What is out of range puts `in` into its failed state.
+struct Reader {
+  static constexpr bool writes = false;
+  ByteReader& in;
+
+  void node(NodeId& id) { id = static_cast<NodeId>(bounded(0xFFFFFFFFu) - 1u); }
+  void part(PartId& id) { id = static_cast<PartId>(bounded(0xFFFF)); }
+  void fragment(FragmentId& id) { id = static_cast<FragmentId>(bounded(0xFFFF) - 1u); }
+  void number(std::uint32_t& value) { value = static_cast<std::uint32_t>(bounded(0xFFFFFFFFu)); }
+  void flag(bool& value) {
+    const auto byte = in.get<std::uint8_t>();
+    if (byte > 1) in.fail();
+    value = byte == 1;
+  }
+  void real(float& value) { value = in.get_float(); }
+  void real(double& value) { value = in.get_double(); }
+  void text(std::string& text, std::size_t limit) { text = in.get_string(limit); }
+  template <class Enumeration>
+  void kind(Enumeration& value, Enumeration last) {
+    const auto byte = in.get<std::uint8_t>();
+    if (byte > static_cast<std::uint8_t>(last)) return in.fail();
+    value = static_cast<Enumeration>(byte);
+  }
+  /// Allocates for what the sender claims only within the limit of one run.
+  template <class T>
+  std::size_t count(std::vector<T>& values, std::size_t limit) {
+    values.resize(in.get_count(limit));
+    return values.size();
+  }
+  void bytes(std::vector<std::uint8_t>& bytes, std::size_t limit) {
+    const auto taken = in.take(in.get_count(limit));
+    const auto* first = reinterpret_cast<const std::uint8_t*>(taken.data());
+    bytes.assign(first, first + taken.size());
+  }
+  void reals(std::span<float> values, std::size_t stride) { get_reals(in, values, stride); }
+  void integers(std::span<std::uint32_t> values) { get_integers(in, values); }
+  void corners(std::span<PolygonCorners> polygons) { get_corners(in, polygons); }
+
+ private:
+  std::uint64_t bounded(std::uint64_t largest) {
+    const std::uint64_t value = in.get_varint();
+    if (value > largest) in.fail();
+    return value;
+  }
+};
+
+/// A command to write, or one to read into.
+template <class C, class T>
+using Ref = std::conditional_t<C::writes, const T&, T&>;
+
+template <class C>
+void vec3(C& c, Ref<C, glm::vec3> v) {
+  c.real(v.x), c.real(v.y), c.real(v.z);
+}
+template <class C>
+void vec3(C& c, Ref<C, Vec3> v) {
+  c.real(v.x), c.real(v.y), c.real(v.z);
+}
+
+}  // namespace septet::scene
