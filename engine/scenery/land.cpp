@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/geometry/noise.hpp"
+#include "engine/scenery/world_context.hpp"
+#include "engine/scenery/world_finish.hpp"
+
+namespace septet::scenery {
+namespace {
+
+using geometry::lattice_random;
+using geometry::MeshBuilder;
+
+constexpr double tile_m = 256.0, far_tile_m = 1024.0;
+constexpr double near_cell_m = 16.0, middle_cell_m = 64.0, far_cell_m = 128.0;
+constexpr double reach_m = 5200.0;    ///< Of the land beyond the roads.
+constexpr double ring_drop_m = 0.35;  ///< A tile overlaps its neighbours by one cell, sunk by this.
+constexpr double texture_m = 6.0;
+
+/// What grows at a place: fields are the cells of a jittered lattice (a Voronoi diagram).
+Ground field_at(const WorldContext& world, const Vec2& p) {
+  constexpr double spacing = 210.0;
+  const Vec2 q(p.x * 0.94 - p.y * 0.34, (p.x * 0.34 + p.y * 0.94) * 1.6);
+  const auto cx = static_cast<std::int64_t>(std::floor(q.x / spacing)),
+             cy = static_cast<std::int64_t>(std::floor(q.y / spacing));
+  double best = 1e18, kind = 0.0;
+  for (std::int64_t y = cy - 1; y <= cy + 1; ++y)
+    for (std::int64_t x = cx - 1; x <= cx + 1; ++x) {
+      const Vec2 seed_point(
+          (static_cast<double>(x) + lattice_random(x, y, world.seed + 5)) * spacing,
+          (static_cast<double>(y) + lattice_random(x, y, world.seed + 6)) * spacing);
+      const double distance = glm::dot(q - seed_point, q - seed_point);
+      if (distance < best) {
+        best = distance;
+        kind = lattice_random(x, y, world.seed + 7);
+      }
+    }
+  if (kind < 0.30) return Ground::meadow;
+  if (kind < 0.50) return Ground::pasture;
+  if (kind < 0.68) return Ground::crop;
+  if (kind < 0.82) return Ground::wheat;
+  if (kind < 0.90) return Ground::rape;
+  return Ground::soil;
+}
+
+/// A square grid of cells in a tile's frame, with one ring of cells more, whose outer edge is sunk.
+class LandGrid {
+ public:
+  LandGrid(const WorldContext& world, const Vec2& corner, double side_m, double cell)
+      : world_(world),
+        corner_(corner),
+        cell_(cell),
+        count_(static_cast<int>(std::lround(side_m / cell))) {
+    const Vec2 middle = corner + Vec2(side_m / 2);
+    origin_ = Vec3(middle, world.terrain.height_m(middle));
+    for (int y = -1; y <= count_ + 1; ++y)
+      for (int x = -1; x <= count_ + 1; ++x) {
+        const Vec2 p = corner_ + Vec2(x, y) * cell_;
+        Point point{p, world.terrain.nearest(p), 0.0};
+        point.z = world.terrain.height_m(p, point.near);
+        points_.push_back(point);
+      }
+  }
+
+  struct Point {
+    Vec2 p;
+    Nearest near;
+    double z;
+  };
+  int count() const { return count_; }
+  double cell_m() const { return cell_; }
+  const Vec3& origin() const { return origin_; }
+  const Point& at(int x, int y) const {
+    return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)];
+  }
+  glm::vec3 local(int x, int y, double up = 0.0) const {
+    const Point& point = at(x, y);
+    return glm::vec3(Vec3(point.p, point.z + up) - origin_);
+  }
+
+  geometry::PolygonMesh ground() const {
+    MeshBuilder builder;
+    const int stride = count_ + 3;
+    for (int y = -1; y <= count_ + 1; ++y)
+      for (int x = -1; x <= count_ + 1; ++x) {
+        const bool ring = x < 0 || y < 0 || x > count_ || y > count_;
+        builder.vertex(local(x, y, ring ? -ring_drop_m : 0.0));
+      }
+    for (int y = -1; y <= count_; ++y)
+      for (int x = -1; x <= count_; ++x) {
+        const Vec2 middle = corner_ + (Vec2(x, y) + 0.5) * cell_;
+        const Nearest near = world_.terrain.nearest(middle);
+        if (world_.terrain.is_at_portal(near)) continue;
+        builder.material = index_of(kind_at(middle, near));
+        const auto a = static_cast<std::uint32_t>((y + 1) * stride + x + 1);
+        const auto up = static_cast<std::uint32_t>(stride);
+        const auto u0 = static_cast<float>(x * cell_ / texture_m),
+                   v0 = static_cast<float>(y * cell_ / texture_m),
+                   d = static_cast<float>(cell_ / texture_m);
+        builder.quad(a, a + 1, a + up + 1, a + up,
+                     {{{u0, v0}, {u0 + d, v0}, {u0 + d, v0 + d}, {u0, v0 + d}}});
+      }
+    return builder.take();
+  }
+
+  bool is_wood(int x, int y) const {
+    const Vec2 middle = corner_ + (Vec2(x, y) + 0.5) * cell_;
+    if (world_.terrain.woodland(middle) < 0.5) return false;
+    const Nearest near = world_.terrain.nearest(middle);
+    return !near.found || near.outside_m > 42.0 + cell_ * 0.7;
+  }
+
+  /// The crowns of a wood as one bumpy roof with sides.
+  geometry::PolygonMesh canopy() const {
+    MeshBuilder builder;
+    const auto top = [&](int x, int y) {
+      const Point& point = at(x, y);
+      const auto ix = std::llround(point.p.x), iy = std::llround(point.p.y);
+      return local(x, y, 10.5 + 5.5 * lattice_random(ix, iy, world_.seed + 8));
+    };
+    for (int y = 0; y < count_; ++y)
+      for (int x = 0; x < count_; ++x) {
+        if (!is_wood(x, y)) continue;
+        builder.material = index_of(Ground::canopy);
+        const auto d = static_cast<float>(std::min(cell_ / 8.0, 4.0));
+        builder.patch(top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1),
+                      {{{0, d}, {d, d}, {d, 0}, {0, 0}}});
+        builder.material = index_of(Ground::wood_edge);
+        const auto side = [&](int nx, int ny, int ax, int ay, int bx, int by) {
+          if (is_wood(nx, ny)) return;
+          const auto length = static_cast<float>(cell_ / 55.0),
+                     start = static_cast<float>(lattice_random(x, y, 3));
+          builder.patch(
+              local(ax, ay, -0.5), local(bx, by, -0.5), top(bx, by) + glm::vec3(0, 0, 2.5f),
+              top(ax, ay) + glm::vec3(0, 0, 2.5f),
+              {{{start, 1}, {start + length, 1}, {start + length, 0.02f}, {start, 0.02f}}});
+        };
+        side(x, y - 1, x, y, x + 1, y);
+        side(x + 1, y, x + 1, y, x + 1, y + 1);
+        side(x, y + 1, x + 1, y + 1, x, y + 1);
+        side(x - 1, y, x, y + 1, x, y);
+      }
+    return builder.take();
+  }
+
+ private:
+  Ground kind_at(const Vec2& p, const Nearest& near) const {
+    if (near.found && near.outside_m < 34.0) return Ground::verge;
+    if (world_.terrain.woodland(p) > 0.5) return Ground::wood_floor;
+    return field_at(world_, p);
+  }
+
+  const WorldContext& world_;
+  Vec2 corner_;
+  double cell_;
+  int count_;
+  Vec3 origin_;
+  std::vector<Point> points_;
+};
+
+void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* name,
+                   const geometry::PolygonMesh& mesh, float from, float to) {
+  if (mesh.polygons.empty()) return;
+  scene::MeshOptions options;
+  options.position_step_m = 1.0 / 64.0;
+  Placement placement;
+  placement.parent_from_object.position_m = origin;
+  placement.visible_from_m = from;
+  placement.visible_to_m = to;
+  placement.casts_shadow = false;
+  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options),
+        placement);
+}
+
+void build_far_tile(const WorldContext& world, const Vec2& corner) {
+  const LandGrid grid(world, corner, far_tile_m, far_cell_m);
+  add_land_mesh(world, grid.origin(), "land far", grid.ground(), 0.0f, all_m);
+  add_land_mesh(world, grid.origin(), "wood far", grid.canopy(), 0.0f, all_m);
+}
+
+void build_tile(const WorldContext& world, const Vec2& corner) {
+  const LandGrid middle(world, corner, tile_m, middle_cell_m);
+  const bool near_road = world.terrain.distance_m(corner + Vec2(tile_m / 2)) < 480.0;
+  if (!near_road) {
+    add_land_mesh(world, middle.origin(), "land", middle.ground(), 0.0f, all_m);
+    add_land_mesh(world, middle.origin(), "wood", middle.canopy(), 0.0f, all_m);
+    return;
+  }
+  const LandGrid near(world, corner, tile_m, near_cell_m);
+  add_land_mesh(world, near.origin(), "land near", near.ground(), 0.0f, land_near_m);
+  add_land_mesh(world, near.origin(), "wood near", near.canopy(), 0.0f, land_near_m);
+  const LandGrid coarse(world, corner, tile_m, near_cell_m * 2);
+  add_land_mesh(world, near.origin(), "land coarse", coarse.ground(), land_near_m, all_m);
+  add_land_mesh(world, near.origin(), "wood coarse", middle.canopy(), land_near_m, all_m);
+}
+
+/// The stream on a valley's floor.
+void build_water(const WorldContext& world, const Terrain::Valley& valley) {
+  MeshBuilder builder;
+  builder.material = index_of(Ground::water);
+  const Vec2 across(-valley.along.y, valley.along.x);
+  std::uint32_t last = 0;
+  for (double distance = -330.0; distance <= 330.0; distance += 15.0) {
+    const Vec2 middle =
+        Vec2(valley.middle_m) + across * distance + valley.along * Terrain::meander_m(distance);
+    const double z = world.terrain.height_m(middle) + 1.1;
+    const glm::vec3 left(Vec3(middle - valley.along * 11.0, z) - valley.middle_m),
+        right(Vec3(middle + valley.along * 11.0, z) - valley.middle_m);
+    const std::uint32_t a = builder.vertex(left);
+    builder.vertex(right);
+    if (distance > -330.0) builder.quad(last, last + 1, a + 1, a);
+    last = a;
+  }
+  add_land_mesh(world, valley.middle_m, "stream", builder.mesh(), 0.0f, 1500.0f);
+}
+
+}  // namespace
+
+void build_land(const WorldContext& world) {
+  const Vec2 low = world.terrain.low_m() - reach_m, high = world.terrain.high_m() + reach_m;
+  const auto first_x = static_cast<int>(std::floor(low.x / far_tile_m)),
+             last_x = static_cast<int>(std::ceil(high.x / far_tile_m));
+  const auto first_y = static_cast<int>(std::floor(low.y / far_tile_m)),
+             last_y = static_cast<int>(std::ceil(high.y / far_tile_m));
+  for (int y = first_y; y < last_y; ++y)
+    for (int x = first_x; x < last_x; ++x) {
+      const Vec2 corner = Vec2(x, y) * far_tile_m;
+      const double distance = world.terrain.distance_m(corner + Vec2(far_tile_m / 2));
+      if (distance > reach_m) continue;
+      if (distance > 1500.0) {
+        build_far_tile(world, corner);
+        continue;
+      }
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i) build_tile(world, corner + Vec2(i, j) * tile_m);
+    }
+  for (const Terrain::Valley& valley : world.terrain.valleys()) build_water(world, valley);
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,95 @@
+#include "engine/scenery/road_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace septet::scenery {
+
+RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m)
+    : network_(network), overrun_m_(overrun_m) {}
+
+double RoadShape::begin_m(road::RoadIndex index) const {
+  const road::RoadLink& link = road(index).predecessor;
+  return link.road == road::no_index && link.junction == road::no_index ? -overrun_m_ : 0.0;
+}
+
+double RoadShape::end_m(road::RoadIndex index) const {
+  const road::RoadLink& link = road(index).successor;
+  return road(index).length_m +
+         (link.road == road::no_index && link.junction == road::no_index ? overrun_m_ : 0.0);
+}
+
+road::RoadPoint RoadShape::at(road::RoadIndex index, double s_m, double t_m) const {
+  const double length = road(index).length_m;
+  const double inside = std::clamp(s_m, 0.0, length);
+  road::RoadPoint point = road::evaluate(network_, {index, inside, t_m});
+  if (const double beyond = s_m - inside; beyond != 0.0) {
+    point.position_m.x += std::cos(point.heading_rad) * beyond;
+    point.position_m.y += std::sin(point.heading_rad) * beyond;
+    // The grade runs out within the first few hundred metres.
+    constexpr double run_out_m = 250.0;
+    point.position_m.z -= std::tan(point.pitch_rad) * run_out_m * std::tanh(beyond / run_out_m);
+  }
+  return point;
+}
+
+Vec3 RoadShape::point(road::RoadIndex index, double s_m, double t_m, double up_m) const {
+  const road::RoadPoint p = at(index, s_m, t_m);
+  return road::world_from_road(p) * Vec3(0, 0, up_m);
+}
+
+glm::vec3 RoadShape::local(const RoadTile& tile, double s_m, double t_m, double up_m) const {
+  return local(tile, point(tile.road, s_m, t_m, up_m));
+}
+
+glm::vec3 RoadShape::local(const RoadTile& tile, const Vec3& world_m) const {
+  return glm::vec3(inverse(tile.world_from_tile) * world_m);
+}
+
+const road::RoadStructure* RoadShape::structure_at(road::RoadIndex index, double s_m,
+                                                   road::RoadStructure::Kind kind) const {
+  for (const road::RoadStructure& structure : road(index).structures)
+    if (structure.kind == kind && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m)
+      return &structure;
+  return nullptr;
+}
+
+std::vector<RoadTile> RoadShape::tiles(double length_m) const {
+  using Kind = road::RoadStructure::Kind;
+  std::vector<RoadTile> result;
+  for (road::RoadIndex index = 0; index < network_.roads.size(); ++index) {
+    std::vector<double> cuts{begin_m(index), 0.0, road(index).length_m, end_m(index)};
+    for (const road::LaneSection& section : road(index).sections) cuts.push_back(section.s_m);
+    for (const road::RoadStructure& structure : road(index).structures)
+      cuts.insert(cuts.end(), {structure.s_m, structure.s_m + structure.length_m});
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      const double length = cuts[i + 1] - cuts[i];
+      if (length < 0.01) continue;
+      const double count = std::ceil(length / length_m - 1e-9);
+      for (int k = 0; k < static_cast<int>(count); ++k) {
+        RoadTile tile;
+        tile.road = index;
+        tile.s0_m = cuts[i] + length * k / count;
+        tile.s1_m = cuts[i] + length * (k + 1) / count;
+        const road::RoadPoint middle = at(index, tile.middle_m(), 0.0);
+        tile.world_from_tile = {middle.position_m,
+                                orientation_from_angles(middle.heading_rad, 0.0, 0.0)};
+        tile.in_tunnel = structure_at(index, tile.middle_m(), Kind::tunnel) != nullptr;
+        tile.on_bridge = structure_at(index, tile.middle_m(), Kind::bridge) != nullptr;
+        result.push_back(tile);
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<double> stations(const RoadTile& tile, double step_m) {
+  const double length = tile.s1_m - tile.s0_m;
+  const int count = std::max(1, static_cast<int>(std::ceil(length / step_m - 1e-9)));
+  std::vector<double> result;
+  for (int i = 0; i <= count; ++i) result.push_back(tile.s0_m + length * i / count);
+  return result;
+}
+
+}  // namespace septet::scenery

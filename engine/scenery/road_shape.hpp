@@ -1,0 +1,58 @@
+#pragma once
+/// The roads as the scenery sees them: evaluated anywhere, carried on straight beyond loose ends,
+/// and cut into tiles.
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/road/road_network.hpp"
+#include "engine/road/road_position.hpp"
+
+namespace septet::scenery {
+
+/// A stretch of one road with one lane section and one kind of surroundings. Its frame lies in its
+/// middle on the reference line, x along the road, z up.
+struct RoadTile {
+  road::RoadIndex road = 0;
+  double s0_m = 0.0, s1_m = 0.0;
+  RigidTransform world_from_tile;
+  bool in_tunnel = false, on_bridge = false;
+
+  double middle_m() const { return 0.5 * (s0_m + s1_m); }
+};
+
+class RoadShape {
+ public:
+  /// `overrun_m`: how far a road runs on beyond an end that is linked to nothing.
+  RoadShape(const road::RoadNetwork& network, double overrun_m);
+
+  const road::RoadNetwork& network() const { return network_; }
+  const road::Road& road(road::RoadIndex index) const { return network_.roads[index]; }
+  /// First and last station, overrun included.
+  double begin_m(road::RoadIndex index) const;
+  double end_m(road::RoadIndex index) const;
+
+  road::RoadPoint at(road::RoadIndex index, double s_m, double t_m) const;
+  /// `up_m` along the surface's normal.
+  Vec3 point(road::RoadIndex index, double s_m, double t_m, double up_m = 0.0) const;
+  /// In the tile's frame.
+  glm::vec3 local(const RoadTile& tile, double s_m, double t_m, double up_m = 0.0) const;
+  glm::vec3 local(const RoadTile& tile, const Vec3& world_m) const;
+
+  /// The structure of a kind at a station, or nullptr.
+  const road::RoadStructure* structure_at(road::RoadIndex index, double s_m,
+                                          road::RoadStructure::Kind kind) const;
+
+  /// Tiles of at most `length_m`, in order of road and station.
+  std::vector<RoadTile> tiles(double length_m) const;
+
+ private:
+  const road::RoadNetwork& network_;
+  double overrun_m_;
+};
+
+/// Evenly spaced stations of a tile, both ends included, at most `step_m` apart.
+std::vector<double> stations(const RoadTile& tile, double step_m);
+
+}  // namespace septet::scenery

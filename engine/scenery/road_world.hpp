@@ -1,0 +1,24 @@
+#pragma once
+/// The world around a road network, generated: pavement and markings, land, structures, signs,
+/// trees.
+///
+/// The same network, seed and options give the same scene. Everything is seen through levels of
+/// detail that keep one 44° × 30° view within about 60,000 triangles.
+
+#include <cstdint>
+
+#include "engine/road/road_network.hpp"
+#include "engine/scene/builder.hpp"
+
+namespace septet::scenery {
+
+struct RoadWorldOptions {
+  bool vegetation = true;
+  bool buildings = true;
+  double overrun_m = 1500.0;  ///< How far loose ends of roads run on.
+};
+
+void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network,
+                      std::uint64_t seed, const RoadWorldOptions& options = {});
+
+}  // namespace septet::scenery

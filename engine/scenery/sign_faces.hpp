@@ -1,0 +1,25 @@
+#pragma once
+/// The faces of traffic signs, painted with readable text. sRGB, straight alpha.
+
+#include <string>
+#include <vector>
+
+#include "engine/image/image.hpp"
+
+namespace septet::scenery {
+
+struct SignLine {
+  std::string place;
+  int distance_km = 0;
+};
+
+/// A blue motorway sign with places and distances, 320 × 130.
+image::Image direction_sign(std::string_view route, const std::vector<SignLine>& lines);
+
+/// "Rest area 1 000 m" with a P, 320 × 130.
+image::Image rest_area_sign(int distance_m);
+
+/// A speed display above a lane: red ring and number on black, 64 × 64.
+image::Image speed_display(int limit_kmh);
+
+}  // namespace septet::scenery

@@ -1,0 +1,47 @@
+#pragma once
+/// Patches that lie on a body: windows, lamps, plates, seams and livery, cut along one axis onto
+/// its surface and lifted off it by a few millimetres.
+
+#include <array>
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/geometry/mesh_builder.hpp"
+
+namespace septet::scenery {
+
+/// From where the patch is looked at. Coordinates on the picture: from the front and rear (y, z),
+/// from a side (x, z), from above (x, y).
+enum class Face { front, rear, left, right, top };
+
+/// Corners in the order lower left, lower right, upper right, upper left as the viewer of `face`
+/// sees them; the texture runs over it upright.
+struct PatchOutline {
+  std::array<glm::vec2, 4> corners;
+};
+
+/// The rectangle between two opposite corners, put into the viewer's order.
+PatchOutline rectangle(Face face, glm::vec2 low, glm::vec2 high);
+
+struct PatchOptions {
+  float lift_m = 0.008f;     ///< Along the body's smooth normals.
+  float corner_cut = 0.0f;   ///< How much of each side the rounding of a corner takes, 0 to ½.
+  float min_facing = 0.05f;  ///< Cosine between the look and the polygons that are still covered.
+};
+
+/// The outermost point of `body` seen from `face` at `point`.
+std::optional<glm::vec3> surface_point(const geometry::PolygonMesh& body, Face face,
+                                       glm::vec2 point);
+
+/// Draws the patch with the builder's current material: the body's own polygons, cut to the outline
+/// (which must be convex). Where the body is missed, the patch is too.
+void draw_patch(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body, Face face,
+                const PatchOutline& outline, const PatchOptions& options = {});
+
+/// The same on both sides: `outline` is that of the left side.
+void draw_patch_on_both_sides(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body,
+                              const PatchOutline& outline, const PatchOptions& options = {});
+
+}  // namespace septet::scenery

@@ -1,0 +1,185 @@
+#include "engine/scenery/terrain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/geometry/noise.hpp"
+#include "engine/road/lane_geometry.hpp"
+
+namespace septet::scenery {
+namespace {
+
+constexpr double sample_step_m = 20.0, cell_m = 128.0;
+constexpr std::size_t coarse_stride = 12;
+
+std::pair<std::int64_t, std::int64_t> cell_of(const Vec2& p) {
+  return {static_cast<std::int64_t>(std::floor(p.x / cell_m)),
+          static_cast<std::int64_t>(std::floor(p.y / cell_m))};
+}
+
+}  // namespace
+
+double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+double Terrain::meander_m(double across_m) {
+  return 14.0 * std::sin(across_m / 85.0) * smooth_step(30.0, 160.0, std::abs(across_m));
+}
+
+Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : roads_(roads), seed_(seed) {
+  const road::RoadNetwork& network = roads.network();
+  for (road::RoadIndex index = 0; index < network.roads.size(); ++index) {
+    const double begin = roads.begin_m(index), length = roads.end_m(index) - begin;
+    const int count = std::max(1, static_cast<int>(std::ceil(length / sample_step_m)));
+    for (int i = 0; i <= count; ++i) {
+      const double s = begin + length * i / count;
+      const road::RoadPoint p = roads.at(index, s, 0.0);
+      const road::RoadExtent extent = road::road_extent(network.roads[index], s);
+      samples_.push_back({index, s, p.position_m,
+                          Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
+                          extent.left_t_m, extent.right_t_m});
+      low_m_ = glm::min(low_m_, Vec2(p.position_m));
+      high_m_ = glm::max(high_m_, Vec2(p.position_m));
+    }
+    for (const road::RoadStructure& structure : network.roads[index].structures) {
+      if (structure.kind == road::RoadStructure::Kind::tunnel) {
+        tunnels_.push_back({index, structure.s_m, structure.s_m + structure.length_m});
+        continue;
+      }
+      const road::RoadPoint p = roads.at(index, structure.s_m + structure.length_m / 2, 0.0);
+      Valley valley{p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), 15.0,
+                    0.0};
+      valley.bottom_z_m = p.position_m.z - 1.0 - valley.depth_m;
+      valleys_.push_back(valley);
+    }
+  }
+  for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+    cells_[cell_of(Vec2(samples_[i].position_m))].push_back(i);
+    if (i % coarse_stride == 0) coarse_.push_back(samples_[i]);
+  }
+}
+
+void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
+  const auto found = cells_.find(cell);
+  if (found == cells_.end()) return;
+  for (const std::uint32_t i : found->second) {
+    const Sample& sample = samples_[i];
+    const Vec2 offset = p - Vec2(sample.position_m);
+    const Vec2 left(-sample.along.y, sample.along.x);
+    const double ahead = glm::dot(offset, sample.along), t = glm::dot(offset, left);
+    const double end = std::max(0.0, std::abs(ahead) - sample_step_m * 0.5);
+    const double side = std::max({t - sample.left_m, sample.right_m - t, 0.0});
+    const double outside = std::hypot(end, side);
+    // Among samples that are all beside the point the one straight beside it counts.
+    const bool better =
+        !best.found || outside < best.outside_m - 1e-9 ||
+        (outside < best.outside_m + 1e-9 && std::abs(ahead) < std::abs(best.s_m - sample.s_m));
+    if (!better || outside > reach_m) continue;
+    best.found = true;
+    best.road = sample.road;
+    best.outside_m = outside;
+    best.s_m = sample.s_m + std::clamp(ahead, -sample_step_m, sample_step_m);
+    best.t_m = t;
+    const std::size_t next = ahead > 0 ? i + 1 : i - 1;
+    double z = sample.position_m.z;
+    if (next < samples_.size() && samples_[next].road == sample.road)
+      z = std::lerp(z, samples_[next].position_m.z, std::min(1.0, std::abs(ahead) / sample_step_m));
+    best.axis_z_m = z;
+    best.edge_z_m = z + std::clamp(t, sample.right_m, sample.left_m) * std::sin(sample.roll_rad);
+  }
+}
+
+Nearest Terrain::nearest(const Vec2& p) const {
+  Nearest best;
+  const Cell home = cell_of(p);
+  const auto rings = static_cast<std::int64_t>(reach_m / cell_m) + 1;
+  std::int64_t last = rings;
+  for (std::int64_t ring = 0; ring <= last; ++ring) {
+    for (std::int64_t y = -ring; y <= ring; ++y)
+      for (std::int64_t x = -ring; x <= ring; ++x)
+        if (std::max(std::abs(x), std::abs(y)) == ring)
+          look_in({home.first + x, home.second + y}, p, best);
+    // A road found in this ring may still be beaten from the next one.
+    if (best.found && last == rings) last = std::min(rings, ring + 1);
+  }
+  return best;
+}
+
+double Terrain::distance_m(const Vec2& p) const {
+  double least = 1e9;
+  for (const Sample& sample : coarse_)
+    least = std::min(least, glm::distance(p, Vec2(sample.position_m)));
+  return least;
+}
+
+double Terrain::height_m(const Vec2& p, const Nearest& near) const {
+  // The level of the roads around, and hills that grow with the distance from them.
+  double weights = 0.0, level = 0.0, least = 1e9;
+  for (const Sample& sample : coarse_) {
+    const double square = glm::dot(p - Vec2(sample.position_m), p - Vec2(sample.position_m));
+    const double weight = 1.0 / ((square + 160000.0) * (square + 160000.0));
+    weights += weight;
+    level += weight * sample.position_m.z;
+    least = std::min(least, square);
+  }
+  const double distance = std::sqrt(least);
+  double land =
+      level / weights + 11.0 * geometry::fractal_noise(p.x / 620.0, p.y / 620.0, 4, seed_);
+  land += smooth_step(500.0, 3600.0, distance) *
+          (55.0 + 85.0 * geometry::fractal_noise(p.x / 1700.0, p.y / 1700.0, 4, seed_ + 1));
+  if (!near.found) {
+    // Nothing else: too far from every road for cut and fill.
+  } else {
+    const double fill = near.edge_z_m - (near.outside_m <= 0.0 ? 1.3 : 0.9);
+    land = std::lerp(fill, land, smooth_step(9.0, 150.0, near.outside_m));
+    for (const Mouth& tunnel : tunnels_) {
+      if (near.road != tunnel.road) continue;
+      const double s = near.s_m;
+      const double rise =
+          std::min(10.0 * smooth_step(tunnel.s0_m - 120.0, tunnel.s0_m, s) +
+                       15.0 * smooth_step(tunnel.s0_m, tunnel.s0_m + 150.0, s),
+                   10.0 * (1.0 - smooth_step(tunnel.s1_m, tunnel.s1_m + 120.0, s)) +
+                       15.0 * (1.0 - smooth_step(tunnel.s1_m - 150.0, tunnel.s1_m, s)));
+      const bool over = s >= tunnel.s0_m && s <= tunnel.s1_m;
+      const double cover = over ? 1.0 : smooth_step(4.0, 40.0, near.outside_m);
+      const double share = cover * (1.0 - smooth_step(90.0, 420.0, near.outside_m));
+      if (rise > 0.0) land = std::lerp(land, std::max(land, near.axis_z_m + rise), share);
+    }
+  }
+  for (const Valley& valley : valleys_) {
+    const Vec2 offset = p - Vec2(valley.middle_m);
+    const double across = glm::dot(offset, Vec2(-valley.along.y, valley.along.x));
+    const double along = glm::dot(offset, valley.along) - meander_m(across);
+    const double reach = 1.0 - smooth_step(350.0, 1000.0, std::abs(across));
+    land -= valley.depth_m * reach * std::exp(-along * along / (42.0 * 42.0));
+  }
+  return land;
+}
+
+bool Terrain::is_kept_clear(const Nearest& near) const {
+  if (!near.found || near.outside_m > 30.0) return false;
+  for (const road::RoadStructure& structure : roads_.road(near.road).structures)
+    if (near.s_m > structure.s_m - 30.0 && near.s_m < structure.s_m + structure.length_m + 30.0)
+      return true;
+  return false;
+}
+
+bool Terrain::is_at_portal(const Nearest& near) const {
+  if (!near.found || near.outside_m > 54.0) return false;
+  for (const Mouth& tunnel : tunnels_)
+    if (near.road == tunnel.road &&
+        std::min(std::abs(near.s_m - tunnel.s0_m), std::abs(near.s_m - tunnel.s1_m)) < 27.0)
+      return true;
+  return false;
+}
+
+double Terrain::woodland(const Vec2& p) const {
+  return smooth_step(0.10, 0.22, geometry::fractal_noise(p.x / 420.0, p.y / 420.0, 3, seed_ + 2));
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,86 @@
+#pragma once
+/// The shape of the land: hills that follow the roads' level, cut and fill beside the roads, a
+/// valley under every bridge and a hill over every tunnel.
+///
+/// A pure function of the world's x and y, built once from the roads. Metres, world frame.
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "engine/scenery/road_shape.hpp"
+
+namespace septet::scenery {
+
+/// Where a point lies relative to the nearest road.
+struct Nearest {
+  bool found = false;  ///< Within Terrain::reach_m.
+  road::RoadIndex road = 0;
+  double s_m = 0.0, t_m = 0.0;
+  double outside_m = 0.0;  ///< Beyond the outermost lanes; 0 on the road.
+  double axis_z_m = 0.0;   ///< Height of the reference line there.
+  double edge_z_m = 0.0;   ///< Height of the road's surface at the nearest point of it.
+};
+
+class Terrain {
+ public:
+  static constexpr double reach_m = 500.0;
+
+  Terrain(const RoadShape& roads, std::uint64_t seed);
+
+  double height_m(const Vec2& p) const { return height_m(p, nearest(p)); }
+  double height_m(const Vec2& p, const Nearest& nearest) const;
+  Nearest nearest(const Vec2& p) const;
+  /// Rough distance to the nearest road, at any range.
+  double distance_m(const Vec2& p) const;
+
+  /// Whether p lies under or over a bridge's or tunnel's stretch, where nothing grows.
+  bool is_kept_clear(const Nearest& nearest) const;
+  /// Whether p is near a tunnel's mouth, where the land breaks off at the portal.
+  bool is_at_portal(const Nearest& nearest) const;
+  /// Share of woodland at p, 0 to 1.
+  double woodland(const Vec2& p) const;
+
+  Vec2 low_m() const { return low_m_; }
+  Vec2 high_m() const { return high_m_; }
+
+  struct Valley {
+    Vec3 middle_m;
+    Vec2 along;  ///< Of the road.
+    double depth_m = 15.0;
+    double bottom_z_m = 0.0;
+  };
+  const std::vector<Valley>& valleys() const { return valleys_; }
+  /// Offset of the valley's floor from the straight line across the road, `across_m` from the
+  /// bridge.
+  static double meander_m(double across_m);
+
+ private:
+  struct Sample {
+    road::RoadIndex road;
+    double s_m;
+    Vec3 position_m;
+    Vec2 along;
+    double roll_rad, left_m, right_m;
+  };
+  struct Mouth {
+    road::RoadIndex road;
+    double s0_m, s1_m;
+  };
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+  void look_in(const Cell& cell, const Vec2& p, Nearest& best) const;
+
+  const RoadShape& roads_;
+  std::uint64_t seed_;
+  std::vector<Sample> samples_, coarse_;
+  std::map<Cell, std::vector<std::uint32_t>> cells_;
+  std::vector<Valley> valleys_;
+  std::vector<Mouth> tunnels_;
+  Vec2 low_m_{1e9}, high_m_{-1e9};
+};
+
+/// 0 below `low`, 1 above `high`, smooth between.
+double smooth_step(double low, double high, double x);
+
+}  // namespace septet::scenery

@@ -1,0 +1,47 @@
+#pragma once
+/// The parts of the vehicles, as meshes with finishes, before they enter the scene.
+///
+/// Three levels of detail: near (up to about 4,000 triangles), middle (800) and far (120). Parts
+/// that turn or shine are parts of their own with a role. Vehicle frame, metres; wheels have their
+/// origin in their centre.
+
+#include <string>
+#include <vector>
+
+#include "engine/geometry/polygon_mesh.hpp"
+#include "engine/scenery/palette.hpp"
+#include "engine/world/vehicle_model.hpp"
+
+namespace septet::scenery {
+
+inline constexpr float near_until_m = 45.0f, middle_until_m = 160.0f, vehicles_until_m = 2500.0f;
+
+enum class DetailLevel { near, middle, far };
+
+struct VehiclePart {
+  std::string name;
+  geometry::PolygonMesh mesh;  ///< Materials are Finish indices.
+  std::uint32_t subdivision_level = 0;
+  std::vector<Placement>
+      places;  ///< One instance each; visibility ranges are filled in by set_detail.
+};
+
+using VehicleParts = std::vector<VehiclePart>;
+
+/// Gives every placement of `part` the range of the level.
+void set_detail(VehiclePart& part, DetailLevel level);
+
+/// All parts of a model of the catalogue, all three levels.
+VehicleParts vehicle_parts(const VehicleModel& model);
+
+VehicleParts car_parts(const VehicleModel& model);  ///< Cars, vans, ambulances.
+VehicleParts lorry_parts(const VehicleModel& model);
+VehicleParts motorcycle_parts(const VehicleModel& model);
+VehicleParts pedestrian_parts(const VehicleModel& model);
+/// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel.
+VehicleParts interior_parts();
+
+/// Triangles of everything that is drawn at a distance.
+std::size_t triangles_at(const VehicleParts& parts, float distance_m);
+
+}  // namespace septet::scenery

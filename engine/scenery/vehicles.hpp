@@ -1,0 +1,13 @@
+#pragma once
+/// The vehicles of the catalogue as prototypes of the scene.
+
+#include "engine/scene/builder.hpp"
+
+namespace septet::scenery {
+
+/// Adds "model/NAME" for every entry of vehicle_models(), with turning wheels and lamps by role and
+/// three levels of detail, and "model/interior/volvo-s80": what the driver sees of his own car, for
+/// rigs that have no car around the driver.
+void build_vehicles(scene::SceneBuilder& builder);
+
+}  // namespace septet::scenery

@@ -1,0 +1,50 @@
+#pragma once
+/// What every part of the world's construction is given.
+
+#include <cstdint>
+
+#include "engine/scenery/palette.hpp"
+#include "engine/scenery/road_shape.hpp"
+#include "engine/scenery/terrain.hpp"
+
+namespace septet::scenery {
+
+struct WorldContext {
+  scene::SceneBuilder& builder;
+  const RoadShape& roads;
+  const Terrain& terrain;
+  const Palette& palette;  ///< By Ground.
+  std::uint64_t seed;
+};
+
+/// Adds a mesh in a tile's frame, seen within a range, on a grid of 1 mm so that layers keep apart.
+inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::string_view name,
+                          const geometry::PolygonMesh& mesh, float from_m, float to_m,
+                          bool casts_shadow = false) {
+  if (mesh.polygons.empty()) return;
+  scene::MeshOptions options;
+  options.position_step_m = 1.0 / 1024.0;
+  Placement placement;
+  placement.parent_from_object = tile.world_from_tile;
+  placement.visible_from_m = from_m;
+  placement.visible_to_m = to_m;
+  placement.casts_shadow = casts_shadow;
+  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options),
+        placement);
+}
+
+/// How far the precise tiles of the road are seen from their middle, and how far anything is.
+inline constexpr float road_near_m = 380.0f, land_near_m = 760.0f, all_m = 9000.0f;
+
+void build_pavement(const WorldContext& world);  ///< Asphalt, repairs, markings.
+void build_verges(const WorldContext& world);    ///< From the asphalt's edge into the land.
+void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
+void build_barriers(
+    const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
+void build_bridges(const WorldContext& world);
+void build_tunnels(const WorldContext& world);
+void build_gantries(const WorldContext& world);  ///< With signs and speed displays.
+void build_trees(const WorldContext& world);
+void build_buildings(const WorldContext& world);
+
+}  // namespace septet::scenery

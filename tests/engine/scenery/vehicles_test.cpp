@@ -1,0 +1,121 @@
+#include "engine/scenery/vehicles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "engine/geometry/mesh_measures.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scenery/cage.hpp"
+#include "engine/scenery/car_body.hpp"
+#include "engine/scenery/vehicle_parts.hpp"
+
+namespace septet::scenery {
+namespace {
+
+bool has_role(const VehicleParts& parts, scene::PartRole role, float distance_m) {
+  return std::any_of(parts.begin(), parts.end(), [&](const VehiclePart& part) {
+    return std::any_of(part.places.begin(), part.places.end(), [&](const Placement& place) {
+      return place.role == role && distance_m >= place.visible_from_m &&
+             distance_m < place.visible_to_m;
+    });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("the body of a car is closed and faces outwards and fills its bounding box") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (model.kind != ParticipantKind::car && model.kind != ParticipantKind::van) continue;
+    CAPTURE(model.name);
+    for (const std::uint32_t level : {0u, 1u}) {
+      const auto body = shown_surface(car_body_cage(model, car_shape(model), level), level);
+      CHECK(geometry::is_finite(body));
+      CHECK(geometry::is_closed(body));
+      const double box = model.length_m * model.width_m * model.height_m;
+      CHECK(geometry::signed_volume_m3(body) > 0.45 * box);
+      CHECK(geometry::signed_volume_m3(body) < 0.90 * box);
+      const geometry::Bounds bounds = geometry::bounds(body);
+      CHECK(bounds.max_m.x == doctest::Approx(model.front_m()).epsilon(0.001));
+      CHECK(bounds.min_m.x == doctest::Approx(-model.rear_overhang_m).epsilon(0.001));
+      CHECK(bounds.max_m.y == doctest::Approx(model.width_m / 2).epsilon(0.001));
+      CHECK(bounds.max_m.z == doctest::Approx(model.height_m).epsilon(0.001));
+    }
+  }
+}
+
+TEST_CASE("every vehicle keeps within its triangle budgets and gets simpler with distance") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    const VehicleParts parts = vehicle_parts(model);
+    const std::size_t near = triangles_at(parts, 5.0f), middle = triangles_at(parts, 80.0f),
+                      far = triangles_at(parts, 400.0f);
+    CHECK(near <= 4400);
+    CHECK(middle <= 860);
+    CHECK(far <= 170);
+    CHECK(near > middle);
+    CHECK(middle > far);
+    CHECK(far > 0);
+    CHECK(triangles_at(parts, vehicles_until_m) == 0);
+  }
+}
+
+TEST_CASE("the levels of a vehicle meet without a gap") {
+  for (const VehicleModel& model : vehicle_models())
+    for (const VehiclePart& part : vehicle_parts(model))
+      for (const Placement& place : part.places) {
+        const bool starts_at_a_seam = place.visible_from_m == 0.0f ||
+                                      place.visible_from_m == near_until_m ||
+                                      place.visible_from_m == middle_until_m;
+        CHECK(starts_at_a_seam);
+      }
+}
+
+TEST_CASE("every part of every vehicle is finite and lies within reach of its body") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    for (const VehiclePart& part : vehicle_parts(model)) {
+      CAPTURE(part.name);
+      CHECK(geometry::is_finite(part.mesh));
+      CHECK_FALSE(part.mesh.polygons.empty());
+      const geometry::Bounds bounds = geometry::bounds(part.mesh);
+      for (const Placement& place : part.places) {
+        const glm::vec3 at(place.parent_from_object.position_m);
+        CHECK(bounds.max_m.x + at.x < model.front_m() + 0.15);
+        CHECK(bounds.min_m.x + at.x > -model.rear_overhang_m - 0.15);
+        CHECK(bounds.max_m.z + at.z < model.height_m + 0.15);
+        CHECK(bounds.min_m.z + at.z > -0.06);
+      }
+    }
+  }
+}
+
+TEST_CASE("cars have the lamps and wheels that move and light") {
+  using enum scene::PartRole;
+  for (const VehicleModel& model : vehicle_models()) {
+    if (model.kind == ParticipantKind::pedestrian) continue;
+    CAPTURE(model.name);
+    const VehicleParts parts = vehicle_parts(model);
+    for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left,
+                            lamp_indicator_right, wheel_front_left, wheel_rear_left})
+      CHECK(has_role(parts, role, 10.0f));
+    for (const auto role : {lamp_head, lamp_tail}) CHECK(has_role(parts, role, 500.0f));
+    CHECK(has_role(parts, beacon, 500.0f) == (model.kind == ParticipantKind::ambulance));
+  }
+}
+
+TEST_CASE("the scene holds a prototype for every model of the catalogue") {
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  build_vehicles(builder);
+  const scene::ResolvedScene scene = scene::resolve(store);
+  CHECK(scene.instances.empty());
+  CHECK(scene.prototypes.size() == vehicle_models().size() + 1);
+  for (const scene::Prototype& prototype : scene.prototypes) {
+    CAPTURE(prototype.name);
+    CHECK(prototype.parts.size() >= 3);
+  }
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,240 @@
+/// Draws the vehicles and the road world to PNG files, for people to judge.
+///
+///     scenery_preview OUT vehicles [MODEL…]              turntables
+///     scenery_preview OUT road ROAD.xodr S LANE_T [HEADING_DEG [HEIGHT_M [PITCH_DEG [NAME]]]] …
+///
+/// Prints what each picture costs to submit, and the size of the scene on the wire.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/image/draw.hpp"
+#include "engine/image/png.hpp"
+#include "engine/render/renderer.hpp"
+#include "engine/road/opendrive_reader.hpp"
+#include "engine/road/road_position.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scenery/road_world.hpp"
+#include "engine/scenery/vehicles.hpp"
+
+namespace septet {
+namespace {
+
+constexpr double degree_rad = std::numbers::pi / 180.0;
+constexpr std::uint32_t width = 960, height = 640;
+
+template <class T>
+T value_of(Expected<T> result) {
+  if (result) return std::move(*result);
+  fmt::print(stderr, "{}\n", describe(result.error()));
+  std::exit(1);
+}
+void must(const Expected<void>& result) {
+  if (result) return;
+  fmt::print(stderr, "{}\n", describe(result.error()));
+  std::exit(1);
+}
+
+image::Image drawn(render::Renderer& renderer, const render::FrameInput& input) {
+  must(renderer.draw(input));
+  return value_of(renderer.read_back());
+}
+
+render::FrameInput frame(const RigidTransform& world_from_camera, double horizontal_deg) {
+  render::FrameInput input;
+  input.simulated_time_s = 20.0;
+  const double horizontal = horizontal_deg * degree_rad;
+  const double vertical = 2.0 * std::atan(std::tan(horizontal / 2.0) * height / width);
+  render::FrameView view;
+  view.projection = render::symmetric_view(Vec3(0.0), 0.0, 0.0, horizontal, vertical);
+  view.world_from_car = world_from_camera;
+  view.viewport = {0, 0, width, height};
+  input.views.push_back(view);
+  return input;
+}
+
+RigidTransform camera(const Vec3& eye_m, double heading_rad, double pitch_up_rad) {
+  return {eye_m, orientation_from_angles(heading_rad, -pitch_up_rad, 0.0)};
+}
+
+std::uint32_t prototype_of(const scene::ResolvedScene& scene, std::string_view name) {
+  for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i)
+    if (scene.prototypes[i].name == name ||
+        scene.prototypes[i].name == "model/" + std::string(name))
+      return i;
+  fmt::print(stderr, "no prototype {}\n", name);
+  std::exit(1);
+}
+
+render::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string_view model,
+                                 const RigidTransform& pose, const glm::vec3& paint) {
+  render::DrawnParticipant participant;
+  participant.prototype = prototype_of(scene, model);
+  participant.world_from_vehicle = pose;
+  participant.paint = paint;
+  participant.wheel_spin_rad = 0.4;
+  return participant;
+}
+
+/// Four sides of a model, near, and one from each further level of detail.
+void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene,
+               const VehicleModel& model, const std::filesystem::path& out) {
+  image::Image sheet(width, height);
+  const double reach = std::max(model.length_m * 1.45, model.height_m * 2.6);
+  constexpr double azimuths[]{32, 148, 90, 35}, elevations[]{12, 16, 4, 14},
+      distances[]{1, 1, 1, 1};
+  for (int i = 0; i < 4; ++i) {
+    const double distance = i == 3 ? 75.0 : reach * distances[i];
+    const Vec3 middle(model.centre_x_m(), 0, model.height_m * 0.45);
+    const double a = azimuths[i] * degree_rad, e = elevations[i] * degree_rad;
+    const Vec3 eye =
+        middle + distance * Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    const double angle =
+        2.0 * std::atan(reach * std::tan(24.0 * degree_rad) / distance) / degree_rad;
+    auto input = frame(camera(eye, a + std::numbers::pi, -e), angle);
+    auto participant = vehicle(scene, model.name, {}, {0.30f, 0.035f, 0.03f});
+    if (i == 1) participant.lamps.set(Lamp::brake, true);
+    if (i != 2) participant.lamps.set(Lamp::low_beam, true);
+    participant.lamps.set(Lamp::beacon, true);
+    if (i == 0) participant.front_steer_rad = 0.35;
+    input.participants.push_back(participant);
+    image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2),
+                (i % 2) * width / 2, (i / 2) * height / 2);
+  }
+  must(image::write_png(out / fmt::format("{}.png", model.name), sheet, image::PngEffort::fast));
+  fmt::print("{}: {} triangles, {} draws at 75 m\n", model.name, renderer.statistics().triangles,
+             renderer.statistics().draws);
+}
+
+/// Some traffic ahead of and beside the camera, so that scale can be judged.
+void add_traffic(render::FrameInput& input, const scene::ResolvedScene& scene,
+                 const road::RoadNetwork& network, double s) {
+  constexpr const char* models[]{"saloon",    "estate", "lorry",  "hatchback",
+                                 "ambulance", "suv",    "van",    "motorcycle",
+                                 "saloon",    "lorry",  "estate", "hatchback"};
+  constexpr double ahead[]{28, 14, 60, 75, 45, 110, 140, 22, 180, 240, 210, 300};
+  constexpr int lanes[]{-5, -3, -7, -4, -6, -5, -7, -4, -3, -7, -6, -5};
+  const glm::vec3 paints[]{{0.32f, 0.03f, 0.03f},
+                           {0.02f, 0.06f, 0.20f},
+                           {0.6f, 0.6f, 0.6f},
+                           {0.04f, 0.05f, 0.05f},
+                           {0.7f, 0.7f, 0.68f}};
+  for (int k = 0; k < 12; ++k)
+    for (const int side : {1, -1}) {
+      const double at = s + ahead[k] * side + (side < 0 ? 15 : 0);
+      const int lane = lanes[k] * (side < 0 && k % 2 == 1 ? -1 : 1);
+      if (at < 0 || at > network.roads[0].length_m) continue;
+      const auto point = road::evaluate_lane(network, {0, lane, at, 0.0});
+      auto participant = vehicle(scene, models[k], road::world_from_lane(point),
+                                 paints[(k + (side > 0 ? 0 : 2)) % 5]);
+      participant.lamps.set(Lamp::low_beam, true);
+      participant.lamps.set(Lamp::brake, k == 0);
+      participant.lamps.set(Lamp::beacon, true);
+      input.participants.push_back(participant);
+    }
+}
+
+const char* name_of(scene::NodeType type) {
+  constexpr const char* names[]{"object", "geometry", "material", "bitmap"};
+  return static_cast<int>(type) < 4 ? names[static_cast<int>(type)] : "other";
+}
+
+/// Bytes of the commands that build the store, in all and by the names of nodes.
+std::size_t wire_bytes(const scene::Store& store, bool table) {
+  std::map<std::string, std::pair<std::size_t, std::size_t>> by_name;
+  std::size_t all = 0;
+  for (const auto& [id, node] : store.nodes()) {
+    auto& [count, bytes] =
+        by_name[std::string(name_of(node.type())) + " " + node.name.substr(0, node.name.find('/'))];
+    ++count;
+    scene::describe_node(node, [&](const scene::Command& command) {
+      Bytes encoded;
+      scene::encode(command, encoded);
+      bytes += encoded.size();
+      all += encoded.size();
+    });
+  }
+  if (table)
+    for (const auto& [name, size] : by_name)
+      fmt::print("  {:9} bytes {:6} {}\n", size.second, size.first, name);
+  return all;
+}
+
+void vehicles(const std::filesystem::path& out, const std::vector<std::string>& names) {
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  scenery::build_vehicles(builder);
+  fmt::print("vehicles: {} nodes, {} bytes on the wire\n", store.nodes().size(),
+             wire_bytes(store, false));
+  const scene::ResolvedScene scene = scene::resolve(store);
+  auto renderer = value_of(render::Renderer::create({.width = width, .height = height}));
+  must(renderer.upload(scene));
+  for (const VehicleModel& model : vehicle_models())
+    if (names.empty() || std::find(names.begin(), names.end(), model.name) != names.end())
+      turntable(renderer, scene, model, out);
+}
+
+void road_views(const std::filesystem::path& out, const std::vector<std::string>& words) {
+  std::ifstream file(words.at(0));
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const road::RoadNetwork network = value_of(road::read_opendrive(text, words.at(0)));
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  scenery::build_vehicles(builder);
+  scenery::build_road_world(builder, network, 1);
+  fmt::print("world: {} nodes, {} bytes on the wire\n", store.nodes().size(),
+             wire_bytes(store, true));
+  const scene::ResolvedScene scene = scene::resolve(store);
+  auto renderer = value_of(render::Renderer::create({.width = width, .height = height}));
+  must(renderer.upload(scene));
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    // S:T:HEADING:HEIGHT:PITCH, the last three optional.
+    double values[5]{0, -8, 0, 1.2, 0};
+    std::size_t from = 0;
+    for (double& value : values) {
+      if (from > words[i].size()) break;
+      const std::size_t to = std::min(words[i].find(':', from), words[i].size());
+      value = std::stod(words[i].substr(from, to - from));
+      from = to + 1;
+    }
+    const auto point = road::evaluate(network, {0, values[0], values[1]});
+    auto input = frame(camera(point.position_m + Vec3(0, 0, values[3]),
+                              point.heading_rad + values[2] * degree_rad, values[4] * degree_rad),
+                       58.0);
+    add_traffic(input, scene, network, values[0]);
+    must(image::write_png(out / fmt::format("road-{}.png", words[i]), drawn(renderer, input),
+                          image::PngEffort::fast));
+    const auto& cost = renderer.statistics();
+    fmt::print("{}: {} triangles ({} in shadows), {} draws, {} instances\n", words[i],
+               cost.triangles, cost.shadow_triangles, cost.draws, cost.instances);
+  }
+}
+
+}  // namespace
+}  // namespace septet
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 2 || (words[1] == "road" && words.size() < 4)) {
+    fmt::print(stderr,
+               "scenery_preview OUT vehicles [MODEL…] | OUT road ROAD.xodr "
+               "S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG]]]…\n");
+    return 2;
+  }
+  std::filesystem::create_directories(words[0]);
+  const std::vector<std::string> rest(words.begin() + 2, words.end());
+  if (words[1] == "vehicles")
+    septet::vehicles(words[0], rest);
+  else
+    septet::road_views(words[0], rest);
+}
