@@ -135,7 +135,8 @@ SkyLight sky_light(const Environment& environment) {
   const double overcast = step_between(0.55, 1.0, environment.cloud_cover);
   light.overcast = static_cast<float>(overcast);
   const double sun_scale = std::clamp(environment.sun_illuminance_lux / 80000.0, 0.0, 1.5);
-  const Air air(std::clamp(3.912 / visibility_m - 1.3e-5, 4.0e-6, 6.0e-5));
+  // Haze near the ground, where visibility is measured, is thicker than the column above it tells: a share of it counts.
+  const Air air(std::clamp(0.15 * 3.912 / visibility_m, 4.0e-6, 6.0e-5));
 
   const Vec3 direct = solar_constant * sun_scale * air.transmittance(2.0, sun.z) * (1.0 - 0.97 * overcast);
   // Fog lies some 150 m deep: it takes the sun's beam and gives its light back evenly.
@@ -200,7 +201,7 @@ SkyLight sky_light(const Environment& environment) {
   }
   // The eye adapts to the light on level ground, but not wholly: dusk stays darker than noon.
   const double level = luminance(Vec3(light.sky_irradiance)) + luminance(Vec3(light.light_irradiance)) * std::max(0.0f, light.light_direction.z);
-  light.exposure = static_cast<float>(std::clamp(0.46 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 7.0));
+  light.exposure = static_cast<float>(std::clamp(0.66 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
   return light;
 }
 

@@ -42,7 +42,7 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device) {
   constexpr VkSamplerAddressMode repeat = VK_SAMPLER_ADDRESS_MODE_REPEAT, clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   constexpr VkSamplerMipmapMode nearest = VK_SAMPLER_MIPMAP_MODE_NEAREST, linear = VK_SAMPLER_MIPMAP_MODE_LINEAR;
   samplers.surface = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, 1.0f, false);
-  samplers.road = create_sampler(device, repeat, linear, samplers.anisotropic ? 16.0f : 1.0f, false);
+  samplers.road = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, samplers.anisotropic ? 16.0f : 1.0f, false);
   samplers.table = create_sampler(device, clamp, nearest, 1.0f, false);
   samplers.shadow = create_sampler(device, clamp, nearest, 1.0f, true);
 }
@@ -63,19 +63,22 @@ FrameData store(PassContext& context, std::span<const std::byte> bytes) {
 void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
   const VkDescriptorBufferInfo records{bindings.records.buffer, bindings.records.offset, bindings.records.size};
-  const VkDescriptorImageInfo images[3] = {
+  // Without an image of its own a material still needs something bound: the noise.
+  const VkDescriptorImageInfo images[4] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[5] = {
+  VkWriteDescriptorSet writes[6] = {
       write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
       write(vulkan::binding_instances, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
       write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-      write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+      write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+      write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
   writes[1].pBufferInfo = &records;
-  for (int i = 0; i < 3; ++i) writes[2 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 4; ++i) writes[2 + i].pImageInfo = &images[i];
   push(context, writes);
 }
 

@@ -12,7 +12,7 @@ layout(location = 0) out vec4 result;
 float cloud_density(vec2 at) {
   float rank = textureLod(noise, at, 0.0).r;
   float limit = 1.0 - view.sun_level.w;
-  return smoothstep(limit - 0.05, limit + 0.22, rank * rank);
+  return smoothstep(limit - 0.08, limit + 0.34, rank * rank);
 }
 
 void main() {
@@ -32,9 +32,9 @@ void main() {
     vec2 at = (d.xy * (1600.0 / (max(d.z, 0.0) + 0.12)) + view.wind.xy) / 9000.0;
     float density = cloud_density(at);
     float beyond = cloud_density(at + view.sun_direction.xy * 0.012);
-    float light = exp2(-2.3 * beyond - 0.7 * density);
+    float light = exp2(-1.5 * beyond - 0.5 * density);
     float forward = max(toward_sun, 0.0) * max(toward_sun, 0.0);
-    vec3 white = view.light_irradiance.rgb * (0.40 * light * (1.0 + 1.2 * forward * forward * forward)) +
+    vec3 white = view.light_irradiance.rgb * (0.46 * light * (1.0 + 1.2 * forward * forward * forward)) +
                  view.sky_irradiance.rgb * (0.24 + 0.16 * light);
     cover = density * smoothstep(0.015, 0.16, d.z) * (0.95 - 0.45 * view.sun_level.z);
     radiance = mix(radiance, white, cover);

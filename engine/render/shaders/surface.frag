@@ -4,7 +4,7 @@
 #include "material.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
-layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 two along the longer side of the pixel's footprint.
+layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
 layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky.
 layout(constant_id = 3) const uint blended = 0;
@@ -33,13 +33,13 @@ float sunlit(vec3 n, float facing) {
   return 1.0 - fade + fade * texture(shadow_map, at);
 }
 
-// The road lies at a grazing angle, where a pixel's footprint is long: two samples along it, from a finer mip level.
+// The road lies at a grazing angle, where a pixel's footprint is long: three samples along it, from a finer mip level.
 vec4 along_footprint(vec2 at) {
   vec2 across = dFdx(at), down = dFdy(at);
   float a = dot(across, across), d = dot(down, down);
-  float bias = -clamp(0.5 * log2(max(a, d) / max(min(a, d), 1e-12)), 0.0, 1.0);
-  vec2 step = 0.25 * (a > d ? across : down);
-  return 0.5 * (texture(image, at - step, bias) + texture(image, at + step, bias));
+  float bias = -clamp(0.5 * log2(max(a, d) / max(min(a, d), 1e-12)), 0.0, 1.7);
+  vec2 step = 0.333 * (a > d ? across : down);
+  return (texture(image, at - step, bias) + texture(image, at, bias) + texture(image, at + step, bias)) / 3.0;
 }
 
 // A dipped beam: wide to the sides, cut off above, falling with the square of the distance.
