@@ -22,8 +22,11 @@ struct WheelLoad {
   Vec3 contact_m{0.0};
   Vec3 force_n{0.0};
   Vec3 aligning_nm{0.0};
-  double shaft_torque_nm = 0.0;  ///< Drive and brake together, about the spin axis.
-  double brake_torque_nm = 0.0;  ///< The brake's share.
+  Vec3 rolling_n{0.0};             ///< Part of force_n along the wheel's heading.
+  double rolling_torque_nm = 0.0;  ///< What that part turns the wheel with, against its spin.
+  double lean_nm = 0.0;            ///< Of the load on a contact that gave way sideways.
+  double shaft_torque_nm = 0.0;    ///< Drive and brake together, about the spin axis.
+  double brake_torque_nm = 0.0;    ///< The brake's share.
 };
 
 double square(double x) { return x * x; }
@@ -54,12 +57,12 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const Vec3 normal = glm::conjugate(world_from_body) * ground.normal;
   const double height_m =
       glm::dot(ground.normal, state.world_from_body * centre_m - ground.point_m);
-  const double deflection_m = tyre.radius_m - height_m;
+  // Deeper than that the rim would be flat; the force stays what it is there.
+  const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
   const Vec3 across = glm::cross(axis, normal);
   const double across_size = glm::length(across);
   // Nothing to stand on: in the air, or the wheel lies on its side or above the car.
-  const bool touching =
-      deflection_m > 0.0 && deflection_m < tyre.radius_m && normal.z > 0.3 && across_size > 0.3;
+  const bool touching = deflection_m > 0.0 && normal.z > 0.3 && across_size > 0.3;
 
   const double effective_radius_m =
       tyre.published ? tyre.radius_m : tyre.radius_m - std::clamp(deflection_m, 0.0, 0.1) / 3.0;
@@ -83,12 +86,17 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
     if (parameters.slip_as_published) {
+      const Vec3 body_forward = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), normal));
+      const Vec3 body_left = glm::cross(normal, body_forward);
       const double axle_roll_radps = state.angular_velocity_radps.x +
                                      side_of(index) * (wheel.travel_rate_mps - opposite_rate_mps) /
                                          parameters.suspension[axle_of(index)].track_m;
-      const double sideways_mps =
-          velocity_mps.y + state.angular_velocity_radps.z * centre_m.x + axle_roll_radps * height_m;
-      contact.sliding_mps.y = patch_mps.x * left.x + sideways_mps * left.y;
+      const Vec3 yaw = glm::dot(state.angular_velocity_radps, normal) * normal;
+      const double sideways_mps = glm::dot(velocity_mps + glm::cross(yaw, centre_m), body_left) +
+                                  axle_roll_radps * height_m;
+      const double ahead_mps = glm::dot(velocity_mps + glm::cross(yaw, centre_m), body_forward);
+      contact.sliding_mps.y =
+          ahead_mps * glm::dot(body_forward, left) + sideways_mps * glm::dot(body_left, left);
     }
     contact.inclination_rad = glm::dot(axis, normal);
     contact.length_m = std::sqrt(8.0 * tyre.radius_m * deflection_m);
@@ -101,6 +109,10 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
       wheel.slip = steady.slip.x;
       wheel.slip_angle_rad = std::atan(steady.slip.y);
       load.force_n = force_n.x * forward + force_n.y * left + load_n * normal;
+      load.rolling_n = force_n.x * forward;
+      load.rolling_torque_nm = force_n.x * effective_radius_m;
+      load.lean_nm =
+          load_n * force_n.y * parameters.suspension[axle_of(index)].contact_by_lateral_force_mpn;
       load.aligning_nm = wheel.aligning_nm * normal;
       rolling_nm =
           ground.rolling_resistance * load_n * effective_radius_m *
@@ -115,9 +127,9 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const double drive_nm = input.drive_torque_nm[index];
   const double brake_nm = std::max(0.0, input.brake_torque_nm[index]);
   double friction_nm = 0.0;
-  wheel.spin_radps = spin_wheel(
-      wheel.spin_radps, drive_nm - wheel.force_n.x * effective_radius_m, brake_nm + rolling_nm,
-      parameters.suspension[axle_of(index)].wheel_inertia_kgm2, dt_s, friction_nm);
+  wheel.spin_radps =
+      spin_wheel(wheel.spin_radps, drive_nm - load.rolling_torque_nm, brake_nm + rolling_nm,
+                 parameters.suspension[axle_of(index)].wheel_inertia_kgm2, dt_s, friction_nm);
   load.brake_torque_nm = friction_nm * brake_nm / std::max(brake_nm + rolling_nm, 1e-12);
   load.shaft_torque_nm = drive_nm + load.brake_torque_nm;
   wheel.spin_rad += dt_s * wheel.spin_radps;
@@ -172,23 +184,30 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     const Vec3& contact = load.contact_m;
     force_n += tyre_n;
     moment_nm += load.aligning_nm;
-    moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y;
-    moment_nm.y += place.centre_m.z * tyre_n.x - contact.x * tyre_n.z - load.shaft_torque_nm;
+    moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y + load.lean_nm;
+    moment_nm.y +=
+        contact.z * tyre_n.x - contact.x * tyre_n.z + load.rolling_torque_nm - load.shaft_torque_nm;
     moment_nm.z += contact.x * tyre_n.y - contact.y * tyre_n.x;
 
-    // A rigid axle leans about its one joint, so only the difference of its wheels' forces works on
-    // a lean.
+    // A rigid axle leans about its one joint, so the difference of its wheels' forces works on a
+    // lean.
     const SuspensionParameters& suspension = parameters.suspension[axle_of(i)];
-    const double lean =
-        side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) / suspension.track_m;
-    const double sideways_n = suspension.rigid_axle
-                                  ? 0.5 * (tyre_n.y - loads[i ^ 1].force_n.y) * lean
-                                  : tyre_n.y * place.contact_slope.y;
+    double sideways_n = tyre_n.y * place.contact_slope.y;
+    if (suspension.rigid_axle) {
+      const double lean = side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) /
+                          suspension.track_m;
+      sideways_n += 0.5 * (tyre_n.y - loads[i ^ 1].force_n.y) * lean;
+      sideways_n += side_of(i) * (load.lean_nm + loads[i ^ 1].lean_nm) / suspension.track_m;
+    } else {
+      sideways_n -=
+          side_of(i) * suspension.camber_rad.slope(state.wheels[i].travel_m) * load.lean_nm;
+    }
     // Virtual work along the wheel's path: longitudinal forces act at the centre, as the wheel
     // turns freely, and the brake turns with the carrier.
     const double radius_m = std::max(0.1, place.centre_m.z - contact.z);
     generalised[5 + i] =
-        tyre_n.z - spring_n[i] + tyre_n.x * place.centre_slope.x +
+        tyre_n.z - spring_n[i] + load.rolling_n.x * place.centre_slope.x +
+        (tyre_n.x - load.rolling_n.x) * place.contact_slope.x +
         load.brake_torque_nm / radius_m * (place.contact_slope.x - place.centre_slope.x) +
         sideways_n;
 

@@ -6,6 +6,7 @@
 /// Angles of steer are those of the road wheels in the mean of the axle: hand wheel over steering
 /// ratio, by ISO 8855. Left turns, unless said otherwise.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,7 +51,10 @@ struct ManoeuvreOptions {
   double friction = 0.0;   ///< 0: that of the surface for which the tyre is given.
   double steer_rad =
       0.0;  ///< Amplitude of step steer and sine with dwell; 0: found by the manoeuvre.
-  bool stability_control = false;  ///< Leave it on, where the car has one.
+  double settle_s = 8.0;  ///< Straight running before the manoeuvre begins.
+  /// Unset: on for the sine with dwell, which is its test, off otherwise. Only where the car has
+  /// one.
+  std::optional<bool> stability_control;
 };
 
 /// ISO 4138: constant speed (100 km/h), steering wheel turned slowly until the front axle slides or

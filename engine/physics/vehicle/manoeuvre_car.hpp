@@ -14,7 +14,7 @@ inline constexpr double sample_interval_s = 0.01;
 
 class ManoeuvreCar {
  public:
-  /// Rolls straight ahead at this speed, settled for eight seconds with the speed held.
+  /// Rolls straight ahead at this speed, settled for options.settle_s with the speed held.
   ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options,
                double speed_mps);
 

@@ -94,7 +94,9 @@ ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
             circle.series, [](const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; },
             0.3 * gravity_mps2, [](const ManoeuvreSample& s) { return s.steer_rad; });
   }
-  ManoeuvreCar car(parameters, options, speed_mps);
+  ManoeuvreOptions with_control = options;
+  with_control.stability_control = options.stability_control.value_or(true);
+  ManoeuvreCar car(parameters, with_control, speed_mps);
   car.begin();
   car.input().accelerator = 0.0;
   const double dwell_begin_s = 0.75 / frequency_hz, dwell_end_s = dwell_begin_s + dwell_s;

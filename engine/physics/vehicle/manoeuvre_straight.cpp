@@ -30,21 +30,19 @@ double best_braking_slip(const TyreParameters& tyre, double load_n, double frict
   return best_slip;
 }
 
-/// Brake torques that hold every wheel at its best slip, building up over 0.15 s.
-ChassisInput ideal_braking(const ManoeuvreCar& car, double slip, double speed_mps) {
-  constexpr double build_up_s = 0.15, rate_per_s = 100.0;
+/// Brake torques that hold every wheel at a slip, which builds up to the best one over 0.15 s.
+ChassisInput ideal_braking(const ManoeuvreCar& car, double best_slip, double speed_mps) {
+  constexpr double build_up_s = 0.15, rate_per_s = 200.0;
   const VehicleParameters& parameters = car.parameters();
+  const double slip = best_slip * std::min(1.0, car.time_s() / build_up_s);
   ChassisInput chassis;
   for (int i = 0; i < wheel_count; ++i) {
     const WheelState& wheel = car.state().wheels[i];
     const double radius_m = parameters.tyre.radius_m;
     const double wanted_radps = (1.0 - slip) * speed_mps / radius_m;
-    const double torque_nm =
-        -wheel.force_n.x * radius_m + parameters.suspension[axle_of(i)].wheel_inertia_kgm2 *
-                                          rate_per_s * (wheel.spin_radps - wanted_radps);
-    const double full_nm = 2.0 * wheel.force_n.z * radius_m;
-    chassis.brake_torque_nm[i] =
-        std::clamp(torque_nm, 0.0, full_nm * std::min(1.0, car.time_s() / build_up_s));
+    chassis.brake_torque_nm[i] = std::max(
+        0.0, -wheel.force_n.x * radius_m + parameters.suspension[axle_of(i)].wheel_inertia_kgm2 *
+                                               rate_per_s * (wheel.spin_radps - wanted_radps));
   }
   return chassis;
 }

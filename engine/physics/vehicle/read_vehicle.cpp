@@ -153,6 +153,7 @@ void read_suspension(Entries& in, const std::string& axle, SuspensionParameters&
   in.table(at("centre_longitudinal_slope"), out.centre_longitudinal_slope);
   in.number(at("toe_out_by_lateral_force_radpn"), out.toe_out_by_lateral_force_radpn, -1e-5, 1e-5);
   in.number(at("steer_by_aligning_torque_radpnm"), out.steer_by_aligning_torque_radpnm, 0, 1e-3);
+  in.number(at("contact_by_lateral_force_mpn"), out.contact_by_lateral_force_mpn, 0, 1e-4);
   in.number(at("camber_by_lateral_force_radpn"), out.camber_by_lateral_force_radpn, -1e-5, 1e-5);
 }
 

@@ -36,6 +36,14 @@ bool finite(const VehicleState& state) {
          finite(state.velocity_mps) && finite(state.angular_velocity_radps);
 }
 
+bool finite(const Ground& ground) {
+  bool result = true;
+  for (const WheelGround& wheel : ground)
+    result &= finite(wheel.point_m) && finite(wheel.normal) && std::isfinite(wheel.friction) &&
+              std::isfinite(wheel.rolling_resistance);
+  return result;
+}
+
 /// What remains of a state after a bad step: the place, and nothing moving.
 VehicleState halted(const VehicleState& state) {
   VehicleState result;
@@ -93,7 +101,7 @@ void advance_vehicle(const VehicleParameters& parameters, const DriverInput& giv
   chassis.drive_torque_nm = advance_powertrain(parameters, input, velocity_mps.x, dt_s, state);
   chassis.brake_torque_nm = advance_brakes(parameters, input, velocity_mps, dt_s, state);
   advance_chassis(parameters, chassis, ground, dt_s, state);
-  if (!finite(state)) state = halted(before);
+  if (!finite(ground) || !finite(state)) state = halted(before);
 }
 
 std::array<Vec3, wheel_count> wheel_centres_m(const VehicleParameters& parameters,

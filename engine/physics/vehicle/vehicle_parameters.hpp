@@ -50,6 +50,7 @@ struct SuspensionParameters {
       0.0;  ///< Compliance: steer away from the force, that is, understeer in front.
   double steer_by_aligning_torque_radpnm = 0.0;
   double camber_by_lateral_force_radpn = 0.0;
+  double contact_by_lateral_force_mpn = 0.0;  ///< The contact gives way sideways under the wheel.
 };
 
 struct SteeringParameters {

@@ -1,0 +1,49 @@
+// Double lane change against the published multi-body model (vehicles/README.md).
+
+#include <algorithm>
+
+#include "tests/conformance/vehicle/reference_curve.hpp"
+
+using namespace septet::vehicle;
+
+namespace {
+/// Largest magnitude on the course, which begins at X = 0.
+double peak(const Curve& curve, const char* name) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < curve.at("X").size(); ++i)
+    if (curve.at("X")[i] > 0.0 && curve.at("X")[i] < 125.0)
+      most = std::max(most, std::abs(curve.at(name)[i]));
+  return most;
+}
+}  // namespace
+
+TEST_CASE("the double lane change peaks where the published model peaks") {
+  for (const ReferenceCar& reference : reference_cars) {
+    CAPTURE(std::string(reference.curve));
+    const Curve curve = read_curve("dlc_" + std::string(reference.curve) + "_80.csv");
+    if (curve.empty()) return;
+    const ManoeuvreReport report = double_lane_change(commonroad_car(reference.vehicle), {});
+    CHECK(report.figure("peak lateral acceleration") ==
+          doctest::Approx(peak(curve, "ay")).epsilon(0.05));
+    CHECK(report.figure("peak yaw rate") ==
+          doctest::Approx(peak(curve, "yawrate") * 57.29577951308232).epsilon(0.05));
+    CHECK(report.figure("peak roll") == doctest::Approx(peak(curve, "roll_deg")).epsilon(0.05));
+    CHECK(report.figure("peak steer") == doctest::Approx(peak(curve, "delta")).epsilon(0.05));
+    // The sideslip itself is small; vehicles/README.md says why it is not nearer.
+    CHECK(std::abs(report.figure("peak sideslip") - peak(curve, "beta_deg")) < 0.12);
+  }
+}
+
+TEST_CASE("stopping distances match those of the published tyre within two percent") {
+  // Anchored distances for 100 km/h at longitudinal friction 1.0, 0.3 and 0.1, the same for all
+  // three cars.
+  constexpr std::pair<double, double> anchors[] = {{1.0, 40.0}, {0.3, 131.8}, {0.1, 394.0}};
+  for (const auto& [friction, distance_m] : anchors) {
+    CAPTURE(friction);
+    ManoeuvreOptions options;
+    options.friction = friction;
+    const VehicleParameters car = commonroad_car("commonroad-escort");
+    CHECK(stop(car, options).figure("stopping distance") ==
+          doctest::Approx(distance_m).epsilon(0.02));
+  }
+}

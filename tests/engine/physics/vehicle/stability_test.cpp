@@ -1,0 +1,138 @@
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/physics/vehicle/hostile_driving.hpp"
+
+using namespace septet;
+using namespace septet::vehicle;
+
+namespace {
+constexpr double kmph = 1.0 / 3.6;
+}
+
+TEST_CASE("the car runs straight and true at 250 km/h and in reverse") {
+  const VehicleParameters car = read_car("volvo-s80");
+  for (const double speed_mps : {250.0 * kmph, 100.0 * kmph, -30.0 * kmph, -250.0 * kmph}) {
+    CAPTURE(speed_mps);
+    VehicleState state = standstill(car, {}, speed_mps);
+    DriverInput input;
+    input.selector = GearSelector::neutral;
+    drive(car, input, level_ground(), 5.0, state);
+    const VehicleOutputs now = outputs(car, state);
+    CHECK(now.speed_mps / speed_mps > 0.85);
+    CHECK(std::abs(now.world_from_vehicle.position_m.y) < 0.05);
+    CHECK(std::abs(now.yaw_rate_radps) < 1e-3);
+    CHECK(state.bad_numbers == 0);
+  }
+}
+
+TEST_CASE("the car drives off and stops on ice without a bad number") {
+  const VehicleParameters car = read_car("volvo-s80");
+  VehicleState state = standstill(car, {});
+  DriverInput input;
+  input.accelerator = 1.0;
+  drive(car, input, level_ground(0.0, 0.1), 15.0, state);
+  const double speed_mps = outputs(car, state).speed_mps;
+  CHECK(speed_mps > 3.0);
+  CHECK(speed_mps < 0.1 / 0.9 * 1.05 * gravity_mps2 * 15.0);  // No more than the ice can give.
+  input.accelerator = 0.0;
+  input.brake = 1.0;
+  drive(car, input, level_ground(0.0, 0.1), 20.0, state);
+  CHECK(std::abs(outputs(car, state).speed_mps) < 0.01);
+  CHECK(state.bad_numbers == 0);
+}
+
+TEST_CASE("a car in the air falls freely and lands on its wheels") {
+  const VehicleParameters car = read_car("volvo-s80");
+  VehicleState state = standstill(car, {Vec3(0.0, 0.0, 0.6), Quat(1, 0, 0, 0)}, 20.0);
+  DriverInput input;
+  input.selector = GearSelector::neutral;
+  const double height_m = state.world_from_body.position_m.z;
+  drive(car, input, level_ground(), 0.15, state);
+  for (const double load_n : outputs(car, state).wheel_load_n) CHECK(load_n == 0.0);
+  // The springs push body and wheels apart, so the fall is that of the centre of the whole car.
+  CHECK(height_m - state.world_from_body.position_m.z < 0.5 * gravity_mps2 * 0.15 * 0.15 + 0.01);
+  drive(car, input, level_ground(), 5.0, state);
+  CHECK(outputs(car, state).world_from_vehicle.position_m.z == doctest::Approx(0.0).epsilon(0.01));
+  CHECK(outputs(car, state).speed_mps > 17.0);
+}
+
+TEST_CASE("a car on its roof comes to rest above the ground") {
+  const VehicleParameters car = read_car("volvo-s80");
+  VehicleState state =
+      standstill(car, {Vec3(0.0, 0.0, 2.0), orientation_from_angles(0, 0, 3.0)}, 5.0);
+  DriverInput input;
+  input.selector = GearSelector::neutral;
+  drive(car, input, level_ground(), 10.0, state);
+  CHECK(state.world_from_body.position_m.z > 0.2);
+  CHECK(glm::length(state.velocity_mps) < 0.5);
+  CHECK(state.bad_numbers == 0);
+}
+
+TEST_CASE("on split friction the braked car turns towards the side that grips") {
+  VehicleParameters car = read_car("volvo-s80");
+  car.brakes.stability_control = false;
+  VehicleState state = standstill(car, {}, 25.0);
+  Ground ground = level_ground();
+  ground[1].friction = ground[3].friction = 0.1;  // Ice on the right.
+  DriverInput input;
+  input.brake = 1.0;
+  drive(car, input, ground, 1.0, state);
+  CHECK(outputs(car, state).yaw_rate_radps > 0.02);
+}
+
+TEST_CASE("a number that is not finite is undone and counted and the car stands still") {
+  const VehicleParameters car = read_car("volvo-s80");
+  VehicleState state = standstill(car, {}, 20.0);
+  drive(car, {}, level_ground(), 0.1, state);
+  const Vec3 place_m = state.world_from_body.position_m;
+  Ground broken = level_ground();
+  broken[2].point_m.z = std::numeric_limits<double>::quiet_NaN();
+  advance_vehicle(car, {}, broken, 0.001, state);
+  CHECK(state.bad_numbers == 1);
+  CHECK(state.world_from_body.position_m == place_m);
+  CHECK(glm::length(state.velocity_mps) == 0.0);
+  DriverInput wild;
+  wild.steering_wheel_rad = std::numeric_limits<double>::infinity();
+  wild.brake = std::numeric_limits<double>::quiet_NaN();
+  drive(car, wild, level_ground(), 1.0, state);
+  CHECK(state.bad_numbers == 1);
+}
+
+TEST_CASE("the same inputs give the same bits") {
+  const VehicleParameters car = read_car("volvo-s80");
+  const auto run = [&] {
+    Random random(7);
+    VehicleState state = standstill(car, {}, 20.0);
+    for (int i = 0; i < 200; ++i) drive(car, random_input(random), level_ground(), 0.05, state);
+    StateHash hash;
+    hash_state(hash, state);
+    return hash.value();
+  };
+  CHECK(run() == run());
+}
+
+TEST_CASE("no energy comes from nothing while the driver steers and brakes out of gear") {
+  VehicleParameters car = read_car("volvo-s80");
+  car.brakes.stability_control = false;
+  Random random(11);
+  for (int drive_number = 0; drive_number < 8; ++drive_number) {
+    VehicleState state = standstill(car, {}, random.uniform(-20.0, 60.0));
+    const Ground ground = level_ground(0.0, random.uniform(0.05, 1.0));
+    const double start_j = mechanical_energy_j(car, state);
+    double least_j = start_j;
+    for (int i = 0; i < 40; ++i) {
+      DriverInput input = random_input(random);
+      input.selector = GearSelector::neutral;
+      drive(car, input, ground, 0.1, state);
+      const double now_j = mechanical_energy_j(car, state);
+      CAPTURE(i);
+      // The hand wheel does a little work against the tyres.
+      CHECK(now_j < least_j + 0.01 * std::abs(start_j) + 150.0);
+      least_j = std::min(least_j, now_j);
+    }
+    CHECK(state.bad_numbers == 0);
+  }
+}

@@ -1,0 +1,89 @@
+#include "engine/physics/vehicle/tyre.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/physics/vehicle/car.hpp"
+
+using namespace septet;
+using namespace septet::vehicle;
+
+namespace {
+
+TyreContact rolling(double load_n, double longitudinal_slip, double lateral_slip) {
+  TyreContact contact;
+  contact.load_n = load_n;
+  contact.rolling_mps = contact.forward_mps = 20.0;
+  contact.sliding_mps = {-20.0 * longitudinal_slip, -20.0 * lateral_slip};
+  return contact;
+}
+
+}  // namespace
+
+TEST_CASE("cornering stiffness grows less than the load") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const double light = load_sensitive_force(tyre, rolling(3000.0, 0.0, 0.01)).force_n.y;
+  const double heavy = load_sensitive_force(tyre, rolling(6000.0, 0.0, 0.01)).force_n.y;
+  CHECK(heavy > light);
+  CHECK(heavy < 1.95 * light);
+}
+
+TEST_CASE("braking takes from the side force and no slip gives more than the friction") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const double alone = load_sensitive_force(tyre, rolling(4000.0, 0.0, 0.08)).force_n.y;
+  CHECK(load_sensitive_force(tyre, rolling(4000.0, -0.2, 0.08)).force_n.y < 0.7 * alone);
+  for (double x = -1.0; x <= 1.0; x += 0.05)
+    for (double y = -1.0; y <= 1.0; y += 0.05) {
+      const Vec2 force_n = load_sensitive_force(tyre, rolling(4000.0, x, y)).force_n;
+      CHECK(glm::length(force_n) < 1.03 * 4000.0);
+      CHECK(force_n.x * x + force_n.y * y >= 0.0);
+    }
+}
+
+TEST_CASE("the aligning torque falls before the side force does") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  double best_force_slip = 0.0, best_torque_slip = 0.0, best_force = 0.0, best_torque = 0.0;
+  for (double slip = 0.005; slip < 0.4; slip += 0.005) {
+    const TyreForce force = load_sensitive_force(tyre, rolling(4000.0, 0.0, slip));
+    if (force.force_n.y > best_force) best_force = force.force_n.y, best_force_slip = slip;
+    const double torque = force.trail_m * force.force_n.y;
+    if (torque > best_torque) best_torque = torque, best_torque_slip = slip;
+  }
+  CHECK(best_torque_slip < 0.7 * best_force_slip);
+}
+
+TEST_CASE("the side force builds up over the relaxation length") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const TyreContact contact = rolling(4000.0, 0.0, 0.01);
+  const TyreForce steady = load_sensitive_force(tyre, contact);
+  const double length_m =
+      tyre.load_sensitive.lateral_nominal.slope_n / tyre.load_sensitive.lateral_stiffness_npm;
+  Vec2 deflection_m{0.0}, force_n{0.0};
+  for (double way_m = 0.0; way_m < length_m; way_m += 20.0 * 0.0005)
+    force_n = relax(steady, 1e9, 0.0005, deflection_m);
+  CHECK(force_n.y / steady.force_n.y == doctest::Approx(0.632).epsilon(0.05));
+}
+
+TEST_CASE("the published tyre gives the forces of the published package") {
+  TyreParameters tyre = read_car("commonroad-bmw-320i").tyre;
+  tyre.magic_formula.p_vx1 = 0.0;  // The package has this shift in the wrong place.
+  struct Point {
+    double braking_slip, slip_angle_rad, inclination_rad, load_n, longitudinal_n, lateral_n;
+  };
+  // Computed with commonroad-vehicle-models 3.0.2, utils/tire_model.py, in its axes (y to the
+  // right), p_vx1 = 0.
+  constexpr Point points[] = {{0.0, 0.03, 0.01, 3000.0, 71.33807529176939, -1771.5848638690113},
+                              {0.02, -0.05, -0.02, 4000.0, -1307.7882530039194, 3243.129463189575},
+                              {-0.05, 0.02, 0.03, 2500.0, 2081.9149146877353, -1136.227908187406},
+                              {0.1, 0.1, -0.01, 5000.0, -3961.9066646094743, -4604.947629781969}};
+  for (const Point& point : points) {
+    TyreContact contact;
+    contact.load_n = point.load_n;
+    contact.friction = tyre.reference_friction;
+    contact.forward_mps = 1000.0;  // So that the guard against standstill does not show.
+    contact.sliding_mps = {1000.0 * point.braking_slip, -1000.0 * std::tan(point.slip_angle_rad)};
+    contact.inclination_rad = point.inclination_rad;
+    const Vec2 force_n = published_force(tyre, contact).force_n;
+    CHECK(force_n.x == doctest::Approx(point.longitudinal_n).epsilon(1e-6));
+    CHECK(force_n.y == doctest::Approx(-point.lateral_n).epsilon(1e-6));
+  }
+}

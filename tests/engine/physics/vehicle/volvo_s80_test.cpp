@@ -1,0 +1,69 @@
+// The S80's figures: what is printed about the car, and what makes a car a car.
+
+#include <doctest/doctest.h>
+
+#include "engine/physics/vehicle/manoeuvre.hpp"
+#include "tests/engine/physics/vehicle/car.hpp"
+
+using namespace septet;
+using namespace septet::vehicle;
+
+TEST_CASE("the S80 understeers like a car") {
+  const ManoeuvreReport report = steady_circle(read_car("volvo-s80"), {});
+  CHECK(report.figure("understeer gradient") > 2.0);
+  CHECK(report.figure("understeer gradient") < 4.8);
+  CHECK(report.figure("roll gradient") > 3.0);
+  CHECK(report.figure("roll gradient") < 7.0);
+  CHECK(report.figure("peak lateral acceleration") > 7.0);
+  CHECK(report.figure("peak lateral acceleration") < 9.0);
+  CHECK(report.figure("hand wheel torque at 4 m/s2") < -1.5);  // Pulls straight.
+}
+
+TEST_CASE("the S80 reaches 60 mph in about nine seconds and runs about 140 mph") {
+  const ManoeuvreReport report = acceleration(read_car("volvo-s80"), {});
+  CHECK(report.figure("0-60 mph") == doctest::Approx(9.0).epsilon(0.5 / 9.0));
+  CHECK(report.figure("top speed in mph") == doctest::Approx(140.0).epsilon(0.05));
+}
+
+TEST_CASE("the S80 rolls out against drag and rolling resistance") {
+  const VehicleParameters car = read_car("volvo-s80");
+  const ManoeuvreReport report = coast_down(car, {});
+  // Drag and rolling resistance by hand; the wheels' inertia adds some per cent to the mass.
+  const auto expected = [&](double speed_mps) {
+    const double drag_n = 0.5 * 1.225 * car.body.drag_area_m2 * speed_mps * speed_mps;
+    const double rolling =
+        car.tyre.rolling_resistance + car.tyre.rolling_resistance_s2pm2 * speed_mps * speed_mps;
+    return drag_n / car.body.mass_kg + rolling * gravity_mps2;
+  };
+  CHECK(report.figure("deceleration at 100 km/h") ==
+        doctest::Approx(expected(100.0 / 3.6)).epsilon(0.06));
+  CHECK(report.figure("deceleration at 50 km/h") ==
+        doctest::Approx(expected(50.0 / 3.6)).epsilon(0.06));
+}
+
+TEST_CASE("the anti-lock system stops the S80 within what the surface allows") {
+  const VehicleParameters car = read_car("volvo-s80");
+  for (const double friction : {0.9, 0.55, 0.28, 0.10}) {
+    CAPTURE(friction);
+    ManoeuvreOptions options;
+    options.friction = friction;
+    const double distance_m = stop(car, options).figure("stopping distance");
+    const double peak = friction / 0.9 * 1.02;  // Of the tyre at its nominal load.
+    const double speed_mps = 100.0 / 3.6;
+    const double shortest_m = speed_mps * speed_mps / (2.0 * peak * gravity_mps2);
+    CHECK(distance_m > 0.98 * shortest_m);
+    CHECK(distance_m < 1.35 * shortest_m + 3.0);
+  }
+}
+
+TEST_CASE("the stability control keeps the S80 on its way through a sine with dwell") {
+  const VehicleParameters car = read_car("volvo-s80");
+  const ManoeuvreReport report = sine_with_dwell(car, {});
+  // Limits of ISO 19365's companion regulation (UN R140): 35 % and 20 % of the peak, 1.83 m aside.
+  CHECK(std::abs(report.figure("yaw rate ratio after 1 s")) < 35.0);
+  CHECK(std::abs(report.figure("yaw rate ratio after 1.75 s")) < 20.0);
+  CHECK(report.figure("lateral displacement at 1.07 s") > 1.83);
+  ManoeuvreOptions without;
+  without.stability_control = false;
+  CHECK(sine_with_dwell(car, without).figure("peak sideslip") > report.figure("peak sideslip"));
+}
