@@ -1,9 +1,11 @@
 #pragma once
-/// One direction of a road as traffic sees it: a single coordinate x along the direction of travel, and lanes.
+/// One direction of a road as traffic sees it: a single coordinate x along the direction of travel,
+/// and lanes.
 ///
-/// Roads that follow each other are strung together, so that the distance between two vehicles is a subtraction wherever
-/// they are. A lane is counted outwards from the middle of the road (1 is the left-most in right-hand traffic), which is the
-/// magnitude of its OpenDRIVE id. Immutable once built; pure functions.
+/// Roads that follow each other are strung together, so that the distance between two vehicles is a
+/// subtraction wherever they are. A lane is counted outwards from the middle of the road (1 is the
+/// left-most in right-hand traffic), which is the magnitude of its OpenDRIVE id. Immutable once
+/// built; pure functions.
 
 #include <optional>
 #include <vector>
@@ -30,11 +32,13 @@ struct Corridor {
 /// The corridor through a lane, from where the roads begin to where they end (or back to itself).
 Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
 /// The lane that runs the other way beside this one, if there is one.
-std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position);
+std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network,
+                                                const road::LanePosition& position);
 
 /// x taken into the ring, or as it is on an open corridor.
 double wrap_x(const Corridor& corridor, double x_m);
-/// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies behind.
+/// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies
+/// behind.
 double distance_m(const Corridor& corridor, double from_x_m, double to_x_m);
 
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
@@ -42,7 +46,9 @@ const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
 road::LanePosition position_at(const Corridor& corridor, double x_m, int lane);
 /// Whether the lane exists and is one for driving.
 bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane);
-/// x of a road position; nothing where its road is not of this corridor or its side of the road is the other one.
-std::optional<double> x_of(const road::RoadNetwork& network, const Corridor& corridor, const road::RoadPosition& position, int lane);
+/// x of a road position; nothing where its road is not of this corridor or its side of the road is
+/// the other one.
+std::optional<double> x_of(const road::RoadNetwork& network, const Corridor& corridor,
+                           const road::RoadPosition& position, int lane);
 
 }  // namespace septet::traffic

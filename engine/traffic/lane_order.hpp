@@ -1,7 +1,10 @@
 #pragma once
-/// Who drives behind whom: per lane, everybody in it from back to front, the corridor's own and the foreign vehicles.
+/// Who drives behind whom: per lane, everybody in it from back to front, the corridor's own and the
+/// foreign vehicles.
 ///
-/// A vehicle that is changing lanes stands in both. Rebuilt every tick; sorting what was almost sorted a tick ago.
+/// A vehicle that is changing lanes stands in both; one on the line between two lanes as well. The
+/// order is kept from tick to tick and repaired by insertion, which costs constant time a vehicle
+/// because few overtake within a tick.
 
 #include <cstdint>
 #include <vector>
@@ -9,12 +12,24 @@
 namespace septet::traffic {
 
 struct LaneEntry {
-  double x_m = 0.0;       ///< Front bumper.
+  double x_m = 0.0;  ///< Front bumper.
   double length_m = 0.0;
   double speed_mps = 0.0;
-  std::int32_t vehicle = -1;  ///< Index in the corridor's arrays; −1 for a foreign vehicle.
+  float lateral_m = 0.0F;  ///< As lateral_m of traffic.hpp.
+  float half_width_m = 0.0F;
+  std::int32_t vehicle = -1;  ///< Index in the corridor's arrays; negative for a foreign vehicle.
+  bool straddles = false;     ///< Not in the middle of the lane: it is passed by whoever has room.
 };
 
-using LaneOrder = std::vector<std::vector<LaneEntry>>;  ///< [lane], ascending x.
+struct LaneOrder {
+  std::vector<std::vector<LaneEntry>> lanes;  ///< [lane number], ascending x.
+  std::vector<std::uint8_t> has_straddlers;   ///< [lane number]
+};
+
+/// Sorts by x, then by vehicle; quick for what is almost sorted.
+void repair_order(std::vector<LaneEntry>& lane);
+void insert_entry(std::vector<LaneEntry>& lane, const LaneEntry& entry);
+/// Index of the first entry with x greater than `x_m`.
+std::size_t first_ahead(const std::vector<LaneEntry>& lane, double x_m);
 
 }  // namespace septet::traffic

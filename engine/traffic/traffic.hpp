@@ -1,11 +1,16 @@
 #pragma once
-/// Traffic: car following (IDM) and lane changes (MOBIL) on the corridors of a road network.
+/// Traffic: car following (IDM), lane changes (MOBIL) and room for emergency vehicles, on the
+/// corridors of a road network.
 ///
-/// Sources: M. Treiber, A. Hennecke and D. Helbing, "Congested traffic states in empirical observations and microscopic
-/// simulations" (2000), eqs. 2–4 (IDM); A. Kesting, M. Treiber and D. Helbing, "General lane-changing model MOBIL for
-/// car-following models" (2007). Vehicles live in flat arrays; each lane keeps its vehicles in order, so that a leader is the
-/// next entry. Vehicles that others move (the driver's car, the storyboard's) take part as obstacles and leaders.
-/// Same parameters, foreign vehicles and random state: same traffic. No file, clock or GPU.
+///     TrafficState traffic = populate(parameters, network, foreign, random);
+///     each tick:  advance(parameters, network, foreign, tick_s, random, traffic);
+///                 append_participants(traffic, network, participants);
+///
+/// Vehicles live in flat arrays; every lane keeps its vehicles in order (lane_order.hpp), so that a
+/// leader is the next entry. Vehicles that others move (the driver's car, the storyboard's) take
+/// part as leaders and followers like any other. Lateral movement is continuous: a lane change is a
+/// smooth blend, making way a smooth shift in the lane. Same parameters, foreign vehicles and
+/// random state: same traffic. No file, clock or GPU. One thread per state.
 
 #include <cstdint>
 #include <optional>
@@ -15,49 +20,37 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/random.hpp"
 #include "engine/traffic/corridor.hpp"
+#include "engine/traffic/driver.hpp"
+#include "engine/traffic/lane_order.hpp"
+#include "engine/traffic/lane_table.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::traffic {
-
-/// The intelligent driver model's parameters, of one driver.
-struct FollowingParameters {
-  double desired_speed_mps = 33.3;
-  double time_gap_s = 1.4;
-  double acceleration_mps2 = 1.5;
-  double comfortable_braking_mps2 = 2.5;
-  double standstill_gap_m = 2.0;
-};
-
-struct LaneChangeParameters {
-  double politeness = 0.2;
-  double threshold_mps2 = 0.2;
-  double keep_right_mps2 = 0.15;        ///< Bias towards the outer lanes.
-  double largest_braking_mps2 = 3.0;    ///< That a change may force on the one behind.
-  double duration_s = 4.5;              ///< From lane to lane.
-};
 
 /// A kind of vehicle with its share of the traffic and the spread of its drivers.
 struct VehicleClass {
   ModelIndex model = 0;
   double share = 1.0;
-  FollowingParameters following;
-  double desired_speed_spread = 0.08;  ///< Standard deviation, relative.
-  double time_gap_spread = 0.2;
+  Driver middle;  ///< The driver of temperament 0.5.
+  double temperament_spread =
+      1.0;  ///< 0: all alike; 1: from timid to aggressive (with_temperament).
 };
 
 struct TrafficParameters {
   std::vector<VehicleClass> classes;
-  LaneChangeParameters lane_change;
-  std::uint32_t count = 0;         ///< Vehicles in all.
-  double radius_m = 1500.0;        ///< Around the driver's car; who falls out of it comes in again at its other rim.
-  double opposite_share = 0.4;     ///< Of the vehicles that drive the other way.
+  std::uint32_t count = 0;  ///< Vehicles in all.
+  double radius_m =
+      1500.0;  ///< Around the driver's car; who falls out of it comes in again at its other rim.
+  double opposite_share = 0.4;  ///< Of the vehicles that drive the other way.
+  double decision_interval_s =
+      0.5;  ///< A driver thinks about changing lanes this often; drivers take turns.
   ParticipantId first_id = 1000;
 };
 
-/// The plain mix of a motorway: hatchbacks, saloons, estates, SUVs, vans and lorries.
+/// The plain mix of a motorway: hatchbacks, saloons, estates, SUVs, motorcycles, vans and lorries.
 TrafficParameters motorway_traffic(std::uint32_t count, double radius_m);
 
-/// A vehicle that someone else moves.
+/// A vehicle that someone else moves. With beacon or siren on, traffic makes way for it.
 struct ForeignVehicle {
   ParticipantId id = 0;
   ModelIndex model = 0;
@@ -66,20 +59,35 @@ struct ForeignVehicle {
   Lamps lamps;
 };
 
+/// What an emergency vehicle asks of a driver.
+enum class MakingWay : std::uint8_t { no, hold_lane, leave_lane };
+
 /// One corridor's vehicles, one entry per vehicle in every array. x is that of the front bumper.
 struct CorridorTraffic {
   Corridor corridor;
-  int lanes = 0;  ///< Highest lane number that is open anywhere.
+  LaneTable table;
 
   std::vector<ParticipantId> id;
   std::vector<ModelIndex> model;
   std::vector<std::uint8_t> paint;
-  std::vector<FollowingParameters> following;
+  std::vector<Driver> driver;
+  std::vector<FollowingLaw> law;  ///< Of the driver.
   std::vector<double> x_m, speed_mps, acceleration_mps2, wheel_spin_rad;
-  std::vector<std::int16_t> lane, from_lane;  ///< Equal unless a change is going on.
-  std::vector<double> change_s;               ///< Time into the change.
+  std::vector<std::int16_t> lane,
+      from_lane;  ///< Equal unless a change is going on. 0: waits outside the simulation.
+  std::vector<double> change_s;  ///< Time into the change.
   std::vector<double> next_decision_s;
-  std::vector<double> length_m;
+  std::vector<double> lane_end_m;  ///< x at which the lane ends.
+  std::vector<double> length_m, half_width_m;
+  std::vector<double> aside_m,
+      aside_mps;  ///< From the middle of the lane, to the left of travel, and its rate.
+  std::vector<double> aside_target_m;
+  std::vector<double> heard_s;  ///< How long an emergency vehicle has been near.
+  std::vector<MakingWay> making_way;
+  std::vector<std::uint8_t> emergency;  ///< It is one itself.
+  bool any_aside = false;               ///< Some vehicle is off its lane's middle.
+
+  LaneOrder order;
 
   std::size_t size() const { return id.size(); }
 };
@@ -87,21 +95,36 @@ struct CorridorTraffic {
 struct TrafficState {
   std::vector<CorridorTraffic> corridors;
   double time_s = 0.0;
-  std::vector<std::optional<road::RoadPosition>> foreign_places;  ///< Hints, one per foreign vehicle.
+  std::vector<std::optional<road::RoadPosition>>
+      foreign_places;  ///< Hints, one per foreign vehicle.
 };
 
-/// Vehicles around the first foreign vehicle (the driver's car), clear of all of them.
+/// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring
+/// all around it.
 TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwork& network,
                       std::span<const ForeignVehicle> foreign, Random& random);
 
-/// One tick on. `foreign` has the same vehicles in the same order each time; the first one is the swarm's middle.
-void advance(const TrafficParameters& parameters, const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
-             double dt_s, Random& random, TrafficState& state);
+/// One tick on. `foreign` has the same vehicles in the same order each time; the first one is the
+/// swarm's middle.
+void advance(const TrafficParameters& parameters, const road::RoadNetwork& network,
+             std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
+             TrafficState& state);
 
-/// IDM, eq. 3 and 4: acceleration at `speed` behind a leader `gap` ahead; no leader: gap infinite.
-double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
+/// A corridor without vehicles, for one's own arrangements.
+CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
+/// Adds a vehicle; the caller answers for its place being free.
+void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver,
+                 int lane, double x_m, double speed_mps);
+/// Adds an ambulance that drives on the line between the two fastest lanes, past whoever makes way.
+void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m,
+                           double speed_mps);
 
-void append_participants(const TrafficState& state, const road::RoadNetwork& network, std::vector<Participant>& participants);
+/// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with
+/// the lane number.
+double lateral_m(const CorridorTraffic& traffic, std::size_t vehicle);
+
+void append_participants(const TrafficState& state, const road::RoadNetwork& network,
+                         std::vector<Participant>& participants);
 void hash_state(StateHash& hash, const TrafficState& state);
 
 }  // namespace septet::traffic

@@ -12,7 +12,8 @@ namespace septet::traffic {
 namespace {
 
 road::RoadNetwork motorway() {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr");
+  std::ifstream file(std::string(SEPTET_SOURCE_DIR) +
+                     "/scenarios/motorway-ambulance/motorway.xodr");
   std::stringstream text;
   text << file.rdbuf();
   auto network = road::read_opendrive(text.str(), "motorway.xodr");
@@ -36,7 +37,8 @@ double smallest_gap_m(const TrafficState& state) {
   for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i)
       for (std::size_t j = 0; j < traffic.size(); ++j) {
-        const bool same = traffic.lane[i] == traffic.lane[j] || traffic.from_lane[i] == traffic.lane[j];
+        const bool same =
+            traffic.lane[i] == traffic.lane[j] || traffic.from_lane[i] == traffic.lane[j];
         if (i == j || !same || traffic.x_m[j] < traffic.x_m[i]) continue;
         smallest = std::min(smallest, traffic.x_m[j] - traffic.length_m[j] - traffic.x_m[i]);
       }
@@ -48,7 +50,8 @@ double smallest_gap_m(const TrafficState& state) {
 TEST_CASE("the equilibrium gap of the intelligent driver model gives no acceleration") {
   const FollowingParameters driver{33.33, 1.0, 2.6, 4.5, 2.5};
   for (const double speed : {5.0, 15.0, 28.0}) {
-    const double gap = (driver.standstill_gap_m + speed * driver.time_gap_s) / std::sqrt(1.0 - std::pow(speed / driver.desired_speed_mps, 4));
+    const double gap = (driver.standstill_gap_m + speed * driver.time_gap_s) /
+                       std::sqrt(1.0 - std::pow(speed / driver.desired_speed_mps, 4));
     CHECK(std::abs(idm_acceleration(driver, speed, speed, gap)) < 1e-12);
   }
 }
@@ -63,7 +66,8 @@ TEST_CASE("both directions of the motorway are one corridor each as long as the 
   CHECK(against.length_m == doctest::Approx(along.length_m));
   CHECK_FALSE(along.closed);
   // x runs the other way round on the other side.
-  const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2), x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
+  const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2),
+             x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
   REQUIRE(x1);
   REQUIRE(x2);
   CHECK(*x1 + *x2 == doctest::Approx(along.length_m));
@@ -83,7 +87,8 @@ TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a m
     advance(parameters, network, std::vector{driver_at(network, s_m)}, 1.0 / 60.0, random, state);
     if (tick % 20 == 0) smallest = std::min(smallest, smallest_gap_m(state));
     for (const auto& traffic : state.corridors)
-      for (std::size_t i = 0; i < traffic.size(); ++i) changes += traffic.lane[i] != traffic.from_lane[i] && traffic.change_s[i] <= 1.01 / 60.0;
+      for (std::size_t i = 0; i < traffic.size(); ++i)
+        changes += traffic.lane[i] != traffic.from_lane[i] && traffic.change_s[i] <= 1.01 / 60.0;
   }
   MESSAGE("smallest gap " << smallest << " m; lane changes " << changes);
   CHECK(smallest > 0.3);
@@ -101,7 +106,8 @@ TEST_CASE("the same seed gives the same traffic") {
     Random random(9, 1);
     const std::vector driver{driver_at(network, 4000.0)};
     TrafficState state = populate(parameters, network, driver, random);
-    for (int tick = 0; tick < 600; ++tick) advance(parameters, network, driver, 1.0 / 60.0, random, state);
+    for (int tick = 0; tick < 600; ++tick)
+      advance(parameters, network, driver, 1.0 / 60.0, random, state);
     StateHash hash;
     hash_state(hash, state);
     value = hash.value();
@@ -123,8 +129,10 @@ TEST_CASE("shown motion agrees with shown velocity through lane changes") {
     append_participants(state, network, after);
     if (before.size() != after.size()) continue;
     for (std::size_t i = 0; i < after.size(); ++i) {
-      const Vec3 moved = after[i].world_from_vehicle.position_m - before[i].world_from_vehicle.position_m;
-      if (after[i].id != before[i].id || glm::length(moved) > 2.0) continue;  // Came in again at the rim.
+      const Vec3 moved =
+          after[i].world_from_vehicle.position_m - before[i].world_from_vehicle.position_m;
+      if (after[i].id != before[i].id || glm::length(moved) > 2.0)
+        continue;  // Came in again at the rim.
       const Vec3 expected = 0.5 * dt * (after[i].velocity_mps + before[i].velocity_mps);
       REQUIRE(glm::length(moved - expected) < 0.01);
     }

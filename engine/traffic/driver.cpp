@@ -1,0 +1,57 @@
+#include "engine/traffic/driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace septet::traffic {
+namespace {
+
+/// Geometric interpolation of a factor: `timid` at 0, 1 at 0.5, `aggressive` at 1.
+double factor(double timid, double aggressive, double temperament) {
+  const double u = std::clamp(temperament, 0.0, 1.0);
+  return u < 0.5 ? std::pow(timid, 1.0 - 2.0 * u) : std::pow(aggressive, 2.0 * u - 1.0);
+}
+
+}  // namespace
+
+Driver with_temperament(const Driver& middle, double u) {
+  Driver driver = middle;
+  FollowingParameters& following = driver.following;
+  following.desired_speed_mps *= factor(0.90, 1.15, u);
+  following.time_gap_s *= factor(1.35, 0.62, u);
+  following.acceleration_mps2 *= factor(0.65, 1.40, u);
+  following.comfortable_braking_mps2 *= factor(0.65, 1.25, u);
+  following.standstill_gap_m *= factor(1.40, 0.75, u);
+  LaneChangeParameters& change = driver.lane_change;
+  change.politeness *= factor(2.5, 0.05, u);
+  change.threshold_mps2 *= factor(2.5, 0.5, u);
+  change.largest_braking_mps2 *= factor(0.67, 1.7, u);
+  driver.reaction_s *= factor(1.8, 0.6, u);
+  return driver;
+}
+
+FollowingLaw::FollowingLaw(const FollowingParameters& driver)
+    : inverse_desired_speed(1.0 / driver.desired_speed_mps),
+      time_gap_s(driver.time_gap_s),
+      acceleration_mps2(driver.acceleration_mps2),
+      standstill_gap_m(driver.standstill_gap_m),
+      half_inverse_root_ab(0.5 /
+                           std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)) {}
+
+double idm_acceleration(const FollowingParameters& driver, double speed_mps,
+                        double leader_speed_mps, double gap_m) {
+  return FollowingLaw(driver).acceleration(speed_mps, leader_speed_mps, gap_m);
+}
+
+double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m) {
+  const FollowingLaw law(driver);
+  double low = 0.0, high = driver.desired_speed_mps;
+  while (high - low > 1e-12) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (law.acceleration(middle, middle, gap_m) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,74 @@
+#pragma once
+/// One traffic driver: car following by the Intelligent Driver Model, lane changes by MOBIL.
+///
+/// Sources: M. Treiber, A. Hennecke, D. Helbing, "Congested traffic states in empirical
+/// observations and microscopic simulations", Phys. Rev. E 62 (2000), eqs. 2–4 (IDM); A. Kesting,
+/// M. Treiber, D. Helbing, "General lane-changing model MOBIL for car-following models", Transp.
+/// Res. Rec. 1999 (2007), eqs. 2–5. Pure functions; SI units.
+
+#include <limits>
+
+namespace septet::traffic {
+
+/// IDM. The symbols of the paper stand in the comments.
+struct FollowingParameters {
+  double desired_speed_mps = 33.3;        ///< v0
+  double time_gap_s = 1.4;                ///< T
+  double acceleration_mps2 = 1.5;         ///< a
+  double comfortable_braking_mps2 = 2.5;  ///< b
+  double standstill_gap_m = 2.0;          ///< s0
+};
+
+/// MOBIL.
+struct LaneChangeParameters {
+  double politeness = 0.2;            ///< p
+  double threshold_mps2 = 0.2;        ///< Δa_th
+  double keep_right_mps2 = 0.15;      ///< Δa_bias: towards the outer lanes.
+  double largest_braking_mps2 = 3.0;  ///< b_safe: that a change may force on the one behind.
+  double duration_s = 4.5;            ///< From lane to lane.
+};
+
+struct Driver {
+  FollowingParameters following;
+  LaneChangeParameters lane_change;
+  double reaction_s = 1.0;  ///< From hearing an emergency vehicle to making way.
+};
+
+/// Between a timid (0) and an aggressive (1) driver; 0.5 is `middle` itself. Desired speed 0.9
+/// to 1.15 times, T 1.8 to 0.8 s and so on are the span that traffic-simulation practice gives;
+/// each is applied as a factor to the middle driver, geometrically, so that a lorry's driver keeps
+/// being one.
+Driver with_temperament(const Driver& middle, double temperament);
+
+/// The hardest braking of any vehicle.
+inline constexpr double hardest_braking_mps2 = 9.0;
+inline constexpr double no_leader = std::numeric_limits<double>::infinity();
+
+/// IDM, eqs. 3 and 4: acceleration at `speed` behind a leader `gap` ahead; no leader: gap infinite.
+double idm_acceleration(const FollowingParameters& driver, double speed_mps,
+                        double leader_speed_mps, double gap_m);
+
+/// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
+double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
+
+/// The same law with its constants worked out once, for the loop over all vehicles.
+struct FollowingLaw {
+  double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;
+  double standstill_gap_m = 2.0, half_inverse_root_ab = 1.0;
+
+  FollowingLaw() = default;
+  explicit FollowingLaw(const FollowingParameters& driver);
+
+  double acceleration(double speed_mps, double leader_speed_mps, double gap_m) const {
+    const double ratio = speed_mps * inverse_desired_speed;
+    const double ratio2 = ratio * ratio;
+    const double dynamic =
+        speed_mps * (time_gap_s + (speed_mps - leader_speed_mps) * half_inverse_root_ab);
+    const double wanted = standstill_gap_m + (dynamic > 0.0 ? dynamic : 0.0);
+    const double tight = wanted / (gap_m > 0.1 ? gap_m : 0.1);
+    const double a = acceleration_mps2 * (1.0 - ratio2 * ratio2 - tight * tight);
+    return a > -hardest_braking_mps2 ? a : -hardest_braking_mps2;
+  }
+};
+
+}  // namespace septet::traffic

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/traffic/traffic_parts.hpp"
+
+namespace septet::traffic {
+namespace {
+
+constexpr double look_ahead_lane_end_m = 250.0;
+constexpr double side_clearance_m = 0.3;
+constexpr int most_passed = 40;
+/// How much faster than those it passes an emergency vehicle drives, and how far ahead it looks at
+/// them.
+constexpr double passing_excess_mps = 11.0;
+constexpr double passing_look_ahead_m = 40.0;
+
+double positive(const Corridor& corridor, double d) {
+  return corridor.closed && d < 0.0 ? d + corridor.length_m : d;
+}
+
+bool has_room_beside(const LaneEntry& a, const LaneEntry& b) {
+  return std::abs(a.lateral_m - b.lateral_m) > a.half_width_m + b.half_width_m + side_clearance_m;
+}
+
+/// The next one ahead that is really in the way, in a lane where some are not in its middle. What
+/// an emergency vehicle passes bounds its speed.
+const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic,
+                                         const std::vector<LaneEntry>& lane, std::size_t k,
+                                         double& speed_limit_mps) {
+  const LaneEntry& own = lane[k];
+  const bool emergency = traffic.emergency[static_cast<std::size_t>(own.vehicle)] != 0;
+  const std::size_t count = lane.size();
+  for (std::size_t step = 1; step < count && step <= most_passed; ++step) {
+    std::size_t at = k + step;
+    if (at >= count) {
+      if (!traffic.corridor.closed) return nullptr;
+      at -= count;
+    }
+    const LaneEntry& other = lane[at];
+    if (other.vehicle == own.vehicle) continue;
+    const bool passable = (emergency || other.straddles) && has_room_beside(own, other);
+    if (!passable) return &other;
+    const double ahead = positive(traffic.corridor, other.x_m - own.x_m) - other.length_m;
+    if (emergency && ahead < passing_look_ahead_m) {
+      speed_limit_mps = std::min(speed_limit_mps, other.speed_mps + passing_excess_mps);
+    }
+  }
+  return nullptr;
+}
+
+/// Where somebody is not in the middle of a lane: the careful way.
+void follow_carefully(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane) {
+  for (std::size_t k = 0; k < lane.size(); ++k) {
+    const LaneEntry& own = lane[k];
+    if (own.vehicle < 0) continue;
+    const auto i = static_cast<std::size_t>(own.vehicle);
+    double limit = no_leader;
+    const LaneEntry* leader = leader_among_straddlers(traffic, lane, k, limit);
+    double a = traffic.law[i].acceleration(own.speed_mps, leader ? leader->speed_mps : 0.0,
+                                           gap_to(traffic, own.x_m, leader));
+    if (own.speed_mps > limit - 1.0) {
+      a = std::min(a, std::clamp(limit - own.speed_mps, -3.0, 1.0));
+    }
+    traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
+  }
+}
+
+void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane) {
+  const std::size_t count = lane.size();
+  for (std::size_t k = 0; k + 1 < count; ++k) {
+    const LaneEntry& own = lane[k];
+    if (own.vehicle < 0) continue;
+    const auto i = static_cast<std::size_t>(own.vehicle);
+    const LaneEntry& leader = lane[k + 1];
+    const double a = traffic.law[i].acceleration(own.speed_mps, leader.speed_mps,
+                                                 leader.x_m - own.x_m - leader.length_m);
+    traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
+  }
+  if (count == 0 || lane.back().vehicle < 0) return;
+  const LaneEntry& own = lane.back();
+  const auto i = static_cast<std::size_t>(own.vehicle);
+  const LaneEntry* leader = traffic.corridor.closed && count > 1 ? &lane.front() : nullptr;
+  const double a = traffic.law[i].acceleration(own.speed_mps, leader ? leader->speed_mps : 0.0,
+                                               gap_to(traffic, own.x_m, leader));
+  traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
+}
+
+}  // namespace
+
+LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t i) {
+  return {traffic.x_m[i],
+          traffic.length_m[i],
+          traffic.speed_mps[i],
+          static_cast<float>(lateral_m(traffic, i)),
+          static_cast<float>(traffic.half_width_m[i]),
+          static_cast<std::int32_t>(i),
+          traffic.emergency[i] != 0};
+}
+
+void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
+  const bool careful = traffic.any_aside || !foreign.entries.empty();
+  auto& lanes = traffic.order.lanes;
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    auto& lane = lanes[l];
+    bool straddlers = false;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < lane.size(); ++k) {
+      if (lane[k].vehicle < 0) continue;
+      const auto i = static_cast<std::size_t>(lane[k].vehicle);
+      const bool emergency = traffic.emergency[i] != 0;
+      if (traffic.lane[i] != static_cast<int>(l) && traffic.from_lane[i] != static_cast<int>(l))
+        continue;
+      LaneEntry& entry = lane[kept++];
+      entry = lane[k];
+      entry.x_m = traffic.x_m[i];
+      entry.speed_mps = traffic.speed_mps[i];
+      if (careful) entry.lateral_m = static_cast<float>(lateral_m(traffic, i));
+      straddlers = straddlers || emergency;
+    }
+    lane.resize(kept);
+    repair_order(lane);
+    traffic.order.has_straddlers[l] = straddlers ? 1 : 0;
+  }
+  for (const auto& [lane, entry] : foreign.entries) {
+    if (lane < 1 || lane >= static_cast<int>(lanes.size())) continue;
+    insert_entry(lanes[static_cast<std::size_t>(lane)], entry);
+    if (entry.straddles) traffic.order.has_straddlers[static_cast<std::size_t>(lane)] = 1;
+  }
+}
+
+Neighbours neighbours(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
+                      double x_m, std::int32_t self) {
+  Neighbours result;
+  const auto count = static_cast<std::ptrdiff_t>(lane.size());
+  if (count == 0) return result;
+  const auto from = static_cast<std::ptrdiff_t>(first_ahead(lane, x_m));
+  const auto pick = [&](std::ptrdiff_t at, std::ptrdiff_t step) -> const LaneEntry* {
+    for (std::ptrdiff_t k = 0; k < count; ++k, at += step) {
+      if (at < 0 || at >= count) {
+        if (!traffic.corridor.closed) return nullptr;
+        at = (at + count) % count;
+      }
+      const LaneEntry& entry = lane[static_cast<std::size_t>(at)];
+      if (self < 0 || entry.vehicle != self) return &entry;
+    }
+    return nullptr;
+  };
+  result.ahead = pick(from, 1);
+  result.behind = pick(from - 1, -1);
+  return result;
+}
+
+double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
+  if (ahead == nullptr) return no_leader;
+  return positive(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
+}
+
+void follow(CorridorTraffic& traffic) {
+  std::fill(traffic.acceleration_mps2.begin(), traffic.acceleration_mps2.end(), no_leader);
+  for (std::size_t l = 0; l < traffic.order.lanes.size(); ++l) {
+    if (traffic.order.has_straddlers[l] != 0)
+      follow_carefully(traffic, traffic.order.lanes[l]);
+    else
+      follow_in_lane(traffic, traffic.order.lanes[l]);
+  }
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
+    if (traffic.lane[i] == 0) {
+      traffic.acceleration_mps2[i] = 0.0;
+      continue;
+    }
+    const double to_end = traffic.lane_end_m[i] - traffic.x_m[i];
+    if (to_end > look_ahead_lane_end_m) continue;
+    // A lane that ends is a standing obstacle.
+    const double a = traffic.law[i].acceleration(traffic.speed_mps[i], 0.0, to_end);
+    traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
+  }
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,65 @@
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/traffic/traffic_parts.hpp"
+
+namespace septet::traffic {
+namespace {
+
+constexpr double over_the_line_m = 0.2;
+
+void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle,
+                       std::int32_t index, const road::Location& place,
+                       const CorridorTraffic& traffic, ForeignTraffic& found) {
+  const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
+  if (!x) return;
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  const CorridorPiece& piece = piece_at(traffic.corridor, *x);
+  const int lane = std::abs(place.lanes.lane);
+  const double offset_left = piece.along_s ? place.lanes.offset_m : -place.lanes.offset_m;
+  const double half_width = 0.5 * model.width_m;
+  LaneEntry entry;
+  entry.x_m = *x + 0.5 * model.length_m;
+  entry.length_m = model.length_m;
+  // Only what goes along with the traffic counts as its speed.
+  entry.speed_mps = glm::length(vehicle.velocity_mps);
+  entry.lateral_m = static_cast<float>(-lane * traffic.table.lane_width_m + offset_left);
+  entry.half_width_m = static_cast<float>(half_width);
+  entry.vehicle = -1 - index;
+  const double width =
+      road::lane_width_m(network, place.position.road, place.lanes.lane, place.position.s_m);
+  const double over = std::abs(offset_left) + half_width - 0.5 * width;
+  entry.straddles = over > over_the_line_m;
+  found.entries.push_back({lane, entry});
+  // Over the line: it is in the way in the next lane too.
+  if (entry.straddles) found.entries.push_back({offset_left > 0.0 ? lane - 1 : lane + 1, entry});
+  if (vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren)) {
+    found.emergencies.push_back({entry.x_m, entry.length_m, entry.lateral_m, half_width});
+  }
+}
+
+}  // namespace
+
+std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
+                                          std::span<const ForeignVehicle> foreign,
+                                          TrafficState& state) {
+  state.foreign_places.resize(foreign.size());
+  std::vector<ForeignTraffic> found(state.corridors.size());
+  for (std::size_t i = 0; i < foreign.size(); ++i) {
+    const VehicleModel& model = vehicle_models()[foreign[i].model];
+    const Vec3 middle = foreign[i].world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0);
+    auto& hint = state.foreign_places[i];
+    const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
+    if (!place || place->lanes.lane == 0) continue;
+    hint = place->position;
+    for (std::size_t c = 0; c < state.corridors.size(); ++c) {
+      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), *place,
+                        state.corridors[c], found[c]);
+    }
+  }
+  return found;
+}
+
+}  // namespace septet::traffic

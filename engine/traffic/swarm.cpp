@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/lane_links.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/traffic/traffic_parts.hpp"
+
+namespace septet::traffic {
+namespace {
+
+constexpr int outside = 0;
+constexpr double rim_m = 60.0;
+constexpr double from_end_m = 30.0;
+
+bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m,
+              double speed_mps) {
+  const auto [ahead, behind] =
+      neighbours(traffic, traffic.order.lanes[static_cast<std::size_t>(lane)], x_m, -1);
+  if (gap_to(traffic, x_m, ahead) < 8.0 + 0.8 * speed_mps) return false;
+  if (behind == nullptr) return true;
+  LaneEntry own;
+  own.x_m = x_m;
+  own.length_m = length_m;
+  return gap_to(traffic, behind->x_m, &own) > 8.0 + 0.8 * std::max(speed_mps, behind->speed_mps);
+}
+
+const VehicleClass& choose_class(const TrafficParameters& parameters, Random& random) {
+  double total = 0.0;
+  for (const auto& entry : parameters.classes) total += entry.share;
+  double at = random.uniform(0.0, total);
+  for (const auto& entry : parameters.classes) {
+    if ((at -= entry.share) < 0.0) return entry;
+  }
+  return parameters.classes.back();
+}
+
+void add_random_vehicle(const TrafficParameters& parameters, CorridorTraffic& traffic,
+                        ParticipantId id, Random& random) {
+  const VehicleClass& kind = choose_class(parameters, random);
+  // The mean of three: a bell from timid to aggressive.
+  const double bell = (random.uniform() + random.uniform() + random.uniform()) / 3.0;
+  const Driver driver =
+      with_temperament(kind.middle, 0.5 + kind.temperament_spread * (bell - 0.5) * 1.5);
+  add_vehicle(traffic, id, kind.model, driver, outside, 0.0, 0.0);
+  traffic.paint.back() = static_cast<std::uint8_t>(random.below(12));
+  traffic.next_decision_s.back() = random.uniform(0.0, 2.0 * parameters.decision_interval_s);
+}
+
+/// Cars anywhere, lorries on the two outer lanes.
+int likely_lane(const CorridorTraffic& traffic, std::size_t i, double x_m, Random& random) {
+  int highest = traffic.table.highest;
+  while (highest > traffic.table.lowest && lane_end_m(traffic.table, highest, x_m) != no_leader)
+    --highest;
+  const bool heavy = traffic.length_m[i] > 8.0;
+  const int lowest = heavy ? std::max(traffic.table.lowest, highest - 1) : traffic.table.lowest;
+  return lowest + static_cast<int>(random.below(static_cast<std::uint64_t>(highest - lowest + 1)));
+}
+
+bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, Random& random) {
+  if (!traffic.corridor.closed &&
+      (x_m < from_end_m || x_m > traffic.corridor.length_m - from_end_m))
+    return false;
+  const double x = wrap_x(traffic.corridor, x_m);
+  const int lane = likely_lane(traffic, i, x, random);
+  if (lane_end_m(traffic.table, lane, x) < x + 300.0) return false;
+  const double speed = 0.85 * traffic.driver[i].following.desired_speed_mps;
+  if (!clear_at(traffic, lane, x, traffic.length_m[i], speed)) return false;
+  // As fast as the one ahead allows: who comes in does not have to brake at once.
+  auto& entries = traffic.order.lanes[static_cast<std::size_t>(lane)];
+  const LaneEntry* ahead = neighbours(traffic, entries, x, -1).ahead;
+  traffic.x_m[i] = x;
+  traffic.speed_mps[i] =
+      gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
+  traffic.acceleration_mps2[i] = 0.0;
+  traffic.lane[i] = traffic.from_lane[i] = static_cast<std::int16_t>(lane);
+  traffic.lane_end_m[i] = lane_end_m(traffic.table, lane, x);
+  traffic.aside_m[i] = traffic.aside_mps[i] = traffic.aside_target_m[i] = traffic.heard_s[i] = 0.0;
+  traffic.making_way[i] = MakingWay::no;
+  insert_entry(entries, entry_of(traffic, i));
+  return true;
+}
+
+void take_out(CorridorTraffic& traffic, std::size_t i) {
+  const auto self = static_cast<std::int32_t>(i);
+  for (auto& lane : traffic.order.lanes) {
+    std::erase_if(lane, [&](const LaneEntry& entry) { return entry.vehicle == self; });
+  }
+  traffic.lane[i] = traffic.from_lane[i] = outside;
+  traffic.speed_mps[i] = traffic.acceleration_mps2[i] = 0.0;
+}
+
+/// x of the swarm's middle in a corridor, for either direction of travel.
+double middle_x(const road::RoadNetwork& network, const CorridorTraffic& traffic,
+                const TrafficState& state) {
+  const double otherwise = 0.5 * traffic.corridor.length_m;
+  if (state.foreign_places.empty() || !state.foreign_places.front()) return otherwise;
+  const auto& place = *state.foreign_places.front();
+  for (const CorridorPiece& piece : traffic.corridor.pieces) {
+    if (piece.road == place.road)
+      return x_of(network, traffic.corridor, place, piece.side).value_or(otherwise);
+  }
+  return otherwise;
+}
+
+}  // namespace
+
+TrafficParameters motorway_traffic(std::uint32_t count, double radius_m) {
+  const auto model = [](std::string_view name) {
+    const auto index = find_vehicle_model(name);
+    SEPTET_CHECK(index.has_value(), "no vehicle model {}", name);
+    return *index;
+  };
+  const Driver car{{32.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  const Driver van{{30.0, 1.4, 1.3, 2.5, 2.2}, {}, 1.0};
+  // Lorries keep right more strictly and take longer to change lanes.
+  const Driver lorry{{23.5, 1.7, 0.7, 2.0, 2.5}, {0.2, 0.3, 0.3, 2.5, 6.0}, 1.2};
+  TrafficParameters parameters;
+  parameters.count = count;
+  parameters.radius_m = radius_m;
+  parameters.classes = {{model("hatchback"), 0.26, car}, {model("saloon"), 0.2, car},
+                        {model("estate"), 0.18, car},    {model("suv"), 0.13, car},
+                        {model("van"), 0.1, van},        {model("lorry"), 0.12, lorry, 0.35},
+                        {model("motorcycle"), 0.01, car}};
+  return parameters;
+}
+
+TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwork& network,
+                      std::span<const ForeignVehicle> foreign, Random& random) {
+  TrafficState state;
+  if (parameters.count == 0 || network.roads.empty()) return state;
+  SEPTET_CHECK(!parameters.classes.empty(), "{} vehicles of no class", parameters.count);
+  road::LanePosition through{0, -1, 1.0, 0.0};
+  if (!foreign.empty()) {
+    const Vec3& at = foreign.front().world_from_vehicle.position_m;
+    if (const auto place = road::locate(network, {at.x, at.y}); place && place->lanes.lane != 0) {
+      through = {place->position.road, place->lanes.lane, place->position.s_m, 0.0};
+    }
+  }
+  state.corridors.push_back(empty_corridor(network, through));
+  if (const auto opposite = opposite_lane(network, through)) {
+    state.corridors.push_back(empty_corridor(network, *opposite));
+  }
+  const auto placed_foreign = place_foreign(network, foreign, state);
+  ParticipantId next_id = parameters.first_id;
+  const auto opposite_count =
+      state.corridors.size() < 2
+          ? 0
+          : static_cast<std::uint32_t>(parameters.opposite_share * parameters.count);
+  for (std::size_t c = 0; c < state.corridors.size(); ++c) {
+    CorridorTraffic& traffic = state.corridors[c];
+    refresh_order(traffic, placed_foreign[c]);
+    const std::uint32_t wanted = c == 0 ? parameters.count - opposite_count : opposite_count;
+    const double middle = middle_x(network, traffic, state);
+    for (std::uint32_t k = 0; k < wanted; ++k) {
+      add_random_vehicle(parameters, traffic, next_id++, random);
+      // A road that is full waits outside, until `recycle` finds room.
+      for (int attempt = 0; attempt < 200; ++attempt) {
+        const double x = traffic.corridor.closed
+                             ? random.uniform(0.0, traffic.corridor.length_m)
+                             : middle + random.uniform(-parameters.radius_m, parameters.radius_m);
+        if (try_place(traffic, traffic.size() - 1, x, random)) break;
+      }
+    }
+  }
+  return state;
+}
+
+void recycle(const TrafficParameters& parameters, double middle, double middle_speed_mps,
+             Random& random, CorridorTraffic& traffic) {
+  if (traffic.corridor.closed) return;
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
+    const bool waits = traffic.lane[i] == outside;
+    const bool out = std::abs(traffic.x_m[i] - middle) > parameters.radius_m + rim_m ||
+                     traffic.x_m[i] > traffic.corridor.length_m - 20.0;
+    if (!waits && !out) continue;
+    if (!waits) take_out(traffic, i);
+    const bool enters_ahead = traffic.driver[i].following.desired_speed_mps < middle_speed_mps;
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      const double side = enters_ahead != (attempt >= 2) ? 1.0 : -1.0;
+      if (try_place(traffic, i, middle + side * (parameters.radius_m - random.uniform(0.0, 40.0)),
+                    random))
+        break;
+    }
+  }
+}
+
+void advance(const TrafficParameters& parameters, const road::RoadNetwork& network,
+             std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
+             TrafficState& state) {
+  state.time_s += dt_s;
+  const auto placed_foreign = place_foreign(network, foreign, state);
+  const double middle_speed_mps = foreign.empty() ? 0.0 : glm::length(foreign.front().velocity_mps);
+  for (std::size_t c = 0; c < state.corridors.size(); ++c) {
+    CorridorTraffic& traffic = state.corridors[c];
+    refresh_order(traffic, placed_foreign[c]);
+    follow(traffic);
+    make_way(traffic, placed_foreign[c].emergencies, dt_s);
+    change_lanes(parameters, state.time_s, dt_s, traffic);
+    move(traffic, dt_s);
+    recycle(parameters, middle_x(network, traffic, state), middle_speed_mps, random, traffic);
+  }
+}
+
+}  // namespace septet::traffic

@@ -1,0 +1,73 @@
+#pragma once
+/// The stages of one tick of traffic and what they share. Used by engine/traffic only.
+
+#include <span>
+#include <vector>
+
+#include "engine/traffic/traffic.hpp"
+
+namespace septet::traffic {
+
+/// Somebody with beacon or siren on.
+struct EmergencyVehicle {
+  double front_x_m = 0.0, length_m = 0.0;
+  double lateral_m = 0.0, half_width_m = 0.0;
+};
+
+/// What a corridor has to know of the vehicles that others move.
+struct ForeignTraffic {
+  struct Entry {
+    int lane = 0;
+    LaneEntry entry;
+  };
+  std::vector<Entry> entries;
+  std::vector<EmergencyVehicle> emergencies;
+};
+
+/// One per corridor. Updates the hints of where foreign vehicles are.
+std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
+                                          std::span<const ForeignVehicle> foreign,
+                                          TrafficState& state);
+
+LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t vehicle);
+/// Takes places and speeds into the order, drops who has left a lane, adds the foreign vehicles.
+void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign);
+
+/// Nearest entries around x in a lane, not counting `self` (−1: count all); null where there is
+/// none.
+struct Neighbours {
+  const LaneEntry* ahead = nullptr;
+  const LaneEntry* behind = nullptr;
+};
+Neighbours neighbours(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
+                      double x_m, std::int32_t self);
+/// From a front bumper at x to the rear bumper of the one ahead; infinite if there is none.
+double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead);
+
+/// Stage 1: everybody's acceleration.
+void follow(CorridorTraffic& traffic);
+/// Stage 2: who makes way for an emergency vehicle, and how far aside.
+void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
+/// Stage 3: lane changes of those whose turn it is to think.
+void change_lanes(const TrafficParameters& parameters, double time_s, double dt_s,
+                  CorridorTraffic& traffic);
+/// Stage 4: speeds and places.
+void move(CorridorTraffic& traffic, double dt_s);
+/// Stage 5: who left the simulation comes in again.
+void recycle(const TrafficParameters& parameters, double middle_x_m, double middle_speed_mps,
+             Random& random, CorridorTraffic& traffic);
+
+/// Part of the way of a lane change, 0 to 1, with its first two derivatives by time: the quintic
+/// without jerk at its ends.
+struct LateralBlend {
+  double value = 1.0, rate = 0.0, acceleration = 0.0;
+};
+inline LateralBlend lateral_blend(double elapsed_s, double duration_s) {
+  const double u = elapsed_s / duration_s;
+  if (u >= 1.0) return {};
+  return {u * u * u * (10.0 + u * (-15.0 + 6.0 * u)),
+          30.0 * u * u * (1.0 - u) * (1.0 - u) / duration_s,
+          60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / (duration_s * duration_s)};
+}
+
+}  // namespace septet::traffic

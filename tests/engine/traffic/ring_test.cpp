@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/traffic/ring_road.hpp"
+
+namespace septet::traffic {
+namespace {
+
+double mean_speed_mps(const CorridorTraffic& traffic) {
+  double sum = 0.0;
+  for (const double speed : traffic.speed_mps) sum += speed;
+  return sum / static_cast<double>(traffic.size());
+}
+
+/// Equal cars on a ring of one lane, about 2 km round.
+TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver,
+                        double uneven) {
+  TrafficState state;
+  state.corridors.push_back(empty_corridor(network, {0, -1, 1.0, 0.0}));
+  CorridorTraffic& traffic = state.corridors[0];
+  for (int k = 0; k < count; ++k) {
+    const double x = traffic.corridor.length_m / count * (k + uneven * std::sin(2.4 * k));
+    add_vehicle(traffic, static_cast<ParticipantId>(k), model_named("saloon"), driver, 1,
+                wrap_x(traffic.corridor, x), 10.0);
+    traffic.length_m.back() = 5.0;
+  }
+  for (LaneEntry& entry : traffic.order.lanes[1]) entry.length_m = 5.0;
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a ring of equal cars settles at the equilibrium speeds of the intelligent driver model") {
+  // The published ring is 2,011 m round, rounded: 2,011.3 m is the length that gives all three
+  // speeds.
+  const auto network = ring_road(2011.3, 1);
+  const Driver driver{{33.33, 1.0, 2.6, 4.5, 2.5}, {}, 1.0};
+  const struct {
+    int count;
+    double speed_mps;
+  } expected[] = {{20, 32.174}, {40, 28.469}, {80, 16.955}};
+  for (const auto& [count, speed] : expected) {
+    CAPTURE(count);
+    TrafficState state = equal_cars(network, count, driver, 0.0);
+    TrafficParameters parameters;
+    Random random(1);
+    // At 80 cars the law itself is string-unstable (f_v²/2 + f_Δv f_v < f_s), so they start evenly.
+    for (int step = 0; step < 12000; ++step) advance(parameters, network, {}, 0.1, random, state);
+    const auto& speeds = state.corridors[0].speed_mps;
+    CHECK(*std::ranges::min_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
+    CHECK(*std::ranges::max_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
+    CHECK(idm_equilibrium_speed(driver.following, 2011.3 / count - 5.0) ==
+          doctest::Approx(speed).epsilon(0.001 / speed));
+  }
+}
+
+TEST_CASE("an unstable density grows stop-and-go waves out of a small disturbance") {
+  const auto network = ring_road(2011.0, 1);
+  // String-unstable: weak acceleration.
+  const Driver driver{{33.33, 1.0, 0.5, 1.5, 2.0}, {}, 1.0};
+  TrafficState state = equal_cars(network, 80, driver, 0.2);
+  TrafficParameters parameters;
+  Random random(1);
+  for (int step = 0; step < 18000; ++step) advance(parameters, network, {}, 0.1, random, state);
+  const auto& speeds = state.corridors[0].speed_mps;
+  const double spread = *std::ranges::max_element(speeds) - *std::ranges::min_element(speeds);
+  CHECK(spread > 5.0);
+  CHECK(overlapping_bodies(state.corridors[0]) == 0);
+}
+
+TEST_CASE("flow rises with density until capacity and falls beyond") {
+  const auto network = ring_road(4000.0, 3);
+  const TrafficParameters parameters = motorway_traffic(0, 1e6);
+  double before = 0.0, most = 0.0, last = 0.0;
+  bool falls = false;
+  for (const int per_km_lane : {5, 15, 25, 45, 80}) {
+    TrafficState state = dense_ring(network, 3, static_cast<std::uint32_t>(per_km_lane * 4 * 3), 3);
+    Random random(1);
+    for (int step = 0; step < 1500; ++step) advance(parameters, network, {}, 0.2, random, state);
+    last = mean_speed_mps(state.corridors[0]) * per_km_lane * 3.6;
+    MESSAGE(per_km_lane << " vehicles/km/lane: " << last << " vehicles/h/lane");
+    most = std::max(most, last);
+    falls = falls || last < before;
+    before = last;
+  }
+  CHECK(falls);
+  // What motorways carry: about 1,500 to 2,400 vehicles an hour and lane.
+  CHECK(most > 1300.0);
+  CHECK(most < 2600.0);
+}
+
+TEST_CASE("dense traffic changes lanes without touching") {
+  const auto network = ring_road(3000.0, 3);
+  const TrafficParameters parameters = motorway_traffic(0, 1e6);
+  TrafficState state = dense_ring(network, 3, 225, 11);
+  Random random(1);
+  int overlaps = 0, changes = 0;
+  for (int step = 0; step < 3000; ++step) {
+    const auto lanes = state.corridors[0].lane;
+    advance(parameters, network, {}, 0.1, random, state);
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+      changes += lanes[i] != state.corridors[0].lane[i];
+    overlaps += overlapping_bodies(state.corridors[0]);
+  }
+  MESSAGE(changes << " lane changes");
+  CHECK(overlaps == 0);
+  CHECK(changes > 50);
+}
+
+TEST_CASE("timid drivers keep longer gaps than aggressive ones") {
+  const Driver middle;
+  const auto gap_at_20 = [&](double temperament) {
+    const FollowingParameters driver = with_temperament(middle, temperament).following;
+    return (driver.standstill_gap_m + 20.0 * driver.time_gap_s) /
+           std::sqrt(1.0 - std::pow(20.0 / driver.desired_speed_mps, 4));
+  };
+  CHECK(gap_at_20(0.0) > 1.2 * gap_at_20(0.5));
+  CHECK(gap_at_20(0.5) > 1.2 * gap_at_20(1.0));
+  CHECK(with_temperament(middle, 0.5).following.time_gap_s == middle.following.time_gap_s);
+}
+
+}  // namespace septet::traffic
