@@ -2,8 +2,8 @@
 /// How well the driver keeps the lane: mean and standard deviation of lateral position, and its
 /// histogram.
 ///
-/// Reference point: the origin of the car's frame, below the middle of the rear axle (SAE
-/// J2944:2015, 10.1.2, asks for it to be stated). Positive is to the driver's left. The standard
+/// Reference point: the middle of the front axle, which the driver steers (SAE J2944:2015, 10.1.2,
+/// reference point 2). Positive is to the driver's left. The standard
 /// deviation divides by N (the samples are the drive, not a draw from it); the N−1 form stands
 /// beside it, since J2944 10.1.3 wants to know which.
 

@@ -41,7 +41,7 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
   const double exclude_s = settings.lateral_position.exclude_around_lane_change_s;
   rows.add("Lateral position, mean", kept_lane ? fmt::format("{:+.3f} m", position.mean_m) : "–",
            fmt::format("Positive to the left of the lane's centre. Reference point: the middle of "
-                       "the rear axle. {} samples; left out: {} within "
+                       "the front axle. {} samples; left out: {} within "
                        "{:g} s of a lane change, {} off every lane.",
                        position.samples, position.excluded_lane_change, exclude_s,
                        position.excluded_off_lane));

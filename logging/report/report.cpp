@@ -110,7 +110,7 @@ std::string lateral_position_chart(const ReportData& data, const DriveMeasures& 
                            fmt::format("{:.1f} s: lane {} to lane {}", change.simulated_time_s,
                                        change.from_lane, change.to_lane)});
   return figure(to_svg(chart),
-                "Offset of the car's origin, below the middle of the rear axle, from the centre of "
+                "Offset of the middle of the car's front axle from the centre of "
                 "the lane it is in; the shaded band is "
                 "the lane between its lines. ▲ marks a lane change to the left and ▼ one to the "
                 "right: there the line jumps, because the "

@@ -1,0 +1,108 @@
+#pragma once
+/// What server and screens say to each other besides the scene: who is there, what was shown, what the driver did.
+///
+/// These share the secure lane with scene commands; the first byte of every message tells which of the two it is
+/// (`LaneMessage`). Format: CONTROL.md. A message from outside is decoded whole or refused.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "engine/core/bytes.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::control {
+
+/// First byte of every message on the secure lane.
+enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
+
+/// Screen → server, first of all.
+struct Hello {
+  std::string screen;           ///< Name in the rig.
+  std::uint16_t tick_port = 0;  ///< UDP port on which it hears unicast ticks.
+  std::uint16_t protocol = 1;
+};
+
+/// Server → screen, the answer.
+struct Welcome {
+  std::string rig;  ///< The rig file's text: a screen needs no file of its own.
+  bool lockstep = false;
+  double tick_rate_hz = 120.0;
+  std::uint32_t picture_every_ticks = 0;  ///< Keep a picture of every n-th tick; 0: none.
+  std::uint32_t group_ip = 0;             ///< Multicast group of the tick lane; 0: ticks come to `Hello::tick_port`.
+  std::uint16_t group_port = 0;
+  std::uint32_t interface_ip = 0;
+};
+
+/// Server → screen: this screen cannot take part.
+struct Refusal {
+  std::string reason;
+};
+
+/// Screen → server: a tick has arrived and is kept as a possible baseline.
+struct TickArrived {
+  Tick tick = 0;
+  float lateness_s = 0.0f;   ///< From its publication on the server's clock to its arrival.
+  bool lost_baseline = false;  ///< It could not be read for want of its baseline: send a keyframe.
+};
+
+/// Screen → server: the scene's content up to this revision of the server's store is here.
+struct SceneArrived {
+  std::uint64_t revision = 0;
+};
+
+/// Screen → server: a frame was shown (in lockstep the server waits for it).
+struct Presented {
+  Tick tick = 0;
+  float frame_ms = 0.0f;
+};
+
+/// Screen → server: the driver's controls, from a screen that has a keyboard or gamepad.
+struct Controls {
+  DriverInput input;
+};
+
+/// Server → screen: the drive is over; the screen answers with its report and leaves.
+struct Finish {
+  std::string reason;
+};
+
+/// Screen → server: what it has seen, for summary.json.
+struct ScreenReport {
+  std::uint64_t frames = 0;
+  std::uint64_t frames_off_tick = 0;  ///< Frames that showed another tick than they should have.
+  std::uint64_t datagrams_lost = 0, datagrams_repaired = 0;
+  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;
+};
+
+using ControlMessage =
+    std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport>;
+
+/// The message with its lane byte.
+Bytes encode_control(const ControlMessage& message);
+/// `bytes` with the lane byte, as received.
+Expected<ControlMessage> decode_control(std::span<const std::byte> bytes);
+
+/// A replication message with its lane byte.
+Bytes scene_message(std::span<const std::byte> message);
+
+/// What kind a received message is; nothing for an empty or unknown one.
+std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes);
+
+/// What the tick lane carries besides the snapshot: when it was published, and how long to hold it back. All screens switch
+/// from one play-out delay to the next at the same instant of the server's clock, so a change does not tear the seams.
+struct TickHeader {
+  double published_s = 0.0;  ///< Server's clock.
+  float playout_delay_s = 0.0f;
+  float next_playout_delay_s = 0.0f;
+  double next_from_s = 0.0;  ///< Server's clock from which the next delay holds.
+};
+void put_tick_header(ByteWriter& writer, const TickHeader& header);
+/// Puts the reader into its failed state where the header makes no sense.
+TickHeader get_tick_header(ByteReader& reader);
+
+}  // namespace septet::control

@@ -1,0 +1,96 @@
+#include "sim-client/screen/client_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "engine/world/paint.hpp"
+
+namespace septet::screen {
+namespace {
+
+std::optional<std::uint32_t> find_prototype(const scene::ResolvedScene& scene, std::string_view name) {
+  const auto found = std::ranges::find(scene.prototypes, name, &scene::Prototype::name);
+  if (found == scene.prototypes.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - scene.prototypes.begin());
+}
+
+render::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
+  const auto pixel = [](double fraction, std::uint32_t size) { return static_cast<std::int32_t>(std::lround(fraction * size)); };
+  render::PixelRectangle rectangle;
+  rectangle.x = pixel(view.left, screen.width_px);
+  rectangle.y = pixel(view.top, screen.height_px);
+  rectangle.width = static_cast<std::uint32_t>(pixel(view.left + view.width, screen.width_px) - rectangle.x);
+  rectangle.height = static_cast<std::uint32_t>(pixel(view.top + view.height, screen.height_px) - rectangle.y);
+  return rectangle;
+}
+
+}  // namespace
+
+Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen) {
+  ScreenViews result;
+  result.show_interior = screen.show_interior;
+  for (const rig::View& view : screen.views) {
+    const auto projection = render::off_axis_view(
+        {view.window.lower_left_m, view.window.lower_right_m, view.window.upper_left_m}, rig.eye_point_m);
+    if (!projection) {
+      Error error = projection.error();
+      error.where = fmt::format("rig {}, screen {}: {}", rig.name, screen.name, error.where);
+      return tl::unexpected(error);
+    }
+    render::FrameView frame_view;
+    frame_view.projection = *projection;
+    frame_view.viewport = viewport(view, screen);
+    frame_view.mirrored = view.mirrored;
+    result.views.push_back(frame_view);
+  }
+  return result;
+}
+
+render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const scene::ResolvedScene& scene) {
+  render::FrameInput frame;
+  frame.simulated_time_s = shown.simulated_time_s;
+  frame.environment = shown.environment;
+  frame.views = views.views;
+  const Participant* car = find_participant(shown, shown.driver_car.participant);
+  if (!car && !shown.participants.empty()) car = &shown.participants.front();
+  for (auto& view : frame.views)
+    if (car) view.world_from_car = car->world_from_vehicle;
+
+  for (const Participant& participant : shown.participants) {
+    const auto prototype = find_prototype(scene, vehicle_models()[participant.model].name);
+    if (!prototype) continue;
+    auto drawn = render::drawn_participant(participant, *prototype);
+    drawn.paint = body_color(participant.paint);
+    if (&participant == car) {
+      // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
+      drawn.shown = render::Shown::shadow_and_light;
+      if (const auto inside = find_prototype(scene, fmt::format("{}-interior", vehicle_models()[participant.model].name));
+          inside && views.show_interior) {
+        auto interior = drawn;
+        interior.prototype = *inside;
+        interior.shown = render::Shown::whole;
+        interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
+        frame.participants.push_back(interior);
+      }
+    }
+    frame.participants.push_back(drawn);
+  }
+  return frame;
+}
+
+render::OverlayText banner(std::string text, const rig::Screen& screen) {
+  render::OverlayText line;
+  line.text = std::move(text);
+  line.height_px = std::max(12.0f, static_cast<float>(screen.height_px) / 22.0f);
+  line.x_px = 0.5f * static_cast<float>(screen.width_px);
+  line.y_px = 0.5f * static_cast<float>(screen.height_px);
+  line.background = {0.05f, 0.05f, 0.06f, 0.75f};
+  line.centered = true;
+  return line;
+}
+
+}  // namespace septet::screen

@@ -1,0 +1,44 @@
+#pragma once
+/// Writes pictures to disk on a thread of its own, so that the frame after the one that is kept does not wait for it.
+
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "engine/core/expected.hpp"
+#include "engine/image/image.hpp"
+
+namespace septet::screen {
+
+class PictureWriter {
+ public:
+  PictureWriter();
+  ~PictureWriter();  ///< Writes what is queued.
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  /// Queues one picture; waits while four are queued already.
+  void write(std::filesystem::path file, image::Image picture);
+  /// Waits until everything is written; answers the first failure.
+  Expected<void> finish();
+
+ private:
+  struct Job {
+    std::filesystem::path file;
+    image::Image picture;
+  };
+  void run();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  bool writing_ = false;
+  bool stop_ = false;
+  std::optional<Error> error_;
+  std::thread thread_;
+};
+
+}  // namespace septet::screen

@@ -1,0 +1,44 @@
+#include "sim-client/screen/playout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/check.hpp"
+#include "engine/world/interpolate.hpp"
+
+namespace septet::screen {
+
+double playout_delay_s(const control::TickHeader& newest, double server_now_s) {
+  return server_now_s >= newest.next_from_s ? newest.next_playout_delay_s : newest.playout_delay_s;
+}
+
+std::int64_t frame_number(double server_now_s) { return std::llround(server_now_s * frame_rate_hz); }
+
+std::optional<double> playout_time_s(const TickHistory& history, std::int64_t number) {
+  if (history.empty()) return std::nullopt;
+  const HistoryTick& newest = history.newest();
+  const double clock_at_zero_s = newest.header.published_s - newest.snapshot.simulated_time_s;
+  const double instant_s = static_cast<double>(number) / frame_rate_hz;
+  return instant_s - playout_delay_s(newest.header, instant_s) - clock_at_zero_s;
+}
+
+Shown show(const TickHistory& history, double simulated_time_s, double tick_s) {
+  SEPTET_CHECK(!history.empty(), "no tick to show at {} s", simulated_time_s);
+  const auto [before, after] = history.around(simulated_time_s);
+  Shown shown;
+  if (!before) {  // Older than all that is kept: a screen that has just joined.
+    shown.snapshot = after->snapshot;
+  } else if (!after) {  // Nothing newer: the last tick, held.
+    shown.snapshot = before->snapshot;
+    shown.on_tick = simulated_time_s - before->snapshot.simulated_time_s < 1e-6;
+  } else {
+    // Motion goes on through the gap where a tick is missing: the quintic from tick to tick reaches over several of them.
+    shown.snapshot = interpolate(before->snapshot, after->snapshot, simulated_time_s);
+    shown.on_tick = true;
+  }
+  const double since_tick_s = shown.snapshot.simulated_time_s - (before ? before : after)->snapshot.simulated_time_s;
+  shown.tick = shown.snapshot.tick + static_cast<Tick>(std::max(0.0, since_tick_s / tick_s + 1e-6));
+  return shown;
+}
+
+}  // namespace septet::screen

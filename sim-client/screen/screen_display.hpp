@@ -1,0 +1,41 @@
+#pragma once
+/// Where a screen's picture goes: a window, a whole monitor, or nowhere but memory. And the keys pressed on it.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/core/expected.hpp"
+#include "engine/render/renderer.hpp"
+#include "engine/world/driver_input.hpp"
+
+namespace septet::screen {
+
+struct DisplayOptions {
+  std::uint32_t width_px = 0, height_px = 0;
+  bool is_virtual = false;
+  bool full_screen = false;
+  int monitor = 0;
+  bool validation = false;
+  std::string title;
+};
+
+class Display {
+ public:
+  static Expected<std::unique_ptr<Display>> open(const DisplayOptions& options);
+  virtual ~Display() = default;
+
+  virtual render::Renderer& renderer() = 0;
+  /// Handles what the window system has to say; true once the person has closed the window.
+  virtual bool poll_closed() = 0;
+  /// What keyboard or gamepad say, for a rig whose car is one; nothing for an off-screen display.
+  virtual std::optional<DriverInput> controls(double now_s, double speed_mps) = 0;
+  /// Presenting waits for the display's refresh.
+  virtual bool paces_itself() const = 0;
+};
+
+/// A display in a window or over a whole monitor (window_display.cpp); needs a window system.
+Expected<std::unique_ptr<Display>> open_window(const DisplayOptions& options, render::RendererOptions renderer_options);
+
+}  // namespace septet::screen

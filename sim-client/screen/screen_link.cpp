@@ -1,0 +1,112 @@
+#include "sim-client/screen/screen_link.hpp"
+
+#include <fmt/core.h>
+
+namespace septet::screen {
+
+using namespace control;
+
+ScreenLink::ScreenLink(net::DatagramSocket& lane_socket, net::DatagramSocket& tick_socket, OpenGroup open_group,
+                       ScreenLinkOptions options)
+    : options_(std::move(options)),
+      tick_socket_(tick_socket),
+      open_group_(std::move(open_group)),
+      lane_(lane_socket, options_.lane),
+      ticks_(options_.lane.server_key) {}
+
+void ScreenLink::pump(double now_s) {
+  for (net::ClientEvent& event : lane_.pump(now_s)) {
+    switch (event.kind) {
+      case net::ClientEvent::Kind::connected: on_connected(now_s); break;
+      case net::ClientEvent::Kind::lost:
+        scene_.disconnected();
+        scene_arrived_ = false;
+        break;
+      case net::ClientEvent::Kind::message:
+        switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
+          case LaneMessage::scene:
+            if (auto received = scene_.receive(std::span(event.bytes).subspan(1)); !received) refusal_ = received.error();
+            break;
+          case LaneMessage::control: on_control(event.bytes); break;
+        }
+    }
+  }
+  pump_scene();
+  receive_ticks(now_s);
+}
+
+void ScreenLink::on_connected(double) {
+  ticks_.follow(lane_.session());
+  history_.clear();
+  scene_.connected();
+  scene_arrived_ = false;
+  send(Hello{options_.screen, options_.tick_port}, net::Reliability::reliable);
+}
+
+void ScreenLink::on_control(std::span<const std::byte> bytes) {
+  auto message = decode_control(bytes);
+  if (!message) return;  // Authenticated, so another version: the server's refusal says so.
+  if (auto* welcome = std::get_if<Welcome>(&*message)) {
+    group_socket_.reset();
+    if (welcome->group_ip != 0) {
+      auto socket = open_group_({welcome->group_ip, welcome->group_port}, welcome->interface_ip);
+      if (socket)
+        group_socket_ = std::move(*socket);
+      else
+        refusal_ = socket.error();
+    }
+    welcome_ = std::move(*welcome);
+    ++welcomes_;
+  } else if (auto* refusal = std::get_if<Refusal>(&*message)) {
+    refusal_ = Error{refusal->reason, fmt::format("screen {}", options_.screen), "ask the server's operator"};
+  } else if (std::holds_alternative<Finish>(*message)) {
+    finished_ = true;
+  }
+}
+
+void ScreenLink::pump_scene() {
+  if (lane_.state() != net::ClientState::connected) return;
+  scene_.pump([&](std::span<const std::byte> message) {
+    return lane_.send(control::scene_message(message), net::Reliability::reliable) == net::SendResult::queued;
+  });
+  if (scene_.complete() && !scene_arrived_) {
+    scene_arrived_ = true;
+    send(SceneArrived{scene_.complete_revision()}, net::Reliability::reliable);
+  }
+}
+
+void ScreenLink::receive_ticks(double now_s) {
+  ticks_.receive_from(tick_socket_);
+  if (group_socket_) ticks_.receive_from(*group_socket_);
+  while (auto tick = ticks_.next()) {
+    TickArrived answer{tick->tick, 0.0f, false};
+    switch (history_.add(tick->payload)) {
+      case TickHistory::Outcome::stored:
+        if (const auto* held = history_.find(tick->tick))
+          if (const auto server_s = server_time_s(now_s))
+            answer.lateness_s = static_cast<float>(*server_s - held->header.published_s);
+        break;
+      case TickHistory::Outcome::lost_baseline: answer.lost_baseline = true; [[fallthrough]];
+      case TickHistory::Outcome::refused: ++refused_ticks_; break;
+    }
+    if (answer.lost_baseline || history_.find(tick->tick)) send(answer, net::Reliability::unreliable);
+  }
+}
+
+std::optional<double> ScreenLink::server_time_s(double now_s) const {
+  if (!lane_.clock().valid()) return std::nullopt;
+  return lane_.clock().server_time_s(now_s);
+}
+
+void ScreenLink::send(const ControlMessage& message, net::Reliability reliability) {
+  lane_.send(net::share(encode_control(message)), reliability);
+}
+
+void ScreenLink::report(ScreenReport report) {
+  const auto& counters = ticks_.counters();
+  report.datagrams_lost = counters.lost;
+  report.datagrams_repaired = counters.repaired;
+  send(report, net::Reliability::reliable);
+}
+
+}  // namespace septet::screen

@@ -1,0 +1,38 @@
+/// `septet-screen`: one screen of a rig, in a window, full screen or off-screen.
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "sim-client/screen/screen_session.hpp"
+
+int main(int argc, char** argv) {
+  using namespace septet;
+  screen::ScreenOptions options;
+  std::string server = "127.0.0.1:4750";
+  CLI::App app{"septet-screen: one screen of a rig. `septet drive` starts it; on another machine start it yourself."};
+  app.add_option("--name", options.name, "Which screen of the rig")->required();
+  app.add_option("--server", server, "Server's address and port");
+  app.add_option("--keys", options.keys, "Folder with NAME.key and server.public")->required();
+  app.add_option("--pictures", options.pictures, "Folder for a picture of every simulated second");
+  app.add_flag("--virtual", options.is_virtual, "Off-screen");
+  app.add_flag("--full-screen", options.full_screen, "Cover a whole monitor");
+  app.add_option("--monitor", options.monitor, "Which monitor, from 0")->check(CLI::Range(0, 63));
+  app.add_flag("--validation", options.validation, "Turn on Vulkan's validation layer");
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    const auto address = net::parse_address(server, "--server");
+    auto outcome = address ? Expected<void>{} : Expected<void>(tl::unexpected(address.error()));
+    if (outcome) {
+      options.server = *address;
+      outcome = screen::run_screen(options);
+    }
+    if (outcome) return 0;
+    fmt::print(stderr, "septet-screen: {}\n", describe(outcome.error()));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "septet-screen: {}\n", error.what());
+  }
+  return 1;
+}

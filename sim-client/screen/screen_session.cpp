@@ -1,0 +1,265 @@
+#include "sim-client/screen/screen_session.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "engine/net/keys.hpp"
+#include "engine/net/udp_socket.hpp"
+#include "engine/render/renderer.hpp"
+#include "engine/scene/resolve.hpp"
+#include "sim-client/screen/client_frame.hpp"
+#include "sim-client/screen/frame_times.hpp"
+#include "sim-client/screen/picture_writer.hpp"
+#include "sim-client/screen/playout.hpp"
+#include "sim-client/screen/screen_display.hpp"
+#include "sim-client/screen/screen_link.hpp"
+
+namespace septet::screen {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+void on_signal(int) { stop_requested = 1; }
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Expected<net::PublicKey> read_server_key(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string text;
+  if (!(stream >> text)) return failure("cannot read the server's public key", file.string(), "copy server.public from the server's keys");
+  return net::parse_public_key(text, file.string());
+}
+
+/// What stays from one welcome of the server to the next.
+class Session {
+ public:
+  Session(const ScreenOptions& options, net::UdpSocket lane_socket, net::UdpSocket tick_socket, ScreenLinkOptions link)
+      : options_(options),
+        lane_socket_(std::move(lane_socket)),
+        tick_socket_(std::move(tick_socket)),
+        link_(lane_socket_, tick_socket_, open_group, std::move(link)) {}
+
+  Expected<void> run();
+
+ private:
+  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group, std::uint32_t interface_ip) {
+    return net::UdpSocket::open_group(group, interface_ip).map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
+      return std::make_unique<net::UdpSocket>(std::move(socket));
+    });
+  }
+
+  Expected<void> take_welcome();
+  Expected<void> bring_scene_up();
+  Expected<void> draw_lockstep();
+  Expected<void> draw_real_time(double now_s);
+  Expected<void> draw_lost(double now_s);
+  Expected<void> draw(const Snapshot& snapshot, std::optional<std::string> message);
+  Expected<void> keep_picture(Tick tick);
+  void say_goodbye();
+  void wait(double seconds);
+
+  const ScreenOptions& options_;
+  net::UdpSocket lane_socket_, tick_socket_;
+  ScreenLink link_;
+  scene::Resolver resolver_;
+  std::uint64_t scene_generation_ = 0;
+  std::uint64_t uploaded_revision_ = 0;
+  std::uint32_t welcomes_ = 0;
+  rig::Rig rig_;
+  const rig::Screen* screen_ = nullptr;
+  ScreenViews views_;
+  std::unique_ptr<Display> display_;
+  PictureWriter pictures_;
+  FrameTimes frame_times_;
+  std::uint64_t frames_ = 0, frames_off_tick_ = 0;
+  std::optional<Tick> drawn_tick_;
+  std::optional<Snapshot> last_shown_;
+  double lost_drawn_s_ = 0.0;
+  float last_frame_ms_ = 0.0f;
+};
+
+Expected<void> Session::take_welcome() {
+  if (link_.welcomes() == welcomes_) return {};
+  welcomes_ = link_.welcomes();
+  auto rig = rig::read_rig(link_.welcome()->rig, "rig from the server");
+  if (!rig) return tl::unexpected(rig.error());
+  rig_ = std::move(*rig);
+  screen_ = nullptr;
+  for (const auto& screen : rig_.screens)
+    if (screen.name == options_.name) screen_ = &screen;
+  if (!screen_) return failure("the rig has no such screen", options_.name, "start one of the rig's screens");
+  auto views = screen_views(rig_, *screen_);
+  if (!views) return tl::unexpected(views.error());
+  views_ = std::move(*views);
+  drawn_tick_.reset();
+  resolver_.forget();
+  uploaded_revision_ = 0;
+  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen, options_.monitor,
+                                options_.validation, "Septet " + screen_->name});
+  if (!display) return tl::unexpected(display.error());
+  display_ = std::move(*display);
+  return {};
+}
+
+Expected<void> Session::bring_scene_up() {
+  if (std::exchange(scene_generation_, link_.scene_generation()) != link_.scene_generation()) resolver_.forget();
+  // In real time a large change is spread over frames; in lockstep a picture is whole or not drawn.
+  resolver_.update(link_.scene(), link_.welcome()->lockstep ? ~std::size_t{0} : 64);
+  const auto& scene = resolver_.scene();
+  if (scene.revision == uploaded_revision_) return {};
+  uploaded_revision_ = scene.revision;
+  return display_->renderer().upload(scene);
+}
+
+Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
+  const double begun_s = monotonic_s();
+  auto frame = client_frame(snapshot, views_, resolver_.scene());
+  if (message) frame.overlay.push_back(banner(std::move(*message), *screen_));
+  if (auto drawn = display_->renderer().draw(frame); !drawn) return drawn;
+  last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
+  return {};
+}
+
+Expected<void> Session::keep_picture(Tick tick) {
+  if (options_.pictures.empty()) return {};
+  auto picture = display_->renderer().read_back();
+  if (!picture) return tl::unexpected(picture.error());
+  pictures_.write(options_.pictures / fmt::format("{}.png", tick), std::move(*picture));
+  return {};
+}
+
+Expected<void> Session::draw_lockstep() {
+  if (!link_.scene_arrived() || link_.history().empty()) return {};
+  const HistoryTick& newest = link_.history().newest();
+  const Tick tick = newest.snapshot.tick;
+  if (drawn_tick_ && *drawn_tick_ >= tick) return {};
+  if (auto scene = bring_scene_up(); !scene) return scene;
+  if (auto drawn = draw(newest.snapshot, std::nullopt); !drawn) return drawn;
+  last_shown_ = newest.snapshot;
+  drawn_tick_ = tick;
+  ++frames_;
+  const std::uint32_t every = link_.welcome()->picture_every_ticks;
+  if (every != 0 && tick % every == 0)
+    if (auto kept = keep_picture(tick); !kept) return kept;
+  frame_times_.add(last_frame_ms_);
+  link_.send(control::Presented{tick, last_frame_ms_}, net::Reliability::reliable);
+  return {};
+}
+
+Expected<void> Session::draw_real_time(double now_s) {
+  const auto server_s = link_.server_time_s(now_s);
+  if (!server_s || link_.history().empty()) {
+    wait(0.002);
+    return {};
+  }
+  if (auto scene = bring_scene_up(); !scene) return scene;
+  const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
+  const auto shown = show(link_.history(), *playout_time_s(link_.history(), frame_number(*server_s)), tick_s);
+  if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
+  last_shown_ = shown.snapshot;
+  ++frames_;
+  if (!shown.on_tick) ++frames_off_tick_;
+  frame_times_.add(last_frame_ms_);
+  link_.send(control::Presented{shown.tick, last_frame_ms_}, net::Reliability::unreliable);
+  const std::uint32_t every = link_.welcome()->picture_every_ticks;
+  if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))
+    if (auto kept = keep_picture(shown.tick); !kept) return kept;
+  drawn_tick_ = shown.tick;
+  if (auto controls = display_->controls(now_s, shown.snapshot.driver_car.speed_mps))
+    link_.send(control::Controls{*controls}, net::Reliability::unreliable);
+  if (!display_->paces_itself()) wait(1.0 / frame_rate_hz - 1e-3 * last_frame_ms_);
+  return {};
+}
+
+Expected<void> Session::draw_lost(double now_s) {
+  // The last picture is held, and says what has happened; ten times a second is enough for a still picture.
+  if (!last_shown_ || now_s - lost_drawn_s_ < 0.1) {
+    wait(0.01);
+    return {};
+  }
+  lost_drawn_s_ = now_s;
+  auto drawn = draw(*last_shown_, "The server is gone. This is the last picture; it goes on by itself.");
+  if (drawn && !options_.pictures.empty()) {
+    const auto picture = display_->renderer().read_back();
+    if (picture) pictures_.write(options_.pictures / "server-lost.png", *picture);
+    lost_drawn_s_ = now_s + 1.0;
+  }
+  return drawn;
+}
+
+void Session::wait(double seconds) {
+  if (seconds <= 0.0) return;
+  const net::UdpSocket* sockets[] = {&lane_socket_, &tick_socket_};
+  net::wait_readable(sockets, seconds);
+}
+
+void Session::say_goodbye() {
+  if (display_) {
+    const auto& last = display_->renderer().statistics();
+    fmt::print(stderr, "{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances\n", options_.name,
+               frames_, last.triangles, last.shadow_triangles, last.draws, last.instances);
+  }
+  link_.report({frames_, frames_off_tick_, 0, 0, static_cast<float>(frame_times_.percentile_ms(0.5)),
+                static_cast<float>(frame_times_.percentile_ms(0.99))});
+  const double until_s = monotonic_s() + 1.0;
+  while (monotonic_s() < until_s && link_.state() == net::ClientState::connected) {
+    link_.pump(monotonic_s());
+    wait(0.01);
+  }
+  link_.close();
+}
+
+Expected<void> Session::run() {
+  while (!stop_requested) {
+    const double now_s = monotonic_s();
+    link_.pump(now_s);
+    if (link_.refusal()) return tl::unexpected(*link_.refusal());
+    if (link_.finished()) {
+      say_goodbye();
+      return pictures_.finish();
+    }
+    Expected<void> drawn;
+    if (link_.welcome()) drawn = take_welcome();
+    if (drawn && display_) {
+      if (display_->poll_closed()) break;
+      if (link_.state() == net::ClientState::lost) drawn = draw_lost(now_s);
+      else if (link_.welcome()->lockstep) drawn = draw_lockstep();
+      else drawn = draw_real_time(now_s);
+    }
+    if (!drawn) return drawn;
+    if (!display_ || link_.welcome()->lockstep) wait(link_.has_backlog() ? 0.0 : 0.005);
+  }
+  link_.close();
+  return pictures_.finish();
+}
+
+}  // namespace
+
+Expected<void> run_screen(const ScreenOptions& options) {
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGINT, on_signal);
+  const auto identity = net::load_identity(options.keys / (options.name + ".key"));
+  if (!identity) return tl::unexpected(identity.error());
+  const auto server_key = read_server_key(options.keys / "server.public");
+  if (!server_key) return tl::unexpected(server_key.error());
+  std::error_code error;
+  if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures, error);
+  if (error) return failure(error.message(), options.pictures.string(), "choose a folder that can be written");
+  const net::Address any{net::is_loopback(options.server) ? net::loopback_ip : 0, 0};
+  auto lane_socket = net::UdpSocket::open({any});
+  if (!lane_socket) return tl::unexpected(lane_socket.error());
+  auto tick_socket = net::UdpSocket::open({any});
+  if (!tick_socket) return tl::unexpected(tick_socket.error());
+  const std::uint16_t tick_port = tick_socket->local_address().port;
+  net::SecureClientOptions lane{options.server, *server_key, *identity, {}};
+  if (options.is_virtual) lane.limits.timeout_s = 10.0;  // Lockstep on a slow machine: the server may be busy for seconds.
+  Session session(options, std::move(*lane_socket), std::move(*tick_socket), {options.name, tick_port, std::move(lane)});
+  return session.run();
+}
+
+}  // namespace septet::screen

@@ -1,0 +1,49 @@
+#pragma once
+/// The ticks that a screen has received and decoded: baselines for the next ones, and what interpolation picks from.
+///
+/// Free of sockets and clocks, so that tests can feed it from a bad network on simulated time. One thread.
+
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "engine/core/expected.hpp"
+#include "engine/control/control_message.hpp"
+#include "engine/world/wire_snapshot.hpp"
+
+namespace septet::screen {
+
+struct HistoryTick {
+  control::TickHeader header;
+  WireSnapshot wire;
+  Snapshot snapshot;
+};
+
+class TickHistory {
+ public:
+  static constexpr std::size_t kept = 96;  ///< At least what net::BaselineOptions remembers.
+
+  enum class Outcome : std::uint8_t { stored, lost_baseline, refused };
+  /// One tick's payload as it came over the tick lane; `error()` says why it was refused.
+  Outcome add(std::span<const std::byte> payload);
+  const Error& error() const { return error_; }
+  /// Forgets everything: the server was restarted.
+  void clear() { ticks_.clear(); }
+
+  bool empty() const { return ticks_.empty(); }
+  const HistoryTick& newest() const { return ticks_.back(); }
+  const HistoryTick* find(Tick tick) const;
+
+  /// The two ticks around a simulated time: the last one at or before it and the first one after it (either may be null).
+  struct Neighbours {
+    const HistoryTick* before = nullptr;
+    const HistoryTick* after = nullptr;
+  };
+  Neighbours around(double simulated_time_s) const;
+
+ private:
+  std::deque<HistoryTick> ticks_;  ///< Ascending tick.
+  Error error_;
+};
+
+}  // namespace septet::screen

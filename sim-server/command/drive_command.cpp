@@ -1,0 +1,218 @@
+#include "sim-server/command/drive_command.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "engine/net/keys.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-server/child_process.hpp"
+#include "sim-server/panorama_file.hpp"
+#include "sim-server/resources.hpp"
+
+namespace septet::server {
+namespace fs = std::filesystem;
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;  // Written by the signal handler: the one thing it may do.
+void on_interrupt(int) { interrupted = 1; }
+
+bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+
+/// The keys of a drive whose machines are all this one: made for it, gone with it.
+class DriveKeys {
+ public:
+  static Expected<DriveKeys> make(const std::vector<std::string>& clients) {
+    std::string pattern = (fs::temp_directory_path() / "septet-XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) return failure("cannot make a folder for keys", pattern, "free space there or set TMPDIR");
+    DriveKeys keys(pattern);
+    std::ofstream allowed(keys.folder_ / "allowed-clients");
+    for (const auto& client : clients) {
+      const auto identity = net::load_or_create_identity(keys.folder_ / (client + ".key"));
+      if (!identity) return tl::unexpected(identity.error());
+      allowed << net::to_text(identity->public_key()) << ' ' << client << '\n';
+    }
+    const auto server = net::load_or_create_identity(keys.folder_ / "server.key");
+    if (!server) return tl::unexpected(server.error());
+    std::ofstream(keys.folder_ / "server.public") << net::to_text(server->public_key()) << '\n';
+    return keys;
+  }
+  DriveKeys(DriveKeys&& other) noexcept : folder_(std::exchange(other.folder_, {})) {}
+  DriveKeys& operator=(DriveKeys&&) = delete;
+  ~DriveKeys() {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  }
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  explicit DriveKeys(fs::path folder) : folder_(std::move(folder)) {}
+  fs::path folder_;
+};
+
+/// An earlier drive in the same folder is moved aside: a log is never overwritten.
+Expected<void> prepare_output(const fs::path& out) {
+  std::error_code error;
+  if (fs::exists(out, error) && !fs::is_empty(out, error)) {
+    fs::path aside;
+    for (int number = 1; aside.empty() || fs::exists(aside, error); ++number) aside = fmt::format("{}.{}", out.string(), number);
+    fs::rename(out, aside, error);
+    if (error) return failure(error.message(), out.string(), "move the earlier drive there out of the way");
+    fmt::print(stderr, "The earlier drive moved to {}\n", aside.string());
+  }
+  fs::create_directories(out / "screens", error);
+  if (error) return failure(error.message(), out.string(), "choose a folder that can be written with --out");
+  return {};
+}
+
+struct RunningScreen {
+  std::string name;
+  ChildOptions options;
+  std::optional<ChildProcess> process;
+  int starts = 0;
+};
+
+/// A screen that died is started again, a few times: the others never noticed, and it is back within a second.
+Expected<void> keep_running(RunningScreen& screen) {
+  if (screen.process) {
+    const auto exit = screen.process->poll();
+    if (!exit || exit->code == 0) return {};
+    if (exit->code > 0)
+      return failure(fmt::format("screen {} ended with status {}", screen.name, exit->code), screen.options.log.string(), "its log says why");
+    fmt::print(stderr, "\nscreen {} was ended by signal {}; starting it again\n", screen.name, exit->signal);
+  }
+  if (++screen.starts > 5)
+    return failure(fmt::format("screen {} died five times", screen.name), screen.options.log.string(), "its log says why");
+  auto process = ChildProcess::start(screen.options);
+  if (!process) return tl::unexpected(process.error());
+  screen.process = std::move(*process);
+  return {};
+}
+
+ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
+  ChildOptions server;
+  server.program = (program_folder() / "septet-server").string();
+  server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
+                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", options.seconds), "--any-port"};
+  const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
+  if (options.replay.empty()) add({"--scenario", options.scenario});
+  else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
+  if (!options.driver.empty()) add({"--driver", options.driver});
+  if (options.virtual_screens) add({"--lockstep"});
+  if (options.no_screens) add({"--no-screens"});
+  return server;
+}
+
+RunningScreen screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& port, const fs::path& keys) {
+  RunningScreen running;
+  running.name = screen.name;
+  running.options.program = (program_folder() / "septet-screen").string();
+  running.options.arguments = {"--name", screen.name, "--server", "127.0.0.1:" + port, "--keys", keys.string(),
+                               "--pictures", (options.out / "screens" / screen.name).string()};
+  running.options.log = options.out / "screens" / (screen.name + ".log");
+  if (options.virtual_screens) {
+    running.options.arguments.push_back("--virtual");
+    // Seven processes share the cores already: further threads of the software rasteriser only get in each other's way.
+    if (!std::getenv("LP_NUM_THREADS")) running.options.environment["LP_NUM_THREADS"] = "0";
+  }
+  return running;
+}
+
+/// Server and screens from start to end.
+Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
+  std::vector<std::string> clients;
+  for (const auto& screen : rig.screens) clients.push_back(screen.name);
+  const auto keys = DriveKeys::make(clients);
+  if (!keys) return tl::unexpected(keys.error());
+  auto server = ChildProcess::start(server_options(options, rig_file, keys->folder()));
+  if (!server) return tl::unexpected(server.error());
+
+  // The server says on its standard output which port it got, once it has read and built everything.
+  std::optional<std::string> port;
+  while (!port && !server->poll() && !interrupted)
+    if (const auto line = server->read_line(std::chrono::milliseconds(100)); line && line->starts_with("ready "))
+      port = line->substr(6);
+  std::vector<RunningScreen> screens;
+  if (port && !options.no_screens)
+    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, *port, keys->folder()));
+
+  Expected<void> outcome;
+  while (outcome && !server->poll()) {
+    for (auto& screen : screens)
+      if (outcome) outcome = keep_running(screen);
+    if (interrupted) {
+      server->send_signal(SIGTERM);
+      interrupted = 0;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  if (!outcome) {
+    server->stop();
+    return outcome;
+  }
+  // The screens have had Finish and their reports are in; whoever still runs is not waited for long.
+  for (int i = 0; i < 150; ++i) {
+    bool running = false;
+    for (auto& screen : screens) running = running || (screen.process && !screen.process->poll());
+    if (!running) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  const auto exit = *server->poll();
+  if (exit.signal != 0) return failure(fmt::format("the server was ended by signal {}", exit.signal), "septet-server", "what it had logged is in the session file");
+  if (exit.code != 0) return failure("the server gave up", "septet-server", "its message stands above");
+  return {};
+}
+
+int fail(const Error& error) {
+  fmt::print(stderr, "septet: {}\n", describe(error));
+  return 1;
+}
+
+}  // namespace
+
+int run_drive(DriveOptions options) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  if (!has_display()) options.virtual_screens = true;
+  if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
+  const auto rig_file = find_resource(options.rig, "rigs", ".toml");
+  if (!rig_file) return fail(rig_file.error());
+  const auto rig_text = read_text_file(*rig_file);
+  if (!rig_text) return fail(rig_text.error());
+  const auto rig = rig::read_rig(*rig_text, rig_file->string());
+  if (!rig) return fail(rig.error());
+  if (options.replay.empty()) {
+    const auto scenario = find_resource(options.scenario, "scenarios", ".xosc");
+    if (!scenario) return fail(scenario.error());
+    options.scenario = scenario->string();
+  }
+  if (options.virtual_screens && options.seconds <= 0.0 && options.replay.empty()) options.seconds = 30.0;
+  if (options.out.empty()) {
+    const auto data = data_folder();
+    if (!data) return fail(data.error());
+    options.out = *data / "out" / "latest";
+  }
+  if (const auto prepared = prepare_output(options.out); !prepared) return fail(prepared.error());
+  if (const auto outcome = run_processes(options, *rig_file, *rig); !outcome) return fail(outcome.error());
+
+  if (options.virtual_screens && !options.no_screens) {
+    const auto panorama = write_panorama(options.out, *rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
+    if (!panorama) return fail(panorama.error());
+    fmt::print("{}: what the driver saw, all screens of one tick; each screen once a second is in {}\n", (options.out / "panorama.png").string(), (options.out / "screens").string());
+  }
+  if (options.replay.empty()) {
+    fmt::print("{}: speed, lateral position and its histogram\n", (options.out / "report.html").string());
+    fmt::print("{}: the whole drive; show it again with: septet replay {}\n", (options.out / "session.sqlite").string(), (options.out / "session.sqlite").string());
+  }
+  return 0;
+}
+
+}  // namespace septet::server

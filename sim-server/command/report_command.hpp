@@ -1,0 +1,11 @@
+#pragma once
+/// `septet report SESSION`: report.html from a session file.
+
+#include <filesystem>
+#include <string>
+
+namespace septet::server {
+
+int run_report(const std::string& session, const std::filesystem::path& out);
+
+}  // namespace septet::server

@@ -1,0 +1,28 @@
+#include "sim-server/command/road_command.hpp"
+
+#include <fmt/core.h>
+
+#include "engine/road/opendrive_reader.hpp"
+#include "engine/road/road_tables.hpp"
+#include "sim-server/resources.hpp"
+
+namespace septet::server {
+namespace {
+
+using Answer = Expected<void> (*)(const road::RoadNetwork&, std::istream&, std::ostream&);
+
+int answer(const std::string& file, std::istream& in, std::ostream& out, Answer table) {
+  const auto outcome = read_text_file(file)
+                           .and_then([&](const std::string& text) { return road::read_opendrive(text, file); })
+                           .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); });
+  if (outcome) return 0;
+  fmt::print(stderr, "septet: {}\n", describe(outcome.error()));
+  return 1;
+}
+
+}  // namespace
+
+int run_road_sample(const std::string& file, std::istream& in, std::ostream& out) { return answer(file, in, out, road::sample_table); }
+int run_road_locate(const std::string& file, std::istream& in, std::ostream& out) { return answer(file, in, out, road::locate_table); }
+
+}  // namespace septet::server

@@ -1,0 +1,34 @@
+#pragma once
+/// A drive's model from files, or from the texts in a session.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/rig/rig.hpp"
+#include "logging/records.hpp"
+#include "sim-server/simulation.hpp"
+
+namespace septet::server {
+
+/// What a drive is made from, as files on disk.
+struct DriveFiles {
+  std::string scenario;  ///< Path of the .xosc.
+  std::string rig;       ///< Path of the .toml.
+  std::uint64_t seed = 1;
+};
+
+/// A model with the texts that it was read from: they go into the log, so that a session needs no file beside it.
+struct LoadedDrive {
+  std::shared_ptr<const SimulationModel> model;
+  rig::Rig rig;
+  std::vector<logging::SourceFile> sources;  ///< Roles: scenario, road, rig, vehicle, catalog.
+  std::vector<std::string> warnings;         ///< What the files hold that Septet does not do, by name and line.
+
+  const std::string& source(std::string_view role) const;
+};
+
+Expected<LoadedDrive> load_drive(const DriveFiles& files);
+Expected<LoadedDrive> load_drive(const logging::SessionInfo& session);
+
+}  // namespace septet::server

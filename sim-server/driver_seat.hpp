@@ -1,0 +1,17 @@
+#pragma once
+/// Who drives: a simulated driver behind the HID interface, a person at a HID device, or a screen's keyboard.
+
+#include <memory>
+#include <string>
+
+#include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-server/live_drive.hpp"
+
+namespace septet::server {
+
+/// `driver` overrides the rig's simulated driver; naming one also takes the seat of a person.
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& driver, std::uint64_t seed,
+                                      std::shared_ptr<const SimulationModel> model);
+
+}  // namespace septet::server

@@ -1,0 +1,46 @@
+#include "sim-server/live_drive.hpp"
+
+namespace septet::server {
+
+Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log) {
+  auto state = initial_state(*model);
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), log, std::move(*state)));
+}
+
+LiveDrive::LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state)
+    : model_(std::move(model)), seat_(std::move(seat)), log_(log), state_(std::move(state)) {
+  newest_ = capture_snapshot(*model_, state_);
+  if (log_) log_->record_tick(newest_, std::make_shared<const WireSnapshot>(to_wire(newest_)), {});
+}
+
+logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
+  logging::InputRecord record;
+  record.tick = state_.tick + 1;
+  if (controls) held_ = *controls;
+  record.input = held_;
+  if (seat_.car) {
+    // The device's clock is simulated time, so that a slow machine does not see a stale driver.
+    const auto reading = seat_.car->poll(state_.time_s());
+    if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
+    record.input = reading.input;
+    record.report = reading.report;
+    if (const auto error = seat_.car->take_error(); error && log_) log_->record_message("car", describe(*error));
+  }
+  return record;
+}
+
+Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
+  if (seat_.look) seat_.look(newest_);
+  logging::InputRecord input = read_input(controls);
+  std::vector<SimulationEvent> events;
+  newest_ = server_step(*model_, input.input, state_, events);
+  auto wire = std::make_shared<const WireSnapshot>(to_wire(newest_));
+  if (log_) {
+    log_->record_input(std::move(input));
+    log_->record_tick(newest_, wire, events);
+  }
+  return wire;
+}
+
+}  // namespace septet::server

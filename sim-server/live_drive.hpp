@@ -1,0 +1,44 @@
+#pragma once
+/// A drive that is being simulated: the car's device, the simulation and the session log, one tick after the other.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "car-io/car_connection.hpp"
+#include "sim-server/session_log.hpp"
+#include "sim-server/simulation.hpp"
+#include "sim-server/tick_source.hpp"
+
+namespace septet::server {
+
+/// Where the driver's input comes from.
+struct DriverSeat {
+  /// A simulated driver looks at the world before each tick and moves the controls of its device; empty: a person drives.
+  std::function<void(const Snapshot&)> look;
+  std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
+};
+
+class LiveDrive final : public TickSource {
+ public:
+  /// `log` may be null and outlives the drive otherwise.
+  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log);
+
+  Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  double tick_rate_hz() const override { return server::tick_rate_hz; }
+  const Snapshot& newest() const { return newest_; }
+
+ private:
+  LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state);
+  logging::InputRecord read_input(const std::optional<DriverInput>& controls);
+
+  std::shared_ptr<const SimulationModel> model_;
+  DriverSeat seat_;
+  SessionLog* log_;
+  SimulationState state_;
+  DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
+  Snapshot newest_;
+};
+
+}  // namespace septet::server

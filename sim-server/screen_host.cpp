@@ -1,0 +1,177 @@
+#include "sim-server/screen_host.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/core.h>
+
+namespace septet::server {
+
+using namespace control;
+
+namespace {
+
+constexpr std::size_t scene_bytes_per_pump = 256 * 1024;  // About a millisecond's work.
+
+std::uint64_t instance_of(const net::SessionId& session) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, session.data(), sizeof number);
+  return number;
+}
+
+}  // namespace
+
+ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& tick_socket, const scene::Store& store,
+                       ScreenHostOptions options)
+    : options_(std::move(options)),
+      lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
+      publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      scene_(store, instance_of(options_.session)),
+      planner_(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz) {
+  if (options_.welcome.group_ip != 0) publisher_.add_destination({options_.welcome.group_ip, options_.welcome.group_port});
+  for (const auto& name : options_.screens) screens_.push_back({.name = name});
+}
+
+HostedScreen* ScreenHost::screen_of(net::ClientId client) {
+  const auto found = std::ranges::find(screens_, std::optional(client), &HostedScreen::client);
+  return found == screens_.end() ? nullptr : &*found;
+}
+
+void ScreenHost::send(net::ClientId client, const ControlMessage& message) {
+  lane_.send(client, net::share(encode_control(message)), net::Reliability::reliable);
+}
+
+void ScreenHost::pump(double now_s) {
+  for (const net::ServerEvent& event : lane_.pump(now_s)) {
+    switch (event.kind) {
+      case net::ServerEvent::Kind::connected:
+        if (const auto* info = lane_.info(event.client)) scene_.connect(event.client, info->name);
+        break;
+      case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason); break;
+      case net::ServerEvent::Kind::message: on_message(event, now_s); break;
+      case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
+    }
+  }
+  for (const net::ClientId client : lane_.clients())
+    scene_.pump(client, scene_bytes_per_pump, [&](std::span<const std::byte> message) {
+      const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
+      return sent == net::SendResult::queued || sent == net::SendResult::overwrote;
+    });
+}
+
+void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
+  baselines_.heard(event.client, now_s);
+  switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
+    case LaneMessage::scene:
+      // Screens only look: a change that one asks for is not made.
+      if (const auto requests = scene_.receive(event.client, std::span(event.bytes).subspan(1)); !requests)
+        lane_.disconnect(event.client, requests.error().what);
+      break;
+    case LaneMessage::control:
+      if (const auto message = decode_control(event.bytes))
+        on_control(event.client, *message, now_s);
+      else
+        lane_.disconnect(event.client, message.error().what);
+  }
+}
+
+void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
+  if (const auto* hello = std::get_if<Hello>(&message)) return on_hello(client, *hello, now_s);
+  HostedScreen* screen = screen_of(client);
+  if (!screen) return;
+  if (const auto* arrived = std::get_if<TickArrived>(&message)) {
+    if (arrived->lost_baseline) return baselines_.join(client, now_s);
+    baselines_.acknowledge(client, arrived->tick, now_s);
+    planner_.observe(arrived->lateness_s, now_s);
+  } else if (std::holds_alternative<SceneArrived>(message)) {
+    screen->scene_arrived = true;
+  } else if (const auto* presented = std::get_if<Presented>(&message)) {
+    screen->presented = std::max(screen->presented, presented->tick);
+    screen->has_presented = true;
+    ++screen->frames;
+  } else if (const auto* controls = std::get_if<Controls>(&message)) {
+    controls_ = controls->input;
+  } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
+    screen->report = *report;
+  }
+}
+
+void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s) {
+  const auto screen = std::ranges::find(screens_, hello.screen, &HostedScreen::name);
+  if (screen == screens_.end()) {
+    messages_.push_back(fmt::format("refused a screen called \"{}\": the rig has none of that name", hello.screen));
+    return send(client, Refusal{fmt::format("the rig has no screen \"{}\"", hello.screen)});
+  }
+  // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
+  if (screen->client && *screen->client != client) {
+    const net::ClientId old = *screen->client;
+    on_disconnected(old, "replaced by a new connection");
+    lane_.disconnect(old, "replaced by a new connection");
+  }
+  screen->client = client;
+  screen->scene_arrived = screen->has_presented = false;
+  ++screen->joined;
+  baselines_.join(client, now_s);
+  if (options_.welcome.group_ip == 0)
+    if (const auto* info = lane_.info(client)) {
+      const net::Address destination{info->address.ip, hello.tick_port};
+      unicast_[client] = destination;
+      publisher_.add_destination(destination);
+    }
+  messages_.push_back(fmt::format("screen {} connected", hello.screen));
+  send(client, options_.welcome);
+}
+
+void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason) {
+  scene_.disconnect(client);
+  baselines_.leave(client);
+  if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
+    publisher_.remove_destination(destination->second);
+    unicast_.erase(destination);
+  }
+  if (HostedScreen* screen = screen_of(client)) {
+    messages_.push_back(fmt::format("screen {} left: {}", screen->name, reason));
+    screen->client.reset();
+    screen->scene_arrived = false;
+  }
+}
+
+void ScreenHost::publish(std::shared_ptr<const WireSnapshot> snapshot, double now_s) {
+  baselines_.advance_to(now_s);
+  const WireSnapshot* baseline = nullptr;
+  if (const auto tick = baselines_.baseline()) {
+    const auto found = std::ranges::find(sent_, *tick, [](const auto& sent) { return sent->rest.tick; });
+    if (found != sent_.end()) baseline = found->get();
+  }
+  Bytes payload;
+  ByteWriter writer(payload);
+  put_tick_header(writer, planner_.header(now_s));
+  encode_snapshot(*snapshot, baseline, payload);
+  last_tick_bytes_ = payload.size();
+  publisher_.publish(snapshot->rest.tick, payload);
+  sent_.push_back(std::move(snapshot));
+  if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
+}
+
+bool ScreenHost::all_ready() const {
+  return std::ranges::all_of(screens_, [](const HostedScreen& screen) { return screen.live() && screen.scene_arrived; });
+}
+
+bool ScreenHost::all_presented(Tick tick) const {
+  return std::ranges::all_of(screens_, [&](const HostedScreen& screen) {
+    return !screen.live() || !screen.scene_arrived || (screen.has_presented && screen.presented >= tick);
+  });
+}
+
+std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }
+
+void ScreenHost::finish(const std::string& reason) {
+  for (const auto& screen : screens_)
+    if (screen.client) send(*screen.client, Finish{reason});
+}
+
+bool ScreenHost::all_reported() const {
+  return std::ranges::all_of(screens_, [](const HostedScreen& screen) { return !screen.live() || screen.report; });
+}
+
+}  // namespace septet::server

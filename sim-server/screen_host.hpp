@@ -1,0 +1,108 @@
+#pragma once
+/// The server's side of both lanes: who is there, the scene to those who ask for it, every tick to all of them.
+///
+/// It never waits for a screen: ticks go out once whatever the number of screens, and what a screen has not taken of the
+/// scene costs a bounded queue. In lockstep it is the caller who waits, by asking `all_presented`. Sockets only through the
+/// DatagramSocket seam, time only as an argument. One thread.
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/net/baseline_tracker.hpp"
+#include "engine/net/secure_server.hpp"
+#include "engine/net/tick_publisher.hpp"
+#include "engine/control/control_message.hpp"
+#include "engine/replication/replication_server.hpp"
+#include "engine/scene/store.hpp"
+#include "engine/world/wire_snapshot.hpp"
+#include "sim-server/playout_planner.hpp"
+
+namespace septet::server {
+
+struct ScreenHostOptions {
+  net::Identity identity;
+  net::SessionId session{};
+  std::vector<net::AllowedClient> allowed;
+  net::ChannelLimits limits;
+  control::Welcome welcome;
+  std::vector<std::string> screens;  ///< Names that the rig knows; others are refused.
+  double least_playout_delay_s = 2.0 / 120.0;
+  std::size_t max_datagram_bytes = 1200;
+};
+
+/// One screen of the rig, connected or not.
+struct HostedScreen {
+  std::string name;
+  std::optional<net::ClientId> client;
+  bool scene_arrived = false;
+  Tick presented = 0;
+  bool has_presented = false;
+  std::uint64_t frames = 0;
+  std::uint32_t joined = 0;  ///< How often it has connected.
+  std::optional<control::ScreenReport> report;
+
+  bool live() const { return client.has_value(); }
+};
+
+class ScreenHost {
+ public:
+  /// The sockets and the store outlive the host.
+  ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& tick_socket, const scene::Store& store,
+             ScreenHostOptions options);
+
+  /// Receives, answers, and sends of the scene what the lanes take now.
+  void pump(double now_s);
+  bool has_backlog() const { return lane_.has_backlog(); }
+
+  /// Tells of a command that the store has taken.
+  void scene_changed(const scene::Command& command) { scene_.applied(command); }
+
+  /// Sends one tick to everybody, as a difference to what all live screens hold.
+  void publish(std::shared_ptr<const WireSnapshot> snapshot, double now_s);
+  /// Sends the newest tick once more: in lockstep, where someone has not answered.
+  void repeat_newest() { publisher_.repeat_newest(); }
+
+  const std::vector<HostedScreen>& screens() const { return screens_; }
+  /// Every screen of the rig is connected and holds the whole scene.
+  bool all_ready() const;
+  /// Every screen that is connected and holds the scene has shown this tick; those that have gone do not count.
+  bool all_presented(Tick tick) const;
+  /// The newest controls that a screen with keyboard or gamepad has sent, once.
+  std::optional<DriverInput> take_controls();
+  void finish(const std::string& reason);
+  /// Every connected screen has answered Finish with its report.
+  bool all_reported() const;
+
+  const net::TickPublisherCounters& tick_counters() const { return publisher_.counters(); }
+  net::ChannelCounters lane_counters() const { return lane_.counters(); }
+  double playout_delay_s() const { return planner_.delay_s(); }
+  std::size_t last_tick_bytes() const { return last_tick_bytes_; }
+  /// What happened since the last call, for the log and the console: "screen ahead-2 connected".
+  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
+
+ private:
+  void on_message(const net::ServerEvent& event, double now_s);
+  void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
+  void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
+  void on_disconnected(net::ClientId client, const std::string& reason);
+  HostedScreen* screen_of(net::ClientId client);
+  void send(net::ClientId client, const control::ControlMessage& message);
+
+  ScreenHostOptions options_;
+  net::SecureServer lane_;
+  net::TickPublisher publisher_;
+  net::BaselineTracker baselines_;
+  replication::ReplicationServer scene_;
+  PlayoutPlanner planner_;
+  std::vector<HostedScreen> screens_;
+  std::map<net::ClientId, net::Address> unicast_;
+  std::deque<std::shared_ptr<const WireSnapshot>> sent_;  ///< Possible baselines, ascending tick.
+  std::optional<DriverInput> controls_;
+  std::size_t last_tick_bytes_ = 0;
+  std::vector<std::string> messages_;
+};
+
+}  // namespace septet::server

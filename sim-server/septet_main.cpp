@@ -1,0 +1,95 @@
+/// `septet`: the command people type.
+
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "sim-server/command/check_command.hpp"
+#include "sim-server/command/drive_command.hpp"
+#include "sim-server/command/replay_command.hpp"
+#include "sim-server/command/report_command.hpp"
+#include "sim-server/command/road_command.hpp"
+#include "sim-server/version.hpp"
+
+namespace septet::server {
+namespace {
+
+/// Options that `drive` and `replay` share.
+void add_drive_options(CLI::App& command, DriveOptions& options) {
+  command.add_option("--rig", options.rig, "Rig: a file or a name (seven-screens, three-monitors, desktop)");
+  command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside");
+  command.add_option("--seconds", options.seconds, "Simulated seconds to run")->check(CLI::Range(0.0, 1e6));
+  command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
+  app.set_version_flag("--version", std::string(version));
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  app.failure_message([](const CLI::App* self, const CLI::Error& error) {
+    return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
+  });
+  int status = 0;
+
+  DriveOptions drive;
+  auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
+  add_drive_options(*drive_command, drive);
+  drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name below scenarios/");
+  drive_command->add_option("--seed", drive.seed, "Seed of everything random");
+  drive_command->add_option("--driver", drive.driver, "Which simulated driver (plain, novice, experienced, tired)");
+  drive_command->add_flag("--no-screens", drive.no_screens, "Server and car only, as fast as it goes");
+  drive_command->callback([&] { status = run_drive(drive); });
+
+  DriveOptions replay;
+  bool verify = false;
+  auto* replay_command = app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
+  replay_command->add_option("session", replay.replay, "Session file")->required();
+  add_drive_options(*replay_command, replay);
+  replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at");
+  replay_command->add_flag("--verify", verify, "Run the recorded input again and compare every tick's state hash");
+  replay_command->callback([&] { status = verify ? run_verify(replay.replay) : run_drive(replay); });
+
+  std::string session;
+  std::filesystem::path report_out;
+  auto* report_command = app.add_subcommand("report", "Write report.html for a session");
+  report_command->add_option("session", session, "Session file")->required();
+  report_command->add_option("--out", report_out, "Where to write (default: report.html beside the session)");
+  report_command->callback([&] { status = run_report(session, report_out); });
+
+  auto* road_command = app.add_subcommand("road", "Questions to a road file");
+  road_command->require_subcommand(1);
+  std::string road_file;
+  auto* sample = road_command->add_subcommand("sample", "Lines road_id,lane_id,s_m,lane_offset_m in, poses out");
+  sample->add_option("file", road_file, "OpenDRIVE file")->required();
+  sample->callback([&] { status = run_road_sample(road_file, std::cin, std::cout); });
+  auto* locate = road_command->add_subcommand("locate", "Lines x_m,y_m in, road positions out");
+  locate->add_option("file", road_file, "OpenDRIVE file")->required();
+  locate->callback([&] { status = run_road_locate(road_file, std::cin, std::cout); });
+
+  std::vector<std::string> files;
+  auto* check_command = app.add_subcommand("check", "Say what is wrong with road, scenario and rig files");
+  check_command->add_option("files", files, "Files (.xodr, .xosc, .toml)")->required();
+  check_command->callback([&] { status = run_check(files); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, std::cout, std::cerr) == 0 ? status : 2;
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace septet::server
+
+int main(int argc, char** argv) {
+  try {
+    return septet::server::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "septet: {}\n", error.what());
+    return 1;
+  }
+}

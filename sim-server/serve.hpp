@@ -1,0 +1,53 @@
+#pragma once
+/// The server's loop: one snapshot per tick from the source, to all screens.
+///
+/// In lockstep simulated time is all there is: every n-th tick is sent and the next one is not taken before all live screens
+/// have shown it. In real time a tick is due every 1/rate seconds whatever the screens do.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "engine/core/expected.hpp"
+#include "engine/net/udp_socket.hpp"
+#include "sim-server/screen_host.hpp"
+#include "sim-server/tick_source.hpp"
+
+namespace septet::server {
+
+struct ServeOptions {
+  bool lockstep = false;
+  std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
+  std::uint64_t ticks = 0;             ///< 0: until stopped.
+  double patience_s = 60.0;            ///< For the screens to be ready at the start, in lockstep.
+  double lockstep_patience_s = 10.0;   ///< For one frame; then whoever has not answered is left behind.
+};
+
+struct Progress {
+  double simulated_s = 0.0, total_s = 0.0, wall_s = 0.0;
+  std::string what;  ///< "waiting for 3 screens", "driving".
+};
+
+/// What the loop needs of the world outside, so that tests run it on simulated time.
+struct ServeEnvironment {
+  std::function<double()> now_s;
+  /// Sleeps until something arrives or the time has passed.
+  std::function<void(double seconds)> wait;
+  std::function<bool()> stop_requested;
+  std::function<void(const Progress&)> report;
+  std::function<void(const std::string&)> message;
+};
+
+struct ServeResult {
+  std::uint64_t ticks = 0;
+  Tick last_tick = 0;
+  double simulated_s = 0.0;
+  double wall_s = 0.0;
+  std::uint64_t late_ticks = 0;  ///< Real time: ticks that began more than a tick late.
+  std::uint64_t state_hash = 0;
+};
+
+Expected<ServeResult> serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
+                            const ServeEnvironment& environment);
+
+}  // namespace septet::server

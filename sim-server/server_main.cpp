@@ -1,0 +1,52 @@
+/// `septet-server`: the simulation of one drive, for the screens of a rig.
+
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "sim-server/resources.hpp"
+#include "sim-server/server_program.hpp"
+
+int main(int argc, char** argv) {
+  using namespace septet;
+  server::ServerOptions options;
+  options.scenario = "motorway-ambulance";
+  options.rig = "seven-screens";
+  options.out = "out/server";
+  CLI::App app{"septet-server: the simulation of one drive. `septet drive` starts it; on a rig of several machines start it yourself."};
+  app.add_option("--scenario", options.scenario, "OpenSCENARIO file, its folder, or a name below scenarios/");
+  app.add_option("--rig", options.rig, "Rig file or name");
+  app.add_option("--out", options.out, "Folder for the session file and the results");
+  app.add_option("--keys", options.keys, "Folder with server.key and allowed-clients")->required();
+  app.add_option("--replay", options.replay, "Show this session instead of driving");
+  app.add_option("--from", options.replay_from_s, "Simulated second to begin the replay at");
+  app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until stopped");
+  app.add_option("--seed", options.seed, "Seed of everything random");
+  app.add_option("--driver", options.driver, "Which simulated driver");
+  app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
+  app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
+  app.add_flag("--any-port", options.any_port, "Take any free port and say which");
+  CLI11_PARSE(app, argc, argv);
+
+  const auto fail = [](const Error& error) {
+    fmt::print(stderr, "septet-server: {}\n", describe(error));
+    return 1;
+  };
+  try {
+    const auto rig = server::find_resource(options.rig, "rigs", ".toml");
+    if (!rig) return fail(rig.error());
+    options.rig = rig->string();
+    if (options.replay.empty()) {
+      const auto scenario = server::find_resource(options.scenario, "scenarios", ".xosc");
+      if (!scenario) return fail(scenario.error());
+      options.scenario = scenario->string();
+    }
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (const auto outcome = server::run_server(options); !outcome) return fail(outcome.error());
+    return 0;
+  } catch (const std::exception& error) {
+    return fail({error.what(), "", ""});
+  }
+}

@@ -1,0 +1,24 @@
+#pragma once
+/// What `septet-server` is told on its command line.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace septet::server {
+
+struct ServerOptions {
+  std::string scenario, rig;
+  std::filesystem::path out;
+  std::filesystem::path keys;    ///< Folder with server.key and allowed-clients.
+  std::filesystem::path replay;  ///< A session to show instead of a scenario to drive.
+  double replay_from_s = 0.0;
+  double seconds = 0.0;  ///< Simulated; 0: until stopped.
+  std::uint64_t seed = 1;
+  std::string driver;    ///< Simulated driver; empty: the rig's.
+  bool lockstep = false;
+  bool no_screens = false;
+  bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.
+};
+
+}  // namespace septet::server

@@ -1,0 +1,245 @@
+#include "sim-server/server_program.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "engine/net/multicast_probe.hpp"
+#include "engine/scene/builder.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "engine/scenery/road_world.hpp"
+#include "engine/scenery/vehicles.hpp"
+#include "sim-server/drive_loader.hpp"
+#include "sim-server/driver_seat.hpp"
+#include "sim-server/live_drive.hpp"
+#include "sim-server/replay_source.hpp"
+#include "sim-server/resources.hpp"
+#include "sim-server/serve.hpp"
+
+namespace septet::server {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+void on_signal(int) { stop_requested = 1; }
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// One line that is written over on a terminal; elsewhere a line every ten seconds.
+class ProgressLine {
+ public:
+  void show(const Progress& progress) {
+    const bool terminal = ::isatty(STDERR_FILENO) != 0;
+    if (progress.wall_s - shown_s_ < (terminal ? 0.1 : 10.0) && shown_s_ >= 0.0) return;
+    shown_s_ = progress.wall_s;
+    const std::string total = progress.total_s > 0.0 ? fmt::format(" of {:.0f}", progress.total_s) : "";
+    fmt::print(stderr, "{}{:6.1f}{} s driven, {:.0f} s passed, {}{}", terminal ? "\r\033[K" : "", progress.simulated_s, total,
+               progress.wall_s, progress.what, terminal ? "" : "\n");
+    open_ = terminal;
+  }
+  void message(const std::string& text) {
+    fmt::print(stderr, "{}{}\n", open_ ? "\n" : "", text);
+    open_ = false;
+  }
+
+ private:
+  double shown_s_ = -1.0;
+  bool open_ = false;
+};
+
+struct Sockets {
+  net::UdpSocket lane, tick;
+};
+
+Expected<Sockets> open_sockets(const ServerOptions& options, const rig::Network& network, bool one_machine) {
+  const std::uint32_t ip = one_machine ? net::loopback_ip : 0;
+  auto lane = net::UdpSocket::open({{ip, options.any_port ? std::uint16_t{0} : network.scene_port}});
+  if (!lane) return tl::unexpected(lane.error());
+  auto tick = net::UdpSocket::open({{ip, 0}});
+  if (!tick) return tl::unexpected(tick.error());
+  return Sockets{std::move(*lane), std::move(*tick)};
+}
+
+/// Multicast if the rig wants it, or if it does not mind and the machine's own loopback carries it.
+Expected<void> choose_transport(const rig::Network& network, bool one_machine, Sockets& sockets, bool any_port, control::Welcome& welcome,
+                                ProgressLine& progress) {
+  if (network.transport == rig::TickTransport::unicast) return {};
+  const auto group_ip = net::parse_ip(network.tick_group, "rig, network.tick_group");
+  if (!group_ip) return tl::unexpected(group_ip.error());
+  std::uint32_t interface_ip = one_machine ? net::loopback_ip : 0;
+  if (!network.interface_address.empty()) {
+    const auto parsed = net::parse_ip(network.interface_address, "rig, network.interface_address");
+    if (!parsed) return tl::unexpected(parsed.error());
+    interface_ip = *parsed;
+  }
+  // Two drives on one machine must not hear each other's group: the port follows the scene lane's.
+  const auto port = any_port ? static_cast<std::uint16_t>(sockets.lane.local_address().port ^ 1u) : network.tick_port;
+  const net::Address group{*group_ip, port};
+  if (network.transport == rig::TickTransport::automatic) {
+    const auto probe = net::probe_multicast(group, interface_ip);
+    progress.message(fmt::format("tick lane: {} ({})", probe.works ? "multicast" : "unicast", probe.reason));
+    if (!probe.works) return {};
+  }
+  if (auto set = sockets.tick.set_multicast({interface_ip, 1, true}); !set) return set;
+  welcome.group_ip = group.ip;
+  welcome.group_port = group.port;
+  welcome.interface_ip = interface_ip;
+  return {};
+}
+
+/// Whether all screens of the rig are this machine's own.
+bool is_one_machine(const rig::Rig& rig) {
+  if (rig.network.server_address != "127.0.0.1") return false;
+  for (const auto& screen : rig.screens)
+    if (!screen.machine.empty()) return false;
+  return true;
+}
+
+Expected<void> fill_from_session(const logging::SessionReader& session, scene::Store& store) {
+  const auto edits = session.scene_edits();
+  if (!edits) return tl::unexpected(edits.error());
+  for (const auto& edit : *edits) {
+    const auto command = scene::decode(edit.command);
+    if (!command) return tl::unexpected(command.error());
+    if (auto applied = store.apply(*command); !applied) return applied;
+  }
+  return {};
+}
+
+/// The source of ticks with what it stands on.
+struct Drive {
+  LoadedDrive loaded;
+  scene::Store store;
+  std::optional<logging::SessionReader> session;  ///< Of a replay.
+  std::optional<SessionLog> log;                  ///< Of a drive.
+  std::unique_ptr<TickSource> source;
+};
+
+Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
+  auto session = logging::SessionReader::open(options.replay);
+  if (!session) return tl::unexpected(session.error());
+  drive.session.emplace(std::move(*session));
+  const auto rig_text = read_text_file(options.rig);
+  if (!rig_text) return tl::unexpected(rig_text.error());
+  auto rig = rig::read_rig(*rig_text, options.rig);
+  if (!rig) return tl::unexpected(rig.error());
+  drive.loaded.rig = std::move(*rig);
+  drive.loaded.sources.push_back({"rig", options.rig, *rig_text});
+  if (auto filled = fill_from_session(*drive.session, drive.store); !filled) return filled;
+  auto source = ReplaySource::start(*drive.session, options.replay_from_s);
+  if (!source) return tl::unexpected(source.error());
+  drive.source = std::move(*source);
+  return {};
+}
+
+Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, ProgressLine& progress) {
+  auto loaded = load_drive({options.scenario, options.rig, options.seed});
+  if (!loaded) return tl::unexpected(loaded.error());
+  drive.loaded = std::move(*loaded);
+  for (const auto& warning : drive.loaded.warnings) progress.message("not used: " + warning);
+  if (!options.no_screens) {
+    scene::SceneBuilder builder(drive.store);
+    scenery::build_vehicles(builder);
+    scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
+  }
+  auto log = SessionLog::create(options.out / "session.sqlite", drive.loaded, options.seed, !options.lockstep && !options.no_screens);
+  if (!log) return tl::unexpected(log.error());
+  drive.log.emplace(std::move(*log));
+  drive.log->record_scene(drive.store);
+  auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
+  if (!seat) return tl::unexpected(seat.error());
+  auto source = LiveDrive::start(drive.loaded.model, std::move(*seat), &*drive.log);
+  if (!source) return tl::unexpected(source.error());
+  drive.source = std::move(*source);
+  return {};
+}
+
+/// Without screens there is nobody to wait for: ticks follow each other as fast as they are computed.
+Expected<ServeResult> run_headless(TickSource& source, std::uint64_t ticks, ProgressLine& progress) {
+  ServeResult result;
+  const double begun_s = monotonic_s();
+  while (!stop_requested && (ticks == 0 || result.ticks < ticks)) {
+    const auto snapshot = source.next(std::nullopt);
+    if (!snapshot) return tl::unexpected(snapshot.error());
+    if (!*snapshot) break;
+    ++result.ticks;
+    result.last_tick = (*snapshot)->rest.tick;
+    result.simulated_s = (*snapshot)->rest.simulated_time_s;
+    result.state_hash = (*snapshot)->rest.state_hash;
+    result.wall_s = monotonic_s() - begun_s;
+    if (result.ticks % 120 == 0) progress.show({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), result.wall_s, "driving"});
+  }
+  return result;
+}
+
+}  // namespace
+
+Expected<void> run_server(const ServerOptions& options) {
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGINT, on_signal);
+  ProgressLine progress;
+  Drive drive;
+  auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
+  if (!prepared) return prepared;
+  const rig::Rig& rig = drive.loaded.rig;
+  const auto ticks = static_cast<std::uint64_t>(options.seconds * drive.source->tick_rate_hz() + 0.5);
+
+  Expected<ServeResult> result;
+  std::vector<HostedScreen> screens;
+  if (options.no_screens) {
+    fmt::print("ready 0\n");
+    std::fflush(stdout);
+    result = run_headless(*drive.source, ticks, progress);
+  } else {
+    const auto identity = net::load_or_create_identity(options.keys / "server.key");
+    if (!identity) return tl::unexpected(identity.error());
+    auto allowed = net::load_allowed_clients(options.keys / "allowed-clients");
+    if (!allowed) return tl::unexpected(allowed.error());
+    const bool one_machine = is_one_machine(rig);
+    auto sockets = open_sockets(options, rig.network, one_machine);
+    if (!sockets) return tl::unexpected(sockets.error());
+    ScreenHostOptions host_options{.identity = *identity, .session = net::random_session_id(), .allowed = std::move(*allowed)};
+    host_options.welcome = {.rig = drive.loaded.source("rig"), .lockstep = options.lockstep, .tick_rate_hz = drive.source->tick_rate_hz(),
+                            .picture_every_ticks = static_cast<std::uint32_t>(drive.source->tick_rate_hz())};
+    host_options.max_datagram_bytes = rig.network.max_payload_bytes;
+    host_options.limits.max_datagram_bytes = rig.network.max_payload_bytes;
+    // A screen that compiles its shaders is silent for a while and costs nobody anything: ticks do not wait for it in real
+    // time, and in lockstep it is waited for anyway.
+    host_options.limits.timeout_s = options.lockstep ? 60.0 : 5.0;
+    host_options.least_playout_delay_s = rig.network.playout_delay_ticks / drive.source->tick_rate_hz();
+    for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
+    if (auto chosen = choose_transport(rig.network, one_machine, *sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
+    ScreenHost host(sockets->lane, sockets->tick, drive.store, std::move(host_options));
+    fmt::print("ready {}\n", sockets->lane.local_address().port);
+    std::fflush(stdout);
+
+    ServeEnvironment environment;
+    environment.now_s = monotonic_s;
+    environment.wait = [&](double seconds) {
+      const net::UdpSocket* waiting[] = {&sockets->lane};
+      net::wait_readable(waiting, seconds);
+    };
+    environment.stop_requested = [] { return stop_requested != 0; };
+    environment.report = [&](const Progress& now) { progress.show(now); };
+    environment.message = [&](const std::string& text) {
+      progress.message(text);
+      if (drive.log) drive.log->record_message("screen", text);
+    };
+    result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks}, environment);
+    screens = host.screens();
+  }
+  progress.message("");
+  if (!drive.log) return result ? Expected<void>{} : tl::unexpected(result.error());
+  // What was driven is kept, also where the end was an error.
+  auto finished = drive.log->finish();
+  if (!result) return tl::unexpected(result.error());
+  if (!finished) return finished;
+  return write_results(options.out, std::filesystem::path(options.scenario).stem().string(), rig.name, options.seed, *result, screens);
+}
+
+}  // namespace septet::server

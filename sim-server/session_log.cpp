@@ -1,0 +1,125 @@
+#include "sim-server/session_log.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/core.h>
+
+#include "engine/road/lane_links.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "logging/report/report.hpp"
+#include "logging/report/summary.hpp"
+#include "logging/session_reader.hpp"
+#include "sim-server/version.hpp"
+
+namespace septet::server {
+namespace {
+
+std::string now_utc() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed, bool real_time) {
+  logging::SessionInfo info;
+  info.septet_version = version;
+  info.git_revision = SEPTET_REVISION;
+  info.started_utc = now_utc();
+  info.ticks_per_second = tick_rate_hz;
+  info.seeds["drive"] = seed;
+  info.files = drive.sources;
+  info.other["driver"] = drive.rig.car.driver;
+  logging::WriterOptions options;
+  options.when_full = real_time ? logging::WhenFull::drop : logging::WhenFull::wait;
+  auto writer = logging::SessionWriter::create(file, info, options);
+  if (!writer) return tl::unexpected(writer.error());
+  return SessionLog(std::move(*writer), drive.model);
+}
+
+void SessionLog::record_scene(const scene::Store& store) {
+  scene::describe_store(store, [&](scene::Command command) {
+    Bytes bytes;
+    scene::encode(command, bytes);
+    writer_.record(logging::SceneEdit{0, std::move(bytes)});
+  });
+}
+
+void SessionLog::record_tick(const Snapshot& snapshot, std::shared_ptr<const WireSnapshot> wire, const std::vector<SimulationEvent>& events) {
+  tick_ = snapshot.tick;
+  simulated_time_s_ = snapshot.simulated_time_s;
+  for (const auto& event : events)
+    writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
+  // The leader is looked for only where a sample wants it: ten times a second.
+  const auto leader = logging::is_sample_due(tick_, tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
+  auto observation = logging::observe(observer_, snapshot, leader);
+  for (auto& event : observation.events) writer_.record(std::move(event));
+  if (observation.sample) writer_.record(std::move(*observation.sample));
+  writer_.record(std::move(wire));
+}
+
+void SessionLog::record_message(const std::string& kind, const std::string& text) {
+  writer_.record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
+}
+
+std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads) {
+  const DriverCar& car = snapshot.driver_car;
+  const Participant* self = find_participant(snapshot, car.participant);
+  if (!self || car.lane == 0) return std::nullopt;
+  const double direction = road::runs_along_s(roads, {car.road, car.lane, car.road_s_m, 0.0}) ? 1.0 : -1.0;
+  const VehicleModel& own = vehicle_models()[self->model];
+  std::optional<logging::Leader> leader;
+  for (const Participant& other : snapshot.participants) {
+    if (other.id == self->id) continue;
+    const Vec3 away = other.world_from_vehicle.position_m - self->world_from_vehicle.position_m;
+    if (glm::dot(away, away) > 260.0 * 260.0 || glm::dot(away, self->world_from_vehicle.orientation * Vec3(1, 0, 0)) < 0.0) continue;
+    const road::RoadPosition hint{car.road, car.road_s_m, 0.0};
+    const auto& position = other.world_from_vehicle.position_m;
+    const auto place = road::locate(roads, {position.x, position.y}, &hint);
+    if (!place || place->position.road != car.road || place->lanes.lane != car.lane) continue;
+    // The driver's station is that of the front axle; distances are between bumpers.
+    const double to_rear_axle = direction * (place->position.s_m - car.road_s_m);
+    const double own_front = own.front_m() - own.wheelbase_m;
+    const VehicleModel& model = vehicle_models()[other.model];
+    const double gap = to_rear_axle - model.rear_overhang_m - own_front;
+    if (gap < -2.0 || gap > 250.0 || (leader && gap > leader->distance_gap_m)) continue;
+    leader = logging::Leader{other.id, gap, gap + model.length_m, glm::length(other.velocity_mps)};
+  }
+  return leader;
+}
+
+Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
+                             const ServeResult& result, const std::vector<HostedScreen>& screens) {
+  const auto reader = logging::SessionReader::open(out / "session.sqlite");
+  if (!reader) return tl::unexpected(reader.error());
+  const auto samples = reader->samples();
+  if (!samples) return tl::unexpected(samples.error());
+  const auto measures = logging::compute_drive_measures(*samples);
+  logging::DriveSummary summary;
+  summary.scenario = scenario;
+  summary.rig = rig;
+  summary.seed = seed;
+  summary.ticks = result.ticks;
+  summary.simulated_s = result.simulated_s;
+  summary.wall_s = result.wall_s;
+  summary.state_hash = result.state_hash;
+  summary.lateral_position_mean_m = measures.lateral_position.mean_m;
+  summary.lateral_position_sd_m = measures.lateral_position.sd_m;
+  summary.lane_changes = measures.lane_changes.size();
+  for (const auto& screen : screens) {
+    const auto report = screen.report.value_or(control::ScreenReport{});
+    summary.screens.push_back({screen.name, report.frames, report.frames_off_tick, report.datagrams_lost, report.datagrams_repaired,
+                               report.frame_ms_p50, report.frame_ms_p99});
+  }
+  if (auto written = logging::write_summary(out / "summary.json", summary); !written) return written;
+  return logging::write_report(*reader, out / "report.html");
+}
+
+}  // namespace septet::server

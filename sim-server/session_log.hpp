@@ -1,0 +1,50 @@
+#pragma once
+/// What the server writes into the session file, tick by tick, and what it says of the drive at the end.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/road/road_network.hpp"
+#include "engine/scene/store.hpp"
+#include "logging/drive_observer.hpp"
+#include "logging/session_writer.hpp"
+#include "sim-server/drive_loader.hpp"
+#include "sim-server/serve.hpp"
+
+namespace septet::server {
+
+class SessionLog {
+ public:
+  static Expected<SessionLog> create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed, bool real_time);
+
+  void record_scene(const scene::Store& store);
+  void record_input(logging::InputRecord input) { writer_.record(std::move(input)); }
+  /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
+  void record_tick(const Snapshot& snapshot, std::shared_ptr<const WireSnapshot> wire, const std::vector<SimulationEvent>& events);
+  void record_message(const std::string& kind, const std::string& text);
+  std::optional<Error> take_error() { return writer_.take_error(); }
+
+  /// Closes the file.
+  Expected<void> finish() { return writer_.finish(); }
+
+ private:
+  SessionLog(logging::SessionWriter writer, std::shared_ptr<const SimulationModel> model)
+      : writer_(std::move(writer)), model_(std::move(model)) {}
+
+  logging::SessionWriter writer_;
+  std::shared_ptr<const SimulationModel> model_;
+  logging::DriveObserver observer_;
+  Tick tick_ = 0;
+  double simulated_time_s_ = 0.0;
+};
+
+/// The nearest participant ahead in the driver's lane, within 250 m.
+std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
+
+/// summary.json and report.html beside the session file.
+Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
+                             const ServeResult& result, const std::vector<HostedScreen>& screens);
+
+}  // namespace septet::server

@@ -1,0 +1,243 @@
+#include "sim-server/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "engine/core/hash.hpp"
+#include "engine/road/lane_links.hpp"
+
+namespace septet::server {
+namespace {
+
+const char* name_of(scenario::ElementStatus status) {
+  switch (status) {
+    case scenario::ElementStatus::standby: return "standby";
+    case scenario::ElementStatus::running: return "running";
+    case scenario::ElementStatus::complete: return "complete";
+  }
+  return "";
+}
+
+constexpr double tick_s = 1.0 / tick_rate_hz;
+constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
+
+/// The road's surface under each wheel, and how slippery it is there.
+vehicle::Ground ground_below(const SimulationModel& model, SimulationState& state) {
+  const auto centres = vehicle::wheel_centres_m(model.car, state.car);
+  const Environment& weather = state.scenario.environment;
+  const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
+  vehicle::Ground ground;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    vehicle::WheelGround& wheel = ground[i];
+    const auto surface = road::surface_at(model.roads, {centres[i].x, centres[i].y}, state.car_road ? &state.wheel_roads[i] : nullptr, 60.0);
+    wheel.friction = friction;
+    if (surface) {
+      state.wheel_roads[i] = surface->position;
+      wheel.point_m = {centres[i].x, centres[i].y, surface->height_m};
+      wheel.normal = surface->normal;
+    } else {
+      // Far off every road the ground goes on level at the height of the wheel's last contact.
+      wheel.point_m = {centres[i].x, centres[i].y, state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
+      wheel.friction = std::min(friction, 0.5);
+      wheel.rolling_resistance = 4.0;
+    }
+  }
+  return ground;
+}
+
+void advance_car(const SimulationModel& model, const DriverInput& input, SimulationState& state,
+                 std::vector<SimulationEvent>& events) {
+  const auto ground = ground_below(model, state);
+  const std::uint32_t bad_before = state.car.bad_numbers;
+  for (int i = 0; i < car_steps; ++i) vehicle::advance_vehicle(model.car, input, ground, tick_s / car_steps, state.car);
+  if (state.car.bad_numbers != bad_before) {
+    state.diagnostics.bad_numbers += state.car.bad_numbers - bad_before;
+    events.push_back({"bad_number", driver_participant, "the car was reset"});
+  }
+  const Vec3 origin = vehicle::outputs(model.car, state.car).world_from_vehicle.position_m;
+  if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
+    state.car_road = place->position;
+}
+
+Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s) {
+  Lamps lamps;
+  const bool blink = std::fmod(time_s, 0.7) < 0.37;  // UN R48: 90 ± 30 flashes a minute.
+  lamps.set(Lamp::brake, input.brake > 0.02);
+  lamps.set(Lamp::reverse, car.gear < 0);
+  lamps.set(Lamp::indicator_left, blink && (input.hazard_lights || input.indicator == IndicatorStalk::left));
+  lamps.set(Lamp::indicator_right, blink && (input.hazard_lights || input.indicator == IndicatorStalk::right));
+  lamps.set(Lamp::low_beam, input.low_beam);
+  lamps.set(Lamp::high_beam, input.high_beam);
+  lamps.set(Lamp::horn, input.horn);
+  return lamps;
+}
+
+Participant car_participant(const SimulationModel& model, const SimulationState& state) {
+  const auto out = vehicle::outputs(model.car, state.car);
+  Participant car;
+  car.id = driver_participant;
+  car.model = model.scenario.entities[model.driver_entity].model;
+  car.paint = 7;
+  car.lamps = driver_lamps(state.input, out, state.time_s());
+  car.world_from_vehicle = out.world_from_vehicle;
+  car.velocity_mps = out.velocity_mps;
+  car.acceleration_mps2 = out.acceleration_mps2;
+  car.angular_velocity_radps = out.angular_velocity_radps;
+  car.front_steer_rad = out.front_steer_rad;
+  car.wheel_spin_rad = out.wheel_spin_rad;
+  car.wheel_spin_radps = out.wheel_spin_radps;
+  car.wheel_lift_m = out.wheel_lift_m;
+  return car;
+}
+
+DriverCar driver_car(const SimulationModel& model, const SimulationState& state) {
+  const auto out = vehicle::outputs(model.car, state.car);
+  DriverCar car;
+  car.participant = driver_participant;
+  car.speed_mps = out.speed_mps;
+  car.engine_radps = out.engine_radps;
+  car.gear = static_cast<std::int8_t>(out.gear);
+  car.steering_wheel_rad = state.input.steering_wheel_rad;
+  car.steering_torque_nm = out.steering_torque_nm;
+  car.accelerator = state.input.accelerator;
+  car.brake = state.input.brake;
+  car.clutch = state.input.clutch;
+  car.yaw_rate_radps = out.yaw_rate_radps;
+  car.gaze_heading_rad = state.input.gaze_heading_rad;
+  // Lateral position is that of the middle of the front axle (SAE J2944, reference point 2), which the driver steers.
+  const Vec3 front = out.world_from_vehicle * Vec3(model.car.body.wheelbase_m, 0.0, 0.0);
+  const auto place = road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0);
+  if (place && place->lanes.lane != 0 && place->lanes.outside_m <= 0.0) {
+    car.road = place->position.road;
+    car.lane = place->lanes.lane;
+    car.road_s_m = place->position.s_m;
+    car.lane_width_m = road::lane_width_m(model.roads, car.road, car.lane, car.road_s_m);
+    const bool along = road::runs_along_s(model.roads, {car.road, car.lane, car.road_s_m, 0.0});
+    car.lateral_position_m = along ? place->lanes.offset_m : -place->lanes.offset_m;
+  }
+  return car;
+}
+
+/// Vehicles as rectangles on the ground: do two of them overlap (separating axes)?
+bool overlap(const Participant& a, const Participant& b) {
+  const VehicleModel &model_a = vehicle_models()[a.model], &model_b = vehicle_models()[b.model];
+  const auto centre = [](const Participant& p, const VehicleModel& m) { return Vec2(p.world_from_vehicle * Vec3(m.centre_x_m(), 0.0, 0.0)); };
+  const Vec2 between = centre(b, model_b) - centre(a, model_a);
+  const double reach = 0.5 * (model_a.length_m + model_b.length_m + model_a.width_m + model_b.width_m);
+  if (glm::dot(between, between) > reach * reach) return false;
+  const double angle_a = heading_rad(a.world_from_vehicle.orientation), angle_b = heading_rad(b.world_from_vehicle.orientation);
+  const Vec2 axes[] = {{std::cos(angle_a), std::sin(angle_a)}, {-std::sin(angle_a), std::cos(angle_a)},
+                       {std::cos(angle_b), std::sin(angle_b)}, {-std::sin(angle_b), std::cos(angle_b)}};
+  for (const Vec2& axis : axes) {
+    const auto half = [&](const Vec2& forward, const VehicleModel& m) {
+      const Vec2 left(-forward.y, forward.x);
+      return 0.5 * (m.length_m * std::abs(glm::dot(forward, axis)) + m.width_m * std::abs(glm::dot(left, axis)));
+    };
+    if (std::abs(glm::dot(between, axis)) > half(axes[0], model_a) + half(axes[2], model_b)) return false;
+  }
+  return true;
+}
+
+void notice_collisions(Snapshot& snapshot, SimulationState& state, std::vector<SimulationEvent>& events) {
+  const Participant* car = find_participant(snapshot, driver_participant);
+  std::vector<ParticipantId> touching;
+  for (const Participant& other : snapshot.participants) {
+    if (other.id == driver_participant || !car || !overlap(*car, other)) continue;
+    touching.push_back(other.id);
+    if (std::ranges::binary_search(state.touching, other.id)) continue;
+    ++state.diagnostics.collisions;
+    events.push_back({"collision", other.id, fmt::format("closing_speed_mps={:.2f}", glm::length(car->velocity_mps - other.velocity_mps))});
+  }
+  state.touching = std::move(touching);
+  snapshot.diagnostics = state.diagnostics;
+}
+
+/// Everybody whom traffic has to mind and does not move itself; the driver's car comes first.
+std::vector<traffic::ForeignVehicle> foreign_vehicles(const SimulationModel& model, const SimulationState& state) {
+  std::vector<Participant> others{car_participant(model, state)};
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
+  std::vector<traffic::ForeignVehicle> foreign;
+  foreign.reserve(others.size());
+  for (const Participant& p : others) foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps});
+  return foreign;
+}
+
+/// Starts and ends the swarms that the storyboard asked for.
+void apply_swarms(const SimulationModel& model, const scenario::StepResult& step, SimulationState& state) {
+  for (const auto& swarm : step.swarms) {
+    state.traffic_parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
+    state.traffic_parameters.first_id = first_traffic_participant;
+    state.traffic = traffic::populate(state.traffic_parameters, model.roads, foreign_vehicles(model, state), state.traffic_random);
+  }
+  if (!step.stopped_traffic.empty()) state.traffic = {};
+}
+
+void advance_storyboard(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
+  const auto car = vehicle::outputs(model.car, state.car);
+  scenario::place_external(model.roads, model.driver_entity, car.world_from_vehicle, car.velocity_mps, car.acceleration_mps2, state.scenario);
+  const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
+  for (const auto& event : step.events)
+    events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
+  apply_swarms(model, step, state);
+}
+
+}  // namespace
+
+Expected<SimulationState> initial_state(const SimulationModel& model) {
+  SimulationState state;
+  scenario::StepResult init;
+  auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
+  if (!started) return tl::unexpected(started.error());
+  state.scenario = std::move(*started);
+  const auto& entity = state.scenario.entities[model.driver_entity];
+  if (!entity.active)
+    return failure(fmt::format("the driver's car \"{}\" has no place", model.scenario.entities[model.driver_entity].name), "Init",
+                   "give it a TeleportAction");
+  state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
+  state.traffic_random = Random(model.seed, 1);
+  apply_swarms(model, init, state);
+  return state;
+}
+
+Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,
+                     std::vector<SimulationEvent>& events) {
+  ++state.tick;
+  state.input = input;
+  advance_car(model, input, state, events);
+  advance_storyboard(model, state, events);
+  traffic::advance(state.traffic_parameters, model.roads, foreign_vehicles(model, state), tick_s, state.traffic_random, state.traffic);
+  Snapshot snapshot = capture_snapshot(model, state);
+  notice_collisions(snapshot, state, events);
+  return snapshot;
+}
+
+Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state) {
+  Snapshot snapshot;
+  snapshot.tick = state.tick;
+  snapshot.simulated_time_s = state.time_s();
+  snapshot.state_hash = hash_state(state);
+  snapshot.environment = state.scenario.environment;
+  snapshot.driver_car = driver_car(model, state);
+  snapshot.participants.push_back(car_participant(model, state));
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, snapshot.participants);
+  traffic::append_participants(state.traffic, model.roads, snapshot.participants);
+  std::ranges::sort(snapshot.participants, {}, &Participant::id);
+  snapshot.diagnostics = state.diagnostics;
+  return snapshot;
+}
+
+std::uint64_t hash_state(const SimulationState& state) {
+  StateHash hash;
+  hash.add(state.tick);
+  vehicle::hash_state(hash, state.car);
+  scenario::add_to_hash(state.scenario, hash);
+  traffic::hash_state(hash, state.traffic);
+  for (const auto word : state.traffic_random.state()) hash.add(word);
+  hash.add(state.diagnostics.collisions);
+  hash.add(state.diagnostics.bad_numbers);
+  return hash.value();
+}
+
+}  // namespace septet::server

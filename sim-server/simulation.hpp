@@ -1,0 +1,72 @@
+#pragma once
+/// The simulation: all models and all state of one drive, and one step of it.
+///
+/// `SimulationModel` is const after loading; `SimulationState` is everything that changes. `server_step` reads like the
+/// diagram of the design: driver input → vehicle → storyboard → traffic → snapshot. No file, socket or clock in here: the
+/// same model, seed and inputs give the same state hash at every tick.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/physics/vehicle/vehicle.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/scenario/scenario.hpp"
+#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/traffic/traffic.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::server {
+
+inline constexpr double tick_rate_hz = 120.0;
+inline constexpr ParticipantId driver_participant = 1;
+inline constexpr ParticipantId first_scripted_participant = 2;   ///< The scenario's entities, in its order.
+inline constexpr ParticipantId first_traffic_participant = 1000;
+
+struct SimulationModel {
+  road::RoadNetwork roads;
+  scenario::Scenario scenario;
+  scenario::EntityIndex driver_entity = scenario::no_entity;  ///< Whom the scenario calls its driver's car.
+  vehicle::VehicleParameters car;
+  std::uint64_t seed = 1;
+};
+
+struct SimulationState {
+  Tick tick = 0;
+  vehicle::VehicleState car;
+  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
+  std::optional<road::RoadPosition> car_road;
+  scenario::ScenarioState scenario;
+  traffic::TrafficParameters traffic_parameters;  ///< As the storyboard asked for it.
+  traffic::TrafficState traffic;
+  Random traffic_random{0};
+  DriverInput input;  ///< Of the last step.
+  Diagnostics diagnostics;
+  std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.
+
+  double time_s() const { return static_cast<double>(tick) / tick_rate_hz; }
+};
+
+/// Something that happened in a step, for the log.
+struct SimulationEvent {
+  std::string kind;  ///< "scenario", "collision", "bad_number".
+  std::optional<ParticipantId> participant;
+  std::string detail;
+};
+
+/// The state at tick 0, after the scenario's Init actions. Error: a scenario that does not fit its road.
+Expected<SimulationState> initial_state(const SimulationModel& model);
+
+/// One tick on; answers the snapshot of the new tick. Events are appended.
+Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,
+                     std::vector<SimulationEvent>& events);
+
+Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state);
+
+std::uint64_t hash_state(const SimulationState& state);
+
+}  // namespace septet::server

@@ -1,0 +1,21 @@
+#pragma once
+/// Where snapshots come from: a drive being simulated, or a session being shown again. Everything after it is the same.
+
+#include <memory>
+#include <optional>
+
+#include "engine/core/expected.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/wire_snapshot.hpp"
+
+namespace septet::server {
+
+class TickSource {
+ public:
+  virtual ~TickSource() = default;
+  /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
+  virtual Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
+  virtual double tick_rate_hz() const = 0;
+};
+
+}  // namespace septet::server

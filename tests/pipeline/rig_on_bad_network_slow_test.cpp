@@ -1,0 +1,166 @@
+#include <doctest/doctest.h>
+
+#include <map>
+#include <set>
+
+#include "tests/pipeline/simulated_rig.hpp"
+
+namespace septet {
+namespace {
+
+struct Presented {
+  int frames = 0, skewed = 0, held = 0, wrong = 0;
+};
+
+/// Every live screen presents each frame when its own clock asks for it; the frames of one number are compared with each
+/// other and with the truth.
+Presented present(SimulatedRig& rig, double seconds, const std::set<std::size_t>& without = {}) {
+  Presented result;
+  std::vector<std::optional<std::int64_t>> last(rig.size());
+  std::map<std::int64_t, std::set<Tick>> ticks_of_frame;
+  for (int ms = 0; ms < static_cast<int>(seconds * 1000.0); ++ms) {
+    rig.advance_1ms();
+    for (std::size_t i = 0; i < rig.size(); ++i) {
+      const auto due = without.contains(i) ? std::nullopt : rig.frame_due(i);
+      if (!due || due == last[i]) continue;
+      last[i] = due;
+      const auto shown = rig.shown(i);
+      if (!shown) {
+        ++result.held;
+        continue;
+      }
+      ++result.frames;
+      ticks_of_frame[*due].insert(shown->tick);
+      if (!shown->on_tick) ++result.held;
+      // Every vehicle is where its circle has it at the time that is claimed to be shown.
+      const double t = shown->snapshot.simulated_time_s;
+      const Participant& p = shown->snapshot.participants.front();
+      const double angle = 25.0 / 40.0 * t;
+      if (glm::length(p.world_from_vehicle.position_m - Vec3(40.0 * std::sin(angle), -40.0 * std::cos(angle), 0.0)) > 0.002) ++result.wrong;
+    }
+  }
+  for (const auto& [number, ticks] : ticks_of_frame) result.skewed += ticks.size() > 1;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("on a good network seven screens show the same tick in every frame") {
+  SimulatedRig rig({});
+  rig.run_for(1.0);
+  const Presented seen = present(rig, 3.0);
+  CHECK(seen.frames >= 7 * 179);
+  CHECK(seen.skewed == 0);
+  CHECK(seen.held == 0);
+  CHECK(seen.wrong == 0);
+}
+
+TEST_CASE("loss of five percent and twenty milliseconds of jitter and reordering freeze no frame and make none wrong") {
+  for (const bool multicast : {true, false}) {
+    SimulatedRig rig({.faults = {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, .multicast = multicast, .seed = 3});
+    rig.run_for(3.0);  // The play-out delay finds its length.
+    const Presented seen = present(rig, 6.0);
+    MESSAGE("play-out delay " << 1e3 * rig.host().playout_delay_s() << " ms, tick " << rig.host().last_tick_bytes() << " bytes");
+    CHECK(seen.frames >= 7 * 355);
+    CHECK(seen.skewed == 0);
+    CHECK(seen.held == 0);
+    CHECK(seen.wrong == 0);
+  }
+}
+
+TEST_CASE("a screen that dies costs the others no frame and is back within a second") {
+  SimulatedRig rig({});
+  rig.run_for(1.0);
+  rig.stop_screen(3);
+  const Presented others = present(rig, 2.0, {3});
+  CHECK(others.skewed == 0);
+  CHECK(others.held == 0);
+  rig.start_screen(3);
+  double back_s = 0.0;
+  while (back_s < 2.0 && !(rig.shown(3) && rig.shown(3)->on_tick && rig.screen(3).link->scene_arrived())) {
+    rig.run_for(0.01);
+    back_s += 0.01;
+  }
+  MESSAGE("back after " << back_s << " s");
+  CHECK(back_s < 1.0);
+  rig.run_for(0.3);
+  CHECK(present(rig, 1.0).skewed == 0);
+}
+
+TEST_CASE("a hung screen costs the others nothing") {
+  SimulatedRig rig({});
+  rig.run_for(1.0);
+  rig.screen(2).hung = true;
+  const Presented others = present(rig, 4.0, {2});
+  CHECK(others.skewed == 0);
+  CHECK(others.held == 0);
+  rig.screen(2).hung = false;
+  rig.run_for(1.0);
+  CHECK(present(rig, 1.0).held == 0);
+}
+
+TEST_CASE("screens hold their last tick while the server is gone and return by themselves") {
+  SimulatedRig rig({});
+  rig.run_for(1.0);
+  rig.stop_server();
+  rig.run_for(2.0);
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    CHECK(rig.screen(i).link->state() == net::ClientState::lost);
+    CHECK_FALSE(rig.screen(i).link->history().empty());
+  }
+  rig.start_server();
+  rig.run_for(2.0);
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    CHECK(rig.screen(i).link->state() == net::ClientState::connected);
+    CHECK(rig.screen(i).link->scene_arrived());
+  }
+  CHECK(present(rig, 1.0).held == 0);
+}
+
+TEST_CASE("bytes per tick do not grow with the number of screens") {
+  double bytes_per_tick[3] = {};
+  const std::size_t counts[3] = {1, 7, 21};
+  for (int k = 0; k < 3; ++k) {
+    SimulatedRig rig({.screens = counts[k]});
+    rig.run_for(1.0);
+    const auto before = rig.network().sent_by(rig.tick_address()).bytes;
+    rig.run_for(1.0);
+    bytes_per_tick[k] = static_cast<double>(rig.network().sent_by(rig.tick_address()).bytes - before) / 120.0;
+    MESSAGE(counts[k] << " screens: " << bytes_per_tick[k] << " bytes per tick, repetition included");
+  }
+  CHECK(bytes_per_tick[1] < 1.05 * bytes_per_tick[0]);
+  CHECK(bytes_per_tick[2] < 1.05 * bytes_per_tick[0]);
+}
+
+TEST_CASE("a change of the scene reaches every screen while it runs") {
+  SimulatedRig rig({.screens = 3});
+  rig.run_for(1.0);
+  scene::SceneBuilder builder(rig.store(), [&](const scene::Command& command) { rig.host().scene_changed(command); });
+  builder.add_object("fallen tree", {});
+  rig.run_for(0.2);
+  for (std::size_t i = 0; i < rig.size(); ++i)
+    CHECK(rig.screen(i).link->scene().find(scene::NodeType::object, "fallen tree") != nullptr);
+}
+
+TEST_CASE("random and forged datagrams change nothing") {
+  SimulatedRig rig({.screens = 2});
+  rig.run_for(1.0);
+  auto stranger = rig.network().open({0x0a0000ff, 1});
+  Random random(5);
+  for (int i = 0; i < 500; ++i) {
+    Bytes rubbish(random.below(1400));
+    for (auto& byte : rubbish) byte = static_cast<std::byte>(random.below(256));
+    stranger->send(rig.group(), rubbish);
+    stranger->send({0x0a000001, 4750}, rubbish);
+    stranger->flush();
+    if (i % 50 == 0) rig.run_for(0.01);
+  }
+  const Presented seen = present(rig, 1.0);
+  CHECK(seen.skewed == 0);
+  CHECK(seen.held == 0);
+  CHECK(seen.wrong == 0);
+  const auto& counters = rig.screen(0).link->tick_counters();
+  CHECK(counters.malformed + counters.forged + counters.other_session + counters.oversized > 300);
+}
+
+}  // namespace septet

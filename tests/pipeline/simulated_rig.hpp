@@ -1,0 +1,167 @@
+#pragma once
+/// A server and its screens in one process, on a bad network and simulated clocks: both lanes for real, no GPU.
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/net/bad_network.hpp"
+#include "engine/scene/builder.hpp"
+#include "sim-client/screen/playout.hpp"
+#include "sim-client/screen/screen_link.hpp"
+#include "sim-server/screen_host.hpp"
+
+namespace septet {
+
+struct SimulatedRigOptions {
+  std::size_t screens = 7;
+  net::NetworkFaults faults;
+  bool multicast = true;
+  std::uint64_t seed = 1;
+  std::size_t vehicles = 200;
+};
+
+inline constexpr double rig_tick_s = 1.0 / 120.0;
+
+/// Vehicles that drive circles: every pose is known at every time.
+inline Snapshot circling_vehicles(Tick tick, std::size_t vehicles) {
+  Snapshot snapshot;
+  snapshot.tick = tick;
+  snapshot.simulated_time_s = static_cast<double>(tick) * rig_tick_s;
+  for (std::size_t i = 0; i < vehicles; ++i) {
+    const double radius = 40.0 + 3.0 * static_cast<double>(i), rate = 25.0 / radius, angle = rate * snapshot.simulated_time_s;
+    Participant p;
+    p.id = static_cast<ParticipantId>(i + 1);
+    p.world_from_vehicle = {Vec3(radius * std::sin(angle), -radius * std::cos(angle), 0.0), orientation_from_angles(angle, 0.0, 0.0)};
+    p.velocity_mps = Vec3(std::cos(angle), std::sin(angle), 0.0) * 25.0;
+    p.acceleration_mps2 = Vec3(-std::sin(angle), std::cos(angle), 0.0) * (25.0 * rate);
+    p.angular_velocity_radps = Vec3(0.0, 0.0, rate);
+    snapshot.participants.push_back(p);
+  }
+  return snapshot;
+}
+
+class SimulatedRig {
+ public:
+  struct Screen {
+    std::string name;
+    net::Identity identity;
+    std::unique_ptr<net::DatagramSocket> lane_socket, tick_socket;
+    std::unique_ptr<screen::ScreenLink> link;
+    bool hung = false;
+  };
+
+  explicit SimulatedRig(const SimulatedRigOptions& options) : options_(options), network_(options.faults, options.seed) {
+    scene::SceneBuilder builder(store_);
+    for (int i = 0; i < 40; ++i) builder.add_object("post " + std::to_string(i), {});
+    for (std::size_t i = 0; i < options.screens; ++i)
+      screens_.push_back({"screen-" + std::to_string(i), net::Identity::generate(), nullptr, nullptr, nullptr});
+    start_server();
+    for (std::size_t i = 0; i < options.screens; ++i) start_screen(i);
+  }
+
+  void start_server() {
+    host_.reset();
+    server_lane_ = network_.open(server_address_);
+    server_tick_ = network_.open({server_address_.ip, 4999});
+    server::ScreenHostOptions options{.identity = server_identity_, .session = net::random_session_id()};
+    for (const auto& screen : screens_) {
+      options.allowed.push_back({screen.identity.public_key(), screen.name});
+      options.screens.push_back(screen.name);
+    }
+    options.welcome.rig = "rig";
+    if (options_.multicast) {
+      options.welcome.group_ip = group_.ip;
+      options.welcome.group_port = group_.port;
+    }
+    host_ = std::make_unique<server::ScreenHost>(*server_lane_, *server_tick_, store_, std::move(options));
+  }
+  void stop_server() {
+    host_.reset();
+    server_lane_.reset();
+    server_tick_.reset();
+  }
+
+  void start_screen(std::size_t i) {
+    Screen& screen = screens_[i];
+    stop_screen(i);
+    const std::uint32_t ip = 0x0a000100 + static_cast<std::uint32_t>(i);
+    const auto port = static_cast<std::uint16_t>(20000 + 10 * starts_++);
+    screen.lane_socket = network_.open({ip, port});
+    screen.tick_socket = network_.open({ip, static_cast<std::uint16_t>(port + 1)});
+    auto open_group = [this, ip, port](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
+      return network_.open_group(group, {ip, static_cast<std::uint16_t>(port + 2)});
+    };
+    screen::ScreenLinkOptions options{screen.name, static_cast<std::uint16_t>(port + 1), {server_address_, server_identity_.public_key(), screen.identity, {}}};
+    screen.link = std::make_unique<screen::ScreenLink>(*screen.lane_socket, *screen.tick_socket, open_group, std::move(options));
+  }
+  void stop_screen(std::size_t i) {
+    screens_[i].link.reset();
+    screens_[i].lane_socket.reset();
+    screens_[i].tick_socket.reset();
+  }
+
+  /// One millisecond: the server publishes where a tick is due, everybody pumps.
+  void advance_1ms() {
+    now_s_ += 0.001;
+    network_.advance_to(now_s_);
+    if (host_) {
+      host_->pump(now_s_);
+      while (static_cast<double>(next_tick_) * rig_tick_s <= now_s_) {
+        host_->publish(std::make_shared<const WireSnapshot>(to_wire(circling_vehicles(next_tick_, options_.vehicles))), now_s_);
+        ++next_tick_;
+      }
+    }
+    for (auto& screen : screens_)
+      if (screen.link && !screen.hung) screen.link->pump(now_s_);
+  }
+  void run_for(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 1000.0 + 0.5); ++i) advance_1ms();
+  }
+
+  /// The number of the frame that a screen's own idea of the server's clock asks for now.
+  std::optional<std::int64_t> frame_due(std::size_t i) const {
+    const auto& link = screens_[i].link;
+    const auto server_s = link ? link->server_time_s(now_s_) : std::nullopt;
+    if (!server_s) return std::nullopt;
+    return screen::frame_number(*server_s);
+  }
+
+  /// What a screen would present now, if it has anything.
+  std::optional<screen::Shown> shown(std::size_t i) const {
+    const auto& link = screens_[i].link;
+    if (!link || link->history().empty()) return std::nullopt;
+    const auto server_s = link->server_time_s(now_s_);
+    if (!server_s) return std::nullopt;
+    return screen::show(link->history(), *screen::playout_time_s(link->history(), screen::frame_number(*server_s)), rig_tick_s);
+  }
+
+  double now_s() const { return now_s_; }
+  server::ScreenHost& host() { return *host_; }
+  bool has_server() const { return host_ != nullptr; }
+  Screen& screen(std::size_t i) { return screens_[i]; }
+  std::size_t size() const { return screens_.size(); }
+  net::BadNetwork& network() { return network_; }
+  const scene::Store& store() const { return store_; }
+  scene::Store& store() { return store_; }
+  net::Address tick_address() const { return {server_address_.ip, 4999}; }
+  net::Address group() const { return group_; }
+  Tick next_tick() const { return next_tick_; }
+
+ private:
+  SimulatedRigOptions options_;
+  net::BadNetwork network_;
+  net::Address server_address_{0x0a000001, 4750};
+  net::Address group_{0xef4d4d4d, 4751};
+  net::Identity server_identity_ = net::Identity::generate();
+  scene::Store store_;
+  std::unique_ptr<net::DatagramSocket> server_lane_, server_tick_;
+  std::vector<Screen> screens_;
+  std::unique_ptr<server::ScreenHost> host_;
+  double now_s_ = 0.0;
+  Tick next_tick_ = 0;
+  int starts_ = 0;
+};
+
+}  // namespace septet
