@@ -41,6 +41,11 @@ void ManoeuvreCar::hold_speed(double speed_mps) {
   input_.accelerator = std::clamp(gain * error_mps + integral_, 0.0, 1.0);
 }
 
+void ManoeuvreCar::hold_gear() {
+  input_.selector = GearSelector::manual;
+  input_.gear = state_.powertrain.gear;
+}
+
 ManoeuvreSample ManoeuvreCar::sample() const {
   const VehicleOutputs now = outputs(parameters_, state_);
   ManoeuvreSample sample;

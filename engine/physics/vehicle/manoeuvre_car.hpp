@@ -24,6 +24,8 @@ class ManoeuvreCar {
   void advance_with_torques(const ChassisInput& chassis);
   /// Sets the accelerator so as to hold this speed from the next step on.
   void hold_speed(double speed_mps);
+  /// Keeps the gear that is in.
+  void hold_gear();
   DriverInput& input() { return input_; }
 
   const VehicleParameters& parameters() const { return parameters_; }

@@ -51,6 +51,7 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
   const double rate_radps = 0.1 * (parameters.body.wheelbase_m / (speed_mps * speed_mps) + 0.001);
   ManoeuvreCar car(parameters, options, speed_mps);
   car.begin();
+  car.hold_gear();  // A kick-down in the bend would be another test.
   double peak_mps2 = 0.0;
   while (car.time_s() * rate_radps < most_steer_rad) {
     car.record();

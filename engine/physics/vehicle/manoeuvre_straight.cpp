@@ -77,7 +77,7 @@ ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions
   return {"stop",
           "ISO 21994",
           {{"speed", entry_mps * 3.6, "km/h"},
-           {"friction", car.friction(), "1"},
+           {"friction", car.friction(), ""},
            {"stopping distance", distance_m, "m"},
            {"stopping time", car.time_s(), "s"},
            {"mean fully developed deceleration", developed_mps2, "m/s2"},

@@ -182,8 +182,7 @@ double mechanical_energy_j(const VehicleParameters& parameters, const VehicleSta
     }
     energy += 0.5 * axle.wheel_inertia_kgm2 * wheel.spin_radps * wheel.spin_radps +
               axle.unsprung_mass_kg * gravity_mps2 * (state.world_from_body * place.centre_m).z;
-    // Springs and tyre, from the state at rest; the spring by Simpson's rule, exact for straight
-    // segments' sum closely.
+    // Springs and tyre, from the state at rest; Simpson's rule, near enough across the kinks.
     const double z = wheel.travel_m;
     energy += known.sprung_load_n[axle_of(i)] * z +
               z / 6.0 *

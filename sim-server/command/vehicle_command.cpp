@@ -1,0 +1,76 @@
+#include "sim-server/command/vehicle_command.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/core.h>
+
+#include "engine/core/expected.hpp"
+#include "engine/physics/vehicle/read_vehicle.hpp"
+#include "sim-server/command/manoeuvre_files.hpp"
+
+namespace septet::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file)
+    return failure("cannot be read", path.string(), "give a file such as vehicles/volvo-s80.toml");
+  return vehicle::read_vehicle(text.str(), path.filename().string());
+}
+
+Expected<void> write_file(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) return failure("cannot be written", path.string(), "choose another --out folder");
+  return {};
+}
+
+Expected<void> write_report(const VehicleTestOptions& options,
+                            const vehicle::ManoeuvreReport& report) {
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) return failure(error.message(), options.out.string(), "choose another --out folder");
+  const std::string car = options.vehicle.stem().string();
+  const auto path = [&](const char* extension) {
+    return options.out / fmt::format("{}-{}{}", car, report.manoeuvre, extension);
+  };
+  return write_file(path(".json"), figures_json(car, report))
+      .and_then([&] { return write_file(path(".csv"), series_csv(report)); })
+      .and_then([&] { return write_file(path(".svg"), manoeuvre_svg(car, report)); });
+}
+
+Expected<void> test_vehicle(const VehicleTestOptions& options) {
+  const auto parameters = load_vehicle(options.vehicle);
+  if (!parameters) return tl::unexpected<Error>(parameters.error());
+  std::vector<std::string_view> names{options.manoeuvre};
+  if (options.manoeuvre == "all") names = vehicle::manoeuvre_names();
+  for (const std::string_view name : names) {
+    const auto report = vehicle::run_manoeuvre(name, *parameters, options.conditions);
+    if (!report) return tl::unexpected<Error>(report.error());
+    fmt::print("{} {} ({})\n", options.vehicle.stem().string(), report->manoeuvre,
+               report->standard);
+    for (const vehicle::Figure& figure : report->figures)
+      fmt::print("  {:<36} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
+    if (options.out.empty()) continue;
+    if (const auto written = write_report(options, *report); !written) return written;
+  }
+  return {};
+}
+
+}  // namespace
+
+int run_vehicle_test(const VehicleTestOptions& options) {
+  const auto done = test_vehicle(options);
+  if (done) return 0;
+  fmt::print(stderr, "septet: {}\n", describe(done.error()));
+  return 1;
+}
+
+}  // namespace septet::server

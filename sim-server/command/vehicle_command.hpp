@@ -1,0 +1,23 @@
+#pragma once
+/// `septet vehicle test`: a car on the test track, figures and a plot.
+
+#include <filesystem>
+#include <string>
+
+#include "engine/physics/vehicle/manoeuvre.hpp"
+
+namespace septet::server {
+
+struct VehicleTestOptions {
+  std::filesystem::path vehicle;  ///< Parameter file, such as vehicles/volvo-s80.toml.
+  std::string manoeuvre;          ///< One of vehicle::manoeuvre_names(), or "all".
+  std::filesystem::path
+      out;  ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
+  vehicle::ManoeuvreOptions conditions;
+};
+
+/// Prints the figures of each manoeuvre and writes the files, named VEHICLE-MANOEUVRE. Answers the
+/// exit status: 0, or 1 after one message on standard error.
+int run_vehicle_test(const VehicleTestOptions& options);
+
+}  // namespace septet::server
