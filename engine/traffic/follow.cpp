@@ -14,10 +14,6 @@ constexpr int most_passed = 40;
 constexpr double passing_excess_mps = 11.0;
 constexpr double passing_look_ahead_m = 40.0;
 
-double positive(const Corridor& corridor, double d) {
-  return corridor.closed && d < 0.0 ? d + corridor.length_m : d;
-}
-
 bool has_room_beside(const LaneEntry& a, const LaneEntry& b) {
   return std::abs(a.lateral_m - b.lateral_m) > a.half_width_m + b.half_width_m + side_clearance_m;
 }
@@ -40,7 +36,7 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic,
     if (other.vehicle == own.vehicle) continue;
     const bool passable = (emergency || other.straddles) && has_room_beside(own, other);
     if (!passable) return &other;
-    const double ahead = positive(traffic.corridor, other.x_m - own.x_m) - other.length_m;
+    const double ahead = way_ahead_m(traffic.corridor, other.x_m - own.x_m) - other.length_m;
     if (emergency && ahead < passing_look_ahead_m) {
       speed_limit_mps = std::min(speed_limit_mps, other.speed_mps + passing_excess_mps);
     }
@@ -128,31 +124,33 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
   }
 }
 
-Neighbours neighbours(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
-                      double x_m, std::int32_t self) {
+Neighbours neighbours(const CorridorTraffic& traffic, int lane_number, double x_m,
+                      std::int32_t self, std::uint32_t& hint) {
+  const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
+  const std::size_t count = lane.size();
+  const std::size_t from = first_ahead(lane, x_m, hint);
+  hint = static_cast<std::uint32_t>(from);
+  const bool closed = traffic.corridor.closed;
   Neighbours result;
-  const auto count = static_cast<std::ptrdiff_t>(lane.size());
-  if (count == 0) return result;
-  const auto from = static_cast<std::ptrdiff_t>(first_ahead(lane, x_m));
-  const auto pick = [&](std::ptrdiff_t at, std::ptrdiff_t step) -> const LaneEntry* {
-    for (std::ptrdiff_t k = 0; k < count; ++k, at += step) {
-      if (at < 0 || at >= count) {
-        if (!traffic.corridor.closed) return nullptr;
-        at = (at + count) % count;
-      }
-      const LaneEntry& entry = lane[static_cast<std::size_t>(at)];
-      if (self < 0 || entry.vehicle != self) return &entry;
+  // The vehicle itself stands at most once in a lane, so that at most one step goes over it.
+  std::size_t at = from;
+  for (int tries = 0; tries < 2 && result.ahead == nullptr; ++tries, ++at) {
+    if (at >= count) {
+      if (!closed || count == 0) break;
+      at = 0;
     }
-    return nullptr;
-  };
-  result.ahead = pick(from, 1);
-  result.behind = pick(from - 1, -1);
+    if (self < 0 || lane[at].vehicle != self) result.ahead = &lane[at];
+  }
+  at = from;
+  for (int tries = 0; tries < 2 && result.behind == nullptr; ++tries) {
+    if (at == 0) {
+      if (!closed || count == 0) break;
+      at = count;
+    }
+    --at;
+    if (self < 0 || lane[at].vehicle != self) result.behind = &lane[at];
+  }
   return result;
-}
-
-double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
-  if (ahead == nullptr) return no_leader;
-  return positive(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
 }
 
 void follow(CorridorTraffic& traffic) {

@@ -13,56 +13,53 @@ constexpr double smallest_gap_m = 2.0;
 constexpr double leave_lane_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
-const FollowingLaw& law_of(const CorridorTraffic& traffic, const LaneEntry& entry,
-                           std::size_t otherwise) {
-  return traffic.law[entry.vehicle >= 0 ? static_cast<std::size_t>(entry.vehicle) : otherwise];
+/// Acceleration of somebody in the order behind a gap; foreign ones are taken to drive as the one
+/// who decides.
+double acceleration_behind(const CorridorTraffic& traffic, const LaneEntry& behind,
+                           std::size_t decider, double gap_m, double ahead_speed_mps) {
+  const std::size_t driver =
+      behind.vehicle >= 0 ? static_cast<std::size_t>(behind.vehicle) : decider;
+  return traffic.law[driver].acceleration(behind.speed_mps, ahead_speed_mps, gap_m);
 }
 
-/// Acceleration of `behind` with its front bumper at its x and the one ahead's rear bumper at
-/// rear_x.
-double acceleration_of(const CorridorTraffic& traffic, const LaneEntry& behind, std::size_t self,
-                       double gap_m, double ahead_speed_mps) {
-  return law_of(traffic, behind, self).acceleration(behind.speed_mps, ahead_speed_mps, gap_m);
-}
+/// One driver's thought about a change of lane.
+struct Decision {
+  const CorridorTraffic& traffic;
+  std::size_t i;
+  double x, v, own_now;
+  double old_follower_gain = 0.0;  ///< What the one behind gains when this one is gone.
 
-/// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of those behind; refused where it is
-/// unsafe.
-double gain_of_change(const CorridorTraffic& traffic, std::size_t i, int lane, double own_now,
-                      const Neighbours& old) {
-  const LaneChangeParameters& change = traffic.driver[i].lane_change;
-  const double x = traffic.x_m[i], v = traffic.speed_mps[i];
-  const auto [ahead, behind] =
-      neighbours(traffic, traffic.order.lanes[static_cast<std::size_t>(lane)], x,
-                 static_cast<std::int32_t>(i));
-  const double gap_ahead = gap_to(traffic, x, ahead);
-  if (gap_ahead < smallest_gap_m) return refused;
-  double own_then = traffic.law[i].acceleration(v, ahead ? ahead->speed_mps : 0.0, gap_ahead);
-  if (own_then < -change.largest_braking_mps2) return refused;
-  const double to_end = lane_end_m(traffic.table, lane, x) - x;
-  if (to_end < look_ahead_lane_end_m)
-    own_then = std::min(own_then, traffic.law[i].acceleration(v, 0.0, to_end));
-
-  LaneEntry own = entry_of(traffic, i);
-  double others = 0.0;
-  if (behind != nullptr) {
-    const double gap = gap_to(traffic, behind->x_m, &own);
-    if (gap < smallest_gap_m) return refused;
-    const double then = acceleration_of(traffic, *behind, i, gap, v);
-    if (then < -change.largest_braking_mps2) return refused;
-    const double free_gap = ahead ? gap_to(traffic, behind->x_m, ahead) : no_leader;
-    others += then - acceleration_of(traffic, *behind, i, free_gap, ahead ? ahead->speed_mps : 0.0);
+  double present_acceleration(const LaneEntry& entry, double otherwise) const {
+    return entry.vehicle >= 0 ? traffic.acceleration_mps2[static_cast<std::size_t>(entry.vehicle)]
+                              : otherwise;
   }
-  if (old.behind != nullptr) {
-    const double gap_now = gap_to(traffic, old.behind->x_m, &own);
-    const double gap_then = old.ahead ? gap_to(traffic, old.behind->x_m, old.ahead) : no_leader;
-    others +=
-        acceleration_of(traffic, *old.behind, i, gap_then, old.ahead ? old.ahead->speed_mps : 0.0) -
-        acceleration_of(traffic, *old.behind, i, gap_now, v);
+
+  /// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of those behind; refused where it is
+  /// unsafe.
+  double gain(int lane, double lane_end, std::uint32_t& hint) const {
+    const LaneChangeParameters& change = traffic.driver[i].lane_change;
+    const auto [ahead, behind] = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hint);
+    const double gap_ahead = gap_to(traffic, x, ahead);
+    if (gap_ahead < smallest_gap_m) return refused;
+    const double ahead_speed = ahead != nullptr ? ahead->speed_mps : 0.0;
+    double own_then = traffic.law[i].acceleration(v, ahead_speed, gap_ahead);
+    if (own_then < -change.largest_braking_mps2) return refused;
+    if (lane_end - x < look_ahead_lane_end_m) {
+      own_then = std::min(own_then, traffic.law[i].acceleration(v, 0.0, lane_end - x));
+    }
+    double others = old_follower_gain;
+    if (behind != nullptr) {
+      const double gap = way_ahead_m(traffic.corridor, x - behind->x_m) - traffic.length_m[i];
+      if (gap < smallest_gap_m) return refused;
+      const double then = acceleration_behind(traffic, *behind, i, gap, v);
+      if (then < -change.largest_braking_mps2) return refused;
+      others += then - present_acceleration(*behind, 0.0);
+    }
+    return own_then - own_now +
+           change.politeness *
+               std::clamp(others, -2.0 * hardest_braking_mps2, hardest_braking_mps2);
   }
-  // Politeness towards a braking tail must not keep anybody at the end of a lane.
-  return own_then - own_now +
-         change.politeness * std::clamp(others, -2.0 * hardest_braking_mps2, hardest_braking_mps2);
-}
+};
 
 void decide(CorridorTraffic& traffic, std::size_t i, double time_s, double interval_s) {
   traffic.next_decision_s[i] = time_s + interval_s;
@@ -70,22 +67,25 @@ void decide(CorridorTraffic& traffic, std::size_t i, double time_s, double inter
   if (way == MakingWay::hold_lane) return;
   const LaneChangeParameters& change = traffic.driver[i].lane_change;
   const int lane = traffic.lane[i];
-  const double x = traffic.x_m[i], v = traffic.speed_mps[i];
-  const Neighbours old = neighbours(traffic, traffic.order.lanes[static_cast<std::size_t>(lane)], x,
-                                    static_cast<std::int32_t>(i));
-  double own_now = traffic.law[i].acceleration(v, old.ahead ? old.ahead->speed_mps : 0.0,
-                                               gap_to(traffic, x, old.ahead));
-  if (traffic.lane_end_m[i] - x < look_ahead_lane_end_m) {
-    own_now = std::min(own_now, traffic.law[i].acceleration(v, 0.0, traffic.lane_end_m[i] - x));
+  Decision decision{traffic, i, traffic.x_m[i], traffic.speed_mps[i], traffic.acceleration_mps2[i]};
+  const double x = decision.x;
+  auto& hints = traffic.neighbour_hints[i];
+  const auto old = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hints[1]);
+  if (old.behind != nullptr && change.politeness > 0.0) {
+    const double gap = gap_to(traffic, old.behind->x_m, old.ahead);
+    const double ahead_speed = old.ahead != nullptr ? old.ahead->speed_mps : 0.0;
+    decision.old_follower_gain = acceleration_behind(traffic, *old.behind, i, gap, ahead_speed) -
+                                 decision.present_acceleration(*old.behind, 0.0);
   }
   int best = lane;
   double best_gain = change.threshold_mps2;
-  for (const int target : {lane - 1, lane + 1}) {
+  for (const int step : {-1, 1}) {
+    const int target = lane + step;
     const double end = lane_end_m(traffic.table, target, x);
     // Into a lane that ends soon goes only who would be worse off in this one.
     if (end < x || end - x < std::min(look_ahead_lane_end_m, traffic.lane_end_m[i] - x)) continue;
-    double gain = gain_of_change(traffic, i, target, own_now, old);
-    gain += target > lane ? change.keep_right_mps2 : -change.keep_right_mps2;
+    double gain = decision.gain(target, end, hints[static_cast<std::size_t>(1 + step)]);
+    gain += step * change.keep_right_mps2;
     if (way == MakingWay::leave_lane) gain += leave_lane_bias_mps2;
     if (gain > best_gain) {
       best = target;

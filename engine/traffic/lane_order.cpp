@@ -25,9 +25,11 @@ void insert_entry(std::vector<LaneEntry>& lane, const LaneEntry& entry) {
   lane.insert(std::upper_bound(lane.begin(), lane.end(), entry, before), entry);
 }
 
-std::size_t first_ahead(const std::vector<LaneEntry>& lane, double x_m) {
-  const auto found = std::ranges::upper_bound(lane, x_m, {}, &LaneEntry::x_m);
-  return static_cast<std::size_t>(found - lane.begin());
+std::size_t first_ahead(const std::vector<LaneEntry>& lane, double x_m, std::size_t hint) {
+  std::size_t at = std::min(hint, lane.size());
+  while (at < lane.size() && lane[at].x_m <= x_m) ++at;
+  while (at > 0 && lane[at - 1].x_m > x_m) --at;
+  return at;
 }
 
 }  // namespace septet::traffic

@@ -29,7 +29,8 @@ struct LaneOrder {
 /// Sorts by x, then by vehicle; quick for what is almost sorted.
 void repair_order(std::vector<LaneEntry>& lane);
 void insert_entry(std::vector<LaneEntry>& lane, const LaneEntry& entry);
-/// Index of the first entry with x greater than `x_m`.
-std::size_t first_ahead(const std::vector<LaneEntry>& lane, double x_m);
+/// Index of the first entry with x greater than `x_m`, looked for from where it was the last time:
+/// constant time, for neighbours change slowly. The answer is the next hint.
+std::size_t first_ahead(const std::vector<LaneEntry>& lane, double x_m, std::size_t hint);
 
 }  // namespace septet::traffic

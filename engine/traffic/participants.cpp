@@ -67,7 +67,9 @@ Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
                                   left * (v * yaw_rate + direction * across * blend.acceleration);
   participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
   participant.front_steer_rad = std::atan(model.wheelbase_m * direction * point.curvature_per_m);
-  participant.wheel_spin_rad = traffic.wheel_spin_rad[i];
+  // Rolling along the corridor is all that turns the wheels.
+  participant.wheel_spin_rad =
+      std::fmod(std::max(traffic.x_m[i], 0.0) / model.wheel_radius_m, 2.0 * std::acos(-1.0));
   participant.wheel_spin_radps = v / model.wheel_radius_m;
   participant.lamps.set(Lamp::low_beam, true);
   participant.lamps.set(Lamp::brake, traffic.acceleration_mps2[i] < -0.7);

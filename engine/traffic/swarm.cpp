@@ -16,8 +16,8 @@ constexpr double from_end_m = 30.0;
 
 bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m,
               double speed_mps) {
-  const auto [ahead, behind] =
-      neighbours(traffic, traffic.order.lanes[static_cast<std::size_t>(lane)], x_m, -1);
+  std::uint32_t hint = 0;
+  const auto [ahead, behind] = neighbours(traffic, lane, x_m, -1, hint);
   if (gap_to(traffic, x_m, ahead) < 8.0 + 0.8 * speed_mps) return false;
   if (behind == nullptr) return true;
   LaneEntry own;
@@ -69,7 +69,8 @@ bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, Random& rand
   if (!clear_at(traffic, lane, x, traffic.length_m[i], speed)) return false;
   // As fast as the one ahead allows: who comes in does not have to brake at once.
   auto& entries = traffic.order.lanes[static_cast<std::size_t>(lane)];
-  const LaneEntry* ahead = neighbours(traffic, entries, x, -1).ahead;
+  std::uint32_t hint = 0;
+  const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
   traffic.x_m[i] = x;
   traffic.speed_mps[i] =
       gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;

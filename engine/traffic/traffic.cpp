@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/constants.hpp>
-
 #include "engine/core/check.hpp"
 #include "engine/traffic/traffic_parts.hpp"
 
@@ -33,9 +31,9 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.law.emplace_back(driver.following);
   traffic.x_m.push_back(x_m);
   traffic.speed_mps.push_back(speed_mps);
-  for (auto* array : {&traffic.acceleration_mps2, &traffic.wheel_spin_rad, &traffic.change_s,
-                      &traffic.next_decision_s, &traffic.aside_m, &traffic.aside_mps,
-                      &traffic.aside_target_m, &traffic.heard_s}) {
+  for (auto* array :
+       {&traffic.acceleration_mps2, &traffic.change_s, &traffic.next_decision_s, &traffic.aside_m,
+        &traffic.aside_mps, &traffic.aside_target_m, &traffic.heard_s}) {
     array->push_back(0.0);
   }
   // Drivers take turns.
@@ -47,6 +45,7 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.half_width_m.push_back(0.5 * kind.width_m);
   traffic.making_way.push_back(MakingWay::no);
   traffic.emergency.push_back(0);
+  traffic.neighbour_hints.push_back({});
   if (lane > 0)
     insert_entry(traffic.order.lanes[static_cast<std::size_t>(lane)], entry_of(traffic, i));
 }
@@ -79,7 +78,6 @@ double lateral_m(const CorridorTraffic& traffic, std::size_t i) {
 }
 
 void move(CorridorTraffic& traffic, double dt_s) {
-  const auto models = vehicle_models();
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     const double before = traffic.speed_mps[i], a = traffic.acceleration_mps2[i];
     const double after = before + a * dt_s;
@@ -89,9 +87,6 @@ void move(CorridorTraffic& traffic, double dt_s) {
     double x = traffic.x_m[i] + rolled;
     if (traffic.corridor.closed && x >= traffic.corridor.length_m) x -= traffic.corridor.length_m;
     traffic.x_m[i] = x;
-    double spin = traffic.wheel_spin_rad[i] + rolled / models[traffic.model[i]].wheel_radius_m;
-    if (spin > glm::two_pi<double>()) spin = std::fmod(spin, glm::two_pi<double>());
-    traffic.wheel_spin_rad[i] = spin;
   }
 }
 

@@ -12,6 +12,7 @@
 /// smooth blend, making way a smooth shift in the lane. Same parameters, foreign vehicles and
 /// random state: same traffic. No file, clock or GPU. One thread per state.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -72,7 +73,7 @@ struct CorridorTraffic {
   std::vector<std::uint8_t> paint;
   std::vector<Driver> driver;
   std::vector<FollowingLaw> law;  ///< Of the driver.
-  std::vector<double> x_m, speed_mps, acceleration_mps2, wheel_spin_rad;
+  std::vector<double> x_m, speed_mps, acceleration_mps2;
   std::vector<std::int16_t> lane,
       from_lane;  ///< Equal unless a change is going on. 0: waits outside the simulation.
   std::vector<double> change_s;  ///< Time into the change.
@@ -85,7 +86,9 @@ struct CorridorTraffic {
   std::vector<double> heard_s;  ///< How long an emergency vehicle has been near.
   std::vector<MakingWay> making_way;
   std::vector<std::uint8_t> emergency;  ///< It is one itself.
-  bool any_aside = false;               ///< Some vehicle is off its lane's middle.
+  /// Where the neighbours in the left, own and right lane were the last time.
+  std::vector<std::array<std::uint32_t, 3>> neighbour_hints;
+  bool any_aside = false;  ///< Some vehicle is off its lane's middle.
 
   LaneOrder order;
 

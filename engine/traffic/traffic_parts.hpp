@@ -34,15 +34,23 @@ LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t vehicle);
 void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign);
 
 /// Nearest entries around x in a lane, not counting `self` (−1: count all); null where there is
-/// none.
+/// none. `hint` is where the last answer was and is kept up.
 struct Neighbours {
   const LaneEntry* ahead = nullptr;
   const LaneEntry* behind = nullptr;
 };
-Neighbours neighbours(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
-                      double x_m, std::int32_t self);
+Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std::int32_t self,
+                      std::uint32_t& hint);
+
+/// A way ahead on a ring is never negative.
+inline double way_ahead_m(const Corridor& corridor, double d) {
+  return corridor.closed && d < 0.0 ? d + corridor.length_m : d;
+}
 /// From a front bumper at x to the rear bumper of the one ahead; infinite if there is none.
-double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead);
+inline double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
+  return ahead == nullptr ? no_leader
+                          : way_ahead_m(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
+}
 
 /// Stage 1: everybody's acceleration.
 void follow(CorridorTraffic& traffic);

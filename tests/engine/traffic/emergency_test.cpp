@@ -3,55 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/engine/traffic/emergency_run.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::traffic {
-namespace {
-
-struct Run {
-  double ambulance_mps = 0.0, traffic_mps = 0.0, aside_ahead = 0.0, indicated = 0.0;
-  int overlaps = 0;
-};
-
-/// 40 vehicles/km/lane on five lanes of 5 km; the traffic settles for a minute, then the ambulance
-/// drives 5 km.
-Run drive_5_km(std::uint64_t seed) {
-  const auto network = ring_road(5000.0, 5);
-  const TrafficParameters parameters = motorway_traffic(0, 1e6);
-  TrafficState state = dense_ring(network, 5, 1000, seed);
-  CorridorTraffic& traffic = state.corridors[0];
-  Random random(seed);
-  for (int step = 0; step < 600; ++step) advance(parameters, network, {}, 0.1, random, state);
-  // Into a gap on the line between the two fastest lanes: where nobody's body is for 30 m.
-  double x = 0.0;
-  const auto occupied = [&](double at) {
-    for (std::size_t i = 0; i < traffic.size(); ++i) {
-      if (std::min(traffic.lane[i], traffic.from_lane[i]) > 2) continue;
-      if (std::abs(distance_m(traffic.corridor, at, traffic.x_m[i])) < 14.0) return true;
-    }
-    return false;
-  };
-  while (occupied(x) && x < 5000.0) x += 1.0;
-  add_emergency_vehicle(traffic, 1, x, 15.0);
-  const std::size_t ambulance = traffic.size() - 1;
-  Run run;
-  double way = 0.0, seconds = 0.0, others = 0.0;
-  while (way < 5000.0 && seconds < 1000.0) {
-    advance(parameters, network, {}, 0.1, random, state);
-    way += 0.1 * traffic.speed_mps[ambulance];
-    seconds += 0.1;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < ambulance; ++i) sum += traffic.speed_mps[i];
-    others += 0.1 * sum / static_cast<double>(ambulance);
-    if (std::fmod(seconds, 0.5) < 0.1) run.overlaps += overlapping_bodies(traffic);
-  }
-  run.ambulance_mps = way / seconds;
-  run.traffic_mps = others / seconds;
-  return run;
-}
-
-}  // namespace
-
 TEST_CASE("traffic hears the ambulance at 300 m and opens a lane right of the left-most") {
   const auto network = ring_road(5000.0, 5);
   const TrafficParameters parameters = motorway_traffic(0, 1e6);
@@ -88,7 +43,7 @@ TEST_CASE("traffic hears the ambulance at 300 m and opens a lane right of the le
 
 TEST_CASE(
     "an ambulance in dense traffic is half as fast again as the traffic without a collision") {
-  const Run run = drive_5_km(1);
+  const EmergencyRun run = drive_5_km(1);
   MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps
                        << " m/s, overlaps " << run.overlaps);
   CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
