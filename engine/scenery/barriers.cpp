@@ -4,6 +4,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/far_road.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -43,8 +44,9 @@ void extrude_into(MeshBuilder& builder, Ground ground, std::span<const glm::vec2
   if (path.size() < 2) return;
   builder.material = index_of(ground);
   geometry::PolygonMesh mesh = geometry::extrude(profile, path, closed);
+  const bool textured = ground == Ground::concrete || ground == Ground::noise_wall;
   for (auto& uvs : mesh.corner_uvs)
-    for (glm::vec2& uv : uvs) uv = {uv.y, uv.x / 4.0f};
+    for (glm::vec2& uv : uvs) uv = textured ? glm::vec2(uv.y, uv.x / 4.0f) : glm::vec2(0.0f);
   geometry::crease_by_angle(mesh, 0.5f);
   builder.append(mesh, glm::mat4(1.0f), true);
 }
@@ -96,23 +98,19 @@ void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground 
 struct BarrierPen {
   const WorldContext& world;
   const RoadTile& tile;
-  MeshBuilder near, far, posts;
+  MeshBuilder near, posts;
 
   void draw(const road::RoadObject& object, const Line& line) {
     const bool left = line.t0_m > 0.0;
-    const auto path = frames(world, tile, line, 10.0), coarse = frames(world, tile, line, 40.0);
+    const auto path = frames(world, tile, line, 10.0);
     if (object.subtype == "jerseyBarrier") {
       extrude_into(near, Ground::concrete, jersey, path, true);
-      constexpr std::array<glm::vec2, 4> block{
-          {{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
-      extrude_into(far, Ground::concrete, block, coarse, true);
     } else if (object.subtype == "railing") {
-      draw_parapet(path, coarse);
+      draw_parapet(path);
     } else if (!tile.in_tunnel) {
       // Traffic is on the side of the axis.
       extrude_into(near, Ground::metal, left ? rail_left_sheet(false) : rail_left_sheet(true), path,
                    true);
-      extrude_into(far, Ground::metal, rail_simple, coarse, true);
       add_posts(posts, frames(world, tile, line, 4.0), Ground::metal_dark,
                 {-0.05f, left ? 0.0f : -0.1f, -0.4f}, {0.05f, left ? 0.1f : 0.0f, 0.72f});
     }
@@ -137,7 +135,7 @@ struct BarrierPen {
     return profile;
   }
 
-  void draw_parapet(const std::vector<PathFrame>& path, const std::vector<PathFrame>& coarse) {
+  void draw_parapet(const std::vector<PathFrame>& path) {
     constexpr std::array<glm::vec2, 4> kerb{
         {{-0.16f, -0.1f}, {0.16f, -0.1f}, {0.16f, 0.35f}, {-0.16f, 0.35f}}};
     extrude_into(near, Ground::concrete, kerb, path, true);
@@ -146,16 +144,7 @@ struct BarrierPen {
           {{-0.03f, z}, {0.03f, z}, {0.03f, z + 0.06f}, {-0.03f, z + 0.06f}}};
       extrude_into(near, Ground::metal, bar, path, true);
     }
-    add_posts(posts, frames_every(path, 1), Ground::metal, {-0.04f, -0.04f, 0.3f},
-              {0.04f, 0.04f, 1.2f});
-    constexpr std::array<glm::vec2, 4> block{
-        {{-0.1f, -0.1f}, {0.1f, -0.1f}, {0.1f, 1.0f}, {-0.1f, 1.0f}}};
-    extrude_into(far, Ground::concrete, block, coarse, true);
-  }
-  static std::vector<PathFrame> frames_every(const std::vector<PathFrame>& path, std::size_t step) {
-    std::vector<PathFrame> result;
-    for (std::size_t i = 0; i < path.size(); i += step) result.push_back(path[i]);
-    return result;
+    add_posts(posts, path, Ground::metal, {-0.04f, -0.04f, 0.3f}, {0.04f, 0.04f, 1.2f});
   }
 };
 
@@ -195,28 +184,47 @@ void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadT
   }
 }
 
+/// Calls `visit` with every barrier of the tile's road and the line that it follows.
+template <class Visit>
+void for_each_barrier(const WorldContext& world, const RoadTile& tile, const Visit& visit) {
+  const double length = world.roads.road(tile.road).length_m;
+  for (const road::RoadObject& object : world.roads.road(tile.road).objects) {
+    if (object.type != "barrier") continue;
+    for (const road::ObjectRepeat& repeat : object.repeats) {
+      Line line{repeat.s_m, repeat.s_m + repeat.length_m, repeat.t_start_m, repeat.t_end_m};
+      // What runs to a loose end of the road runs on with it.
+      if (line.s0_m < 0.01) line.s0_m = world.roads.begin_m(tile.road);
+      if (line.s1_m > length - 0.01) line.s1_m = world.roads.end_m(tile.road);
+      visit(object, line);
+    }
+  }
+}
+
 }  // namespace
+
+void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                       double step_m) {
+  for_each_barrier(world, tile, [&](const road::RoadObject& object, const Line& line) {
+    const bool rail = object.subtype == "guardRail";
+    if (rail && tile.in_tunnel) return;
+    constexpr std::array<glm::vec2, 4> wall{
+        {{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
+    extrude_into(builder, Ground::far_concrete, rail ? rail_simple : wall,
+                 frames(world, tile, line, step_m), true);
+  });
+}
 
 void build_barriers(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
-    BarrierPen pen{world, tile, {}, {}, {}};
-    const double length = world.roads.road(tile.road).length_m;
-    for (const road::RoadObject& object : world.roads.road(tile.road).objects) {
-      if (object.type != "barrier") continue;
-      for (const road::ObjectRepeat& repeat : object.repeats) {
-        Line line{repeat.s_m, repeat.s_m + repeat.length_m, repeat.t_start_m, repeat.t_end_m};
-        // What runs to a loose end of the road runs on with it.
-        if (line.s0_m < 0.01) line.s0_m = world.roads.begin_m(tile.road);
-        if (line.s1_m > length - 0.01) line.s1_m = world.roads.end_m(tile.road);
-        pen.draw(object, line);
-      }
-    }
+    BarrierPen pen{world, tile, {}, {}};
+    for_each_barrier(world, tile, [&](const road::RoadObject& object, const Line& line) {
+      pen.draw(object, line);
+    });
     if (!tile.in_tunnel && !tile.on_bridge) add_delineators(pen.posts, world, tile);
     MeshBuilder wall;
     add_noise_wall(wall, world, tile);
-    add_tile_mesh(world, tile, "barriers near", pen.near.mesh(), 0.0f, road_near_m, true);
-    add_tile_mesh(world, tile, "barriers far", pen.far.mesh(), road_near_m, 1800.0f);
-    add_tile_mesh(world, tile, "posts", pen.posts.mesh(), 0.0f, 260.0f, false);
+    add_tile_mesh(world, tile, "barriers", pen.near.mesh(), 0.0f, road_near_m, true);
+    add_tile_mesh(world, tile, "posts", pen.posts.mesh(), 0.0f, 220.0f);
     add_tile_mesh(world, tile, "noise wall", wall.mesh(), 0.0f, 3000.0f, true);
   }
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -14,8 +16,10 @@ namespace {
 using geometry::lattice_random;
 using geometry::MeshBuilder;
 
-constexpr double tile_m = 256.0, far_tile_m = 1024.0;
-constexpr double near_cell_m = 16.0, middle_cell_m = 64.0, far_cell_m = 128.0;
+constexpr double tile_m = 512.0, middle_tile_m = 1024.0, far_tile_m = 2048.0;
+constexpr double near_cell_m = tile_m / 24, middle_cell_m = tile_m / 6,
+                 far_cell_m = far_tile_m / 16;
+constexpr float middle_until_m = 7000.0f;
 constexpr double reach_m = 5200.0;    ///< Of the land beyond the roads.
 constexpr double ring_drop_m = 0.35;  ///< A tile overlaps its neighbours by one cell, sunk by this.
 constexpr double texture_m = 6.0;
@@ -46,7 +50,8 @@ Ground field_at(const WorldContext& world, const Vec2& p) {
   return Ground::soil;
 }
 
-/// A square grid of cells in a tile's frame, with one ring of cells more, whose outer edge is sunk.
+/// A square grid of cells in a tile's frame. Its near form has one ring of cells more, whose outer
+/// edge is sunk: so neighbours meet without a crack and with the same normals.
 class LandGrid {
  public:
   LandGrid(const WorldContext& world, const Vec2& corner, double side_m, double cell)
@@ -70,8 +75,6 @@ class LandGrid {
     Nearest near;
     double z;
   };
-  int count() const { return count_; }
-  double cell_m() const { return cell_; }
   const Vec3& origin() const { return origin_; }
   const Point& at(int x, int y) const {
     return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)];
@@ -81,29 +84,37 @@ class LandGrid {
     return glm::vec3(Vec3(point.p, point.z + up) - origin_);
   }
 
-  geometry::PolygonMesh ground() const {
-    MeshBuilder builder;
-    const int stride = count_ + 3;
+  /// True where the land was left out for a tunnel's mouth.
+  bool draw_ground(MeshBuilder& builder, bool plain) const {
+    bool has_hole = false;
+    const auto stride = static_cast<std::uint32_t>(count_ + 3);
+    const auto first = static_cast<std::uint32_t>(builder.mesh().vertices_m.size());
     for (int y = -1; y <= count_ + 1; ++y)
       for (int x = -1; x <= count_ + 1; ++x) {
         const bool ring = x < 0 || y < 0 || x > count_ || y > count_;
         builder.vertex(local(x, y, ring ? -ring_drop_m : 0.0));
       }
-    for (int y = -1; y <= count_; ++y)
-      for (int x = -1; x <= count_; ++x) {
+    const int low = plain ? 0 : -1, high = plain ? count_ : count_ + 1;
+    for (int y = low; y < high; ++y)
+      for (int x = low; x < high; ++x) {
         const Vec2 middle = corner_ + (Vec2(x, y) + 0.5) * cell_;
         const Nearest near = world_.terrain.nearest(middle);
-        if (world_.terrain.is_at_portal(near)) continue;
-        builder.material = index_of(kind_at(middle, near));
-        const auto a = static_cast<std::uint32_t>((y + 1) * stride + x + 1);
-        const auto up = static_cast<std::uint32_t>(stride);
-        const auto u0 = static_cast<float>(x * cell_ / texture_m),
-                   v0 = static_cast<float>(y * cell_ / texture_m),
-                   d = static_cast<float>(cell_ / texture_m);
-        builder.quad(a, a + 1, a + up + 1, a + up,
-                     {{{u0, v0}, {u0 + d, v0}, {u0 + d, v0 + d}, {u0, v0 + d}}});
+        if (world_.terrain.is_at_portal(near)) {
+          has_hole = true;
+          continue;
+        }
+        const Ground kind = kind_at(middle, near);
+        builder.material = index_of(plain ? far_of(kind) : kind);
+        const std::uint32_t a =
+            first + static_cast<std::uint32_t>(y + 1) * stride + static_cast<std::uint32_t>(x + 1);
+        // A whole number of repeats per cell: neighbours meet, and the numbers are small on the
+        // wire.
+        const auto d = static_cast<float>(std::round(cell_ / texture_m));
+        builder.quad(
+            a, a + 1, a + stride + 1, a + stride,
+            plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
       }
-    return builder.take();
+    return has_hole;
   }
 
   bool is_wood(int x, int y) const {
@@ -114,36 +125,47 @@ class LandGrid {
   }
 
   /// The crowns of a wood as one bumpy roof with sides.
-  geometry::PolygonMesh canopy() const {
-    MeshBuilder builder;
-    const auto top = [&](int x, int y) {
-      const Point& point = at(x, y);
-      const auto ix = std::llround(point.p.x), iy = std::llround(point.p.y);
-      return local(x, y, 10.5 + 5.5 * lattice_random(ix, iy, world_.seed + 8));
+  void draw_canopy(MeshBuilder& builder, bool plain) const {
+    const bool plain_sides = cell_ > 100.0;
+    std::map<std::pair<int, int>, std::uint32_t> tops;
+    const auto top_point = [&](int x, int y) {
+      const Vec2& p = at(x, y).p;
+      return local(
+          x, y, 10.5 + 5.5 * lattice_random(std::llround(p.x), std::llround(p.y), world_.seed + 8));
     };
+    const auto top = [&](int x, int y) {
+      const auto [place, fresh] = tops.try_emplace({x, y}, 0u);
+      if (fresh) place->second = builder.vertex(top_point(x, y));
+      return place->second;
+    };
+    const auto length = static_cast<float>(cell_ / 55.0),
+               d = static_cast<float>(std::round(cell_ / texture_m));
     for (int y = 0; y < count_; ++y)
       for (int x = 0; x < count_; ++x) {
         if (!is_wood(x, y)) continue;
-        builder.material = index_of(Ground::canopy);
-        const auto d = static_cast<float>(std::min(cell_ / 8.0, 4.0));
-        builder.patch(top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1),
-                      {{{0, d}, {d, d}, {d, 0}, {0, 0}}});
-        builder.material = index_of(Ground::wood_edge);
+        builder.material = index_of(plain ? Ground::far_canopy : Ground::canopy);
+        builder.quad(
+            top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1),
+            plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
         const auto side = [&](int nx, int ny, int ax, int ay, int bx, int by) {
           if (is_wood(nx, ny)) return;
-          const auto length = static_cast<float>(cell_ / 55.0),
-                     start = static_cast<float>(lattice_random(x, y, 3));
-          builder.patch(
-              local(ax, ay, -0.5), local(bx, by, -0.5), top(bx, by) + glm::vec3(0, 0, 2.5f),
-              top(ax, ay) + glm::vec3(0, 0, 2.5f),
-              {{{start, 1}, {start + length, 1}, {start + length, 0.02f}, {start, 0.02f}}});
+          // The trees' tips stand out over the roof; from afar the side is part of it.
+          const glm::vec3 tips(0, 0, plain_sides ? 0.0f : 2.5f);
+          const auto start = static_cast<float>(lattice_random(x, y, 3));
+          builder.material = index_of(plain_sides ? Ground::far_canopy : Ground::wood_edge);
+          builder.patch(local(ax, ay, -0.5), local(bx, by, -0.5), top_point(bx, by) + tips,
+                        top_point(ax, ay) + tips,
+                        plain_sides ? geometry::CornerUvs{}
+                                    : geometry::CornerUvs{{{start, 1},
+                                                           {start + length, 1},
+                                                           {start + length, 0.02f},
+                                                           {start, 0.02f}}});
         };
         side(x, y - 1, x, y, x + 1, y);
         side(x + 1, y, x + 1, y, x + 1, y + 1);
         side(x, y + 1, x + 1, y + 1, x, y + 1);
         side(x - 1, y, x, y + 1, x, y);
       }
-    return builder.take();
   }
 
  private:
@@ -175,26 +197,47 @@ void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* na
         placement);
 }
 
-void build_far_tile(const WorldContext& world, const Vec2& corner) {
-  const LandGrid grid(world, corner, far_tile_m, far_cell_m);
-  add_land_mesh(world, grid.origin(), "land far", grid.ground(), 0.0f, all_m);
-  add_land_mesh(world, grid.origin(), "wood far", grid.canopy(), 0.0f, all_m);
+/// Land and woods of a grid in plain colours as one mesh.
+void build_plain(const WorldContext& world, const LandGrid& grid, const Vec3& origin, float from_m,
+                 float to_m) {
+  MeshBuilder builder;
+  grid.draw_ground(builder, true);
+  grid.draw_canopy(builder, true);
+  geometry::PolygonMesh mesh = builder.take();
+  to_palette(mesh);
+  const glm::vec3 shift(grid.origin() - origin);
+  for (glm::vec3& p : mesh.vertices_m) p += shift;
+  add_land_mesh(world, origin, "land far", mesh, from_m, to_m);
 }
 
 void build_tile(const WorldContext& world, const Vec2& corner) {
-  const LandGrid middle(world, corner, tile_m, middle_cell_m);
-  const bool near_road = world.terrain.distance_m(corner + Vec2(tile_m / 2)) < 480.0;
-  if (!near_road) {
-    add_land_mesh(world, middle.origin(), "land", middle.ground(), 0.0f, all_m);
-    add_land_mesh(world, middle.origin(), "wood", middle.canopy(), 0.0f, all_m);
+  if (world.terrain.distance_m(corner + Vec2(tile_m / 2)) > 640.0) {
+    const LandGrid grid(world, corner, tile_m, middle_cell_m);
+    build_plain(world, grid, grid.origin(), 0.0f, middle_until_m);
     return;
   }
   const LandGrid near(world, corner, tile_m, near_cell_m);
-  add_land_mesh(world, near.origin(), "land near", near.ground(), 0.0f, land_near_m);
-  add_land_mesh(world, near.origin(), "wood near", near.canopy(), 0.0f, land_near_m);
-  const LandGrid coarse(world, corner, tile_m, near_cell_m * 2);
-  add_land_mesh(world, near.origin(), "land coarse", coarse.ground(), land_near_m, all_m);
-  add_land_mesh(world, near.origin(), "wood coarse", middle.canopy(), land_near_m, all_m);
+  MeshBuilder ground, wood;
+  const bool has_hole = near.draw_ground(ground, false);
+  near.draw_canopy(wood, false);
+  add_land_mesh(world, near.origin(), "land", ground.mesh(), 0.0f, land_near_m);
+  add_land_mesh(world, near.origin(), "wood", wood.mesh(), 0.0f, land_near_m);
+  // Where the land breaks off at a portal, large cells would reach across the road.
+  if (has_hole)
+    build_plain(world, near, near.origin(), land_near_m, middle_until_m);
+  else
+    build_plain(world, LandGrid(world, corner, tile_m, middle_cell_m), near.origin(), land_near_m,
+                middle_until_m);
+}
+
+void build_middle_tile(const WorldContext& world, const Vec2& corner) {
+  if (world.terrain.distance_m(corner + Vec2(middle_tile_m / 2)) > 1150.0) {
+    const LandGrid grid(world, corner, middle_tile_m, middle_cell_m);
+    build_plain(world, grid, grid.origin(), 0.0f, middle_until_m);
+    return;
+  }
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) build_tile(world, corner + Vec2(i, j) * tile_m);
 }
 
 /// The stream on a valley's floor.
@@ -229,13 +272,14 @@ void build_land(const WorldContext& world) {
     for (int x = first_x; x < last_x; ++x) {
       const Vec2 corner = Vec2(x, y) * far_tile_m;
       const double distance = world.terrain.distance_m(corner + Vec2(far_tile_m / 2));
-      if (distance > reach_m) continue;
-      if (distance > 1500.0) {
-        build_far_tile(world, corner);
+      if (distance > reach_m + far_tile_m / 2) continue;
+      if (distance > 2900.0) {
+        const LandGrid grid(world, corner, far_tile_m, far_cell_m);
+        build_plain(world, grid, grid.origin(), 0.0f, all_m);
         continue;
       }
-      for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) build_tile(world, corner + Vec2(i, j) * tile_m);
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) build_middle_tile(world, corner + Vec2(i, j) * middle_tile_m);
     }
   for (const Terrain::Valley& valley : world.terrain.valleys()) build_water(world, valley);
 }

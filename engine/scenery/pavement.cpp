@@ -4,6 +4,7 @@
 #include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/far_road.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -13,8 +14,9 @@ namespace {
 using geometry::MeshBuilder;
 
 constexpr double texture_length_m = 7.5, texture_width_m = 3.75;
-constexpr double near_step_m = 10.0, far_step_m = 40.0;
-constexpr double mark_lift_m = 0.010, repair_lift_m = 0.005, far_mark_lift_m = 0.03;
+constexpr double near_step_m = 10.0;
+constexpr float marks_near_m = 190.0f;
+constexpr double mark_lift_m = 0.010, repair_lift_m = 0.005, far_mark_lift_m = 0.04;
 
 /// Points between a tile's stations lie on the chords that the pavement is made of, so that what is
 /// painted stays above it.
@@ -80,26 +82,6 @@ geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& t
   return builder.take();
 }
 
-geometry::PolygonMesh far_pavement(const WorldContext& world, const RoadTile& tile) {
-  MeshBuilder builder;
-  builder.material = index_of(asphalt_of(tile));
-  const std::vector<double> along = stations(tile, far_step_m);
-  for (const double s : along) {
-    const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), s);
-    for (const double t :
-         {extent.left_t_m, std::clamp(0.0, extent.right_t_m, extent.left_t_m), extent.right_t_m})
-      builder.vertex(world.roads.local(tile, s, t));
-  }
-  for (std::uint32_t i = 0; i + 1 < along.size(); ++i)
-    for (std::uint32_t k = 0; k < 2; ++k) {
-      const auto v0 = static_cast<float>((along[i] - tile.s0_m) / texture_length_m),
-                 v1 = static_cast<float>((along[i + 1] - tile.s0_m) / texture_length_m);
-      builder.quad(i * 3 + k, i * 3 + k + 1, i * 3 + k + 4, i * 3 + k + 3,
-                   {{{0, v0}, {6, v0}, {6, v1}, {0, v1}}});
-    }
-  return builder.take();
-}
-
 /// A stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
 template <class T>
 void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1,
@@ -126,13 +108,20 @@ void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, do
   }
 }
 
+/// Lines that are seen as less than a pixel are drawn wider and as much darker.
+Ground mark_of(const RoadTile& tile, bool broken, bool near, double widening) {
+  if (near)
+    return tile.in_tunnel ? Ground::mark_tunnel : widening > 1.0 ? Ground::mark_far : Ground::mark;
+  return broken ? Ground::far_mark_broken : Ground::far_mark;
+}
+
 /// All lines of a tile; far away broken ones become continuous in their mean grey, which keeps
 /// still.
-geometry::PolygonMesh marks(const WorldContext& world, const RoadTile& tile, bool near) {
+void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near,
+                double step_m, double widening) {
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
-  const TileSurface surface(world.roads, tile, near ? near_step_m : far_step_m);
-  MeshBuilder builder;
+  const TileSurface surface(world.roads, tile, step_m);
   for (const road::Lane& lane : section.lanes) {
     const auto border = [&](double s) { return road::outer_border_t_m(road, section, lane.id, s); };
     for (const road::RoadMark& mark : lane.marks)
@@ -143,11 +132,10 @@ geometry::PolygonMesh marks(const WorldContext& world, const RoadTile& tile, boo
         if (end - begin < 0.05 || line.width_m <= 0.0) continue;
         const auto t_of = [&](double s) { return border(s) + line.t_offset_m; };
         const bool broken = line.space_m > 0.0;
-        builder.material = index_of(tile.in_tunnel    ? Ground::mark_tunnel
-                                    : broken && !near ? Ground::mark_far
-                                                      : Ground::mark);
+        if (broken && step_m > 60.0) continue;  // Too far to be told from the asphalt.
+        builder.material = index_of(mark_of(tile, broken, near, widening));
         if (!broken || !near) {
-          draw_stripe(builder, surface, begin, end, line.width_m,
+          draw_stripe(builder, surface, begin, end, line.width_m * widening,
                       near ? mark_lift_m : far_mark_lift_m, t_of);
           continue;
         }
@@ -157,11 +145,10 @@ geometry::PolygonMesh marks(const WorldContext& world, const RoadTile& tile, boo
              s += period) {
           const double s0 = std::max(s, begin), s1 = std::min(s + line.length_m, end);
           if (s1 - s0 > 0.05)
-            draw_stripe(builder, surface, s0, s1, line.width_m, mark_lift_m, t_of);
+            draw_stripe(builder, surface, s0, s1, line.width_m * widening, mark_lift_m, t_of);
         }
       }
   }
-  return builder.take();
 }
 
 /// Repaired rectangles and sealed cracks.
@@ -213,13 +200,38 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
 
 }  // namespace
 
+void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                       double step_m) {
+  builder.material = index_of(tile.in_tunnel ? Ground::asphalt_tunnel : Ground::far_asphalt);
+  std::uint32_t last = 0;
+  const std::vector<double> along = stations(tile, step_m);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
+    const std::uint32_t row = builder.vertex(world.roads.local(tile, along[i], extent.left_t_m));
+    builder.vertex(
+        world.roads.local(tile, along[i], std::clamp(0.0, extent.right_t_m, extent.left_t_m)));
+    builder.vertex(world.roads.local(tile, along[i], extent.right_t_m));
+    if (i > 0)
+      for (std::uint32_t k = 0; k < 2; ++k)
+        builder.quad(last + k, last + k + 1, row + k + 1, row + k);
+    last = row;
+  }
+}
+
+void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                    double step_m) {
+  draw_marks(builder, world, tile, false, step_m, 3.0);
+}
+
 void build_pavement(const WorldContext& world) {
   Random random(world.seed, 1);
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
-    add_tile_mesh(world, tile, "pavement near", near_pavement(world, tile), 0.0f, road_near_m);
-    add_tile_mesh(world, tile, "pavement far", far_pavement(world, tile), road_near_m, all_m);
-    add_tile_mesh(world, tile, "marks near", marks(world, tile, true), 0.0f, road_near_m);
-    add_tile_mesh(world, tile, "marks far", marks(world, tile, false), road_near_m, 2500.0f);
+    MeshBuilder marks, wide_marks;
+    draw_marks(marks, world, tile, true, near_step_m, 1.0);
+    draw_marks(wide_marks, world, tile, true, near_step_m, 1.7);
+    add_tile_mesh(world, tile, "pavement", near_pavement(world, tile), 0.0f, road_near_m);
+    add_tile_mesh(world, tile, "marks", marks.mesh(), 0.0f, marks_near_m);
+    add_tile_mesh(world, tile, "marks", wide_marks.mesh(), marks_near_m, road_near_m);
     add_tile_mesh(world, tile, "repairs", repairs(world, tile, random), 0.0f, 200.0f);
   }
 }

@@ -13,6 +13,7 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   const WorldContext world{builder, roads, terrain, palette, seed};
   build_pavement(world);
   build_verges(world);
+  build_far_road(world);
   build_land(world);
   build_barriers(world);
   build_bridges(world);

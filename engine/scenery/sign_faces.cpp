@@ -15,7 +15,7 @@ using image::Image;
 
 constexpr Color blue{16, 72, 158}, white{250, 251, 252}, black{14, 15, 18};
 /// Signs are painted large and sent smaller.
-constexpr std::uint32_t width = 512, height = 208, sign_width_px = 320, sign_height_px = 130;
+constexpr std::uint32_t width = 512, height = 208, sign_width_px = 256, sign_height_px = 104;
 
 Image blue_board() {
   Image board(width, height, {150, 152, 154});

@@ -13,10 +13,10 @@ struct SignLine {
   int distance_km = 0;
 };
 
-/// A blue motorway sign with places and distances, 320 × 130.
+/// A blue motorway sign with places and distances, 256 × 104.
 image::Image direction_sign(std::string_view route, const std::vector<SignLine>& lines);
 
-/// "Rest area 1 000 m" with a P, 320 × 130.
+/// "Rest area 1 000 m" with a P, 256 × 104.
 image::Image rest_area_sign(int distance_m);
 
 /// A speed display above a lane: red ring and number on black, 64 × 64.

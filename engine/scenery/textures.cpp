@@ -145,9 +145,12 @@ void paint_crown(Image& image, const Crown& crown, Random& random, int dabs, boo
     const double angle = random.uniform(0, 2 * std::numbers::pi),
                  reach =
                      std::sqrt(random.uniform()) * (0.80 + 0.20 * std::sin(angle * 5 + depth * 3));
-    const double dy = reach * std::sin(angle);
-    double dx = reach * std::cos(angle);
-    if (pointed) dx *= 0.5 + 0.5 * dy;  // Narrow at the top.
+    double dx = reach * std::cos(angle), dy = reach * std::sin(angle);
+    if (pointed) {
+      // A cone, evenly filled: as wide as it is far from the tip.
+      dy = 2.0 * std::sqrt(random.uniform()) - 1.0;
+      dx = random.uniform(-0.5, 0.5) * (1.0 + dy) * (0.88 + 0.12 * std::sin(dy * 22.0));
+    }
     const double x = crown.middle_x + dx * crown.radius_x, y = crown.middle_y + dy * crown.radius_y;
     // Bright at the top and on one side, dark inside and below.
     const double light = (0.50 + 0.34 * depth - 0.20 * dy - 0.08 * dx) * random.uniform(0.85, 1.15);
@@ -172,7 +175,8 @@ Image tree_picture_texture(std::uint64_t seed) {
   image::polygon(image, {{316, 254}, {324, 254}, {321, 190}, {319, 190}}, brown);
   paint_crown(image, {320, 124, 50, 118, {84, 112, 74}}, random, 1700, true);
   paint_crown(image, {448, 168, 56, 84, {138, 158, 82}}, random, 1500, false);
-  return image;
+  // Painted large, sent small: these trees are never seen near.
+  return image::resize(image, image.width / 2, image.height / 2);
 }
 
 Image wood_edge_texture(std::uint64_t seed) {

@@ -4,6 +4,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/far_road.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -64,7 +65,7 @@ glm::vec3 column_point(const WorldContext& world, const RoadTile& tile, double s
 
 template <std::size_t N>
 void draw_side(const WorldContext& world, const RoadTile& tile, double side, double step_m,
-               const std::array<Column, N>& columns, MeshBuilder& builder) {
+               const std::array<Column, N>& columns, MeshBuilder& builder, bool near) {
   const std::vector<double> along = stations(tile, step_m);
   std::uint32_t first = 0;
   for (std::size_t i = 0; i < along.size(); ++i) {
@@ -78,7 +79,9 @@ void draw_side(const WorldContext& world, const RoadTile& tile, double side, dou
     }
     if (i > 0)
       for (std::uint32_t k = 0; k + 1 < N; ++k) {
-        builder.material = index_of(k == 0 ? Ground::gravel : Ground::verge);
+        builder.material = index_of(!near    ? Ground::far_verge
+                                    : k == 0 ? Ground::gravel
+                                             : Ground::verge);
         const auto u0 = static_cast<float>(columns[k].out_m / 3.5),
                    u1 = static_cast<float>(columns[k + 1].out_m / 3.5);
         const auto v0 = static_cast<float>((along[i - 1] - tile.s0_m) / 3.5),
@@ -104,21 +107,26 @@ bool is_at_mouth(const WorldContext& world, const RoadTile& tile) {
 
 }  // namespace
 
+void draw_far_verges(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                     double step_m) {
+  if (tile.in_tunnel || tile.on_bridge) return;
+  for (const double side : {1.0, -1.0})
+    if (is_at_mouth(world, tile))
+      draw_side(world, tile, side, step_m / 2, mouth_columns, builder, false);
+    else
+      draw_side(world, tile, side, step_m, far_columns, builder, false);
+}
+
 void build_verges(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     if (tile.in_tunnel || tile.on_bridge) continue;
-    MeshBuilder near, far;
-    for (const double side : {1.0, -1.0}) {
-      if (is_at_mouth(world, tile)) {
-        draw_side(world, tile, side, 8.0, mouth_columns, near);
-        draw_side(world, tile, side, 20.0, mouth_columns, far);
-      } else {
-        draw_side(world, tile, side, 16.0, near_columns, near);
-        draw_side(world, tile, side, 40.0, far_columns, far);
-      }
-    }
-    add_tile_mesh(world, tile, "verge near", near.mesh(), 0.0f, road_near_m);
-    add_tile_mesh(world, tile, "verge far", far.mesh(), road_near_m, 5000.0f);
+    MeshBuilder near;
+    for (const double side : {1.0, -1.0})
+      if (is_at_mouth(world, tile))
+        draw_side(world, tile, side, 8.0, mouth_columns, near, true);
+      else
+        draw_side(world, tile, side, 16.0, near_columns, near, true);
+    add_tile_mesh(world, tile, "verge", near.mesh(), 0.0f, road_near_m);
   }
 }
 

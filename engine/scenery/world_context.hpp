@@ -34,9 +34,10 @@ inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::
 }
 
 /// How far the precise tiles of the road are seen from their middle, and how far anything is.
-inline constexpr float road_near_m = 380.0f, land_near_m = 760.0f, all_m = 9000.0f;
+inline constexpr float road_near_m = 380.0f, land_near_m = 800.0f, all_m = 14000.0f;
 
 void build_pavement(const WorldContext& world);  ///< Asphalt, repairs, markings.
+void build_far_road(const WorldContext& world);  ///< All of the road's parts, simplified.
 void build_verges(const WorldContext& world);    ///< From the asphalt's edge into the land.
 void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
 void build_barriers(

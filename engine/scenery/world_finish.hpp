@@ -51,9 +51,31 @@ enum class Ground : std::uint32_t {
   roof_tiles,
   roof_dark,
   planks,
+  far_asphalt,
+  palette,
+  // Colours of the palette, which are no materials of their own: see to_palette.
+  far_mark,
+  far_mark_broken,
+  far_concrete,
+  far_verge,
+  far_meadow,
+  far_pasture,
+  far_wheat,
+  far_rape,
+  far_soil,
+  far_crop,
+  far_wood,
+  far_canopy,
 };
 
 constexpr std::uint32_t index_of(Ground ground) { return static_cast<std::uint32_t>(ground); }
+
+/// The colour of a ground for far away; `ground` itself where there is none.
+Ground far_of(Ground ground);
+
+/// Gives all polygons of a palette's colour the one material `palette` and the texture coordinates
+/// of their colour in its bitmap, so that a mesh of many colours costs one draw.
+void to_palette(geometry::PolygonMesh& mesh);
 
 /// One material for each, in their order, with their bitmaps.
 Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed);

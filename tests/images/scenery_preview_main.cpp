@@ -1,7 +1,9 @@
 /// Draws the vehicles and the road world to PNG files, for people to judge.
 ///
 ///     scenery_preview OUT vehicles [MODEL…]              turntables
-///     scenery_preview OUT road ROAD.xodr S LANE_T [HEADING_DEG [HEIGHT_M [PITCH_DEG [NAME]]]] …
+///     scenery_preview OUT road ROAD.xodr S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
+///
+/// S and T place the eye on the first road; the view is 44° × 30°, that of one screen of the rig.
 ///
 /// Prints what each picture costs to submit, and the size of the scene on the wire.
 
@@ -197,8 +199,8 @@ void road_views(const std::filesystem::path& out, const std::vector<std::string>
   auto renderer = value_of(render::Renderer::create({.width = width, .height = height}));
   must(renderer.upload(scene));
   for (std::size_t i = 1; i < words.size(); ++i) {
-    // S:T:HEADING:HEIGHT:PITCH, the last three optional.
-    double values[5]{0, -8, 0, 1.2, 0};
+    // Stations and angles as on the command line; all but the first two are optional.
+    double values[6]{0, -8, 0, 1.2, 0, 1};
     std::size_t from = 0;
     for (double& value : values) {
       if (from > words[i].size()) break;
@@ -209,8 +211,8 @@ void road_views(const std::filesystem::path& out, const std::vector<std::string>
     const auto point = road::evaluate(network, {0, values[0], values[1]});
     auto input = frame(camera(point.position_m + Vec3(0, 0, values[3]),
                               point.heading_rad + values[2] * degree_rad, values[4] * degree_rad),
-                       58.0);
-    add_traffic(input, scene, network, values[0]);
+                       44.0);
+    if (values[5] > 0.0) add_traffic(input, scene, network, values[0]);
     must(image::write_png(out / fmt::format("road-{}.png", words[i]), drawn(renderer, input),
                           image::PngEffort::fast));
     const auto& cost = renderer.statistics();
@@ -228,7 +230,7 @@ int main(int argc, char** argv) {
   if (words.size() < 2 || (words[1] == "road" && words.size() < 4)) {
     fmt::print(stderr,
                "scenery_preview OUT vehicles [MODEL…] | OUT road ROAD.xodr "
-               "S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG]]]…\n");
+               "S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…\n");
     return 2;
   }
   std::filesystem::create_directories(words[0]);

@@ -59,7 +59,7 @@ TEST_CASE("the same seed gives the same world byte for byte and it fits on the w
   CHECK(first.hash == again.hash);
   CHECK(first.hash != other.hash);
   MESSAGE("the motorway's world takes " << first.bytes << " bytes");
-  CHECK(first.bytes < 14'000'000);
+  CHECK(first.bytes < 11'000'000);
 }
 
 TEST_CASE("everything of the world is finite and has a material") {
