@@ -1,0 +1,111 @@
+#include "engine/physics/elastic/body_measures.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "engine/physics/elastic/element.hpp"
+
+namespace septet::elastic {
+
+double total_mass_kg(const ElasticBody& body) {
+  double mass = 0.0;
+  for (const double m : body.mass_kg) mass += m;
+  return mass;
+}
+
+double kinetic_energy_j(const ElasticBody& body) {
+  double energy = 0.0;
+  for (int i = 0; i < body.node_count(); ++i)
+    energy += 0.5 * body.mass_kg[i] * body.velocity_mps[i].squaredNorm();
+  return energy;
+}
+
+double elastic_energy_j(const ElasticBody& body) {
+  const LameConstants lame = lame_constants(body.material);
+  double energy = 0.0;
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const double missing = std::max(0.0, least_determinant - f.determinant());
+    energy += e.rest_volume_m3 * (energy_density(green_strain(f), lame) +
+                                  0.5 * (lame.lambda_pa + 2 * lame.mu_pa) * missing * missing);
+  }
+  return energy;
+}
+
+Eigen::Vector3d centre_of_mass_m(const ElasticBody& body) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < body.node_count(); ++i) sum += body.mass_kg[i] * body.position_m[i];
+  return sum / total_mass_kg(body);
+}
+
+Eigen::Vector3d momentum_ns(const ElasticBody& body) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < body.node_count(); ++i) sum += body.mass_kg[i] * body.velocity_mps[i];
+  return sum;
+}
+
+Eigen::Vector3d angular_momentum_nms(const ElasticBody& body) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 0; i < body.node_count(); ++i)
+    sum += body.mass_kg[i] * body.position_m[i].cross(body.velocity_mps[i]);
+  return sum;
+}
+
+RigidMotion rigid_motion(const ElasticBody& body) {
+  RigidMotion motion;
+  motion.centre_m = centre_of_mass_m(body);
+  motion.velocity_mps = momentum_ns(body) / total_mass_kg(body);
+  motion.angular_momentum_nms.setZero();
+  Eigen::Matrix3d second_moment = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
+    second_moment += body.mass_kg[i] * arm * arm.transpose();
+    motion.angular_momentum_nms +=
+        body.mass_kg[i] * arm.cross(body.velocity_mps[i] - motion.velocity_mps);
+  }
+  motion.inertia_kgm2 = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
+  motion.angular_velocity_radps = motion.inertia_kgm2.inverse() * motion.angular_momentum_nms;
+  return motion;
+}
+
+double least_determinant_of(const ElasticBody& body) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Element& e : body.elements)
+    least = std::min(least, deformation_gradient(e, body.position_m).determinant());
+  return least;
+}
+
+double volume_m3(const ElasticBody& body) {
+  double volume = 0.0;
+  for (const Element& e : body.elements)
+    volume += e.rest_volume_m3 * deformation_gradient(e, body.position_m).determinant();
+  return volume;
+}
+
+Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element) {
+  const Eigen::Matrix3d f = deformation_gradient(body.elements[element], body.position_m);
+  const Eigen::Matrix3d s = second_piola_stress(green_strain(f), lame_constants(body.material));
+  return f * s * f.transpose() / std::max(f.determinant(), least_determinant);
+}
+
+std::vector<Eigen::Vector3d> internal_forces_n(const ElasticBody& body) {
+  const LameConstants lame = lame_constants(body.material);
+  std::vector<Eigen::Vector3d> force(body.position_m.size(), Eigen::Vector3d::Zero());
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const Eigen::Matrix3d s = second_piola_stress(green_strain(f), lame);
+    Eigen::Matrix3d first_piola = f * s;
+    const double determinant = f.determinant();
+    if (determinant < least_determinant)
+      first_piola += (lame.lambda_pa + 2 * lame.mu_pa) * (determinant - least_determinant) *
+                     cofactor(f);
+    const Eigen::Matrix3d forces = -e.rest_volume_m3 * first_piola * e.rest_inverse.transpose();
+    force[e.nodes[0]] -= forces.rowwise().sum();
+    for (int a = 0; a < 3; ++a) force[e.nodes[a + 1]] += forces.col(a);
+  }
+  return force;
+}
+
+}  // namespace septet::elastic

@@ -1,0 +1,33 @@
+#pragma once
+/// What can be measured on an elastic body: energies, momenta, volumes, stresses.
+
+#include <Eigen/Core>
+
+#include "engine/physics/elastic/elastic_body.hpp"
+
+namespace septet::elastic {
+
+double total_mass_kg(const ElasticBody& body);
+double kinetic_energy_j(const ElasticBody& body);
+double elastic_energy_j(const ElasticBody& body);
+Eigen::Vector3d centre_of_mass_m(const ElasticBody& body);
+Eigen::Vector3d momentum_ns(const ElasticBody& body);
+/// About the world's origin.
+Eigen::Vector3d angular_momentum_nms(const ElasticBody& body);
+
+/// The rigid motion with the body's mass, momentum and angular momentum.
+struct RigidMotion {
+  Eigen::Vector3d centre_m, velocity_mps, angular_velocity_radps;
+  Eigen::Vector3d angular_momentum_nms;  ///< About the centre.
+  Eigen::Matrix3d inertia_kgm2;          ///< About the centre.
+};
+RigidMotion rigid_motion(const ElasticBody& body);
+
+double least_determinant_of(const ElasticBody& body);
+double volume_m3(const ElasticBody& body);
+/// Cauchy stress of one element, σ = F S Fᵀ / det F.
+Eigen::Matrix3d cauchy_stress_pa(const ElasticBody& body, int element);
+/// Internal force on every node, −∂U/∂x.
+std::vector<Eigen::Vector3d> internal_forces_n(const ElasticBody& body);
+
+}  // namespace septet::elastic

@@ -1,0 +1,81 @@
+#pragma once
+/// One elastic body: its state, its material and the structure of its equations.
+///
+/// Node indices are the body's own, in the order of elimination; `body_node_of_mesh_node` leads from
+/// the mesh's. World frame, metres, kilograms, newtons. A body belongs to one thread at a time.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/core/expected.hpp"
+#include "engine/physics/elastic/block_cholesky.hpp"
+#include "engine/physics/elastic/elastic_material.hpp"
+#include "engine/physics/elastic/tetrahedral_mesh.hpp"
+
+namespace septet::elastic {
+
+/// The constant part of one tetrahedron with linear shape functions.
+struct Element {
+  Tetrahedron nodes;  ///< Ascending body nodes.
+  /// Rows are the gradients of the last three nodes' shape functions in rest coordinates, so that
+  /// F = [x₁−x₀, x₂−x₀, x₃−x₀] · rest_inverse. Plastic flow replaces it by rest_inverse · Fp⁻¹.
+  Eigen::Matrix3d rest_inverse;
+  double rest_volume_m3 = 0.0;
+  std::array<int, 6> slots{};  ///< Of the blocks (1,0) (2,0) (2,1) (3,0) (3,1) (3,2).
+};
+
+/// The factor at rest that preconditions large bodies, and what it was made for.
+struct RestFactor {
+  bool valid = false;
+  double step_scale_s2 = 0.0;  ///< Δt²/γ.
+  bool single_precision = false;
+  BlockFactor<double> in_double;
+  BlockFactor<float> in_single;
+};
+
+/// Vectors that one step fills and the next reuses, so that a step allocates nothing.
+struct StepWorkspace {
+  BlockMatrix matrix;
+  BlockVector right_side, solution, residual, direction, image, preconditioned;
+  BlockFactor<double> factor;
+  std::vector<Eigen::Array4f> single;
+  std::vector<Eigen::Matrix3d> mean_deformation;  ///< Volume-weighted F of each node.
+};
+
+struct ElasticBody {
+  // State.
+  std::vector<Eigen::Vector3d> position_m, velocity_mps;
+  std::vector<Eigen::Vector3d> force_n;   ///< External, besides gravity; stays until changed.
+  std::vector<std::uint8_t> fixed;        ///< 1: the node keeps its velocity, whatever pulls at it.
+  std::vector<double> contact_impulse_ns;  ///< Normal impulse of the last step, for friction.
+
+  // Constant, except where fracture or plastic flow rewrites it.
+  ElasticMaterial material;
+  std::vector<Eigen::Vector3d> rest_position_m;
+  std::vector<double> mass_kg;
+  std::vector<Element> elements;
+  std::vector<int> body_node_of_mesh_node;
+
+  // Derived from the elements.
+  BlockPattern pattern;
+  FactorPattern factor_structure;
+  std::vector<Eigen::Matrix3d> rotation;  ///< Of each node from rest, followed from step to step.
+  RestFactor rest_factor;
+  StepWorkspace workspace;
+
+  int node_count() const { return static_cast<int>(position_m.size()); }
+};
+
+/// A body at rest in the mesh's shape; refuses an invalid mesh or material.
+Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh, const ElasticMaterial& material);
+
+/// To be called after `fixed` or the elements' rest shapes have been changed.
+void invalidate_rest_factor(ElasticBody& body);
+
+/// Makes every node within the box [low, high] of the rest shape fixed.
+void fix_nodes(ElasticBody& body, const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);
+
+}  // namespace septet::elastic

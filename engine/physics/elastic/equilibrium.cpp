@@ -1,0 +1,85 @@
+#include "engine/physics/elastic/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/physics/elastic/block_cholesky.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/element.hpp"
+
+namespace septet::elastic {
+namespace {
+
+/// Stiffness of the whole body; without the geometric part it is always positive definite.
+BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
+  const LameConstants lame = lame_constants(body.material);
+  BlockMatrix matrix;
+  matrix.set_zero(body.pattern);
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const double volume_stiffness =
+        f.determinant() < least_determinant ? lame.lambda_pa + 2 * lame.mu_pa : 0.0;
+    add_stiffness(e, f, lame, 1.0, volume_stiffness,
+                  second_piola_stress(green_strain(f), lame), geometric, matrix);
+  }
+  for (int i = 0; i < body.node_count(); ++i) {
+    // A trace of a spring at every node holds a body that is free to turn; it slows Newton's
+    // iteration by nothing that shows and leaves the equilibrium where it is.
+    Block& d = matrix.diagonal[i];
+    const double spring = 1e-13 * (d.column[0][0] + d.column[1][1] + d.column[2][2]);
+    for (int c = 0; c < 3; ++c) d.column[c][c] += spring;
+    for (int s = body.pattern.row_start[i]; s < body.pattern.row_start[i + 1]; ++s)
+      if (body.fixed[i] || body.fixed[body.pattern.column[s]]) matrix.lower[s] = zero_block();
+    if (!body.fixed[i]) continue;
+    matrix.diagonal[i] = zero_block();
+    for (int c = 0; c < 3; ++c) matrix.diagonal[i].column[c][c] = 1.0;
+  }
+  return matrix;
+}
+
+double potential_j(const ElasticBody& body, const Eigen::Vector3d& gravity) {
+  double energy = elastic_energy_j(body);
+  for (int i = 0; i < body.node_count(); ++i)
+    energy -= (body.force_n[i] + body.mass_kg[i] * gravity)
+                  .dot(body.position_m[i] - body.rest_position_m[i]);
+  return energy;
+}
+
+}  // namespace
+
+EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2,
+                                   int max_iterations) {
+  EquilibriumReport report;
+  std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
+  BlockFactor<double> factor;
+  double first_change = 0.0;
+  while (report.iterations < max_iterations && !report.converged) {
+    ++report.iterations;
+    const auto internal = internal_forces_n(body);
+    BlockVector move(body.position_m.size(), Eigen::Array4d::Zero());
+    for (int i = 0; i < body.node_count(); ++i)
+      if (!body.fixed[i])
+        move[i] = padded(internal[i] + body.force_n[i] + body.mass_kg[i] * gravity_mps2);
+    if (!factorise(body.pattern, body.factor_structure, stiffness(body, true), factor) &&
+        !factorise(body.pattern, body.factor_structure, stiffness(body, false), factor))
+      return report;
+    solve(body.factor_structure, factor, move);
+
+    // Halve the move until the potential falls: far from equilibrium a full one may overshoot.
+    const auto start = body.position_m;
+    const double before = potential_j(body, gravity_mps2);
+    double largest = 0.0;
+    for (const auto& m : move) largest = std::max(largest, m.matrix().norm());
+    if (report.iterations == 1) first_change = largest;
+    double part = 1.0;
+    for (int halving = 0; halving < 20; ++halving, part *= 0.5) {
+      for (int i = 0; i < body.node_count(); ++i)
+        body.position_m[i] = start[i] + part * move[i].head<3>().matrix();
+      if (potential_j(body, gravity_mps2) <= before + 1e-9 * std::abs(before)) break;
+    }
+    report.converged = part == 1.0 && largest <= 1e-8 * first_change;
+  }
+  return report;
+}
+
+}  // namespace septet::elastic

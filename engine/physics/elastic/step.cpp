@@ -1,0 +1,303 @@
+#include "engine/physics/elastic/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "engine/core/check.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/element.hpp"
+#include "engine/physics/elastic/preconditioned_solve.hpp"
+
+namespace septet::elastic {
+namespace {
+
+/// Contact stiffness in units of node mass / Δt²: a column of a hundred nodes sinks in by 0.2 mm.
+constexpr double contact_stiffness = 1e3;
+/// Below this sliding speed friction is viscous, so that a resting body comes to rest.
+constexpr double creep_speed_mps = 2e-3;
+/// Δt² σ₁ |g|² / ρ from which an element gets its geometric stiffness; 4 would be unstable.
+constexpr double tension_limit = 1.0;
+
+/// Fills matrix and right side with M + Δt²/γ JᵀDJ and M v + Δt (F − JᵀDφ).
+void assemble(ElasticBody& body, const StepSettings& settings, bool follow_rotation,
+              StepReport& report) {
+  StepWorkspace& w = body.workspace;
+  const double dt = settings.step_s, scale = dt * dt / gamma_of(settings);
+  const LameConstants lame = lame_constants(body.material);
+  w.matrix.set_zero(body.pattern);
+  const int n = body.node_count();
+  w.right_side.resize(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double m = body.mass_kg[i];
+    for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = m;
+    w.right_side[i] = padded(m * body.velocity_mps[i] +
+                             dt * (body.force_n[i] + m * settings.gravity_mps2));
+  }
+  if (follow_rotation)
+    w.mean_deformation.assign(static_cast<std::size_t>(n), Eigen::Matrix3d::Zero());
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const Eigen::Matrix3d stress = second_piola_stress(green_strain(f), lame);
+    Eigen::Matrix3d first_piola = f * stress;
+    const double determinant = f.determinant();
+    double volume_stiffness = 0.0;
+    if (determinant < least_determinant) {
+      volume_stiffness = lame.lambda_pa + 2.0 * lame.mu_pa;
+      first_piola += volume_stiffness * (determinant - least_determinant) * cofactor(f);
+      if (determinant <= 0.0) ++report.inverted;
+    }
+    Eigen::Matrix3d tension = Eigen::Matrix3d::Zero();
+    bool with_tension = false;
+    if (settings.tension_stiffness) {
+      const double gradient2 = e.rest_inverse.squaredNorm();
+      const double limit = tension_limit * body.material.density_kgpm3 / (dt * dt * gradient2);
+      if (stress.squaredNorm() > limit * limit) {
+        tension = tensile_part(stress);
+        with_tension = tension.squaredNorm() > limit * limit;
+        report.under_tension += with_tension;
+      }
+    }
+    add_stiffness(e, f, lame, scale, volume_stiffness, tension, with_tension, w.matrix);
+    if (with_tension) {
+      // K_g acts on the change of velocity, so that a body that spins under tension is not slowed.
+      Eigen::Matrix3d edge_velocities;
+      const Eigen::Vector3d& v0 = body.velocity_mps[e.nodes[0]];
+      for (int a = 0; a < 3; ++a)
+        edge_velocities.col(a) = body.velocity_mps[e.nodes[a + 1]] - v0;
+      const Eigen::Matrix3d kept = scale * e.rest_volume_m3 * edge_velocities * e.rest_inverse *
+                                   tension * e.rest_inverse.transpose();
+      w.right_side[e.nodes[0]] -= padded(kept.rowwise().sum());
+      for (int a = 0; a < 3; ++a) w.right_side[e.nodes[a + 1]] += padded(kept.col(a));
+    }
+    const Eigen::Matrix3d impulse =
+        -dt * e.rest_volume_m3 * first_piola * e.rest_inverse.transpose();
+    const Eigen::Array4d i1 = padded(impulse.col(0)), i2 = padded(impulse.col(1)),
+                         i3 = padded(impulse.col(2));
+    w.right_side[e.nodes[0]] -= i1 + i2 + i3;
+    w.right_side[e.nodes[1]] += i1;
+    w.right_side[e.nodes[2]] += i2;
+    w.right_side[e.nodes[3]] += i3;
+    if (follow_rotation)
+      for (const int node : e.nodes) w.mean_deformation[node] += e.rest_volume_m3 * f;
+  }
+}
+
+void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double dt) {
+  const Eigen::Vector3d& spin = motion.angular_velocity_radps;
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
+    body.workspace.right_side[i] -= padded(dt * body.mass_kg[i] * spin.cross(spin.cross(arm)));
+  }
+}
+
+/// Angular momentum about the centre that the forces and contacts of this step leave to the body.
+Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before,
+                                          double dt, std::span<const NodeContact> contacts) {
+  Eigen::Vector3d result = before.angular_momentum_nms;
+  for (int i = 0; i < body.node_count(); ++i)
+    result += dt * (body.position_m[i] - before.centre_m).cross(body.force_n[i]);
+  for (const NodeContact& c : contacts)
+    result += (body.position_m[c.node] - before.centre_m).cross(c.impulse_ns);
+  return result;
+}
+
+/// Moves the body along the arcs of its rigid rotation: positions and velocities turn by exp(Δt ω),
+/// and ω then changes to what the angular momentum asks for, as a rigid body's does.
+void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angular_momentum_nms) {
+  RigidMotion motion = rigid_motion(body);
+  const Eigen::Vector3d spin = motion.angular_velocity_radps;
+  const double angle = spin.norm() * dt;
+  const Eigen::Matrix3d turn =
+      angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
+                : Eigen::Matrix3d::Identity().eval();
+  const Eigen::Vector3d centre = motion.centre_m + dt * motion.velocity_mps;
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
+    const Eigen::Vector3d relative = body.velocity_mps[i] - motion.velocity_mps;
+    const Eigen::Vector3d deforming = relative - spin.cross(arm);
+    body.position_m[i] = centre + turn * (arm + dt * deforming);
+    body.velocity_mps[i] = motion.velocity_mps + turn * relative;
+  }
+  motion = rigid_motion(body);
+  const Eigen::Vector3d change =
+      motion.inertia_kgm2.ldlt().solve(angular_momentum_nms - motion.angular_momentum_nms);
+  for (int i = 0; i < body.node_count(); ++i)
+    body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
+}
+
+/// A contact in the same regularised form as the strain: φ is the gap, its stiffness is large, and
+/// it acts while the gap would close. Friction is a viscous block whose strength is Coulomb's at
+/// the present sliding speed, so that it never turns the motion round.
+struct ActiveContact {
+  NodeContact* contact;
+  double normal_rate_kg, normal_impulse_ns, tangent_rate_kg;
+};
+
+std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& settings,
+                                        std::span<NodeContact> contacts) {
+  std::vector<ActiveContact> active;
+  StepWorkspace& w = body.workspace;
+  const double dt = settings.step_s, gamma = gamma_of(settings);
+  std::vector<double> known_impulse;
+  known_impulse.swap(body.contact_impulse_ns);
+  body.contact_impulse_ns.assign(known_impulse.size(), 0.0);
+  for (NodeContact& c : contacts) {
+    SEPTET_CHECK(c.node >= 0 && c.node < body.node_count(), "contact of node {}", c.node);
+    c.impulse_ns.setZero();
+    if (body.fixed[c.node]) continue;
+    const double m = body.mass_kg[c.node];
+    const Eigen::Vector3d relative = body.velocity_mps[c.node] - c.surface_velocity_mps;
+    const double normal_speed = relative.dot(c.normal);
+    const Eigen::Vector3d predicted = relative + dt * settings.gravity_mps2;
+    if (c.gap_m + dt * predicted.dot(c.normal) > 0.0) continue;
+    // Deep overlaps are let out at no more than 2 m/s, so that a spawn inside a wall is no shot.
+    const double gap = std::max(c.gap_m, -2.0 * dt / gamma);
+    ActiveContact a{&c, 0, 0, 0};
+    a.normal_rate_kg = contact_stiffness * m / gamma;
+    a.normal_impulse_ns = -contact_stiffness * m * gap / dt;
+    const Eigen::Vector3d slide = relative - normal_speed * c.normal;
+    const double pressing =
+        std::max(known_impulse[c.node], m * std::max(0.0, -predicted.dot(c.normal)));
+    a.tangent_rate_kg = c.friction * pressing / std::max(slide.norm(), creep_speed_mps);
+    const Eigen::Matrix3d normal_part = c.normal * c.normal.transpose();
+    const Eigen::Matrix3d rate =
+        a.normal_rate_kg * normal_part +
+        a.tangent_rate_kg * (Eigen::Matrix3d::Identity() - normal_part);
+    for (int k = 0; k < 3; ++k) w.matrix.diagonal[c.node].column[k] += padded(rate.col(k));
+    w.right_side[c.node] +=
+        padded(rate * c.surface_velocity_mps + a.normal_impulse_ns * c.normal);
+    active.push_back(a);
+  }
+  return active;
+}
+
+/// Replaces the rows of fixed nodes by "keeps its velocity" and moves their columns to the right.
+void hold_fixed_nodes(ElasticBody& body) {
+  StepWorkspace& w = body.workspace;
+  if (std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end()) return;
+  for (int i = 0; i < body.node_count(); ++i)
+    for (int s = body.pattern.row_start[i]; s < body.pattern.row_start[i + 1]; ++s) {
+      const int j = body.pattern.column[s];
+      if (!body.fixed[i] && !body.fixed[j]) continue;
+      Block& block = w.matrix.lower[s];
+      const Eigen::Vector3d& vi = body.velocity_mps[i];
+      const Eigen::Vector3d& vj = body.velocity_mps[j];
+      if (!body.fixed[i])
+        w.right_side[i] -=
+            block.column[0] * vj[0] + block.column[1] * vj[1] + block.column[2] * vj[2];
+      if (!body.fixed[j])
+        for (int c = 0; c < 3; ++c)
+          w.right_side[j][c] -= (block.column[c] * padded(vi)).sum();
+      block = zero_block();
+    }
+  for (int i = 0; i < body.node_count(); ++i) {
+    if (!body.fixed[i]) continue;
+    w.matrix.diagonal[i] = zero_block();
+    for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = body.mass_kg[i];
+    w.right_side[i] = padded(body.mass_kg[i] * body.velocity_mps[i]);
+  }
+}
+
+/// Nodes with numbers that are not finite go back to their rest place in the body's mean motion.
+int reset_bad_nodes(ElasticBody& body) {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), rest_centre = centre, drift = centre;
+  double mass = 0.0;
+  int bad = 0;
+  const auto is_bad = [&](int i) {
+    return !body.position_m[i].allFinite() || !body.velocity_mps[i].allFinite();
+  };
+  for (int i = 0; i < body.node_count(); ++i) {
+    if (is_bad(i)) {
+      ++bad;
+      continue;
+    }
+    mass += body.mass_kg[i];
+    centre += body.mass_kg[i] * body.position_m[i];
+    rest_centre += body.mass_kg[i] * body.rest_position_m[i];
+    drift += body.mass_kg[i] * body.velocity_mps[i];
+  }
+  if (bad == 0) return 0;
+  if (mass > 0) {
+    centre /= mass;
+    rest_centre /= mass;
+    drift /= mass;
+  }
+  for (int i = 0; i < body.node_count(); ++i)
+    if (is_bad(i)) {
+      body.position_m[i] = centre + (body.rest_position_m[i] - rest_centre);
+      body.velocity_mps[i] = drift;
+      body.rotation[i].setIdentity();
+    }
+  return bad;
+}
+
+}  // namespace
+
+StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
+                        std::span<NodeContact> contacts) {
+  SEPTET_CHECK(settings.step_s > 0 && settings.damping_ratio >= 0, "step {} s, damping {}",
+               settings.step_s, settings.damping_ratio);
+  StepReport report;
+  report.bad_numbers = reset_bad_nodes(body);
+  const bool direct =
+      settings.solver == Solver::direct ||
+      (settings.solver == Solver::automatic &&
+       static_cast<int>(body.elements.size()) <= settings.direct_limit);
+  assemble(body, settings, !direct, report);
+  const bool follow_spin = settings.follow_spin &&
+                           std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end();
+  const RigidMotion before = rigid_motion(body);
+  if (follow_spin) add_centrifugal_force(body, before, settings.step_s);
+  const auto active = add_contacts(body, settings, contacts);
+  hold_fixed_nodes(body);
+
+  StepWorkspace& w = body.workspace;
+  bool solved = false;
+  if (direct) {
+    solved = factorise(body.pattern, body.factor_structure, w.matrix, w.factor);
+    if (solved) {
+      w.solution = w.right_side;
+      solve(body.factor_structure, w.factor, w.solution);
+    }
+  } else {
+    w.solution.resize(body.velocity_mps.size());
+    for (int i = 0; i < body.node_count(); ++i)
+      w.solution[i] =
+          padded(body.velocity_mps[i] + (body.fixed[i] ? Eigen::Vector3d::Zero().eval()
+                                                       : Eigen::Vector3d(settings.step_s *
+                                                                         settings.gravity_mps2)));
+    follow_rotations(body);
+    const SolveReport result = preconditioned_solve(body, settings);
+    report.iterations = result.iterations;
+    report.converged = result.converged;
+    solved = true;
+  }
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d v = w.solution[i].head<3>().matrix();
+    if (solved && v.allFinite())
+      body.velocity_mps[i] = v;
+    else
+      ++report.bad_numbers;  // The node goes on as it did.
+  }
+  for (const ActiveContact& a : active) {
+    const NodeContact& c = *a.contact;
+    const Eigen::Vector3d relative = body.velocity_mps[c.node] - c.surface_velocity_mps;
+    const double normal_speed = relative.dot(c.normal);
+    const double normal_impulse = a.normal_impulse_ns - a.normal_rate_kg * normal_speed;
+    a.contact->impulse_ns = normal_impulse * c.normal -
+                            a.tangent_rate_kg * (relative - normal_speed * c.normal);
+    body.contact_impulse_ns[c.node] += std::max(0.0, normal_impulse);
+  }
+  if (follow_spin)
+    move_along_arcs(body, settings.step_s,
+                    expected_angular_momentum(body, before, settings.step_s, contacts));
+  else
+    for (int i = 0; i < body.node_count(); ++i)
+      body.position_m[i] += settings.step_s * body.velocity_mps[i];
+  return report;
+}
+
+}  // namespace septet::elastic

@@ -1,0 +1,52 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/physics/elastic/beam.hpp"
+
+using namespace septet;
+using namespace septet::elastic;
+
+TEST_CASE("a beam of one cell pulled a little stretches as Hooke says") {
+  CHECK(beam::static_stretch(1, 1e-3, true) / 1e-3 == doctest::Approx(1.002).epsilon(0.003));
+  CHECK(beam::static_stretch(1, 1e-3, false) / 1e-3 == doctest::Approx(0.998).epsilon(0.003));
+}
+
+TEST_CASE("pulled and pushed hard it follows St. Venant-Kirchhoff and not Hooke") {
+  const double pulled = beam::st_venant_kirchhoff_strain(0.1);
+  const double pushed = beam::st_venant_kirchhoff_strain(-0.1);
+  CHECK(pulled / 0.1 == doctest::Approx(0.883).epsilon(0.002));  // Hooke would say 1.
+  CHECK(pushed / -0.1 == doctest::Approx(1.211).epsilon(0.002));
+  CHECK(beam::static_stretch(1, 0.1, true) == doctest::Approx(pulled).epsilon(0.005));
+  CHECK(beam::static_push_strain(1, -0.1) == doctest::Approx(pushed).epsilon(0.005));
+}
+
+TEST_CASE("torsion of coarse linear tetrahedra is five times too stiff and converges") {
+  CHECK(beam::static_twist_ratio(1) == doctest::Approx(0.21).epsilon(0.05));
+  CHECK(beam::static_twist_ratio(2) == doctest::Approx(0.48).epsilon(0.05));
+}
+
+TEST_CASE("bending of coarse linear tetrahedra converges from below") {
+  CHECK(beam::static_bend_ratio(1) == doctest::Approx(0.36).epsilon(0.05));
+  CHECK(beam::static_bend_ratio(2) == doctest::Approx(0.68).epsilon(0.05));
+}
+
+TEST_CASE("Young's modulus and the Poisson ratio give the right Lame constants") {
+  const LameConstants m = lame_constants({2.5e9, 0.25, 1});
+  CHECK(m.mu_pa * (3 * m.lambda_pa + 2 * m.mu_pa) / (m.lambda_pa + m.mu_pa) ==
+        doctest::Approx(2.5e9));
+  CHECK(m.lambda_pa / (2 * (m.lambda_pa + m.mu_pa)) == doctest::Approx(0.25));
+}
+
+TEST_CASE("a beam at rest hangs at a depth that goes with one over the stiffness") {
+  double first = 0.0;
+  for (const double young : {1e8, 1e9, 1e10, 1e11, 1e12}) {
+    ElasticBody body = beam::make(1, {young, 0.25, 1000.0});
+    beam::clamp_start(body);
+    REQUIRE(find_equilibrium(body, {-9.81, 0, 0}).converged);
+    double deepest = 0.0;
+    for (const auto& x : body.position_m) deepest = std::min(deepest, x.x());
+    if (first == 0.0) first = deepest * young;
+    CHECK(deepest * young == doctest::Approx(first).epsilon(0.01));
+  }
+}
