@@ -201,7 +201,8 @@ SkyLight sky_light(const Environment& environment) {
   }
   // The eye adapts to the light on level ground, but not wholly: dusk stays darker than noon.
   const double level = luminance(Vec3(light.sky_irradiance)) + luminance(Vec3(light.light_irradiance)) * std::max(0.0f, light.light_direction.z);
-  light.exposure = static_cast<float>(std::clamp(0.66 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
+  // Under a closed cover it stays a little duller still.
+  light.exposure = static_cast<float>((1.0 - 0.22 * overcast) * std::clamp(0.58 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
   return light;
 }
 

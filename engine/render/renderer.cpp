@@ -10,6 +10,7 @@
 
 #include "engine/core/check.hpp"
 #include "engine/render/atmosphere.hpp"
+#include "engine/render/frame_preparation.hpp"
 #include "engine/render/frame_targets.hpp"
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/passes/device_scene.hpp"
@@ -19,23 +20,12 @@
 #include "engine/render/passes/sky_pass.hpp"
 #include "engine/render/passes/smoothing_pass.hpp"
 #include "engine/render/passes/surface_pass.hpp"
-#include "engine/render/passes/view_uniforms.hpp"
 #include "engine/render/vulkan/swapchain.hpp"
 #include "engine/render/window.hpp"
 #include "engine/render/window_surface.hpp"
 
 namespace septet::render {
 namespace {
-
-/// What one view draws, ready on the CPU and in the frame's arena.
-struct PreparedView {
-  const FrameView* view = nullptr;
-  DrawList list;
-  ViewBindings bindings;
-  FrameData glows;
-  std::uint32_t glow_count = 0;
-  bool lit_by_headlights = false;
-};
 
 Expected<void> check_size(std::uint32_t width, std::uint32_t height) {
   constexpr std::uint32_t largest = 16384;
@@ -76,11 +66,6 @@ struct Renderer::Parts {
   void destroy();
   void draw(const FrameInput& input);
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
-  float exposure(const FrameView& view) const;
-  PreparedView prepare_view(PassContext& context, const FrameView& view, const FrameInput& input,
-                            const ShadowCascades& shadows, const PlacedParticipants& participants) const;
-  DrawList casters(const FrameInput& input, const ShadowCascades& shadows, std::size_t cascade,
-                   std::span<const PlacedMesh> participants) const;
   void draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input);
 };
 
@@ -143,70 +128,6 @@ void Renderer::Parts::destroy() {
   destroy_device(device);
 }
 
-/// The eye adapts to a roofed place ahead of and around the car, in the same way on every screen.
-float Renderer::Parts::exposure(const FrameView& view) const {
-  constexpr float roofed_exposure = 2.2f;
-  constexpr int samples = 9;
-  float roofed = 0.0f;
-  for (int i = 0; i < samples; ++i) {
-    const Vec3 ahead = view.world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2);
-    roofed += (1.0f - share_of_sky(scene, ahead)) / samples;
-  }
-  return light.exposure * std::pow(std::max(1.0f, roofed_exposure / light.exposure), roofed);
-}
-
-PreparedView Renderer::Parts::prepare_view(PassContext& context, const FrameView& view, const FrameInput& input,
-                                           const ShadowCascades& shadows, const PlacedParticipants& participants) const {
-  PreparedView prepared;
-  prepared.view = &view;
-  const Vec3 eye_m = world_eye(view);
-  const ViewVolume volume = view_volume(view);
-  const auto seen = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
-    return mesh.seen && intersects(volume, centre_m, mesh.radius_m);
-  };
-  append_visible(prepared.list, scene.placed, eye_m, seen);
-  append_visible(prepared.list, participants.meshes, eye_m, seen);
-  sort_by_distance(prepared.list);
-  const float view_exposure = exposure(view);
-  const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, view_exposure);
-  prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
-  prepared.bindings.uniforms = store(context, std::span(&uniforms, 1));
-  prepared.bindings.records = store(context, std::span<const InstanceRecord>(prepared.list.records));
-  prepared.bindings.sky_table = sky_table.view;
-  prepared.bindings.shadow_map = targets.shadow_map.view;
-  prepared.bindings.noise = noise.view;
-  const std::vector<GlowRecord> glows = glow_records(participants.glows, eye_m, view_exposure);
-  prepared.glows = store(context, std::span<const GlowRecord>(glows));
-  prepared.glow_count = static_cast<std::uint32_t>(glows.size());
-  context.statistics.instances += static_cast<std::uint32_t>(prepared.list.records.size());
-  return prepared;
-}
-
-/// What casts a shadow into a cascade that some view may see.
-DrawList Renderer::Parts::casters(const FrameInput& input, const ShadowCascades& shadows, std::size_t index,
-                                  std::span<const PlacedMesh> participants) const {
-  DrawList list;
-  const Cascade& cascade = shadows.cascades[index];
-  const float least_radius_m = 0.75f * cascade.texel_m;
-  // A shadow falls away from the light; no further than a high thing's at a low sun.
-  const glm::vec3 reach = light.light_direction * -120.0f;
-  std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
-  for (const FrameView& view : input.views)
-    volumes.emplace_back(view_volume(view), glm::vec3(shadows.eye_m - world_eye(view)));
-  const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
-    if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
-    return std::any_of(volumes.begin(), volumes.end(), [&](const auto& view) {
-      const glm::vec3 from = centre_m + view.second, to = from + reach;
-      return std::all_of(view.first.begin(), view.first.end(), [&](const glm::vec3& normal) {
-        return std::max(glm::dot(normal, from), glm::dot(normal, to)) >= -mesh.radius_m;
-      });
-    });
-  };
-  append_visible(list, scene.placed, shadows.eye_m, casts);
-  append_visible(list, participants, shadows.eye_m, casts);
-  return list;
-}
-
 void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input) {
   const Environment& environment = input.environment;
   begin_view_rendering(context, targets);
@@ -215,12 +136,13 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
     set_viewport(context, prepared.view->viewport);
     vkCmdSetFrontFace(context.slot.commands,
                       prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    push_view(context, prepared.bindings);
+    push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
+    bind_instances(context, prepared.draws.records);
     const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0};
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::opaque, surface_light);
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::cut, surface_light);
+    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
+    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
     draw_sky(sky_pass, context, environment.cloud_cover > 0.0, light.night > 0.0f);
-    draw_surfaces(surface_pass, context, scene, prepared.list, SurfaceKind::blended, surface_light);
+    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
     draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
   }
   vkCmdEndRendering(context.slot.commands);
@@ -243,19 +165,7 @@ void Renderer::Parts::draw(const FrameInput& input) {
   if (new_light) light = sky_light(input.environment);
   lit_environment = input.environment;
 
-  PlacedParticipants participants =
-      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
-  for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
-
-  const ShadowCascades shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
-  std::vector<PreparedView> views;
-  for (const FrameView& view : input.views) views.push_back(prepare_view(context, view, input, shadows, participants));
-  std::array<DrawList, cascade_count> caster_lists;
-  std::array<FrameData, cascade_count> caster_records;
-  for (std::size_t i = 0; i < cascade_count; ++i) {
-    caster_lists[i] = casters(input, shadows, i, participants.meshes);
-    caster_records[i] = store(context, std::span<const InstanceRecord>(caster_lists[i].records));
-  }
+  const PreparedFrame frame = prepare_frame(context, scene, light, input);
   const bool new_text = lay_out(*overlay_pass, input.overlay);
 
   RenderGraph graph;
@@ -281,13 +191,13 @@ void Renderer::Parts::draw(const FrameInput& input) {
                    });
   graph.add_pass("shadows", {{}, {{shadow_map, Access::depth_attachment}}}, [&] {
     for (std::size_t i = 0; i < cascade_count; ++i)
-      draw_shadows(shadow_pass, context, scene, caster_lists[i], caster_records[i], shadows.cascades[i],
+      draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
                    targets.shadow_map.layer_views[i]);
   });
   PassUses view_uses{{{table, Access::sampled}, {shadow_map, Access::sampled}},
                      {{stairs.value_or(picture), Access::color_attachment}, {depth, Access::depth_attachment}}};
   if (samples) view_uses.writes.push_back({*samples, Access::color_attachment});
-  graph.add_pass("views", view_uses, [&] { draw_views(context, views, input); });
+  graph.add_pass("views", view_uses, [&] { draw_views(context, frame.views, input); });
   if (stairs)
     graph.add_pass("smoothing", {{{*stairs, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
       draw_smoothed(smoothing_pass, context, targets.drawn.view, targets.picture.view, targets.width, targets.height);

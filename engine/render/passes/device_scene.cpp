@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/core/hash.hpp"
 #include "engine/render/mip_chain.hpp"
 #include "engine/render/vulkan/commands.hpp"
 
@@ -72,17 +73,19 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   return result;
 }
 
-void place_instances(DeviceScene& scene, const ResolvedScene& source) {
+void place_instances(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still) {
   scene.placed.clear();
   scene.roofs.clear();
   for (const scene::Instance& instance : source.instances) {
     if (instance.mesh >= source.meshes.size()) continue;
     const SurfaceMesh& mesh = source.meshes[instance.mesh];
-    PlacedMesh placed = place(instance.mesh, scene.summaries[instance.mesh].bounds, instance.world_from_object, instance.scale);
-    placed.visible_from_m = instance.visible_from_m;
-    placed.visible_to_m = instance.visible_to_m;
-    placed.casts_shadow = instance.casts_shadow;
-    scene.placed.push_back(placed);
+    if (!still[instance.mesh]) {
+      PlacedMesh placed = place(instance.mesh, scene.summaries[instance.mesh].bounds, instance.world_from_object, instance.scale);
+      placed.visible_from_m = instance.visible_from_m;
+      placed.visible_to_m = instance.visible_to_m;
+      placed.casts_shadow = instance.casts_shadow;
+      scene.placed.push_back(placed);
+    }
     float least = 1.0f;
     for (const scene::MeshPart& part : mesh.parts)
       if (part.material < source.materials.size()) least = std::min(least, source.materials[part.material].share_of_sky);
@@ -95,6 +98,47 @@ void place_instances(DeviceScene& scene, const ResolvedScene& source) {
   }
   std::stable_sort(scene.placed.begin(), scene.placed.end(),
                    [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
+}
+
+/// Changes with everything that static geometry is made of.
+std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>& still) {
+  StateHash hash;
+  for (const scene::Instance& instance : source.instances) {
+    if (instance.mesh >= source.meshes.size() || !still[instance.mesh]) continue;
+    const Vec3& p = instance.world_from_object.position_m;
+    const Quat& q = instance.world_from_object.orientation;
+    hash.add(instance.mesh);
+    hash.add(source.meshes[instance.mesh].revision);
+    hash.add(std::uint32_t{instance.casts_shadow});
+    for (const double value : {p.x, p.y, p.z, q.w, q.x, q.y, q.z, double(instance.scale.x), double(instance.scale.y),
+                               double(instance.scale.z), double(instance.visible_from_m), double(instance.visible_to_m)})
+      hash.add(value);
+  }
+  return hash.value();
+}
+
+void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still,
+                  const vulkan::Device& device, vulkan::MemoryPool& memory) {
+  const std::uint64_t hash = hash_of_still(source, still);
+  if (hash == scene.still_hash) return;
+  for (Buffer& vertices : scene.still_vertices) destroy_buffer(memory, vertices);
+  scene.still_vertices.clear();
+  scene.still = static_geometry(source, still);
+  for (StaticBlock& block : scene.still.blocks) {
+    scene.still_vertices.emplace_back();
+    if (block.vertices.empty()) continue;
+    const std::uint64_t bytes = block.vertices.size() * sizeof(scene::SurfaceVertex);
+    scene.still_vertices.back() = create_buffer(memory, bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                vulkan::MemoryUse::device_only);
+    const Staging staging(memory, bytes);
+    std::memcpy(staging.buffer.mapped, block.vertices.data(), bytes);
+    run_once(device, [&](VkCommandBuffer commands) {
+      const VkBufferCopy region{0, 0, bytes};
+      vkCmdCopyBuffer(commands, staging.buffer.buffer, scene.still_vertices.back().buffer, 1, &region);
+    });
+    block.vertices = {};
+  }
+  scene.still_hash = hash;
 }
 
 MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMaterial>& materials) {
@@ -194,20 +238,27 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
     scene.meshes.pop_back();
   }
   scene.meshes.resize(source.meshes.size());
+  const std::vector<bool> still = placed_once(source);
   scene.summaries.clear();
   for (std::size_t i = 0; i < source.meshes.size(); ++i) {
     const SurfaceMesh& mesh = source.meshes[i];
-    if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision)
+    if (still[i]) {
+      destroy_buffer(memory, scene.meshes[i].buffer);
+      scene.meshes[i] = {};
+    } else if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision) {
       upload_mesh(scene.meshes[i], mesh, device, memory);
+    }
     scene.summaries.push_back(summary_of(mesh, source.materials));
   }
-  place_instances(scene, source);
+  place_instances(scene, source, still);
+  upload_still(scene, source, still, device, memory);
   scene.prototypes = source.prototypes;
   scene.revision = source.revision;
 }
 
 void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory) {
   for (DeviceMesh& mesh : scene.meshes) destroy_buffer(memory, mesh.buffer);
+  for (Buffer& vertices : scene.still_vertices) destroy_buffer(memory, vertices);
   for (DeviceTexture& texture : scene.textures) destroy_image(memory, texture.image);
   scene = {};
 }

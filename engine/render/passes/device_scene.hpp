@@ -8,6 +8,7 @@
 
 #include "engine/render/passes/draw_list.hpp"
 #include "engine/render/passes/participants.hpp"
+#include "engine/render/passes/static_geometry.hpp"
 #include "engine/render/vulkan/memory.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -53,7 +54,10 @@ struct DeviceScene {
   std::vector<DeviceMesh> meshes;
   std::vector<DeviceTexture> textures;
   std::vector<DeviceMaterial> materials;
-  std::vector<PlacedMesh> placed;  ///< Ordered by mesh.
+  std::vector<PlacedMesh> placed;  ///< What stands in several places, ordered by mesh.
+  StaticGeometry still;            ///< What stands in one; its vertices are on the device.
+  std::vector<vulkan::Buffer> still_vertices;  ///< One a block.
+  std::uint64_t still_hash = 0;
   std::vector<scene::Prototype> prototypes;
   std::vector<MeshSummary> summaries;  ///< One a mesh.
   std::vector<Roof> roofs;

@@ -17,7 +17,7 @@
 
 namespace septet::render {
 
-/// What a shader reads for each instance: see shaders/instances.glsl.
+/// What a vertex shader takes for each instance: see shaders/instances.glsl and surface.vert.
 struct InstanceRecord {
   glm::vec4 row0{0.0f}, row1{0.0f}, row2{0.0f};
   glm::vec4 tint{1.0f};   ///< Paint; how much of the material's emission shines.

@@ -52,7 +52,7 @@ void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& rec
   if (count == 0) return;
   vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
   vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
-  push_records(context, records);
+  push_glows(context, records);
   vkCmdDraw(context.slot.commands, 6, count, 0, 0);
   ++context.statistics.draws;
   context.statistics.triangles += 2 * count;

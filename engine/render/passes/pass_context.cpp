@@ -62,31 +62,32 @@ FrameData store(PassContext& context, std::span<const std::byte> bytes) {
 
 void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
-  const VkDescriptorBufferInfo records{bindings.records.buffer, bindings.records.offset, bindings.records.size};
   // Without an image of its own a material still needs something bound: the noise.
   const VkDescriptorImageInfo images[4] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[6] = {
+  VkWriteDescriptorSet writes[5] = {
       write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
-      write(vulkan::binding_instances, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER),
       write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
       write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
-  writes[1].pBufferInfo = &records;
-  for (int i = 0; i < 4; ++i) writes[2 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 4; ++i) writes[1 + i].pImageInfo = &images[i];
   push(context, writes);
 }
 
-void push_records(PassContext& context, const FrameData& records) {
+void bind_instances(PassContext& context, const FrameData& records) {
+  vkCmdBindVertexBuffers(context.slot.commands, 1, 1, &records.buffer, &records.offset);
+}
+
+void push_glows(PassContext& context, const FrameData& records) {
   const VkDescriptorBufferInfo buffer{records.buffer, records.offset, records.size};
-  VkWriteDescriptorSet instances = write(vulkan::binding_instances, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  instances.pBufferInfo = &buffer;
-  push(context, {&instances, 1});
+  VkWriteDescriptorSet glows = write(vulkan::binding_glows, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  glows.pBufferInfo = &buffer;
+  push(context, {&glows, 1});
 }
 
 void push_image(PassContext& context, VkImageView view, VkSampler sampler) {

@@ -55,12 +55,14 @@ FrameData store(PassContext& context, std::span<const T> values) {
 
 /// What is bound for a whole view.
 struct ViewBindings {
-  FrameData uniforms, records;
+  FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE;
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);
-void push_records(PassContext& context, const FrameData& records);
+void push_glows(PassContext& context, const FrameData& records);
+/// What is drawn many times: InstanceRecords for the pipelines that take them.
+void bind_instances(PassContext& context, const FrameData& records);
 void push_image(PassContext& context, VkImageView view, VkSampler sampler);
 void push_constants(PassContext& context, std::span<const std::byte> bytes);
 void set_viewport(PassContext& context, const PixelRectangle& rectangle);

@@ -55,6 +55,12 @@ glm::vec4 far_from_near(const ShadowCascades& shadows) {
   return {scale, scale, shift.x, shift.y};
 }
 
+bool holds(const Cascade& cascade, const glm::vec3& centre_m, float radius_m) {
+  const float reach = 0.94f * cascade.half_side_m - radius_m;  // Shaders leave the cascade at 0.96.
+  return std::abs(glm::dot(centre_m, cascade.right) - cascade.middle_m.x) < reach &&
+         std::abs(glm::dot(centre_m, cascade.up) - cascade.middle_m.y) < reach;
+}
+
 bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m) {
   const float reach = cascade.half_side_m + radius_m;
   return std::abs(glm::dot(centre_m, cascade.right) - cascade.middle_m.x) < reach &&

@@ -38,7 +38,9 @@ glm::mat4 clip_from_relative(const Cascade& cascade);
 glm::mat4 texture_from_relative(const Cascade& cascade, const glm::vec3& offset_m);
 /// Texture coordinates of the far cascade from those of the near one: xy·near + zw. Depth is the same in both.
 glm::vec4 far_from_near(const ShadowCascades& shadows);
-/// Whether a sphere lies in the cascade's square, seen along the light.
+/// Whether a sphere lies wholly in the part of the cascade that is sampled, seen along the light.
+bool holds(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
+/// Whether a sphere reaches into the cascade's square, seen along the light.
 bool covers(const Cascade& cascade, const glm::vec3& centre_m, float radius_m);
 
 }  // namespace septet::render

@@ -1,9 +1,8 @@
 #pragma once
 /// Draws what stands between the light and the ground into one cascade of the shadow map.
 
-#include "engine/render/passes/device_scene.hpp"
-#include "engine/render/passes/pass_context.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
+#include "engine/render/passes/surface_draws.hpp"
 
 namespace septet::render {
 
@@ -14,8 +13,7 @@ struct ShadowPass {
 void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout, VkFormat format);
 void destroy_shadow_pass(ShadowPass& pass, const vulkan::Device& device);
 
-/// `records` holds the list's records.
-void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
-                  const FrameData& records, const Cascade& cascade, VkImageView target);
+void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScene& scene, const SurfaceDraws& draws,
+                  const Cascade& cascade, VkImageView target);
 
 }  // namespace septet::render

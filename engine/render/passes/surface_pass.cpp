@@ -50,48 +50,36 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device) {
   pass.pipelines.clear();
 }
 
-void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
+void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const SurfaceDraws& draws,
                    SurfaceKind kind, const SurfaceLight& light) {
   const VkCommandBuffer commands = context.slot.commands;
   vkCmdSetCullMode(commands, kind == SurfaceKind::opaque ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
   std::int32_t bound_image = -1;
-  const auto draw_batch = [&](const Batch& batch) {
-    const DeviceMesh& mesh = scene.meshes[batch.mesh];
-    bool bound_mesh = false;
-    for (const scene::MeshPart& part : mesh.parts) {
-      if (part.material >= scene.materials.size()) continue;
-      const DeviceMaterial& material = scene.materials[part.material];
-      if (kind_of(material) != kind) continue;
-      const bool textured = material.image >= 0;
-      const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
-      const bool glossy = material.glossy || (light.wet && material.wettable);
-      const VkPipeline pipeline = pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, kind});
-      if (pipeline != bound_pipeline) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        bound_pipeline = pipeline;
-      }
-      if (textured && material.image != bound_image) {
-        push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
-                   material.wettable ? context.samplers.road : context.samplers.surface);
-        bound_image = material.image;
-      }
-      if (!bound_mesh) {
-        const VkDeviceSize at = 0;
-        vkCmdBindVertexBuffers(commands, 0, 1, &mesh.buffer.buffer, &at);
-        vkCmdBindIndexBuffer(commands, mesh.buffer.buffer, mesh.indices_at, VK_INDEX_TYPE_UINT32);
-        bound_mesh = true;
-      }
-      push_constants(context, std::as_bytes(std::span(&material.constants, 1)));
-      vkCmdDrawIndexed(commands, part.index_count, batch.count, part.first_index, 0, batch.first);
-      context.statistics.triangles += part.index_count / 3 * batch.count;
-      ++context.statistics.draws;
+  std::uint32_t bound_material = no_group;
+  SurfaceDraw bound;
+  const auto draw_one = [&](const SurfaceDraw& draw) {
+    const DeviceMaterial& material = scene.materials[draw.material];
+    if (kind_of(material) != kind) return;
+    const bool textured = material.image >= 0;
+    const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
+    const bool glossy = material.glossy || (light.wet && material.wettable);
+    const VkPipeline pipeline = pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, kind});
+    if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    bound_pipeline = pipeline;
+    if (textured && material.image != bound_image) {
+      push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
+                 material.wettable ? context.samplers.road : context.samplers.surface);
+      bound_image = material.image;
     }
+    if (draw.material != bound_material) push_constants(context, std::as_bytes(std::span(&material.constants, 1)));
+    bound_material = draw.material;
+    record_draw(context, draw, bound);
   };
   if (kind == SurfaceKind::blended)
-    std::for_each(list.batches.rbegin(), list.batches.rend(), draw_batch);
+    std::for_each(draws.list.rbegin(), draws.list.rend(), draw_one);
   else
-    std::for_each(list.batches.begin(), list.batches.end(), draw_batch);
+    std::for_each(draws.list.begin(), draws.list.end(), draw_one);
 }
 
 }  // namespace septet::render

@@ -3,8 +3,7 @@
 
 #include <map>
 
-#include "engine/render/passes/device_scene.hpp"
-#include "engine/render/passes/pass_context.hpp"
+#include "engine/render/passes/surface_draws.hpp"
 
 namespace septet::render {
 
@@ -24,7 +23,7 @@ struct SurfaceLight {
 };
 
 /// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).
-void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const DrawList& list,
+void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& scene, const SurfaceDraws& draws,
                    SurfaceKind kind, const SurfaceLight& light);
 
 }  // namespace septet::render

@@ -12,7 +12,7 @@ namespace septet::render {
 namespace {
 
 /// Headlights count where it is dark: at night, and under roofs by day.
-constexpr float headlight_intensity = 420.0f;
+constexpr float headlight_intensity = 240.0f;
 
 void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights, bool dark) {
   std::vector<const Headlight*> nearest;

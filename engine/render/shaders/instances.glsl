@@ -1,20 +1,17 @@
-// One drawn instance. The host's twin is InstanceRecord in passes/draw_list.hpp.
+// One drawn instance, as vertex attributes that change once an instance: a software device reads those far faster than a
+// storage buffer. The host's twin is InstanceRecord in passes/draw_list.hpp.
 
-struct Instance {
-  vec4 row0, row1, row2;  // Rows of relative_from_object, scale included.
-  vec4 tint;              // rgb: paint. a: how much of the material's emission shines.
-  vec4 light;             // x: share of the sky that reaches it.
-};
+layout(location = 3) in vec4 row0;  // Rows of relative_from_object, scale included.
+layout(location = 4) in vec4 row1;
+layout(location = 5) in vec4 row2;
 
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-
-vec3 placed(Instance instance, vec3 position) {
+vec3 placed(vec3 position) {
   vec4 p = vec4(position, 1.0);
-  return vec3(dot(instance.row0, p), dot(instance.row1, p), dot(instance.row2, p));
+  return vec3(dot(row0, p), dot(row1, p), dot(row2, p));
 }
 
 // For a rotation after a scale S, normals turn by R·S⁻¹ = M·S⁻²; the columns of M carry S in their lengths.
-vec3 turned_normal(Instance instance, vec3 normal) {
-  mat3 m = transpose(mat3(instance.row0.xyz, instance.row1.xyz, instance.row2.xyz));
+vec3 turned_normal(vec3 normal) {
+  mat3 m = transpose(mat3(row0.xyz, row1.xyz, row2.xyz));
   return m * (normal / vec3(dot(m[0], m[0]), dot(m[1], m[1]), dot(m[2], m[2])));
 }

@@ -10,5 +10,5 @@ layout(location = 0) out vec2 out_uv;
 
 void main() {
   out_uv = uv;
-  gl_Position = cascade.clip_from_relative * vec4(placed(instances[gl_InstanceIndex], position), 1.0);
+  gl_Position = cascade.clip_from_relative * vec4(placed(position), 1.0);
 }

@@ -81,7 +81,7 @@ void main() {
   float wet = 0.0;
   if (glossy != 0 && material.surface.z > 0.5) {
     wet = view.weather.x * share_of_sky;
-    albedo *= 1.0 - 0.45 * wet;
+    albedo *= 1.0 - 0.55 * wet;
   }
 
   vec3 to_light = view.light_direction.xyz;
@@ -107,7 +107,7 @@ void main() {
     vec3 mirrored = reflect(-to_eye, n);
     if (road) mirrored = normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)));
     vec3 around = sky_radiance(mirrored) * share_of_sky + vec3(0.15, 0.13, 0.10) * (1.0 - share_of_sky);
-    radiance += fresnel * around * (road ? 0.5 * wet : 1.0 - 0.7 * r);
+    radiance += fresnel * around * (road ? 0.36 * wet : 1.0 - 0.7 * r);
     vec3 h = normalize(to_light + to_eye);
     float a2 = r * r * r * r;
     float nh = max(dot(n, h), 0.0), vh = max(dot(to_eye, h), 1e-3);

@@ -142,7 +142,7 @@ FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t si
   if (arena.chunk == arena.chunks.size())
     arena.chunks.push_back(create_buffer(pool, std::max(size, chunk_bytes),
                                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                          MemoryUse::written_by_host));
   const Buffer& buffer = arena.chunks[arena.chunk];
   const FrameArena::Slice slice{buffer.buffer, arena.used, buffer.mapped + arena.used};

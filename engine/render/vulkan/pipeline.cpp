@@ -40,7 +40,7 @@ void create_pipeline_layout(PipelineLayout& layout, const Device& device) {
   for (std::uint32_t i = 0; i < binding_count; ++i) {
     bindings[i].binding = i;
     bindings[i].descriptorType = i == binding_view        ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                 : i == binding_instances ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                     : i == binding_glows ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
                                                           : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     bindings[i].descriptorCount = 1;
     bindings[i].stageFlags = both_stages;
@@ -92,18 +92,24 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment_code);
 
   using scene::SurfaceVertex;
-  const VkVertexInputBindingDescription vertex_binding{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  const std::array<VkVertexInputAttributeDescription, 3> attributes{{
+  const std::array<VkVertexInputBindingDescription, 2> buffers{{
+      {0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}, {1, instance_stride, VK_VERTEX_INPUT_RATE_INSTANCE}}};
+  const std::array<VkVertexInputAttributeDescription, 8> attributes{{
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, position_m)},
       {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, uv)},
-      {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},  // Last: shadows go without.
+      {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
+      {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 16},
+      {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 32},
+      // What shadows go without comes last.
+      {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},
+      {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 48},
+      {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 64},
   }};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
   if (description.vertex_input != VertexInput::none) {
-    vertices.vertexBindingDescriptionCount = 1;
-    vertices.pVertexBindingDescriptions = &vertex_binding;
-    vertices.vertexAttributeDescriptionCount =
-        static_cast<std::uint32_t>(description.vertex_input == VertexInput::surface ? attributes.size() : attributes.size() - 1);
+    vertices.vertexBindingDescriptionCount = buffers.size();
+    vertices.pVertexBindingDescriptions = buffers.data();
+    vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? 8 : 5;
     vertices.pVertexAttributeDescriptions = attributes.data();
   }
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};

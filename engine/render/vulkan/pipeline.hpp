@@ -12,7 +12,7 @@ namespace septet::render::vulkan {
 /// Bindings of the one descriptor set, pushed while recording.
 enum Binding : std::uint32_t {
   binding_view = 0,       ///< Uniforms of the view.
-  binding_instances = 1,  ///< Storage: what is drawn many times.
+  binding_glows = 1,      ///< Storage: the lamps that glow.
   binding_sky = 2,
   binding_shadow = 3,
   binding_noise = 4,
@@ -31,8 +31,12 @@ void create_pipeline_layout(PipelineLayout& layout, const Device& device);
 void destroy_pipeline_layout(PipelineLayout& layout, const Device& device);
 
 enum class Blend : std::uint8_t { none, over, add };
-/// What of a scene::SurfaceVertex the vertex shader takes: position, texture coordinates, normal at locations 0, 1, 2.
-enum class VertexInput : std::uint8_t { none, position_uv, surface };
+/// What the vertex shader takes. Buffer 0, scene::SurfaceVertex: position, texture coordinates and normal at locations 0, 1,
+/// 2. Buffer 1, once an instance: five vectors of four floats at locations 3 to 7. `shadow` goes without the normal and the
+/// last two vectors.
+enum class VertexInput : std::uint8_t { none, shadow, surface };
+
+inline constexpr std::uint32_t instance_stride = 80;
 
 struct PipelineDescription {
   std::span<const std::uint32_t> vertex_code, fragment_code;  ///< SPIR-V; no fragment code: depth only.

@@ -1,0 +1,94 @@
+#include "engine/render/frame_preparation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/view_uniforms.hpp"
+
+namespace septet::render {
+namespace {
+
+/// The eye adapts to a roofed place ahead of and around the car, in the same way on every screen.
+float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const FrameView& view) {
+  constexpr float roofed_exposure = 2.6f;
+  constexpr int samples = 9;
+  float roofed = 0.0f;
+  for (int i = 0; i < samples; ++i) {
+    const Vec3 ahead = view.world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2);
+    roofed += (1.0f - share_of_sky(scene, ahead)) / samples;
+  }
+  return light.exposure * std::pow(std::max(1.0f, roofed_exposure / light.exposure), roofed);
+}
+
+PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
+                          const FrameView& view, const ShadowCascades& shadows, const PlacedParticipants& participants) {
+  PreparedView prepared;
+  prepared.view = &view;
+  const Vec3 eye_m = world_eye(view);
+  const ViewVolume volume = view_volume(view);
+  prepared.draws = prepare_draws(
+      context, scene, participants.meshes, eye_m,
+      [&](const PlacedMesh& mesh, const glm::vec3& centre_m) { return mesh.seen && intersects(volume, centre_m, mesh.radius_m); },
+      [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
+  const float exposure = adapted_exposure(scene, light, view);
+  const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, exposure);
+  prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
+  prepared.uniforms = store(context, std::span(&uniforms, 1));
+  const std::vector<GlowRecord> glows = glow_records(participants.glows, eye_m, exposure);
+  prepared.glows = store(context, std::span<const GlowRecord>(glows));
+  prepared.glow_count = static_cast<std::uint32_t>(glows.size());
+  context.statistics.instances += prepared.draws.instances;
+  return prepared;
+}
+
+/// What casts a shadow into a cascade that some view may see.
+SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
+                             const ShadowCascades& shadows, std::size_t index, std::span<const PlacedMesh> participants) {
+  const Cascade& cascade = shadows.cascades[index];
+  const float least_radius_m = 1.5f * cascade.texel_m;
+  // A shadow falls away from the light, no further than a high thing's at a low sun.
+  const glm::vec3 reach = light.light_direction * -120.0f;
+  std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
+  for (const FrameView& view : input.views)
+    volumes.emplace_back(view_volume(view), glm::vec3(shadows.eye_m - world_eye(view)));
+  const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
+    if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
+    // Seen along the light, a shadow lies where its caster does: what a finer cascade holds wholly is drawn there alone.
+    if (index > 0 && holds(shadows.cascades[index - 1], centre_m, mesh.radius_m)) return false;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const auto& view) {
+      const glm::vec3 from = centre_m + view.second, to = from + reach;
+      return std::all_of(view.first.begin(), view.first.end(), [&](const glm::vec3& normal) {
+        return std::max(glm::dot(normal, from), glm::dot(normal, to)) >= -mesh.radius_m;
+      });
+    });
+  };
+  // All solid materials cast alike: the first one stands for them.
+  std::uint32_t solid = no_group;
+  for (std::uint32_t i = 0; i < scene.materials.size() && solid == no_group; ++i)
+    if (!scene.materials[i].cut && !scene.materials[i].blended) solid = i;
+  return prepare_draws(context, scene, participants, shadows.eye_m, casts, [&](std::uint32_t material) {
+    if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
+    return scene.materials[material].cut ? material : solid;
+  });
+}
+
+}  // namespace
+
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input) {
+  PlacedParticipants participants =
+      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
+  for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
+  PreparedFrame frame;
+  frame.shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
+  for (const FrameView& view : input.views)
+    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants));
+  for (std::size_t i = 0; i < cascade_count; ++i)
+    frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes);
+  return frame;
+}
+
+}  // namespace septet::render

@@ -1,0 +1,136 @@
+#include "engine/render/passes/static_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace septet::render {
+namespace {
+
+using scene::SurfaceMesh;
+using scene::SurfaceVertex;
+
+constexpr double block_side_m = 2000.0;
+
+/// The block of a place; the middle of its square is its origin.
+std::uint32_t block_of(StaticGeometry& geometry, std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t>& known,
+                       const Vec3& position_m) {
+  const auto x = static_cast<std::int64_t>(std::floor(position_m.x / block_side_m));
+  const auto y = static_cast<std::int64_t>(std::floor(position_m.y / block_side_m));
+  const auto [found, added] = known.try_emplace({x, y}, static_cast<std::uint32_t>(geometry.blocks.size()));
+  if (added)
+    geometry.blocks.push_back({Vec3((double(x) + 0.5) * block_side_m, (double(y) + 0.5) * block_side_m, position_m.z), {}});
+  return found->second;
+}
+
+bool holds(const SurfaceMesh& mesh, const scene::MeshPart& part) {
+  if (part.first_index > mesh.indices.size() || part.index_count > mesh.indices.size() - part.first_index) return false;
+  const auto first = mesh.indices.begin() + part.first_index;
+  return std::all_of(first, first + part.index_count, [&](std::uint32_t index) { return index < mesh.vertices.size(); });
+}
+
+void add_piece(StaticGeometry& geometry, std::uint32_t block_index, const scene::Instance& instance, const SurfaceMesh& mesh) {
+  StaticBlock& block = geometry.blocks[block_index];
+  StaticPiece piece;
+  piece.placed = place(instance.mesh, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object, instance.scale);
+  piece.placed.visible_from_m = instance.visible_from_m;
+  piece.placed.visible_to_m = instance.visible_to_m;
+  piece.placed.casts_shadow = instance.casts_shadow;
+  piece.block = block_index;
+  piece.first_part = static_cast<std::uint32_t>(geometry.parts.size());
+  const auto first_vertex = static_cast<std::uint32_t>(block.vertices.size());
+  for (const scene::MeshPart& part : mesh.parts) {
+    if (part.index_count == 0 || !holds(mesh, part)) continue;
+    geometry.parts.push_back({part.material, static_cast<std::uint32_t>(geometry.indices.size()), part.index_count});
+    for (std::uint32_t i = 0; i < part.index_count; ++i)
+      geometry.indices.push_back(first_vertex + mesh.indices[part.first_index + i]);
+  }
+  piece.part_count = static_cast<std::uint32_t>(geometry.parts.size()) - piece.first_part;
+  if (piece.part_count == 0) return;
+  const glm::vec3 origin(instance.world_from_object.position_m - block.origin_m);
+  const glm::mat3& turn = piece.placed.world_from_object;
+  // Normals turn by R·S⁻¹ = M·S⁻², as in shaders/instances.glsl.
+  const glm::vec3 squares(glm::dot(turn[0], turn[0]), glm::dot(turn[1], turn[1]), glm::dot(turn[2], turn[2]));
+  for (const SurfaceVertex& vertex : mesh.vertices)
+    block.vertices.push_back({origin + turn * vertex.position_m, turn * (vertex.normal / squares), vertex.uv});
+  geometry.pieces.push_back(piece);
+}
+
+}  // namespace
+
+std::vector<bool> placed_once(const scene::ResolvedScene& scene) {
+  std::vector<std::uint32_t> uses(scene.meshes.size(), 0);
+  for (const scene::Instance& instance : scene.instances)
+    if (instance.mesh < uses.size()) ++uses[instance.mesh];
+  for (const scene::Prototype& prototype : scene.prototypes)
+    for (const scene::Instance& part : prototype.parts)
+      if (part.mesh < uses.size()) uses[part.mesh] += 2;
+  std::vector<bool> once(uses.size());
+  for (std::size_t i = 0; i < uses.size(); ++i) once[i] = uses[i] == 1;
+  return once;
+}
+
+StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vector<bool>& chosen) {
+  StaticGeometry geometry;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> known;
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
+    add_piece(geometry, block_of(geometry, known, instance.world_from_object.position_m), instance,
+              scene.meshes[instance.mesh]);
+  }
+  return geometry;
+}
+
+Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
+                const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep,
+                const std::function<std::uint32_t(std::uint32_t)>& group_of) {
+  std::vector<std::pair<float, std::uint32_t>> seen;
+  for (std::uint32_t i = 0; i < geometry.pieces.size(); ++i) {
+    const PlacedMesh& placed = geometry.pieces[i].placed;
+    const glm::vec3 origin(placed.origin_m - eye_m);
+    const float square = glm::dot(origin, origin);
+    if (square < placed.visible_from_m * placed.visible_from_m || square >= placed.visible_to_m * placed.visible_to_m) continue;
+    const glm::vec3 centre = origin + placed.centre_m;
+    if (keep(placed, centre)) seen.emplace_back(glm::dot(centre, centre), i);
+  }
+  std::sort(seen.begin(), seen.end());
+
+  // Lists of parts by block and group; draws in the order in which their first part is met.
+  Gathered result;
+  result.pieces = static_cast<std::uint32_t>(seen.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> draw_of;
+  std::vector<std::vector<std::uint32_t>> parts;
+  for (const auto& [square, index] : seen) {
+    const StaticPiece& piece = geometry.pieces[index];
+    for (std::uint32_t i = piece.first_part; i < piece.first_part + piece.part_count; ++i) {
+      const std::uint32_t group = group_of(geometry.parts[i].material);
+      if (group == no_group) continue;
+      const auto [found, added] = draw_of.try_emplace({piece.block, group}, result.draws.size());
+      if (added) {
+        result.draws.push_back({piece.block, group, 0, 0});
+        parts.emplace_back();
+      }
+      parts[found->second].push_back(i);
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    result.draws[i].first_index = static_cast<std::uint32_t>(result.indices.size());
+    for (const std::uint32_t part : parts[i]) {
+      const auto first = geometry.indices.begin() + geometry.parts[part].first_index;
+      result.indices.insert(result.indices.end(), first, first + geometry.parts[part].index_count);
+    }
+    result.draws[i].index_count = static_cast<std::uint32_t>(result.indices.size()) - result.draws[i].first_index;
+  }
+  return result;
+}
+
+InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m) {
+  const glm::vec3 origin(block.origin_m - eye_m);
+  return {glm::vec4(1, 0, 0, origin.x), glm::vec4(0, 1, 0, origin.y), glm::vec4(0, 0, 1, origin.z), glm::vec4(1.0f),
+          glm::vec4(1.0f)};
+}
+
+}  // namespace septet::render

@@ -1,0 +1,66 @@
+#include "engine/render/passes/surface_draws.hpp"
+
+#include <map>
+
+namespace septet::render {
+namespace {
+
+/// A batch's parts, neighbours of one group as one.
+void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Batch& batch, const GroupOf& group_of) {
+  bool open = false;
+  for (const scene::MeshPart& part : mesh.parts) {
+    const std::uint32_t group = group_of(part.material);
+    if (group == no_group) {
+      open = false;
+      continue;
+    }
+    if (open && list.back().material == group && list.back().first_index + list.back().index_count == part.first_index) {
+      list.back().index_count += part.index_count;
+      continue;
+    }
+    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, part.first_index, part.index_count, batch.first,
+                    batch.count, group});
+    open = true;
+  }
+}
+
+}  // namespace
+
+SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
+                           const Vec3& eye_m, const Keep& keep, const GroupOf& group_of) {
+  SurfaceDraws draws;
+  DrawList instanced;
+  append_visible(instanced, scene.placed, eye_m, keep);
+  append_visible(instanced, participants, eye_m, keep);
+  sort_by_distance(instanced);
+  for (const Batch& batch : instanced.batches) add_batch(draws.list, scene.meshes[batch.mesh], batch, group_of);
+
+  const Gathered gathered = gather(scene.still, eye_m, keep, group_of);
+  draws.instances = static_cast<std::uint32_t>(instanced.records.size()) + gathered.pieces;
+  const FrameData indices = store(context, std::span<const std::uint32_t>(gathered.indices));
+  std::map<std::uint32_t, std::uint32_t> record_of_block;
+  for (const GatheredDraw& draw : gathered.draws) {
+    const auto [found, added] = record_of_block.try_emplace(draw.block, static_cast<std::uint32_t>(instanced.records.size()));
+    if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m));
+    draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, draw.first_index,
+                          draw.index_count, found->second, 1, draw.group});
+  }
+  draws.records = store(context, std::span<const InstanceRecord>(instanced.records));
+  return draws;
+}
+
+void record_draw(PassContext& context, const SurfaceDraw& draw, SurfaceDraw& bound) {
+  const VkCommandBuffer commands = context.slot.commands;
+  if (draw.vertices != bound.vertices) {
+    const VkDeviceSize at = 0;
+    vkCmdBindVertexBuffers(commands, 0, 1, &draw.vertices, &at);
+  }
+  if (draw.indices != bound.indices || draw.indices_at != bound.indices_at)
+    vkCmdBindIndexBuffer(commands, draw.indices, draw.indices_at, VK_INDEX_TYPE_UINT32);
+  bound = draw;
+  vkCmdDrawIndexed(commands, draw.index_count, draw.instance_count, draw.first_index, 0, draw.first_instance);
+  context.statistics.triangles += draw.index_count / 3 * draw.instance_count;
+  ++context.statistics.draws;
+}
+
+}  // namespace septet::render

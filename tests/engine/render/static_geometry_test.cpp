@@ -1,0 +1,119 @@
+#include "engine/render/passes/static_geometry.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/core/random.hpp"
+
+namespace septet::render {
+namespace {
+
+/// A mesh of two materials: two triangles of the first, one of the second.
+scene::SurfaceMesh two_parts() {
+  scene::SurfaceMesh mesh;
+  for (const glm::vec3 p : {glm::vec3(0, 0, 0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}})
+    mesh.vertices.push_back({p, {0, 0, 1}, {p.x, p.y}});
+  mesh.indices = {0, 1, 2, 0, 2, 3, 0, 1, 4};
+  mesh.parts = {{0, 6, 0}, {6, 3, 1}};
+  mesh.bounds_max_m = glm::vec3(1.0f);
+  return mesh;
+}
+
+scene::ResolvedScene scattered(std::size_t count) {
+  Random random(9);
+  scene::ResolvedScene scene;
+  scene.materials.resize(2);
+  for (std::size_t i = 0; i < count; ++i) {
+    scene.meshes.push_back(two_parts());
+    scene::Instance instance;
+    instance.mesh = static_cast<std::uint32_t>(i);
+    instance.world_from_object = {{random.uniform(-5000, 5000), random.uniform(-5000, 5000), random.uniform(0, 50)},
+                                  orientation_from_angles(random.uniform(-3, 3), random.uniform(-1, 1), 0.2)};
+    instance.scale = glm::vec3(1.0f, 2.0f, 0.5f);
+    instance.visible_to_m = i % 2 ? 3000.0f : 8000.0f;
+    scene.instances.push_back(instance);
+  }
+  return scene;
+}
+
+bool everything(const PlacedMesh&, const glm::vec3&) { return true; }
+std::uint32_t own_material(std::uint32_t material) { return material; }
+
+}  // namespace
+
+TEST_CASE("meshes that are placed twice or belong to a prototype are not static") {
+  scene::ResolvedScene scene = scattered(4);
+  scene.instances.push_back(scene.instances[1]);
+  scene.prototypes.push_back({"model/x", {scene.instances[2]}});
+  CHECK(placed_once(scene) == std::vector<bool>{true, false, false, true});
+}
+
+TEST_CASE("gathered vertices lie where their instance puts them to a tenth of a millimetre") {
+  const scene::ResolvedScene scene = scattered(200);
+  const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
+  REQUIRE(geometry.pieces.size() == 200);
+  double worst_m = 0.0;
+  for (const StaticPiece& piece : geometry.pieces) {
+    const scene::Instance& instance = scene.instances[piece.placed.mesh];
+    const StaticBlock& block = geometry.blocks[piece.block];
+    for (std::uint32_t i = 0; i < piece.part_count; ++i) {
+      const StaticPart& part = geometry.parts[piece.first_part + i];
+      for (std::uint32_t k = 0; k < part.index_count; ++k) {
+        const std::uint32_t source = scene.meshes[0].indices[scene.meshes[0].parts[i].first_index + k];
+        const Vec3 expected = instance.world_from_object * Vec3(scene.meshes[0].vertices[source].position_m * instance.scale);
+        const Vec3 found = block.origin_m + Vec3(block.vertices[geometry.indices[part.first_index + k]].position_m);
+        worst_m = std::max(worst_m, glm::length(found - expected));
+      }
+    }
+  }
+  CHECK(worst_m < 2e-4);
+}
+
+TEST_CASE("a frame gathers just the pieces in range and one draw for each block and material") {
+  const scene::ResolvedScene scene = scattered(400);
+  const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
+  const Vec3 eye_m(300, -200, 5);
+  std::size_t wanted = 0;
+  for (const scene::Instance& instance : scene.instances)
+    wanted += glm::length(instance.world_from_object.position_m - eye_m) < instance.visible_to_m;
+  const Gathered gathered = gather(geometry, eye_m, everything, own_material);
+  CHECK(wanted > 50);
+  CHECK(wanted < 400);
+  CHECK(gathered.pieces == wanted);
+  CHECK(gathered.indices.size() == 9 * wanted);
+  CHECK(gathered.draws.size() <= 2 * geometry.blocks.size());
+  std::size_t counted = 0;
+  for (const GatheredDraw& draw : gathered.draws) {
+    CHECK(draw.first_index == counted);
+    counted += draw.index_count;
+    for (std::uint32_t i = 0; i < draw.index_count; ++i)
+      REQUIRE(gathered.indices[draw.first_index + i] < geometry.blocks[draw.block].vertices.size());
+  }
+  CHECK(counted == gathered.indices.size());
+}
+
+TEST_CASE("materials of one group share a draw and those of none are left out") {
+  const scene::ResolvedScene scene = scattered(100);
+  const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
+  const Gathered merged = gather(geometry, {0, 0, 0}, everything, [](std::uint32_t) { return 0u; });
+  CHECK(merged.draws.size() <= geometry.blocks.size());
+  const Gathered second = gather(geometry, {0, 0, 0}, everything,
+                                 [](std::uint32_t material) { return material == 1 ? 1u : no_group; });
+  CHECK(second.indices.size() == 3 * second.pieces);
+}
+
+TEST_CASE("a part that points outside its mesh is left out") {
+  scene::ResolvedScene scene = scattered(2);
+  scene.meshes[0].indices[7] = 1000;
+  scene.meshes[1].parts[0].index_count = 1u << 31;
+  const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
+  REQUIRE(geometry.pieces.size() == 2);
+  CHECK(geometry.parts.size() == 2);
+  CHECK(geometry.parts[0].material == 0);
+  CHECK(geometry.parts[1].material == 1);
+}
+
+}  // namespace septet::render
