@@ -128,7 +128,7 @@ Expected<ServeResult> serve(TickSource& source, ScreenHost& host, const ServeOpt
   host.finish(outcome ? "the drive is over" : outcome.error().what);
   const ServeEnvironment farewell{environment.now_s, environment.wait, [] { return false; }, environment.report, environment.message};
   Loop last{source, host, options, farewell, begun_s, {}};
-  last.pump_until([&] { return host.all_reported(); }, 3.0, 1.0, [] {});
+  last.pump_until([&] { return host.all_reported(); }, 10.0, 1.0, [] {});
   if (!outcome) return tl::unexpected(outcome.error());
   return loop.result;
 }

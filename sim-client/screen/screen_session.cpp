@@ -108,8 +108,9 @@ Expected<void> Session::take_welcome() {
 
 Expected<void> Session::bring_scene_up() {
   if (std::exchange(scene_generation_, link_.scene_generation()) != link_.scene_generation()) resolver_.forget();
-  // In real time a large change is spread over frames; in lockstep a picture is whole or not drawn.
-  resolver_.update(link_.scene(), link_.welcome()->lockstep ? ~std::size_t{0} : 64);
+  // The first picture is whole or not drawn; in real time a later change is spread over frames.
+  const bool spread = !link_.welcome()->lockstep && uploaded_revision_ != 0;
+  resolver_.update(link_.scene(), spread ? 64 : ~std::size_t{0});
   const auto& scene = resolver_.scene();
   if (scene.revision == uploaded_revision_) return {};
   uploaded_revision_ = scene.revision;
@@ -153,7 +154,8 @@ Expected<void> Session::draw_lockstep() {
 
 Expected<void> Session::draw_real_time(double now_s) {
   const auto server_s = link_.server_time_s(now_s);
-  if (!server_s || link_.history().empty()) {
+  const bool nothing_yet = uploaded_revision_ == 0 && !link_.scene_arrived();
+  if (!server_s || link_.history().empty() || nothing_yet) {
     wait(0.002);
     return {};
   }

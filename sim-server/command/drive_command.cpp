@@ -159,7 +159,7 @@ Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_fi
     return outcome;
   }
   // The screens have had Finish and their reports are in; whoever still runs is not waited for long.
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 250; ++i) {
     bool running = false;
     for (auto& screen : screens) running = running || (screen.process && !screen.process->poll());
     if (!running) break;
