@@ -169,6 +169,8 @@ void apply_swarms(const SimulationModel& model, const scenario::StepResult& step
   for (const auto& swarm : step.swarms) {
     state.traffic_parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
     state.traffic_parameters.first_id = first_traffic_participant;
+    if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
+      state.traffic_parameters.opposite_share = swarm.opposite_direction_weight / both;
     state.traffic = traffic::populate(state.traffic_parameters, model.roads, foreign_vehicles(model, state), state.traffic_random);
   }
   if (!step.stopped_traffic.empty()) state.traffic = {};

@@ -68,7 +68,7 @@ render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views,
     if (&participant == car) {
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = render::Shown::shadow_and_light;
-      if (const auto inside = find_prototype(scene, fmt::format("{}-interior", vehicle_models()[participant.model].name));
+      if (const auto inside = find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
           inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
