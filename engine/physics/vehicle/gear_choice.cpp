@@ -17,9 +17,10 @@ double between(double closed, double open, double pedal) {
 int automatic_gear(const PowertrainParameters& powertrain, int gear, double pedal,
                    double output_radps) {
   if (gear < 1) return 1;
-  const double up = between(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal);
+  const double up =
+      between(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal * pedal);
   const double down =
-      between(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal);
+      between(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal * pedal);
   const double input_radps = output_radps * powertrain.gear_ratio[gear - 1];
   if (gear < powertrain.gear_count && input_radps > up) return gear + 1;
   if (gear > 1 && input_radps < down && output_radps * powertrain.gear_ratio[gear - 2] < 0.93 * up)

@@ -35,7 +35,8 @@ double engine_torque_nm(const PowertrainParameters& powertrain, double pedal, do
       std::clamp((1.03 * powertrain.idle_radps - speed) / (0.2 * powertrain.idle_radps), 0.0, 0.7);
   const double limiter =
       std::clamp((1.01 * powertrain.most_radps - speed) / (0.02 * powertrain.most_radps), 0.0, 1.0);
-  const double throttle = limiter * std::max(pedal, idle);
+  // Half-way open, a throttle plate already lets three quarters of the air in.
+  const double throttle = limiter * std::max(pedal * (2.0 - pedal), idle);
   const double closed = powertrain.closed_torque_nm.held(speed);
   const double wanted = closed + throttle * (powertrain.full_torque_nm.held(speed) - closed);
   state.engine_torque_nm +=
