@@ -37,6 +37,8 @@ Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optiona
   newest_ = server_step(*model_, input.input, state_, events);
   auto wire = std::make_shared<const WireSnapshot>(to_wire(newest_));
   if (log_) {
+    // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
+    if (auto error = log_->take_error()) return tl::unexpected(std::move(*error));
     log_->record_input(std::move(input));
     log_->record_tick(newest_, wire, events);
   }

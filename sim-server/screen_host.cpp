@@ -86,6 +86,8 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
   } else if (std::holds_alternative<SceneArrived>(message)) {
     screen->scene_arrived = true;
   } else if (const auto* presented = std::get_if<Presented>(&message)) {
+    if (!screen->has_presented)
+      messages_.push_back(fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s));
     screen->presented = std::max(screen->presented, presented->tick);
     screen->has_presented = true;
     ++screen->frames;
@@ -111,6 +113,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   screen->client = client;
   screen->scene_arrived = screen->has_presented = false;
   ++screen->joined;
+  screen->joined_s = now_s;
   baselines_.join(client, now_s);
   if (options_.welcome.group_ip == 0)
     if (const auto* info = lane_.info(client)) {

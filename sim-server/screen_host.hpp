@@ -42,6 +42,7 @@ struct HostedScreen {
   bool has_presented = false;
   std::uint64_t frames = 0;
   std::uint32_t joined = 0;  ///< How often it has connected.
+  double joined_s = 0.0;     ///< When it last did.
   std::optional<control::ScreenReport> report;
 
   bool live() const { return client.has_value(); }

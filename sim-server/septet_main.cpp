@@ -74,6 +74,19 @@ int run(int argc, char** argv) {
   check_command->add_option("files", files, "Files (.xodr, .xosc, .toml)")->required();
   check_command->callback([&] { status = run_check(files); });
 
+  // The parser's own message does not name the word that it did not know.
+  if (const std::string word = argc > 1 ? argv[1] : "-"; !word.starts_with('-')) {
+    std::string commands;
+    bool known = false;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) {
+      commands += (commands.empty() ? "" : ", ") + command->get_name();
+      known = known || command->get_name() == word;
+    }
+    if (!known) {
+      fmt::print(stderr, "septet: there is no command \"{}\"; use one of: {}\n", word, commands);
+      return 2;
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

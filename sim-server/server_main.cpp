@@ -1,6 +1,6 @@
 /// `septet-server`: the simulation of one drive, for the screens of a rig.
 
-#include <iostream>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   const auto fail = [](const Error& error) {
-    fmt::print(stderr, "septet-server: {}\n", describe(error));
+    std::fputs(fmt::format("septet-server: {}\n", describe(error)).c_str(), stderr);
     return 1;
   };
   try {
@@ -42,8 +42,6 @@ int main(int argc, char** argv) {
       if (!scenario) return fail(scenario.error());
       options.scenario = scenario->string();
     }
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
     if (const auto outcome = server::run_server(options); !outcome) return fail(outcome.error());
     return 0;
   } catch (const std::exception& error) {

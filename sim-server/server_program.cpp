@@ -38,16 +38,22 @@ class ProgressLine {
     if (progress.wall_s - shown_s_ < (terminal ? 0.1 : 10.0) && shown_s_ >= 0.0) return;
     shown_s_ = progress.wall_s;
     const std::string total = progress.total_s > 0.0 ? fmt::format(" of {:.0f}", progress.total_s) : "";
-    fmt::print(stderr, "{}{:6.1f}{} s driven, {:.0f} s passed, {}{}", terminal ? "\r\033[K" : "", progress.simulated_s, total,
-               progress.wall_s, progress.what, terminal ? "" : "\n");
+    say(fmt::format("{}{:6.1f}{} s driven, {:.0f} s passed, {}{}", terminal ? "\r\033[K" : "", progress.simulated_s, total,
+                    progress.wall_s, progress.what, terminal ? "" : "\n"));
     open_ = terminal;
   }
   void message(const std::string& text) {
-    fmt::print(stderr, "{}{}\n", open_ ? "\n" : "", text);
+    say(fmt::format("{}{}\n", open_ ? "\n" : "", text));
     open_ = false;
+  }
+  /// Ends a line that is still open.
+  void close() {
+    if (std::exchange(open_, false)) say("\n");
   }
 
  private:
+  /// Not fmt::print, which throws where standard error is a file on a full disk.
+  static void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
   double shown_s_ = -1.0;
   bool open_ = false;
 };
@@ -100,6 +106,23 @@ bool is_one_machine(const rig::Rig& rig) {
   return true;
 }
 
+/// What screens connect to.
+struct Endpoint {
+  net::Identity identity;
+  std::vector<net::AllowedClient> allowed;
+  Sockets sockets;
+};
+
+Expected<Endpoint> open_endpoint(const ServerOptions& options, const rig::Rig& rig) {
+  auto identity = net::load_or_create_identity(options.keys / "server.key");
+  if (!identity) return tl::unexpected(identity.error());
+  auto allowed = net::load_allowed_clients(options.keys / "allowed-clients");
+  if (!allowed) return tl::unexpected(allowed.error());
+  auto sockets = open_sockets(options, rig.network, is_one_machine(rig));
+  if (!sockets) return tl::unexpected(sockets.error());
+  return Endpoint{std::move(*identity), std::move(*allowed), std::move(*sockets)};
+}
+
 Expected<void> fill_from_session(const logging::SessionReader& session, scene::Store& store) {
   const auto edits = session.scene_edits();
   if (!edits) return tl::unexpected(edits.error());
@@ -116,6 +139,7 @@ struct Drive {
   LoadedDrive loaded;
   scene::Store store;
   std::optional<logging::SessionReader> session;  ///< Of a replay.
+  DriverSeat seat;                                ///< Of a drive.
   std::optional<SessionLog> log;                  ///< Of a drive.
   std::unique_ptr<TickSource> source;
 };
@@ -147,13 +171,22 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
     scenery::build_vehicles(builder);
     scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
   }
+  auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
+  if (!seat) return tl::unexpected(seat.error());
+  drive.seat = std::move(*seat);
+  return {};
+}
+
+/// Begins the log and the simulation, once everything that could be missing is there: a failed start leaves no file behind.
+Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error) return failure(error.message(), options.out.string(), "choose a folder that can be written with --out");
   auto log = SessionLog::create(options.out / "session.sqlite", drive.loaded, options.seed, !options.lockstep && !options.no_screens);
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
   drive.log->record_scene(drive.store);
-  auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
-  if (!seat) return tl::unexpected(seat.error());
-  auto source = LiveDrive::start(drive.loaded.model, std::move(*seat), &*drive.log);
+  auto source = LiveDrive::start(drive.loaded.model, std::move(drive.seat), &*drive.log);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);
   return {};
@@ -187,23 +220,25 @@ Expected<void> run_server(const ServerOptions& options) {
   auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
   if (!prepared) return prepared;
   const rig::Rig& rig = drive.loaded.rig;
+  std::optional<Endpoint> endpoint;
+  if (!options.no_screens) {
+    auto opened = open_endpoint(options, rig);
+    if (!opened) return tl::unexpected(opened.error());
+    endpoint.emplace(std::move(*opened));
+  }
+  if (options.replay.empty())
+    if (auto begun = begin_drive(options, drive); !begun) return begun;
   const auto ticks = static_cast<std::uint64_t>(options.seconds * drive.source->tick_rate_hz() + 0.5);
 
   Expected<ServeResult> result;
   std::vector<HostedScreen> screens;
-  if (options.no_screens) {
+  if (!endpoint) {
     fmt::print("ready 0\n");
     std::fflush(stdout);
     result = run_headless(*drive.source, ticks, progress);
   } else {
-    const auto identity = net::load_or_create_identity(options.keys / "server.key");
-    if (!identity) return tl::unexpected(identity.error());
-    auto allowed = net::load_allowed_clients(options.keys / "allowed-clients");
-    if (!allowed) return tl::unexpected(allowed.error());
-    const bool one_machine = is_one_machine(rig);
-    auto sockets = open_sockets(options, rig.network, one_machine);
-    if (!sockets) return tl::unexpected(sockets.error());
-    ScreenHostOptions host_options{.identity = *identity, .session = net::random_session_id(), .allowed = std::move(*allowed)};
+    Sockets& sockets = endpoint->sockets;
+    ScreenHostOptions host_options{.identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)};
     host_options.welcome = {.rig = drive.loaded.source("rig"), .lockstep = options.lockstep, .tick_rate_hz = drive.source->tick_rate_hz(),
                             .picture_every_ticks = static_cast<std::uint32_t>(drive.source->tick_rate_hz())};
     host_options.max_datagram_bytes = rig.network.max_payload_bytes;
@@ -213,15 +248,15 @@ Expected<void> run_server(const ServerOptions& options) {
     host_options.limits.timeout_s = options.lockstep ? 60.0 : 5.0;
     host_options.least_playout_delay_s = rig.network.playout_delay_ticks / drive.source->tick_rate_hz();
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
-    if (auto chosen = choose_transport(rig.network, one_machine, *sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
-    ScreenHost host(sockets->lane, sockets->tick, drive.store, std::move(host_options));
-    fmt::print("ready {}\n", sockets->lane.local_address().port);
+    if (auto chosen = choose_transport(rig.network, is_one_machine(rig), sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
+    ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(host_options));
+    fmt::print("ready {}\n", sockets.lane.local_address().port);
     std::fflush(stdout);
 
     ServeEnvironment environment;
     environment.now_s = monotonic_s;
     environment.wait = [&](double seconds) {
-      const net::UdpSocket* waiting[] = {&sockets->lane};
+      const net::UdpSocket* waiting[] = {&sockets.lane};
       net::wait_readable(waiting, seconds);
     };
     environment.stop_requested = [] { return stop_requested != 0; };
@@ -233,7 +268,7 @@ Expected<void> run_server(const ServerOptions& options) {
     result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks}, environment);
     screens = host.screens();
   }
-  progress.message("");
+  progress.close();
   if (!drive.log) return result ? Expected<void>{} : tl::unexpected(result.error());
   // What was driven is kept, also where the end was an error.
   auto finished = drive.log->finish();

@@ -1,11 +1,16 @@
 /// `septet-screen`: one screen of a rig, in a window, full screen or off-screen.
 
-#include <iostream>
+#include <cstdio>
+#include <string>
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
 
 #include "sim-client/screen/screen_session.hpp"
+
+namespace {
+/// Not fmt::print, which throws where the log's disk is full.
+void say(const std::string& what) { std::fputs(("septet-screen: " + what + "\n").c_str(), stderr); }
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace septet;
@@ -30,9 +35,9 @@ int main(int argc, char** argv) {
       outcome = screen::run_screen(options);
     }
     if (outcome) return 0;
-    fmt::print(stderr, "septet-screen: {}\n", describe(outcome.error()));
+    say(describe(outcome.error()));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "septet-screen: {}\n", error.what());
+    say(error.what());
   }
   return 1;
 }

@@ -203,8 +203,9 @@ void Session::wait(double seconds) {
 void Session::say_goodbye() {
   if (display_) {
     const auto& last = display_->renderer().statistics();
-    fmt::print(stderr, "{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances\n", options_.name,
-               frames_, last.triangles, last.shadow_triangles, last.draws, last.instances);
+    // Not fmt::print, which throws where the log's disk is full.
+    std::fputs(fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances\n", options_.name,
+                           frames_, last.triangles, last.shadow_triangles, last.draws, last.instances).c_str(), stderr);
   }
   link_.report({frames_, frames_off_tick_, 0, 0, static_cast<float>(frame_times_.percentile_ms(0.5)),
                 static_cast<float>(frame_times_.percentile_ms(0.99))});

@@ -58,20 +58,46 @@ class DriveKeys {
   fs::path folder_;
 };
 
-/// An earlier drive in the same folder is moved aside: a log is never overwritten.
-Expected<void> prepare_output(const fs::path& out) {
-  std::error_code error;
-  if (fs::exists(out, error) && !fs::is_empty(out, error)) {
-    fs::path aside;
-    for (int number = 1; aside.empty() || fs::exists(aside, error); ++number) aside = fmt::format("{}.{}", out.string(), number);
-    fs::rename(out, aside, error);
-    if (error) return failure(error.message(), out.string(), "move the earlier drive there out of the way");
-    fmt::print(stderr, "The earlier drive moved to {}\n", aside.string());
+/// The folder of a drive. An earlier drive in it is moved aside, for a log is never overwritten; anything else is left alone.
+class DriveFolder {
+ public:
+  static Expected<DriveFolder> prepare(const fs::path& chosen) {
+    DriveFolder folder;
+    folder.path_ = chosen.lexically_normal();
+    if (!folder.path_.has_filename()) folder.path_ = folder.path_.parent_path();  // "out/" is "out".
+    std::error_code error;
+    const auto kind = fs::status(folder.path_, error).type();
+    if (kind != fs::file_type::directory && kind != fs::file_type::not_found)
+      return failure(kind == fs::file_type::none ? error.message() : "it is a file, not a folder", chosen.string(),
+                     "choose a folder for the drive with --out");
+    if (kind == fs::file_type::directory && !fs::is_empty(folder.path_, error)) {
+      if (!fs::exists(folder.path_ / "session.sqlite", error) && !fs::exists(folder.path_ / "screens", error))
+        return failure("the folder holds other things than an earlier drive", chosen.string(), "choose a new or empty one with --out");
+      for (int number = 1; folder.aside_.empty() || fs::exists(folder.aside_, error); ++number)
+        folder.aside_ = fmt::format("{}.{}", folder.path_.string(), number);
+      fs::rename(folder.path_, folder.aside_, error);
+      if (error) return failure(error.message(), chosen.string(), "move the earlier drive there out of the way");
+    }
+    fs::create_directories(folder.path_ / "screens", error);
+    if (!error) return folder;
+    const auto reason = error.message();
+    folder.undo();
+    return failure(reason, chosen.string(), "choose a folder that can be written with --out");
   }
-  fs::create_directories(out / "screens", error);
-  if (error) return failure(error.message(), out.string(), "choose a folder that can be written with --out");
-  return {};
-}
+
+  const fs::path& path() const { return path_; }
+  const fs::path& aside() const { return aside_; }  ///< Where the earlier drive is now, if there was one.
+  /// Nothing was driven: the earlier drive comes back, unless something has been written here.
+  void undo() const {
+    std::error_code ignored;
+    fs::remove(path_ / "screens", ignored);
+    fs::remove(path_, ignored);
+    if (!aside_.empty() && !fs::exists(path_, ignored)) fs::rename(aside_, path_, ignored);
+  }
+
+ private:
+  fs::path path_, aside_;
+};
 
 struct RunningScreen {
   std::string name;
@@ -126,8 +152,10 @@ RunningScreen screen_options(const DriveOptions& options, const rig::Screen& scr
   return running;
 }
 
+enum class Outcome { driven, gave_up };  ///< Gave up: the server has said why.
+
 /// Server and screens from start to end.
-Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
+Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
   const auto keys = DriveKeys::make(clients);
@@ -140,6 +168,7 @@ Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_fi
   while (!port && !server->poll() && !interrupted)
     if (const auto line = server->read_line(std::chrono::milliseconds(100)); line && line->starts_with("ready "))
       port = line->substr(6);
+  if (!port && server->poll() && server->poll()->code == 1) return Outcome::gave_up;
   std::vector<RunningScreen> screens;
   if (port && !options.no_screens)
     for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, *port, keys->folder()));
@@ -156,7 +185,7 @@ Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_fi
   }
   if (!outcome) {
     server->stop();
-    return outcome;
+    return tl::unexpected(outcome.error());
   }
   // The screens have had Finish and their reports are in; whoever still runs is not waited for long.
   for (int i = 0; i < 250; ++i) {
@@ -167,8 +196,9 @@ Expected<void> run_processes(const DriveOptions& options, const fs::path& rig_fi
   }
   const auto exit = *server->poll();
   if (exit.signal != 0) return failure(fmt::format("the server was ended by signal {}", exit.signal), "septet-server", "what it had logged is in the session file");
-  if (exit.code != 0) return failure("the server gave up", "septet-server", "its message stands above");
-  return {};
+  if (exit.code == 1) return Outcome::gave_up;
+  if (exit.code != 0) return failure(fmt::format("the server ended with status {}", exit.code), "septet-server", "check that it lies beside septet");
+  return Outcome::driven;
 }
 
 int fail(const Error& error) {
@@ -200,8 +230,14 @@ int run_drive(DriveOptions options) {
     if (!data) return fail(data.error());
     options.out = *data / "out" / "latest";
   }
-  if (const auto prepared = prepare_output(options.out); !prepared) return fail(prepared.error());
-  if (const auto outcome = run_processes(options, *rig_file, *rig); !outcome) return fail(outcome.error());
+  const auto folder = DriveFolder::prepare(options.out);
+  if (!folder) return fail(folder.error());
+  options.out = folder->path();
+  const auto outcome = run_processes(options, *rig_file, *rig);
+  if (!outcome || *outcome == Outcome::gave_up) folder->undo();
+  if (!outcome) return fail(outcome.error());
+  if (*outcome == Outcome::gave_up) return 1;
+  if (!folder->aside().empty()) fmt::print(stderr, "The earlier drive is in {}\n", folder->aside().string());
 
   if (options.virtual_screens && !options.no_screens) {
     const auto panorama = write_panorama(options.out, *rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
