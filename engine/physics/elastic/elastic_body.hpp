@@ -52,6 +52,11 @@ struct ElasticBody {
   std::vector<std::uint8_t> fixed;        ///< 1: the node keeps its velocity, whatever pulls at it.
   std::vector<double> contact_impulse_ns;  ///< Normal impulse of the last step, for friction.
 
+  /// Cauchy stress that carried the last step's impulses, of each element; filled where
+  /// StepSettings::keep_stress asks for it. In a stiff body it is the only trace of a blow, because
+  /// the strain that remains after the step is nearly none.
+  std::vector<Eigen::Matrix3d> step_stress_pa;
+
   // Constant, except where fracture or plastic flow rewrites it.
   ElasticMaterial material;
   std::vector<Eigen::Vector3d> rest_position_m;

@@ -234,6 +234,20 @@ int reset_bad_nodes(ElasticBody& body) {
   return bad;
 }
 
+/// The multiplier of eq. 20 as a stress: D (φ + Δt/γ J v⁺), the mean over the step.
+void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
+  const LameConstants lame = lame_constants(body.material);
+  const double lead_s = settings.step_s / gamma_of(settings);
+  body.step_stress_pa.clear();
+  for (const Element& e : body.elements) {
+    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
+    const Eigen::Matrix3d rate = f.transpose() * deformation_gradient(e, body.velocity_mps);
+    const Eigen::Matrix3d strain = green_strain(f) + 0.5 * lead_s * (rate + rate.transpose());
+    body.step_stress_pa.push_back(f * second_piola_stress(strain, lame) * f.transpose() /
+                                  std::max(f.determinant(), least_determinant));
+  }
+}
+
 }  // namespace
 
 StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
@@ -291,6 +305,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
                             a.tangent_rate_kg * (relative - normal_speed * c.normal);
     body.contact_impulse_ns[c.node] += std::max(0.0, normal_impulse);
   }
+  if (settings.keep_stress) keep_step_stress(body, settings);
   if (follow_spin)
     move_along_arcs(body, settings.step_s,
                     expected_angular_momentum(body, before, settings.step_s, contacts));

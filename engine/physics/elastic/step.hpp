@@ -37,6 +37,7 @@ struct StepSettings {
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
   bool tension_stiffness = true;
   bool follow_spin = true;  ///< Of bodies without fixed nodes; false is the published update.
+  bool keep_stress = false;  ///< Fill ElasticBody::step_stress_pa.
   Solver solver = Solver::automatic;
   int direct_limit = 400;
   double tolerance = 1e-5;  ///< Of the energy norm of the error, relative to the first guess's.

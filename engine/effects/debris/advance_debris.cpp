@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <glm/geometric.hpp>
+
+#include "engine/core/check.hpp"
+#include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/shards.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/step.hpp"
+
+namespace septet::debris {
+namespace {
+
+/// A piece rests when its nodes' root mean square speed stays below this for a second.
+constexpr double calm_speed_mps = 0.03, calm_time_s = 1.0;
+
+void update_sleep(Piece& piece, double step_s) {
+  const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) /
+                                 elastic::total_mass_kg(piece.body));
+  piece.calm_s = speed < calm_speed_mps ? piece.calm_s + step_s : 0.0;
+  if (piece.calm_s < calm_time_s) return;
+  piece.asleep = true;
+  std::ranges::fill(piece.body.velocity_mps, Eigen::Vector3d::Zero());
+}
+
+/// A step is linear in what moves; where contact would move a node by much of an element's size in
+/// one, the piece makes several.
+int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, double step_s) {
+  constexpr double share_of_element = 0.15;
+  constexpr int most = 24;
+  double size = INFINITY, closing = 0.0;
+  for (const auto& e : piece.body.elements)
+    size = std::min(size, std::cbrt(6.0 * e.rest_volume_m3));
+  for (const FoundContact& f : contacts) {
+    const Eigen::Vector3d relative =
+        piece.body.velocity_mps[f.contact.node] - f.contact.surface_velocity_mps;
+    closing = std::max(closing, relative.norm());
+  }
+  const double wanted = closing * step_s / (share_of_element * size);
+  return std::clamp(static_cast<int>(std::ceil(std::min(wanted, double{most}))), 1, most);
+}
+
+/// The elastic step errs where elements turn or shear by much within it. Energy that nothing gave
+/// is taken out of the deformation: of its velocity, and of its shape by going back towards the
+/// rest shape in its best place. Mass, momentum and angular momentum stay.
+void bound_energy(Piece& piece, double allowed_j) {
+  auto& body = piece.body;
+  const auto motion = elastic::rigid_motion(body);
+  const double elastic_j = elastic::elastic_energy_j(body);
+  const double rigid_j = 0.5 * elastic::total_mass_kg(body) * motion.velocity_mps.squaredNorm() +
+                         0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
+  const double moving_j = std::max(0.0, elastic::kinetic_energy_j(body) - rigid_j);
+  const double budget = std::max(0.0, allowed_j - rigid_j);
+  const double excess = elastic_j + moving_j;
+  if (excess <= budget || excess <= 1e-6) return;
+  const double keep = std::sqrt(budget / excess);
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d rest_centre = Eigen::Vector3d::Zero();
+  for (int i = 0; i < body.node_count(); ++i)
+    rest_centre += body.mass_kg[i] * body.rest_position_m[i] / elastic::total_mass_kg(body);
+  for (int i = 0; i < body.node_count(); ++i)
+    correlation += body.mass_kg[i] * (body.position_m[i] - motion.centre_m) *
+                   (body.rest_position_m[i] - rest_centre).transpose();
+  Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant());
+  const Eigen::Matrix3d turn = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d home =
+        motion.centre_m + turn * (body.rest_position_m[i] - rest_centre);
+    if (elastic_j > budget) body.position_m[i] = home + keep * (body.position_m[i] - home);
+    const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
+    const Eigen::Vector3d rigid =
+        motion.velocity_mps + motion.angular_velocity_radps.cross(arm);
+    body.velocity_mps[i] = rigid + keep * (body.velocity_mps[i] - rigid);
+  }
+  const auto now = elastic::rigid_motion(body);
+  const Eigen::Vector3d change =
+      now.inertia_kgm2.inverse() * (motion.angular_momentum_nms - now.angular_momentum_nms);
+  for (int i = 0; i < body.node_count(); ++i)
+    body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
+}
+
+/// One elastic step with its bound of energy; answers what the boxes received in `world`.
+void elastic_substep(Piece& piece, const ContactWorld& now, ContactWorld& world, double step_s,
+                     Report& report) {
+  const auto found = find_contacts(piece, now, step_s);
+  std::vector<elastic::NodeContact> contacts;
+  for (const FoundContact& f : found) contacts.push_back(f.contact);
+  elastic::StepSettings settings;
+  settings.step_s = step_s;
+  settings.solver = elastic::Solver::direct;
+  settings.keep_stress = true;
+  const double mass = elastic::total_mass_kg(piece.body);
+  const double before =
+      elastic::kinetic_energy_j(piece.body) + elastic::elastic_energy_j(piece.body);
+  report.bad_numbers += elastic::step_elastic(piece.body, settings, contacts).bad_numbers;
+  // What weight and the surfaces' own motion may have added, generously.
+  double added = mass * 9.81 * step_s * (std::sqrt(2.0 * before / mass) + 0.2);
+  for (const auto& c : contacts)
+    added += c.impulse_ns.norm() *
+             (c.surface_velocity_mps.norm() + std::clamp(-c.gap_m / step_s, 0.0, 2.0));
+  bound_energy(piece, before + added);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i].box >= 0)
+      world.boxes[found[i].box].impulse_ns -= from_eigen(contacts[i].impulse_ns);
+}
+
+/// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of
+/// the tick by itself; all that is left at its end is appended to `done`.
+void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s,
+                Report& report, std::vector<Piece>& done) {
+  for (int k = first; k < count; ++k) {
+    ContactWorld now = world;
+    for (Box& box : now.boxes) box.world_from_box.position_m += k * substep_s * box.velocity_mps;
+    elastic_substep(piece, now, world, substep_s, report);
+    flow(piece);
+    FractureResult result = fracture(piece);
+    if (result.opened_faces == 0) continue;
+    report.fractures += result.opened_faces;
+    // The largest part keeps the id, so that a screen goes on with what it shows.
+    std::ranges::stable_sort(result.pieces, std::ranges::greater{},
+                             [](const Piece& p) { return p.body.elements.size(); });
+    result.pieces.front().id = piece.id;
+    for (Piece& part : result.pieces)
+      step_piece(std::move(part), world, k + 1, count, substep_s, report, done);
+    return;
+  }
+  done.push_back(std::move(piece));
+}
+
+bool is_shard(const Piece& piece) {
+  return part_recipe(piece.part).shards &&
+         std::ranges::all_of(piece.splinter, [&](int s) { return s == piece.splinter.front(); });
+}
+
+}  // namespace
+
+std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
+                         const Vec3& velocity_mps, const Vec3& angular_velocity_radps,
+                         Random& random) {
+  const PartRecipe& recipe = part_recipe(part);
+  elastic::TetrahedralMesh mesh = elastic::lattice_mesh(recipe.cells, recipe.size_m);
+  for (auto& x : mesh.nodes_m) {
+    x -= 0.5 * recipe.size_m;
+    const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z() + 0.5);
+    x.x() *= width;
+    x.y() *= width;
+  }
+  Piece piece;
+  piece.part = part;
+  piece.material = spread_material(recipe);
+  auto made = elastic::make_elastic_body(mesh, piece.material.elastic);
+  SEPTET_CHECK(made.has_value(), "part {}: {}", static_cast<int>(part), made.error().what);
+  piece.body = std::move(*made);
+
+  std::vector<Eigen::Vector3d> seeds;
+  for (int i = 0; i < recipe.splinters; ++i) {
+    Eigen::Vector3d seed;
+    for (int c = 0; c < 3; ++c) seed[c] = recipe.size_m[c] * (random.uniform() - 0.5);
+    seeds.push_back(seed);
+  }
+  std::vector<elastic::Tetrahedron> tetrahedra;
+  for (const auto& e : piece.body.elements) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int node : e.nodes) centre += 0.25 * piece.body.rest_position_m[node];
+    int nearest = 0;
+    for (int i = 1; i < recipe.splinters; ++i)
+      if ((seeds[i] - centre).squaredNorm() < (seeds[nearest] - centre).squaredNorm())
+        nearest = i;
+    piece.splinter.push_back(nearest);
+    tetrahedra.push_back(e.nodes);
+  }
+  piece.plastic_strain.assign(tetrahedra.size(), 0.0);
+  piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
+  for (int i = 0; i < piece.body.node_count(); ++i) {
+    const Vec3 arm = world_from_part.orientation * from_eigen(piece.body.rest_position_m[i]);
+    piece.body.position_m[i] = to_eigen(world_from_part.position_m + arm);
+    piece.body.velocity_mps[i] =
+        to_eigen(velocity_mps + glm::cross(angular_velocity_radps, arm));
+  }
+  piece.id = state.next_id++;
+  state.pieces.push_back(std::move(piece));
+  return state.pieces.back().id;
+}
+
+Report advance_debris(State& state, ContactWorld& world, double step_s) {
+  Report report;
+  for (Box& box : world.boxes) box.impulse_ns = Vec3(0.0);
+  exchange_impulses(state.pieces, step_s);
+  std::vector<Piece> kept, broken_off, done;
+  for (Piece& piece : state.pieces) {
+    if (piece.asleep && box_near(piece, world, step_s)) {
+      piece.asleep = false;
+      piece.calm_s = 0.0;
+    }
+    if (piece.asleep) {
+      kept.push_back(std::move(piece));
+      continue;
+    }
+    done.clear();
+    const int substeps = substeps_for(piece, find_contacts(piece, world, step_s), step_s);
+    step_piece(std::move(piece), world, 0, substeps, step_s / substeps, report, done);
+    ++report.awake;
+    for (Piece& part : done) {
+      if (is_shard(part)) {
+        state.shards.push_back(shard_of(part));
+        continue;
+      }
+      update_sleep(part, step_s);
+      (part.id != 0 ? kept : broken_off).push_back(std::move(part));
+    }
+  }
+  for (Piece& part : broken_off) {
+    part.id = state.next_id++;
+    kept.push_back(std::move(part));
+  }
+  state.pieces = std::move(kept);
+  advance_shards(state, world, step_s);
+  state.bad_numbers += static_cast<std::uint32_t>(report.bad_numbers);
+  return report;
+}
+
+std::optional<double> highest_debris_m(const State& state, double x_m, double y_m,
+                                       double radius_m) {
+  std::optional<double> highest;
+  for (const Piece& piece : state.pieces) {
+    Eigen::AlignedBox3d bounds;
+    for (const auto& x : piece.body.position_m) bounds.extend(x);
+    if (x_m < bounds.min().x() - radius_m || x_m > bounds.max().x() + radius_m ||
+        y_m < bounds.min().y() - radius_m || y_m > bounds.max().y() + radius_m ||
+        bounds.diagonal().z() < 0.01)
+      continue;
+    for (const auto& x : piece.body.position_m) {
+      const double dx = x.x() - x_m, dy = x.y() - y_m;
+      if (dx * dx + dy * dy > radius_m * radius_m) continue;
+      highest = std::max(highest.value_or(x.z()), x.z());
+    }
+  }
+  return highest;
+}
+
+}  // namespace septet::debris

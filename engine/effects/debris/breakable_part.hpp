@@ -1,0 +1,46 @@
+#pragma once
+/// What can break, and what it is made of.
+///
+/// Thin parts are lattices thicker than the sheet they stand for. Mass, stiffness and strength are
+/// those of the sheet, spread over the thicker section: all three are multiplied by the fill, the
+/// sheet's volume over the lattice's.
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "engine/physics/elastic/elastic_material.hpp"
+
+namespace septet::debris {
+
+enum class Material : std::uint8_t { steel_sheet, bumper_plastic, glass, ice, rubber, concrete };
+inline constexpr int material_count = 6;
+
+struct MaterialData {
+  elastic::ElasticMaterial elastic;
+  double strength_pa;  ///< Largest tensile stress across a face before it opens.
+  double yield_pa;     ///< Von Mises stress from which it flows; 0: it does not.
+  double friction;     ///< On dry asphalt.
+};
+const MaterialData& material_data(Material material);
+
+enum class Part : std::uint8_t {
+  bumper, door, lamp, windscreen, traffic_cone, barrier_post, ice_slab
+};
+inline constexpr int part_count = 7;
+
+struct PartRecipe {
+  Material material;
+  Eigen::Vector3i cells;     ///< Lattice cubes along x, y, z; five tetrahedra each.
+  Eigen::Vector3d size_m;    ///< Outer box; x forward, y left, z up, centred on the part's origin.
+  double mass_kg;
+  int splinters;             ///< Voronoi cells that it can fall into.
+  double taper;              ///< Width of the top over that of the foot.
+  bool shards;               ///< Splinters fly on as rigid shards and not as elastic pieces.
+};
+const PartRecipe& part_recipe(Part part);
+
+/// The material of a part's lattice: spread over its section, see above.
+MaterialData spread_material(const PartRecipe& recipe);
+
+}  // namespace septet::debris

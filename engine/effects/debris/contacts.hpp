@@ -1,0 +1,34 @@
+#pragma once
+/// What debris touches: the ground, boxes, and other pieces.
+
+#include <vector>
+
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/physics/elastic/step.hpp"
+
+namespace septet::debris {
+
+struct FoundContact {
+  elastic::NodeContact contact;
+  int box = -1;  ///< Index of the box, −1 for the ground.
+};
+
+/// Nodes of the piece that touch ground or boxes now or may do so within the step.
+std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world,
+                                        double step_s);
+
+/// Whether a box moves close to the piece.
+bool box_near(const Piece& piece, const ContactWorld& world, double step_s);
+
+/// Inelastic impulses with friction between nodes of one piece inside elements of another; equal
+/// and opposite, so that momentum stays. Wakes a sleeper that is hit.
+void exchange_impulses(std::vector<Piece>& pieces, double step_s);
+
+/// A point against a box: the gap and the outward normal, world frame.
+struct BoxGap {
+  double gap_m;
+  Vec3 normal;
+};
+BoxGap gap_to_box(const Box& box, const Vec3& point_m);
+
+}  // namespace septet::debris

@@ -1,0 +1,160 @@
+#include "engine/effects/debris/debris_keyframe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/core/check.hpp"
+
+namespace septet::debris {
+namespace {
+
+constexpr std::uint8_t version = 1;
+/// A coordinate of the first vertex, and a difference between vertices, in quanta.
+constexpr std::int64_t furthest = 1'000'000'000, widest = 1'000'000;
+
+using Place = std::array<std::int64_t, 3>;
+
+Place quantised(const Vec3& p) {
+  Place result;
+  for (int c = 0; c < 3; ++c) {
+    SEPTET_CHECK(std::isfinite(p[c]), "coordinate {}", p[c]);
+    result[c] = std::clamp<std::int64_t>(
+        std::llround(std::clamp(p[c] / position_quantum_m, -1e9, 1e9)), -furthest, furthest);
+  }
+  return result;
+}
+
+Keyframe keyframe_of_shards(const std::vector<Shard>& shards) {
+  Keyframe keyframe;
+  keyframe.part = Part::windscreen;
+  keyframe.material = Material::glass;
+  keyframe.shards = true;
+  keyframe.asleep = true;
+  for (const Shard& shard : shards) {
+    if (keyframe.triangles.size() == max_vertices / 3) break;
+    const auto first = static_cast<std::uint16_t>(keyframe.vertices_m.size());
+    for (const Vec3& corner : {Vec3(1.0, 0.0, 0.0), Vec3(-0.5, 0.7, 0.1), Vec3(-0.4, -0.8, 0.0)})
+      keyframe.vertices_m.push_back(shard.position_m +
+                                    shard.orientation * (shard.size_m * corner));
+    keyframe.triangles.push_back({first, static_cast<std::uint16_t>(first + 1),
+                                  static_cast<std::uint16_t>(first + 2)});
+    keyframe.asleep = keyframe.asleep && shard.velocity_mps == Vec3(0.0);
+  }
+  return keyframe;
+}
+
+}  // namespace
+
+Keyframe keyframe_of(const Piece& piece) {
+  Keyframe keyframe;
+  keyframe.part = piece.part;
+  keyframe.material = part_recipe(piece.part).material;
+  keyframe.asleep = piece.asleep;
+  std::map<int, std::uint16_t> place;
+  for (const auto& triangle : piece.surface) {
+    std::array<std::uint16_t, 3> corners{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [found, fresh] = place.try_emplace(
+          triangle.nodes[c], static_cast<std::uint16_t>(keyframe.vertices_m.size()));
+      if (fresh)
+        keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
+      corners[c] = found->second;
+    }
+    keyframe.triangles.push_back(corners);
+  }
+  SEPTET_CHECK(keyframe.vertices_m.size() <= max_vertices &&
+                   keyframe.triangles.size() <= max_triangles,
+               "{} vertices", keyframe.vertices_m.size());
+  return keyframe;
+}
+
+Bytes encode(const Keyframe& keyframe) {
+  Bytes bytes;
+  ByteWriter writer(bytes);
+  writer.put(version);
+  writer.put(static_cast<std::uint8_t>(keyframe.part));
+  writer.put(static_cast<std::uint8_t>(keyframe.material));
+  writer.put(static_cast<std::uint8_t>((keyframe.shards ? 1 : 0) | (keyframe.asleep ? 2 : 0)));
+  writer.put_varint(keyframe.vertices_m.size());
+  Place last{};
+  for (std::size_t i = 0; i < keyframe.vertices_m.size(); ++i) {
+    Place place = quantised(keyframe.vertices_m[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t limit = i == 0 ? furthest : widest;
+      const std::int64_t step = std::clamp(place[c] - last[c], -limit, limit);
+      writer.put_signed_varint(step);
+      last[c] += step;
+    }
+  }
+  writer.put_varint(keyframe.triangles.size());
+  std::int64_t last_index = 0;
+  for (const auto& triangle : keyframe.triangles)
+    for (const std::uint16_t index : triangle) {
+      writer.put_signed_varint(index - last_index);
+      last_index = index;
+    }
+  return bytes;
+}
+
+Expected<Keyframe> decode(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  Keyframe keyframe;
+  const auto refuse = [](const char* what) {
+    return failure(what, "debris keyframe", "send what the same version of Septet wrote");
+  };
+  if (reader.get<std::uint8_t>() != version) return refuse("unknown version");
+  const auto part = reader.get<std::uint8_t>(), material = reader.get<std::uint8_t>(),
+             flags = reader.get<std::uint8_t>();
+  if (!reader.ok() || part >= part_count || material >= material_count || flags > 3)
+    return refuse("unknown part, material or flag");
+  keyframe.part = static_cast<Part>(part);
+  keyframe.material = static_cast<Material>(material);
+  keyframe.shards = (flags & 1) != 0;
+  keyframe.asleep = (flags & 2) != 0;
+  const std::size_t vertices = reader.get_count(std::min(max_vertices, reader.remaining() / 3));
+  keyframe.vertices_m.reserve(vertices);
+  Place place{};
+  for (std::size_t i = 0; i < vertices; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t step = reader.get_signed_varint(), limit = i == 0 ? furthest : widest;
+      if (!reader.ok() || step < -limit || step > limit) return refuse("coordinate out of bounds");
+      place[c] += step;
+      if (place[c] < -2 * furthest || place[c] > 2 * furthest)
+        return refuse("coordinate out of bounds");
+    }
+    keyframe.vertices_m.emplace_back(
+        Vec3(static_cast<double>(place[0]), static_cast<double>(place[1]),
+             static_cast<double>(place[2])) *
+        position_quantum_m);
+  }
+  const std::size_t triangles = reader.get_count(std::min(max_triangles, reader.remaining() / 3));
+  keyframe.triangles.reserve(triangles);
+  std::int64_t index = 0;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    std::array<std::uint16_t, 3> corners{};
+    for (auto& corner : corners) {
+      const std::int64_t step = reader.get_signed_varint();
+      if (!reader.ok() || step < -65536 || step > 65536) return refuse("index out of bounds");
+      index += step;
+      if (index < 0 || index >= static_cast<std::int64_t>(vertices))
+        return refuse("index out of bounds");
+      corner = static_cast<std::uint16_t>(index);
+    }
+    keyframe.triangles.push_back(corners);
+  }
+  if (!reader.ok() || !reader.at_end()) return refuse("length does not fit");
+  return keyframe;
+}
+
+std::vector<EffectKeyframe> effect_keyframes(const State& state) {
+  std::vector<EffectKeyframe> result;
+  if (!state.shards.empty())
+    result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of_shards(state.shards))});
+  for (const Piece& piece : state.pieces)
+    result.push_back({first_effect_id + (piece.id & 0xffffff), keyframe_kind,
+                      encode(keyframe_of(piece))});
+  return result;
+}
+
+}  // namespace septet::debris

@@ -1,0 +1,44 @@
+#pragma once
+/// Debris on the wire: one EffectKeyframe per piece and one for all shards. The format is written
+/// down in DEBRIS.md.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::debris {
+
+inline constexpr std::uint16_t keyframe_kind = 2;
+/// Effect ids of debris: a base plus the piece's id modulo 2²⁴; the shards have the base itself.
+inline constexpr std::uint32_t first_effect_id = 0x02000000;
+/// Positions on the wire are multiples of this; the error of a coordinate is at most half of it.
+inline constexpr double position_quantum_m = 1e-3;
+inline constexpr std::size_t max_vertices = 4096, max_triangles = 8192;
+
+/// What a screen draws of one piece: triangles, counter-clockwise from outside. Shards are drawn
+/// from both sides.
+struct Keyframe {
+  Part part = Part::bumper;
+  Material material = Material::bumper_plastic;
+  bool shards = false;
+  bool asleep = false;
+  std::vector<Vec3> vertices_m;
+  std::vector<std::array<std::uint16_t, 3>> triangles;
+};
+
+/// The outer surface of a piece.
+Keyframe keyframe_of(const Piece& piece);
+
+Bytes encode(const Keyframe& keyframe);
+/// Refuses anything that `encode` would not write; safe on hostile bytes.
+Expected<Keyframe> decode(std::span<const std::byte> bytes);
+
+/// All debris, ascending id, ready for a snapshot.
+std::vector<EffectKeyframe> effect_keyframes(const State& state);
+
+}  // namespace septet::debris

@@ -1,0 +1,88 @@
+#pragma once
+/// The debris of a drive: elastic pieces that can break further, and shards that cannot.
+///
+/// `advance_debris` is the tick: contacts, one elastic step, plastic flow, fracture, sleep. World
+/// frame of Septet. State is plain data; the same state and input give the same result. One thread.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "engine/core/random.hpp"
+#include "engine/effects/debris/breakable_part.hpp"
+#include "engine/math/rigid_transform.hpp"
+#include "engine/physics/elastic/elastic_body.hpp"
+
+namespace septet::debris {
+
+struct Piece {
+  std::uint32_t id = 0;
+  Part part = Part::bumper;
+  MaterialData material;               ///< Spread over the lattice (breakable_part.hpp).
+  elastic::ElasticBody body;
+  std::vector<int> splinter;           ///< Of each element; faces between two may open.
+  std::vector<double> plastic_strain;  ///< Accumulated, of each element.
+  std::vector<elastic::SurfaceTriangle> surface;
+  double calm_s = 0.0;                 ///< For how long it has hardly moved.
+  bool asleep = false;                 ///< Neither stepped nor broken until something touches it.
+};
+
+/// A rigid splinter of glass, drawn as one triangle.
+struct Shard {
+  Vec3 position_m{0.0}, velocity_mps{0.0}, angular_velocity_radps{0.0};
+  Quat orientation{1.0, 0.0, 0.0, 0.0};
+  double size_m = 0.03;
+  double mass_kg = 0.0;
+};
+
+struct State {
+  std::vector<Piece> pieces;  ///< Ascending id.
+  std::vector<Shard> shards;
+  std::uint32_t next_id = 1;
+  std::uint32_t bad_numbers = 0;  ///< Nodes reset since the start.
+};
+
+struct GroundPoint {
+  double height_m = 0.0;
+  Vec3 normal{0.0, 0.0, 1.0};
+  double friction_factor = 1.0;  ///< Multiplies the material's friction; 0.15 on ice.
+};
+
+/// A vehicle, a barrier's segment or any other box that debris cannot move.
+struct Box {
+  RigidTransform world_from_box;  ///< Origin at the centre.
+  Vec3 half_size_m{1.0};
+  Vec3 velocity_mps{0.0};         ///< Of the centre.
+  Vec3 angular_velocity_radps{0.0};
+  double friction = 0.4;
+  Vec3 impulse_ns{0.0};           ///< Out: what the debris gave to the box during the tick.
+};
+
+struct ContactWorld {
+  std::function<GroundPoint(double x_m, double y_m)> ground;
+  std::vector<Box> boxes;
+};
+
+struct Report {
+  int fractures = 0;       ///< Faces that opened.
+  int awake = 0;           ///< Pieces stepped.
+  int bad_numbers = 0;
+};
+
+/// Adds a part in one piece; the splinters are drawn from `random`. Answers its id.
+std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
+                         const Vec3& velocity_mps, const Vec3& angular_velocity_radps,
+                         Random& random);
+
+Report advance_debris(State& state, ContactWorld& world, double step_s);
+
+/// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces
+/// thinner than a centimetre and shards are no obstacle.
+std::optional<double> highest_debris_m(const State& state, double x_m, double y_m,
+                                       double radius_m);
+
+inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace septet::debris

@@ -1,0 +1,205 @@
+#include "engine/effects/debris/fracture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <ranges>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "engine/core/check.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+#include "engine/physics/elastic/element.hpp"
+
+namespace septet::debris {
+namespace {
+
+using elastic::Element;
+
+/// Sets with a representative (path halving; the smaller index represents).
+struct DisjointSets {
+  std::vector<int> parent;
+  explicit DisjointSets(std::size_t count) : parent(count) {
+    std::iota(parent.begin(), parent.end(), 0);
+  }
+  int find(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    a = find(a), b = find(b);
+    if (a != b) parent[std::max(a, b)] = std::min(a, b);
+  }
+};
+
+struct InnerFace {
+  int first, second;  ///< Elements.
+  std::array<int, 3> nodes;
+};
+
+std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
+  std::map<std::array<int, 3>, int> open;
+  std::vector<InnerFace> result;
+  for (int e = 0; e < static_cast<int>(body.elements.size()); ++e)
+    for (const auto& f : elastic::tetrahedron_faces) {
+      const auto& t = body.elements[e].nodes;
+      std::array<int, 3> face{t[f[0]], t[f[1]], t[f[2]]};
+      std::ranges::sort(face);
+      const auto [place, fresh] = open.try_emplace(face, e);
+      if (!fresh) result.push_back({place->second, e, face});
+    }
+  return result;
+}
+
+bool pulls_open(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
+  if (stress.norm() < strength_pa) return false;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(stress, Eigen::EigenvaluesOnly);
+  const double greatest = eigen.eigenvalues()[2];
+  return greatest >= strength_pa &&
+         normal.dot(stress * normal) > 0.5 * greatest;  // Within 45° of the pull.
+}
+
+/// The stress of the shape and that of the last step's impulses: a blow to a stiff piece shows in
+/// the second only, a bend that lasts in the first.
+bool pulls_open(const Piece& piece, int element, const Eigen::Vector3d& normal) {
+  const auto& carried = piece.body.step_stress_pa;
+  const double strength = piece.material.strength_pa;
+  return pulls_open(elastic::cauchy_stress_pa(piece.body, element), strength, normal) ||
+         (!carried.empty() && pulls_open(carried[element], strength, normal));
+}
+
+/// Stress jumps from one linear tetrahedron to the next: the greater of a face's two decides.
+bool opens(const Piece& piece, const InnerFace& face) {
+  const auto& x = piece.body.position_m;
+  const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]])
+                                     .cross(x[face.nodes[2]] - x[face.nodes[0]])
+                                     .normalized();
+  return pulls_open(piece, face.first, normal) || pulls_open(piece, face.second, normal);
+}
+
+/// The part of the rest shape that has flowed: edges(rest) · rest_inverse = Fp⁻¹.
+Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e) {
+  Eigen::Matrix3d edges;
+  for (int a = 0; a < 3; ++a)
+    edges.col(a) = body.rest_position_m[e.nodes[a + 1]] - body.rest_position_m[e.nodes[0]];
+  return edges * e.rest_inverse;
+}
+
+/// The elements of one island as a piece of its own.
+Piece cut_out(const Piece& from, const std::vector<int>& elements,
+              const std::vector<std::array<int, 4>>& corner_group) {
+  const auto& old = from.body;
+  elastic::TetrahedralMesh mesh;
+  std::map<int, int> node_of_group;
+  std::vector<int> source;
+  for (const int e : elements) {
+    elastic::Tetrahedron t;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto [place, fresh] = node_of_group.try_emplace(
+          corner_group[e][a], static_cast<int>(mesh.nodes_m.size()));
+      if (fresh) {
+        source.push_back(old.elements[e].nodes[a]);
+        mesh.nodes_m.push_back(old.rest_position_m[source.back()]);
+      }
+      t[a] = place->second;
+    }
+    mesh.tetrahedra.push_back(t);
+  }
+  auto made = elastic::make_elastic_body(mesh, old.material);
+  SEPTET_CHECK(made.has_value(), "a broken piece is no body: {}", made.error().what);
+  Piece piece;
+  piece.part = from.part;
+  piece.material = from.material;
+  piece.body = std::move(*made);
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const int node = piece.body.body_node_of_mesh_node[i];
+    piece.body.position_m[node] = old.position_m[source[i]];
+    piece.body.velocity_mps[node] = old.velocity_mps[source[i]];
+    piece.body.fixed[node] = old.fixed[source[i]];
+  }
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    Element& e = piece.body.elements[k];
+    e.rest_inverse = e.rest_inverse * inverse_flow(old, old.elements[elements[k]]);
+    piece.splinter.push_back(from.splinter[elements[k]]);
+    piece.plastic_strain.push_back(from.plastic_strain[elements[k]]);
+  }
+  std::vector<elastic::Tetrahedron> tetrahedra;
+  for (const auto& e : piece.body.elements) tetrahedra.push_back(e.nodes);
+  piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
+  return piece;
+}
+
+}  // namespace
+
+FractureResult fracture(const Piece& piece) {
+  FractureResult result;
+  const auto& body = piece.body;
+  const auto strained = [&](int e) {
+    const double strength = piece.material.strength_pa;
+    return elastic::cauchy_stress_pa(body, e).norm() >= strength ||
+           (!body.step_stress_pa.empty() && body.step_stress_pa[e].norm() >= strength);
+  };
+  const int element_count = static_cast<int>(body.elements.size());
+  if (std::ranges::none_of(std::views::iota(0, element_count), strained)) return result;
+  const auto faces = inner_faces(body);
+  const std::size_t count = body.elements.size();
+  DisjointSets islands(count), corners(4 * count);
+  for (const InnerFace& face : faces) {
+    if (piece.splinter[face.first] != piece.splinter[face.second] && opens(piece, face)) {
+      ++result.opened_faces;
+      continue;
+    }
+    islands.join(face.first, face.second);
+    for (const int node : face.nodes) {
+      const auto place = [&](int e) {
+        const auto& t = body.elements[e].nodes;
+        return 4 * e + static_cast<int>(std::ranges::find(t, node) - t.begin());
+      };
+      corners.join(place(face.first), place(face.second));
+    }
+  }
+  if (result.opened_faces == 0) return result;
+  std::vector<std::array<int, 4>> group(count);
+  std::map<int, std::vector<int>> members;
+  for (int e = 0; e < static_cast<int>(count); ++e) {
+    for (int a = 0; a < 4; ++a) group[e][a] = corners.find(4 * e + a);
+    members[islands.find(e)].push_back(e);
+  }
+  for (const auto& [representative, elements] : members)
+    result.pieces.push_back(cut_out(piece, elements, group));
+  return result;
+}
+
+int flow(Piece& piece) {
+  constexpr double most_plastic_strain = 0.5;
+  if (piece.material.yield_pa <= 0.0) return 0;
+  const auto lame = elastic::lame_constants(piece.body.material);
+  int count = 0;
+  for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
+    Element& e = piece.body.elements[k];
+    const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
+    const Eigen::Matrix3d strain = elastic::green_strain(f);
+    const Eigen::Matrix3d deviator =
+        strain - strain.trace() / 3.0 * Eigen::Matrix3d::Identity();
+    const double von_mises = 2.0 * lame.mu_pa * std::sqrt(1.5) * deviator.norm();
+    if (von_mises <= piece.material.yield_pa || f.determinant() <= 0.0) continue;
+    if (piece.plastic_strain[k] >= most_plastic_strain) continue;
+    const double share = 1.0 - piece.material.yield_pa / von_mises;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(f.transpose() * f);
+    const Eigen::Vector3d stretch = eigen.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
+    const double volume_root = std::cbrt(stretch.prod());
+    const Eigen::Vector3d undone = (stretch / volume_root).array().pow(-share);
+    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() *
+                     eigen.eigenvectors().transpose();
+    piece.plastic_strain[k] += share * deviator.norm();
+    ++count;
+  }
+  if (count > 0) elastic::invalidate_rest_factor(piece.body);
+  return count;
+}
+
+}  // namespace septet::debris

@@ -1,0 +1,72 @@
+#include "engine/effects/debris/shards.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/effects/debris/contacts.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+
+namespace septet::debris {
+namespace {
+
+/// Takes the closing speed away, a fifth of it returned, and Coulomb's share of the sliding.
+void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, double friction) {
+  const Vec3 relative = shard.velocity_mps - surface_velocity;
+  const double closing = -glm::dot(relative, normal);
+  if (closing <= 0.0) return;
+  const Vec3 slide = relative + closing * normal;
+  const double speed = glm::length(slide);
+  const double gain = (closing > 0.5 ? 1.2 : 1.0) * closing;
+  shard.velocity_mps += gain * normal;
+  if (speed > 0.0) shard.velocity_mps -= std::min(1.0, friction * gain / speed) * slide;
+  shard.angular_velocity_radps *= 0.7;
+}
+
+}  // namespace
+
+Shard shard_of(const Piece& piece) {
+  const auto motion = elastic::rigid_motion(piece.body);
+  Shard shard;
+  shard.position_m = from_eigen(motion.centre_m);
+  shard.velocity_mps = from_eigen(motion.velocity_mps);
+  const Vec3 spin = from_eigen(motion.angular_velocity_radps);
+  const double rate = glm::length(spin);
+  shard.angular_velocity_radps = rate > 30.0 ? spin * (30.0 / rate) : spin;
+  shard.mass_kg = elastic::total_mass_kg(piece.body);
+  double volume = 0.0;
+  for (const auto& e : piece.body.elements) volume += e.rest_volume_m3;
+  shard.size_m = std::cbrt(volume);
+  return shard;
+}
+
+void advance_shards(State& state, const ContactWorld& world, double step_s) {
+  for (Shard& shard : state.shards) {
+    shard.velocity_mps.z -= 9.81 * step_s;
+    for (const Box& box : world.boxes) {
+      const BoxGap gap = gap_to_box(box, shard.position_m);
+      if (gap.gap_m > 0.0) continue;
+      const Vec3 arm = shard.position_m - box.world_from_box.position_m;
+      bounce(shard, gap.normal, box.velocity_mps + glm::cross(box.angular_velocity_radps, arm),
+             box.friction);
+      shard.position_m -= std::max(gap.gap_m, -0.5) * gap.normal;
+    }
+    shard.position_m += step_s * shard.velocity_mps;
+    const double rate = glm::length(shard.angular_velocity_radps);
+    if (rate > 1e-6)
+      shard.orientation = glm::normalize(
+          glm::angleAxis(rate * step_s, shard.angular_velocity_radps / rate) * shard.orientation);
+    if (!world.ground) continue;
+    const GroundPoint ground = world.ground(shard.position_m.x, shard.position_m.y);
+    if (shard.position_m.z > ground.height_m) continue;
+    shard.position_m.z = ground.height_m;
+    bounce(shard, ground.normal, Vec3(0.0), 0.4 * ground.friction_factor);
+    if (glm::length(shard.velocity_mps) < 0.2) {
+      shard.velocity_mps = Vec3(0.0);
+      shard.angular_velocity_radps = Vec3(0.0);
+    }
+  }
+}
+
+}  // namespace septet::debris

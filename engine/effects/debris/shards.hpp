@@ -1,0 +1,13 @@
+#pragma once
+/// Rigid shards of glass: ballistic flight, inelastic bounces with friction, rest.
+
+#include "engine/effects/debris/debris_state.hpp"
+
+namespace septet::debris {
+
+/// The shard with a piece's mass and motion.
+Shard shard_of(const Piece& piece);
+
+void advance_shards(State& state, const ContactWorld& world, double step_s);
+
+}  // namespace septet::debris

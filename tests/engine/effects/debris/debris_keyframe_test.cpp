@@ -1,0 +1,62 @@
+#include "engine/effects/debris/debris_keyframe.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace septet;
+using namespace septet::debris;
+
+namespace {
+State scene() {
+  State state;
+  Random random(1);
+  spawn_part(state, Part::bumper, {{12345.678, -9876.543, 1.2}, {1, 0, 0, 0}}, Vec3(0), Vec3(0),
+             random);
+  state.shards.push_back({{5, 6, 7}});
+  return state;
+}
+}  // namespace
+
+TEST_CASE("a keyframe comes back within half a millimetre and with the same triangles") {
+  const Keyframe sent = keyframe_of(scene().pieces[0]);
+  const auto received = decode(encode(sent));
+  REQUIRE(received.has_value());
+  CHECK(received->part == sent.part);
+  CHECK(received->triangles == sent.triangles);
+  REQUIRE(received->vertices_m.size() == sent.vertices_m.size());
+  for (std::size_t i = 0; i < sent.vertices_m.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      CHECK(std::abs(received->vertices_m[i][c] - sent.vertices_m[i][c]) <=
+            0.5 * position_quantum_m + 1e-9);
+}
+
+TEST_CASE("the snapshot gets one effect for the shards and one per piece in ascending order") {
+  const auto effects = effect_keyframes(scene());
+  REQUIRE(effects.size() == 2);
+  CHECK(effects[0].id == first_effect_id);
+  CHECK(effects[0].id < effects[1].id);
+  for (const auto& effect : effects) {
+    CHECK(effect.kind == keyframe_kind);
+    CHECK(decode(effect.data).has_value());
+  }
+}
+
+TEST_CASE("cut and damaged keyframes are refused or read within bounds and never crash") {
+  const Bytes good = encode(keyframe_of(scene().pieces[0]));
+  for (std::size_t length = 0; length < good.size(); ++length)
+    CHECK_FALSE(decode(std::span(good).first(length)).has_value());
+  Random random(9);
+  int refused = 0;
+  for (int k = 0; k < 5000; ++k) {
+    Bytes bad = good;
+    for (int flips = 0; flips < 4; ++flips)
+      bad[random.below(bad.size())] = static_cast<std::byte>(random.below(256));
+    const auto result = decode(bad);
+    if (!result) {
+      ++refused;
+      continue;
+    }
+    for (const auto& triangle : result->triangles)
+      for (const auto index : triangle) REQUIRE(index < result->vertices_m.size());
+  }
+  CHECK(refused > 100);
+}
