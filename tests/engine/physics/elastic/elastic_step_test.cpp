@@ -132,7 +132,7 @@ TEST_CASE("a rigid turn has no strain and no force") {
     CHECK(green_strain(deformation_gradient(e, body.position_m)).norm() < 1e-13);
 }
 
-TEST_CASE("momentum stays and the energy of an unloaded body never exceeds what it had") {
+TEST_CASE("momentum stays and the energy of an unloaded body stays within five per cent of what it had") {
   for (const double young : {1e5, 1e7, 1e9}) {
     ElasticBody body = block({young, 0.3, 1000.0}, {2, 2, 6});
     deform(body);
