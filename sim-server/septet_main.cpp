@@ -11,6 +11,8 @@
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/command/road_command.hpp"
+#include "sim-server/command/vehicle_command.hpp"
+#include "sim-server/resources.hpp"
 #include "sim-server/version.hpp"
 
 namespace septet::server {
@@ -68,6 +70,25 @@ int run(int argc, char** argv) {
   auto* locate = road_command->add_subcommand("locate", "Lines x_m,y_m in, road positions out");
   locate->add_option("file", road_file, "OpenDRIVE file")->required();
   locate->callback([&] { status = run_road_locate(road_file, std::cin, std::cout); });
+
+  auto* vehicle_command = app.add_subcommand("vehicle", "A car on the test track");
+  vehicle_command->require_subcommand(1);
+  VehicleTestOptions track;
+  std::string car = "volvo-s80";
+  auto* vehicle_test = vehicle_command->add_subcommand("test", "Run a standard manoeuvre: figures, time series and a plot");
+  vehicle_test->add_option("--manoeuvre", track.manoeuvre, "steady-circle, step-steer, double-lane-change, sine-with-dwell, stop, coast-down, acceleration or all")->required();
+  vehicle_test->add_option("--vehicle", car, "Parameter file, or a name below vehicles/");
+  vehicle_test->add_option("--out", track.out, "Folder for the files; without it the figures are only printed");
+  vehicle_test->callback([&] {
+    const auto file = find_resource(car, "vehicles", ".toml");
+    if (!file) {
+      fmt::print(stderr, "septet: {}\n", describe(file.error()));
+      status = 1;
+      return;
+    }
+    track.vehicle = *file;
+    status = run_vehicle_test(track);
+  });
 
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "Say what is wrong with road, scenario and rig files");
