@@ -1,0 +1,100 @@
+#include <regex>
+
+#include <sqlite3.h>
+
+#include "tests/pipeline/process_rig.hpp"
+
+namespace septet::pipeline {
+namespace {
+
+Ended drive(const TemporaryFolder& folder, const std::string& out, int seed) {
+  write_text(folder / "small.toml", small_rig(2));
+  return run("septet", {"drive", "--virtual", "--seconds", "2", "--rig", (folder / "small.toml").string(), "--seed", std::to_string(seed),
+                        "--out", (folder / out).string()}, folder / (out + ".err"));
+}
+
+std::string state_hash(const fs::path& out) {
+  const std::string summary = text_of(out / "summary.json");
+  std::smatch found;
+  REQUIRE(std::regex_search(summary, found, std::regex("\"state_hash\": \"([0-9a-f]{16})\"")));
+  return found[1];
+}
+
+std::vector<int> numbers_of(const std::string& text, const std::string& key) {
+  std::vector<int> numbers;
+  const std::regex pattern("\"" + key + "\": ([0-9]+)");
+  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) numbers.push_back(std::stoi((*i)[1]));
+  return numbers;
+}
+
+void change(const fs::path& session, const std::string& statement) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(session.c_str(), &database) == SQLITE_OK);
+  CHECK(sqlite3_exec(database, statement.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  CHECK(sqlite3_changes(database) == 1);
+  sqlite3_close(database);
+}
+
+}  // namespace
+
+TEST_CASE("a drive leaves its pictures and log and report and summary and does the same again for the same seed") {
+  const TemporaryFolder folder;
+  const Ended first = drive(folder, "first", 7);
+  INFO(first.error);
+  REQUIRE(first.code == 0);
+  for (const char* file : {"panorama.png", "screens/a/120.png", "screens/a/240.png", "screens/b/120.png", "screens/b/240.png",
+                           "session.sqlite", "report.html", "summary.json"}) {
+    CAPTURE(file);
+    CHECK(fs::file_size(folder / "first" / file) > 100);
+  }
+  const std::string summary = text_of(folder / "first" / "summary.json");
+  for (const char* key : {"scenario", "rig", "seed", "ticks", "simulated_s", "wall_s", "state_hash", "lateral_position_m", "mean", "sd",
+                          "lane_changes", "screens", "name", "frames", "frames_off_tick", "datagrams_lost", "datagrams_repaired",
+                          "frame_ms_p50", "frame_ms_p99"}) {
+    CAPTURE(key);
+    CHECK(summary.find("\"" + std::string(key) + "\":") != std::string::npos);
+  }
+  CHECK(numbers_of(summary, "ticks") == std::vector{240});
+  CHECK(numbers_of(summary, "frames") == std::vector{30, 30});
+  CHECK(numbers_of(summary, "frames_off_tick") == std::vector{0, 0});
+
+  const Ended again = drive(folder, "again", 7);
+  REQUIRE(again.code == 0);
+  CHECK(state_hash(folder / "again") == state_hash(folder / "first"));
+  for (const char* file : {"panorama.png", "screens/a/120.png", "screens/b/240.png"}) {
+    CAPTURE(file);
+    CHECK(text_of(folder / "again" / file) == text_of(folder / "first" / file));
+  }
+  const Ended other = drive(folder, "again", 8);
+  REQUIRE(other.code == 0);
+  CHECK(state_hash(folder / "again") != state_hash(folder / "first"));
+  // The earlier drive in the folder was moved aside, whole.
+  CHECK(state_hash(folder / "again.1") == state_hash(folder / "first"));
+  CHECK(fs::exists(folder / "again.1" / "session.sqlite"));
+}
+
+TEST_CASE("a replay verifies every tick and refuses altered input and draws on another rig") {
+  const TemporaryFolder folder;
+  REQUIRE(drive(folder, "out", 3).code == 0);
+  const fs::path session = folder / "out" / "session.sqlite";
+  auto verify = start("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
+  const auto line = verify.read_line(60s);
+  CHECK(exit_code(verify, 60s) == 0);
+  REQUIRE(line.has_value());
+  CHECK(*line == "240 ticks run again: every state hash agrees");
+
+  write_text(folder / "other.toml", small_rig(3));
+  const Ended shown = run("septet", {"replay", session.string(), "--virtual", "--rig", (folder / "other.toml").string(), "--out",
+                                     (folder / "shown").string()}, folder / "shown.err");
+  INFO(shown.error);
+  CHECK(shown.code == 0);
+  CHECK(fs::exists(folder / "shown" / "panorama.png"));
+  CHECK(fs::exists(folder / "shown" / "screens" / "c" / "240.png"));
+
+  change(session, "UPDATE driver_inputs SET steering_wheel_rad = steering_wheel_rad + 0.2 WHERE tick = 100");
+  const Ended refused = run("septet", {"replay", "--verify", session.string()}, folder / "refused.err");
+  CHECK(refused.code == 1);
+  CHECK(refused.error.find("tick 100 gives state hash") != std::string::npos);
+}
+
+}  // namespace septet::pipeline

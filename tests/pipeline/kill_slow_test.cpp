@@ -1,0 +1,196 @@
+#include <csignal>
+
+#include <algorithm>
+#include <regex>
+
+#include "engine/image/png.hpp"
+#include "logging/session_reader.hpp"
+#include "sim-client/screen/screen_link.hpp"
+#include "tests/pipeline/process_rig.hpp"
+
+namespace septet::pipeline {
+namespace {
+
+/// A screen without a picture, in this process: it sees what the server sends.
+class Observer {
+ public:
+  Observer(const std::string& name, const std::string& port, const net::Identity& identity, const fs::path& keys)
+      : lane_(open()), tick_(open()), link_(lane_, tick_, open_group, options(name, port, identity, keys, tick_.local_address().port)) {}
+  screen::ScreenLink& link() { return link_; }
+  /// Receives until the condition holds.
+  bool watch(const std::function<bool()>& condition, std::chrono::milliseconds within) {
+    return becomes_true([&] {
+      link_.pump(std::chrono::duration<double>(Clock::now().time_since_epoch()).count());
+      return condition();
+    }, within);
+  }
+  Tick newest_tick() const { return link_.history().empty() ? 0 : link_.history().newest().snapshot.tick; }
+
+ private:
+  static net::UdpSocket open() {
+    auto socket = net::UdpSocket::open({.bind = {net::loopback_ip, 0}});
+    REQUIRE(socket.has_value());
+    return std::move(*socket);
+  }
+  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group, std::uint32_t interface_ip) {
+    return net::UdpSocket::open_group(group, interface_ip).map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
+      return std::make_unique<net::UdpSocket>(std::move(socket));
+    });
+  }
+  static screen::ScreenLinkOptions options(const std::string& name, const std::string& port, const net::Identity& identity,
+                                           const fs::path& keys, std::uint16_t tick_port) {
+    std::string key = text_of(keys / "server.public");
+    key.resize(64);
+    return {name, tick_port, {*net::parse_address("127.0.0.1:" + port, "test"), *net::parse_public_key(key, "test"), identity, {}}};
+  }
+
+  net::UdpSocket lane_, tick_;
+  screen::ScreenLink link_;
+};
+
+int child_called(int parent, const std::string& name) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string id = entry.path().filename();
+    if (id.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string stat = text_of(entry.path() / "stat"), line = text_of(entry.path() / "cmdline");
+    const auto after_name = stat.rfind(") ");
+    if (after_name == std::string::npos || std::atoi(stat.c_str() + after_name + 4) != parent) continue;
+    if (line.find(std::string("--name") + '\0' + name + '\0') != std::string::npos) return std::stoi(id);
+  }
+  return 0;
+}
+
+int frames_of(const std::string& summary, const std::string& screen) {
+  std::smatch found;
+  const bool any = std::regex_search(summary, found, std::regex("\"name\": \"" + screen + "\", \"frames\": ([0-9]+)"));
+  return any ? std::stoi(found[1]) : -1;
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t number = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++number;
+  return number;
+}
+
+std::vector<std::string> server_arguments(const TemporaryFolder& folder, const std::string& out) {
+  return {"--rig", (folder / "small.toml").string(), "--keys", (folder / "keys").string(), "--out", (folder / out).string()};
+}
+
+}  // namespace
+
+TEST_CASE("a killed screen costs the others no frame and is back by itself") {
+  const TemporaryFolder folder;
+  write_text(folder / "small.toml", small_rig(3));
+  const fs::path log = folder / "err", out = folder / "out";
+  auto drive = start("septet", {"drive", "--virtual", "--seconds", "8", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log);
+  REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "b") >= 120; }, 90s));
+  const int victim = child_called(drive.process_id(), "b");
+  REQUIRE(victim > 0);
+  REQUIRE(::kill(victim, SIGKILL) == 0);
+  const bool noticed = becomes_true([&] { return text_of(log).find("screen b was ended by signal 9") != std::string::npos; }, 10s);
+  const auto restarted = Clock::now();
+  const bool back = becomes_true([&] { return count(text_of(log), "screen b shows tick") == 2; }, 30s);
+  const double back_s = seconds_since(restarted);
+  INFO(text_of(log));
+  CHECK(noticed);
+  CHECK(back);
+  MESSAGE("the killed screen presented again " << back_s << " s after it was started again");
+  CHECK(back_s < 10.0);  // The aim is one second; a software rasteriser on two busy cores gets a wide bound.
+  REQUIRE(exit_code(drive, 120s) == 0);
+  const std::string summary = text_of(out / "summary.json");
+  CHECK(frames_of(summary, "a") == 120);
+  CHECK(frames_of(summary, "c") == 120);
+  CHECK(frames_of(summary, "b") > 0);
+  CHECK(frames_of(summary, "b") < 120);
+  CHECK(fs::exists(out / "screens" / "b" / "960.png"));
+}
+
+TEST_CASE("a screen that hangs costs the others nothing and is back when it goes on") {
+  const TemporaryFolder folder;
+  write_text(folder / "small.toml", small_rig(2));
+  make_keys(folder / "keys", "ab");
+  auto arguments = server_arguments(folder, "out");
+  arguments.push_back("--any-port");
+  auto server = start("septet-server", arguments, folder / "server.err");
+  const std::string port = ready_port(server, folder / "server.err");
+  const fs::path pictures = folder / "pictures";
+  auto a = start_screen("a", port, folder / "keys", pictures);
+  auto b = start_screen("b", port, folder / "keys", pictures);
+  const auto a_shows = [&] { return newest_picture(pictures / "a"); };
+  const auto b_shows = [&] { return newest_picture(pictures / "b"); };
+  REQUIRE(becomes_true([&] { return a_shows() > 0 && b_shows() > 0; }, 60s));
+  b.send_signal(SIGSTOP);
+  std::this_thread::sleep_for(200ms);
+  const long a_before = a_shows(), b_before = b_shows();
+  // Longer than the server's patience, so that it lets the screen go and has to take it back.
+  CHECK(becomes_true([&] { return a_shows() > a_before + 6 * 120; }, 60s));
+  CHECK(b_shows() == b_before);
+  const long a_now = a_shows();
+  b.send_signal(SIGCONT);
+  CHECK(becomes_true([&] { return b_shows() > a_now; }, 60s));
+  server.send_signal(SIGTERM);
+  INFO(text_of(folder / "server.err"));
+  CHECK(exit_code(server, 20s) == 0);
+  CHECK(exit_code(a, 20s) == 0);
+  CHECK(exit_code(b, 20s) == 0);
+}
+
+TEST_CASE("screens hold the picture of a killed server and return to the next one and its log has lost at most 100 ms") {
+  const TemporaryFolder folder;
+  const std::string port = std::to_string(free_port());
+  write_text(folder / "small.toml", small_rig(2, "scene_port = " + port + "\ntick_port = " + std::to_string(free_port())));
+  const fs::path keys = make_keys(folder / "keys", "ab"), pictures = folder / "pictures";
+  auto server = start("septet-server", server_arguments(folder, "first"), folder / "first.err");
+  ready_port(server, folder / "first.err");
+  auto a = start_screen("a", port, keys, pictures);
+  Observer observer("b", port, *net::load_identity(keys / "b.key"), keys);
+  REQUIRE(observer.watch([&] { return observer.newest_tick() > 240 && newest_picture(pictures / "a") > 120; }, 60s));
+  server.send_signal(SIGKILL);
+  CHECK(exit_code(server, 5s) == -1);
+  observer.watch([] { return false; }, 200ms);
+  const Tick reached = observer.newest_tick();
+  {
+    const auto session = logging::SessionReader::open(folder / "first" / "session.sqlite");
+    REQUIRE(session.has_value());
+    CHECK(session->check_integrity().has_value());
+    CHECK_FALSE(session->ended_cleanly());
+    const auto span = session->time_span_s();
+    REQUIRE((span && *span));
+    const double lost_s = static_cast<double>(reached) / 120.0 - (*span)->second;
+    MESSAGE("the killed server's log lacks the last " << lost_s << " s");
+    CHECK(lost_s <= 0.1 + 0.5 / 120.0);
+  }
+  const fs::path held = pictures / "a" / "server-lost.png";
+  CHECK(becomes_true([&] { return fs::exists(held) && image::read_png(held).has_value(); }, 30s));
+
+  const long before = newest_picture(pictures / "a");
+  for (const auto& entry : fs::directory_iterator(pictures / "a"))
+    if (entry.path() != held) fs::remove(entry.path());
+  auto next = start("septet-server", server_arguments(folder, "second"), folder / "second.err");
+  ready_port(next, folder / "second.err");
+  const auto ready = Clock::now();
+  CHECK(becomes_true([&] { return text_of(folder / "second.err").find("screen a shows tick") != std::string::npos; }, 30s));
+  MESSAGE("the screen showed the new server's drive " << seconds_since(ready) << " s after it was ready; it had shown tick " << before);
+  CHECK(becomes_true([&] { return newest_picture(pictures / "a") > 0; }, 20s));
+  CHECK(observer.watch([&] { return observer.link().state() == net::ClientState::connected && observer.newest_tick() > 0; }, 20s));
+  CHECK_FALSE(a.poll().has_value());
+}
+
+TEST_CASE("a client that is not on the allow-list gets nothing") {
+  const TemporaryFolder folder;
+  write_text(folder / "small.toml", small_rig(2, "transport = \"unicast\""));
+  const fs::path keys = make_keys(folder / "keys", "a");
+  auto arguments = server_arguments(folder, "out");
+  arguments.push_back("--any-port");
+  auto server = start("septet-server", arguments, folder / "server.err");
+  const std::string port = ready_port(server, folder / "server.err");
+  Observer stranger("b", port, net::Identity::generate(), keys), friendly("a", port, *net::load_identity(keys / "a.key"), keys);
+  CHECK(friendly.watch([&] { return friendly.newest_tick() > 0 && friendly.link().scene_arrived(); }, 30s));
+  CHECK_FALSE(stranger.watch([&] {
+    return stranger.link().state() == net::ClientState::connected || stranger.link().welcome() || stranger.newest_tick() > 0 ||
+           stranger.link().scene_arrived();
+  }, 3s));
+  CHECK(text_of(folder / "server.err").find("refused a client") != std::string::npos);
+}
+
+}  // namespace septet::pipeline
