@@ -1,0 +1,51 @@
+#include "engine/effects/debris/mounted_part.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace septet::debris {
+namespace {
+
+constexpr double gravity_mps2 = 9.81;
+constexpr double door_strength_n = 11e3;        // UN R11 5.2, FMVSS 206 S4: 11 kN along the car.
+constexpr double clips_hold_g = 30.0;           // Derived, see the header.
+constexpr double windscreen_strength_n = 40e3;  // 4 m of bead, 10 mm wide, at 1 MPa of shear.
+
+double clip_strength_n(Part part) {
+  return clips_hold_g * gravity_mps2 * part_recipe(part).mass_kg;
+}
+
+}  // namespace
+
+std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m) {
+  std::vector<MountedPart> parts;
+  const auto& h = half_size_m;
+  const Quat straight(1, 0, 0, 0), backwards = glm::angleAxis(std::numbers::pi, Vec3(0, 0, 1));
+  const auto half = [](Part part) {
+    const auto& size = part_recipe(part).size_m;
+    return Vec3(0.5 * size.x(), 0.5 * size.y(), 0.5 * size.z());
+  };
+  const Vec3 bumper = half(Part::bumper), lamp = half(Part::lamp), door = half(Part::door);
+  for (const double end : {1.0, -1.0}) {
+    const Quat turn = end > 0 ? straight : backwards;
+    parts.push_back({Part::bumper, {{end * (h.x - bumper.x), 0, -0.35 * h.z}, turn},
+                     clip_strength_n(Part::bumper)});
+    for (const double side : {1.0, -1.0})
+      parts.push_back({Part::lamp,
+                       {{end * (h.x - lamp.x), side * (h.y - lamp.y), 0.05 * h.z}, turn},
+                       clip_strength_n(Part::lamp)});
+  }
+  const bool four_doors = h.x > 2.0;
+  for (int row = 0; row < (four_doors ? 2 : 1); ++row)
+    for (const double side : {1.0, -1.0})
+      parts.push_back({Part::door,
+                       {{0.15 * h.x - row * (2.0 * door.x + 0.02), side * (h.y - door.y),
+                         -0.15 * h.z}, straight},
+                       door_strength_n});
+  parts.push_back({Part::windscreen,
+                   {{0.35 * h.x, 0, 0.5 * h.z}, glm::angleAxis(-0.6, Vec3(0, 1, 0))},
+                   windscreen_strength_n});
+  return parts;
+}
+
+}  // namespace septet::debris

@@ -1,0 +1,26 @@
+#pragma once
+/// Parts in their mounts: what a vehicle or a barrier carries that a crash can tear off.
+
+#include <vector>
+
+#include "engine/effects/debris/breakable_part.hpp"
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::debris {
+
+struct MountedPart {
+  Part part = Part::bumper;
+  /// Place in the body's box: origin at the box's centre, x forward, y left, z up.
+  RigidTransform box_from_part;
+  double mount_strength_n = 0.0;  ///< Force of inertia at which the mounts give way.
+};
+
+/// Bumpers, head and tail lamps, four doors (two where the car is short) and the windscreen of a
+/// passenger car whose box has these half sizes.
+///
+/// Strength of the mounts: doors by UN Regulation 11 and FMVSS 206 (latch and hinges hold 11 kN
+/// along the car); the bonded windscreen by its bead; bumper skins and lamps hold by clips and
+/// screws, which are derived from a fall of the part's weight at 30 g.
+std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m);
+
+}  // namespace septet::debris
