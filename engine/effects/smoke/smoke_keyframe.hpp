@@ -1,0 +1,85 @@
+#pragma once
+/// Smoke on the wire and between keyframes. The format is written down in SMOKE.md.
+///
+/// Slots go in chunks of `chunk_slots`; a chunk is one EffectKeyframe, renewed every `keyframe_ticks` ticks, each chunk on
+/// a tick of its own, so that the load is even. A keyframe tells where each particle was when the chunk's last keyframe
+/// was taken and where it is now; a screen draws the way between them during the time until the next. What is shown is
+/// therefore one renewal late, without a jump, and needs no other keyframe.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/effects/smoke/smoke_state.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::smoke {
+
+inline constexpr std::uint16_t keyframe_kind = 1, soot_kind = 3;
+/// Effect ids: a base plus the number of the chunk; soot has an id of its own.
+inline constexpr std::uint32_t first_effect_id = 0x01000000, soot_effect_id = 0x01ffffff;
+inline constexpr std::size_t chunk_slots = 512;
+inline constexpr std::uint64_t keyframe_ticks = 30;
+/// Coordinates on the wire are multiples of a cell over this; the error of one is at most half of it.
+inline constexpr int steps_per_cell = 8;
+
+/// What the encoder keeps between ticks: it belongs to the server's state, and follows wholly from the smoke's history.
+struct KeyframeTrack {
+  struct Chunk {
+    double time_s = 0.0;
+    std::vector<std::array<std::int32_t, 3>> place;  ///< Of each slot, quantised.
+    std::vector<std::uint8_t> alive;
+    Bytes data;
+  };
+  std::vector<Chunk> chunks;
+  Bytes soot;
+};
+
+/// Call once a tick, after advance_smoke: all smoke of this instant, ascending id, ready for a snapshot.
+std::vector<EffectKeyframe> advance_keyframes(KeyframeTrack& track, const State& state);
+
+/// One chunk as a screen has it.
+struct Keyframe {
+  struct Look {
+    std::array<float, 3> albedo{};
+    float extinction_area_m2 = 0.0f;
+    float glow = 0.0f;
+  };
+  struct Particle {
+    std::uint16_t slot = 0;   ///< Within the chunk.
+    std::uint8_t look = 0;
+    std::uint8_t age = 0;     ///< Share of its lifetime in 1/15; 15 is its end.
+    glm::vec3 from{0.0f}, to{0.0f};  ///< Grid coordinates, cells.
+  };
+  RigidTransform world_from_grid;
+  double cell_m = 0.5;
+  double time_s = 0.0;      ///< When `to` was taken and `from` is shown.
+  double duration_s = 0.0;  ///< After which `to` is shown.
+  std::uint32_t chunk = 0;
+  std::vector<Look> looks;
+  std::vector<Particle> particles;
+};
+
+/// Refuses anything that the encoder would not write; safe on hostile bytes.
+Expected<Keyframe> decode(std::span<const std::byte> bytes);
+
+/// One puff to draw: a ball of smoke whose density falls off as a Gaussian.
+struct Puff {
+  Vec3 position_m{0.0};
+  float radius_m = 0.5f;            ///< Standard deviation of the density.
+  float extinction_area_m2 = 0.0f;  ///< Optical depth through its middle is this over 2π radius².
+  glm::vec3 albedo{0.25f};
+  float glow = 0.0f;                ///< Of the flame, 1 at birth.
+  std::uint32_t seed = 0;           ///< Stays with the particle: which way its texture is turned.
+};
+
+/// Appends the puffs of a keyframe as they stand at a simulated time (clamped to the keyframe's span).
+void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs);
+
+/// All smoke of a snapshot at a time. Keyframes that cannot be read are left out and counted in `refused`.
+std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s,
+                           std::uint32_t* refused = nullptr);
+
+}  // namespace septet::smoke

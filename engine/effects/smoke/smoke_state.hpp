@@ -1,0 +1,98 @@
+#pragma once
+/// Smoke as particles that read the density of the cells around them.
+///
+/// Source: Gustavsson, Engström and Gustavsson, "A multi-sampling approach for smoke behavior in real-time graphics"
+/// (SIGRAD 2006): a particle is drawn to thin cells and pushed from dense ones, 46 samples in three shells around it, with
+/// a bias to what lies above while it is hot. SMOKE.md says what was added and why.
+///
+/// `advance_smoke` is the tick. State is plain data; the same state, air, obstacles and step give the same smoke, on every
+/// machine. One thread.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/hash.hpp"
+#include "engine/effects/smoke/smoke_grid.hpp"
+
+namespace septet::smoke {
+
+inline constexpr std::size_t max_emitters = 16;
+inline constexpr std::size_t max_particles = 1'000'000;
+
+struct Parameters {
+  double steepness = 1.0;        ///< k of the logistic function of the density.
+  double crowd = 5.0;            ///< Particles in a cell from which it repels.
+  double speed_cells_per_s = 20.0;  ///< Of a particle whose mean sample vector (figure 1) is one cell long.
+  double jitter_cells = 0.6;     ///< Largest random step a tick, reached in a full cell; 0 switches it off.
+  double soot_per_s = 0.004;     ///< Share of a full cell's soot that a second leaves on a wall beside it.
+};
+
+/// What gives off smoke. The scenario moves it and sets its rate; 0 stops it.
+struct Emitter {
+  Vec3 position_m{0.0};          ///< World frame.
+  double radius_m = 0.5;         ///< Particles are born anywhere within.
+  double rate_per_s = 0.0;
+  double heat = 0.5;             ///< Excess of the bias of the samples above a newborn particle; 0 is cold.
+  double cooling_s = 10.0;       ///< Heat falls to nothing within.
+  double lifetime_s = 60.0;      ///< After which a particle has thinned out; 0: it stays for ever.
+  std::array<float, 3> albedo{0.25f, 0.24f, 0.23f};  ///< Linear Rec. 709: of the light it scatters.
+  double extinction_area_m2 = 0.25;  ///< Cross-section of one particle: density per m³ times this is extinction per m.
+  double glow = 0.0;             ///< 0 to 1: how much a newborn particle shines like the flame that it left.
+  double owed = 0.0;             ///< Part of a particle not yet born.
+};
+
+/// A vehicle or another box that smoke goes around.
+struct Obstacle {
+  RigidTransform world_from_box;  ///< Origin at the centre.
+  Vec3 half_size_m{1.0};
+};
+
+/// Particles by slot; a slot keeps its particle until that dies, so that a screen can follow it. Grid coordinates.
+struct Particles {
+  std::vector<float> x, y, z;
+  std::vector<float> age_s;            ///< Negative: the slot is free.
+  std::vector<std::uint8_t> emitter;   ///< Index of the emitter it came from.
+  std::vector<std::uint32_t> free_slots;  ///< The last one is used first.
+
+  std::size_t slots() const { return x.size(); }
+  std::size_t alive() const { return x.size() - free_slots.size(); }
+  bool is_alive(std::size_t slot) const { return age_s[slot] >= 0.0f; }
+};
+
+struct State {
+  Grid grid;
+  Parameters parameters;
+  std::vector<Emitter> emitters;  ///< At most max_emitters; an index stays an emitter's for good.
+  Particles particles;
+  std::size_t capacity = 20'000;  ///< Births stop there.
+  std::uint64_t seed = 1;
+  std::uint64_t tick = 0;
+  double time_s = 0.0;
+  // Of the last step, and wholly determined by the above.
+  std::vector<std::uint16_t> density;      ///< Particles in each cell.
+  std::vector<float> extinction_area_m2;   ///< Their cross-sections in each cell.
+  std::vector<std::uint8_t> full;          ///< Walls and vehicles: 1 where nothing can be.
+  std::vector<float> soot;                 ///< Left on the walls around each free cell, 0 to 1.
+};
+
+/// Smoke without a particle in it.
+State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t seed,
+                 std::size_t capacity = 20'000, const Parameters& parameters = {});
+
+struct StepReport {
+  int born = 0, died = 0, left = 0;  ///< Left: through an open face.
+  int pushed = 0;                    ///< Out of cells that became full.
+};
+
+/// One tick. `wind_mps` is the draught (world frame); obstacles may move between ticks.
+StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles,
+                         double step_s);
+
+/// Puts a particle into the nearest cell that is not full. False: at capacity, or nothing free within reach.
+bool add_particle(State& state, const Vec3& grid_position, std::uint8_t emitter, float age_s = 0.0f);
+
+void add_to_hash(const State& state, StateHash& hash);
+
+}  // namespace septet::smoke
