@@ -11,7 +11,8 @@ using namespace control;
 
 namespace {
 
-constexpr std::size_t scene_bytes_per_pump = 256 * 1024;  // About a millisecond's work.
+constexpr std::size_t scene_bytes_per_pump = 1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
+constexpr double deaf_after_s = 0.5, hung_after_s = 0.25;
 
 std::uint64_t instance_of(const net::SessionId& session) {
   std::uint64_t number = 0;
@@ -52,11 +53,38 @@ void ScreenHost::pump(double now_s) {
       case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
     }
   }
-  for (const net::ClientId client : lane_.clients())
-    scene_.pump(client, scene_bytes_per_pump, [&](std::span<const std::byte> message) {
+  const std::vector<net::ClientId> clients = lane_.clients();
+  for (const net::ClientId client : clients)
+    scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
       const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
       return sent == net::SendResult::queued || sent == net::SendResult::overwrote;
     });
+  if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
+}
+
+/// A screen that speaks on its lane but answers no tick does not hear the group: a switch that has dropped it, a firewall.
+void ScreenHost::send_unicast_to_the_deaf(double now_s) {
+  for (HostedScreen& screen : screens_) {
+    if (!screen.client || !screen.unanswered_since_s || unicast_.contains(*screen.client)) continue;
+    const auto* info = lane_.info(*screen.client);
+    if (!info) continue;
+    // One that is silent altogether hangs or has gone; its time counts from when it is heard again.
+    if (now_s - info->heard_s > hung_after_s) screen.unanswered_since_s = now_s;
+    if (now_s - *screen.unanswered_since_s < deaf_after_s) continue;
+    add_unicast(*screen.client, screen.tick_port);
+    // So far its silence told against it; from here on it can acknowledge.
+    baselines_.leave(*screen.client);
+    baselines_.join(*screen.client, now_s);
+    messages_.push_back(fmt::format("screen {} answers no tick of the group: it gets its own", screen.name));
+  }
+}
+
+void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
+  const auto* info = lane_.info(client);
+  if (!info) return;
+  const net::Address destination{info->address.ip, port};
+  unicast_[client] = destination;
+  publisher_.add_destination(destination);
 }
 
 void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
@@ -80,6 +108,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
   HostedScreen* screen = screen_of(client);
   if (!screen) return;
   if (const auto* arrived = std::get_if<TickArrived>(&message)) {
+    screen->unanswered_since_s.reset();
     if (arrived->lost_baseline) return baselines_.join(client, now_s);
     baselines_.acknowledge(client, arrived->tick, now_s);
     planner_.observe(arrived->lateness_s, now_s);
@@ -115,12 +144,9 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   ++screen->joined;
   screen->joined_s = now_s;
   baselines_.join(client, now_s);
-  if (options_.welcome.group_ip == 0)
-    if (const auto* info = lane_.info(client)) {
-      const net::Address destination{info->address.ip, hello.tick_port};
-      unicast_[client] = destination;
-      publisher_.add_destination(destination);
-    }
+  screen->tick_port = hello.tick_port;
+  screen->unanswered_since_s.reset();
+  if (options_.welcome.group_ip == 0) add_unicast(client, hello.tick_port);
   messages_.push_back(fmt::format("screen {} connected", hello.screen));
   send(client, options_.welcome);
 }
@@ -152,6 +178,8 @@ void ScreenHost::publish(std::shared_ptr<const WireSnapshot> snapshot, double no
   encode_snapshot(*snapshot, baseline, payload);
   last_tick_bytes_ = payload.size();
   publisher_.publish(snapshot->rest.tick, payload);
+  for (HostedScreen& screen : screens_)
+    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
   sent_.push_back(std::move(snapshot));
   if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
 }

@@ -37,6 +37,7 @@ struct ScreenHostOptions {
 struct HostedScreen {
   std::string name;
   std::optional<net::ClientId> client;
+  std::uint16_t tick_port = 0;  ///< Where it hears ticks by unicast.
   bool scene_arrived = false;
   Tick presented = 0;
   bool has_presented = false;
@@ -44,6 +45,7 @@ struct HostedScreen {
   std::uint32_t joined = 0;  ///< How often it has connected.
   double joined_s = 0.0;     ///< When it last did.
   std::optional<control::ScreenReport> report;
+  std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
 
   bool live() const { return client.has_value(); }
 };
@@ -88,7 +90,9 @@ class ScreenHost {
   void on_message(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
+  void add_unicast(net::ClientId client, std::uint16_t port);
   void on_disconnected(net::ClientId client, const std::string& reason);
+  void send_unicast_to_the_deaf(double now_s);
   HostedScreen* screen_of(net::ClientId client);
   void send(net::ClientId client, const control::ControlMessage& message);
 

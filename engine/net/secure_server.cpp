@@ -320,6 +320,7 @@ const ClientInfo* SecureServer::info(ClientId client) const {
   state_->asked = {.key = connection.client.key,
                    .name = connection.client.name,
                    .address = connection.channel.peer(),
+                   .heard_s = connection.channel.heard_s(),
                    .round_trip_s = connection.channel.round_trip_s(),
                    .queued_bytes = connection.channel.queued_bytes(),
                    .counters = connection.channel.counters()};

@@ -49,6 +49,7 @@ struct ClientInfo {
   PublicKey key{};
   std::string name;
   Address address;
+  double heard_s = 0.0;  ///< When its last datagram came.
   double round_trip_s = 0.0;
   std::size_t queued_bytes = 0;
   ChannelCounters counters;

@@ -17,7 +17,7 @@ ScreenLink::ScreenLink(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
 void ScreenLink::pump(double now_s) {
   for (net::ClientEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
-      case net::ClientEvent::Kind::connected: on_connected(now_s); break;
+      case net::ClientEvent::Kind::connected: on_connected(); break;
       case net::ClientEvent::Kind::lost:
         scene_.disconnected();
         scene_arrived_ = false;
@@ -35,7 +35,7 @@ void ScreenLink::pump(double now_s) {
   receive_ticks(now_s);
 }
 
-void ScreenLink::on_connected(double) {
+void ScreenLink::on_connected() {
   ticks_.follow(lane_.session());
   history_.clear();
   scene_.connected();

@@ -64,7 +64,7 @@ class ScreenLink {
   std::uint64_t refused_ticks() const { return refused_ticks_; }
 
  private:
-  void on_connected(double now_s);
+  void on_connected();
   void on_control(std::span<const std::byte> bytes);
   void receive_ticks(double now_s);
   void pump_scene();

@@ -4,9 +4,10 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/net/udp_socket.hpp"
-#include "engine/replication/scene_lane.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "sim-client/screen/screen_link.hpp"
+#include "sim-server/screen_host.hpp"
 #include "tests/engine/replication/sample_world.hpp"
 
 namespace septet::replication {
@@ -82,34 +83,25 @@ BENCHMARK(resolve_one_moved_object)
 /// From the first datagram to a complete mirror, over UDP on this machine, both ends on one thread.
 void late_join_over_loopback(benchmark::State& state) {
   sample_world();
-  const auto identity_of = [](std::uint8_t number) {
-    std::array<std::uint8_t, 32> seed{};
-    seed[0] = number;
-    return net::Identity::from_seed(seed);
-  };
+  const net::Identity server = net::Identity::generate(), client = net::Identity::generate();
   std::uint64_t bytes = 0;
-  double now_s = 0.0;
   for (auto _ : state) {
-    auto server_socket = net::UdpSocket::open({.bind = {net::loopback_ip, 0}});
-    auto screen_socket = net::UdpSocket::open({.bind = {net::loopback_ip, 0}});
-    if (!server_socket || !screen_socket) return state.SkipWithError("no sockets");
-    net::SecureServer server_lane(
-        *server_socket, {identity_of(1), {}, {{identity_of(2).public_key(), "screen"}}, {}});
-    net::SecureClient screen_lane(
-        *screen_socket,
-        {server_socket->local_address(), identity_of(1).public_key(), identity_of(2), {}});
-    ReplicationServer server(sample_world(), 1);
-    ReplicationClient screen;
+    const net::UdpOptions any_port{.bind = {net::loopback_ip, 0}};
+    auto server_lane = net::UdpSocket::open(any_port), server_tick = net::UdpSocket::open(any_port);
+    auto screen_lane = net::UdpSocket::open(any_port), screen_tick = net::UdpSocket::open(any_port);
+    if (!server_lane || !server_tick || !screen_lane || !screen_tick) return state.SkipWithError("no sockets");
+    server::ScreenHost host(*server_lane, *server_tick, sample_world(),
+                            {.identity = server, .allowed = {{client.public_key(), "screen"}}, .screens = {"screen"}});
+    screen::ScreenLink link(*screen_lane, *screen_tick, {},
+                            {"screen", screen_tick->local_address().port, {server_lane->local_address(), server.public_key(), client, {}}});
     const auto start = std::chrono::steady_clock::now();
-    while (!screen.complete()) {
-      now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      for (const auto& event : server_lane.pump(now_s)) take_event(event, server_lane, server);
-      pump_clients(server_lane, server, 256 * 1024);
-      for (const auto& event : screen_lane.pump(now_s)) (void)take_event(event, screen);
-      pump_client(screen_lane, screen);
+    while (!link.scene_arrived()) {
+      const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      host.pump(now_s);
+      link.pump(now_s);
       if (now_s > 20.0) return state.SkipWithError("not complete after 20 s");
     }
-    bytes = server_lane.counters().bytes_sent;
+    bytes = host.lane_counters().bytes_sent;
   }
   state.counters["bytes"] = static_cast<double>(bytes);
 }

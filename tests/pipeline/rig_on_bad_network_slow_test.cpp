@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "tests/engine/replication/sample_world.hpp"
 #include "tests/pipeline/simulated_rig.hpp"
 
 namespace septet {
@@ -97,6 +98,38 @@ TEST_CASE("a hung screen costs the others nothing") {
   rig.screen(2).hung = false;
   rig.run_for(1.0);
   CHECK(present(rig, 1.0).held == 0);
+}
+
+TEST_CASE("screens that do not hear the group get their ticks by unicast and show what the others show") {
+  SimulatedRig rig({.screens = 4, .deaf = {1, 2}});
+  rig.run_for(1.0);
+  const Presented seen = present(rig, 3.0);
+  CHECK(seen.frames >= 4 * 179);
+  CHECK(seen.skewed == 0);
+  CHECK(seen.held == 0);
+  CHECK(seen.wrong == 0);
+}
+
+TEST_CASE("a screen that joins late has a whole motorway within one simulated second") {
+  for (const double loss : {0.0, 0.01}) {
+    SimulatedRig rig({.screens = 2, .faults = {.loss = loss, .latency_s = 0.0003}, .vehicles = 20,
+                      .world = replication::build_sample_world});
+    rig.stop_screen(1);
+    rig.run_for(3.0);
+    REQUIRE(rig.screen(0).link->scene_arrived());
+    const auto before = rig.network().sent_by(rig.lane_address());
+    rig.start_screen(1);
+    double joined_s = 0.0;
+    while (joined_s < 3.0 && !rig.screen(1).link->scene_arrived()) {
+      rig.advance_1ms();
+      joined_s += 0.001;
+    }
+    const auto after = rig.network().sent_by(rig.lane_address());
+    MESSAGE("loss " << loss << ": complete after " << joined_s << " s and " << after.bytes - before.bytes << " bytes");
+    CHECK(joined_s < 1.0);
+    CHECK(after.bytes - before.bytes < 10'000'000);
+    CHECK(rig.screen(1).link->scene().nodes().size() == rig.store().nodes().size());
+  }
 }
 
 TEST_CASE("screens hold their last tick while the server is gone and return by themselves") {

@@ -2,7 +2,9 @@
 /// A server and its screens in one process, on a bad network and simulated clocks: both lanes for real, no GPU.
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct SimulatedRigOptions {
   bool multicast = true;
   std::uint64_t seed = 1;
   std::size_t vehicles = 200;
+  std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
+  std::set<std::size_t> deaf{};  ///< Screens that the group's datagrams do not reach.
 };
 
 inline constexpr double rig_tick_s = 1.0 / 120.0;
@@ -54,7 +58,10 @@ class SimulatedRig {
 
   explicit SimulatedRig(const SimulatedRigOptions& options) : options_(options), network_(options.faults, options.seed) {
     scene::SceneBuilder builder(store_);
-    for (int i = 0; i < 40; ++i) builder.add_object("post " + std::to_string(i), {});
+    if (options.world)
+      options.world(builder);
+    else
+      for (int i = 0; i < 40; ++i) builder.add_object("post " + std::to_string(i), {});
     for (std::size_t i = 0; i < options.screens; ++i)
       screens_.push_back({"screen-" + std::to_string(i), net::Identity::generate(), nullptr, nullptr, nullptr});
     start_server();
@@ -90,8 +97,10 @@ class SimulatedRig {
     const auto port = static_cast<std::uint16_t>(20000 + 10 * starts_++);
     screen.lane_socket = network_.open({ip, port});
     screen.tick_socket = network_.open({ip, static_cast<std::uint16_t>(port + 1)});
-    auto open_group = [this, ip, port](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
-      return network_.open_group(group, {ip, static_cast<std::uint16_t>(port + 2)});
+    const bool deaf = options_.deaf.contains(i);
+    auto open_group = [this, ip, port, deaf](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
+      const net::Address heard = deaf ? net::Address{group.ip + 1, group.port} : group;
+      return network_.open_group(heard, {ip, static_cast<std::uint16_t>(port + 2)});
     };
     screen::ScreenLinkOptions options{screen.name, static_cast<std::uint16_t>(port + 1), {server_address_, server_identity_.public_key(), screen.identity, {}}};
     screen.link = std::make_unique<screen::ScreenLink>(*screen.lane_socket, *screen.tick_socket, open_group, std::move(options));
@@ -145,6 +154,7 @@ class SimulatedRig {
   net::BadNetwork& network() { return network_; }
   const scene::Store& store() const { return store_; }
   scene::Store& store() { return store_; }
+  net::Address lane_address() const { return server_address_; }
   net::Address tick_address() const { return {server_address_.ip, 4999}; }
   net::Address group() const { return group_; }
   Tick next_tick() const { return next_tick_; }
