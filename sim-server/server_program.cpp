@@ -11,6 +11,7 @@
 #include "engine/net/multicast_probe.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "engine/scenery/debris_looks.hpp"
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
 #include "sim-server/drive_loader.hpp"
@@ -169,6 +170,7 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   if (!options.no_screens) {
     scene::SceneBuilder builder(drive.store);
     scenery::build_vehicles(builder);
+    scenery::build_debris_looks(builder);
     scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
   }
   auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);

@@ -36,6 +36,7 @@ vehicle::Ground ground_below(const SimulationModel& model, SimulationState& stat
     if (surface) {
       state.wheel_roads[i] = surface->position;
       wheel.point_m = {centres[i].x, centres[i].y, surface->height_m};
+      wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
       wheel.normal = surface->normal;
     } else {
       // Far off every road the ground goes on level at the height of the wheel's last contact.
@@ -148,6 +149,7 @@ void notice_collisions(Snapshot& snapshot, SimulationState& state, std::vector<S
     touching.push_back(other.id);
     if (std::ranges::binary_search(state.touching, other.id)) continue;
     ++state.diagnostics.collisions;
+    state.effects.crashes.struck_by_driver.push_back(other.id);
     events.push_back({"collision", other.id, fmt::format("closing_speed_mps={:.2f}", glm::length(car->velocity_mps - other.velocity_mps))});
   }
   state.touching = std::move(touching);
@@ -176,6 +178,13 @@ void apply_swarms(const SimulationModel& model, const scenario::StepResult& step
   if (!step.stopped_traffic.empty()) state.traffic = {};
 }
 
+/// Spills what the storyboard asked for.
+void apply_effects(const SimulationModel& model, const scenario::StepResult& step, SimulationState& state) {
+  for (const scenario::EffectAction& action : step.effects)
+    if (action.kind == scenario::EffectAction::Kind::spill)
+      spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], state.effects);
+}
+
 void advance_storyboard(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
   const auto car = vehicle::outputs(model.car, state.car);
   scenario::place_external(model.roads, model.driver_entity, car.world_from_vehicle, car.velocity_mps, car.acceleration_mps2, state.scenario);
@@ -183,6 +192,37 @@ void advance_storyboard(const SimulationModel& model, SimulationState& state, st
   for (const auto& event : step.events)
     events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
   apply_swarms(model, step, state);
+  apply_effects(model, step, state);
+}
+
+/// Everybody who takes part, ascending id.
+std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state) {
+  std::vector<Participant> participants{car_participant(model, state)};
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+  traffic::append_participants(state.traffic, model.roads, participants);
+  std::ranges::sort(participants, {}, &Participant::id);
+  return participants;
+}
+
+void run_effects(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
+  if (state.tick % effects_step_ticks != 0) return;
+  if (effects_are_still(model.roads, state.car.world_from_body.position_m, state.effects)) return;
+  const Environment& weather = state.scenario.environment;
+  const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
+  const auto participants = participants_now(model, state);
+  const EffectsReport report = advance_effects(
+      {model.roads, participants, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
+  state.car.velocity_mps += report.impulse_on_driver_ns / model.car.body.mass_kg;
+  if (report.crashes.barrier_closing_mps > 0.0) {
+    ++state.diagnostics.collisions;
+    events.push_back({"collision", std::nullopt, fmt::format("barrier closing_speed_mps={:.2f}", report.crashes.barrier_closing_mps)});
+  }
+  if (report.crashes.pieces > 0) events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
+  if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
+  if (report.bad_numbers > 0) {
+    state.diagnostics.bad_numbers += static_cast<std::uint32_t>(report.bad_numbers);
+    events.push_back({"bad_number", std::nullopt, "debris was reset"});
+  }
 }
 
 }  // namespace
@@ -200,6 +240,8 @@ Expected<SimulationState> initial_state(const SimulationModel& model) {
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
   state.traffic_random = Random(model.seed, 1);
   apply_swarms(model, init, state);
+  state.effects = initial_effects(model.scenario, state.scenario, model.seed);
+  apply_effects(model, init, state);
   return state;
 }
 
@@ -210,6 +252,7 @@ Snapshot server_step(const SimulationModel& model, const DriverInput& input, Sim
   advance_car(model, input, state, events);
   advance_storyboard(model, state, events);
   traffic::advance(state.traffic_parameters, model.roads, foreign_vehicles(model, state), tick_s, state.traffic_random, state.traffic);
+  run_effects(model, state, events);
   Snapshot snapshot = capture_snapshot(model, state);
   notice_collisions(snapshot, state, events);
   return snapshot;
@@ -222,10 +265,8 @@ Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& s
   snapshot.state_hash = hash_state(state);
   snapshot.environment = state.scenario.environment;
   snapshot.driver_car = driver_car(model, state);
-  snapshot.participants.push_back(car_participant(model, state));
-  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, snapshot.participants);
-  traffic::append_participants(state.traffic, model.roads, snapshot.participants);
-  std::ranges::sort(snapshot.participants, {}, &Participant::id);
+  snapshot.participants = participants_now(model, state);
+  snapshot.effects = state.effects.published.keyframes;
   snapshot.diagnostics = state.diagnostics;
   return snapshot;
 }
@@ -237,6 +278,7 @@ std::uint64_t hash_state(const SimulationState& state) {
   scenario::add_to_hash(state.scenario, hash);
   traffic::hash_state(hash, state.traffic);
   for (const auto word : state.traffic_random.state()) hash.add(word);
+  hash.add(state.effects.hash);
   hash.add(state.diagnostics.collisions);
   hash.add(state.diagnostics.bad_numbers);
   return hash.value();

@@ -2,7 +2,7 @@
 /// The simulation: all models and all state of one drive, and one step of it.
 ///
 /// `SimulationModel` is const after loading; `SimulationState` is everything that changes. `server_step` reads like the
-/// diagram of the design: driver input → vehicle → storyboard → traffic → snapshot. No file, socket or clock in here: the
+/// diagram of the design: driver input → vehicle → storyboard → traffic → effects → snapshot. No file, socket or clock in here: the
 /// same model, seed and inputs give the same state hash at every tick.
 
 #include <array>
@@ -19,6 +19,7 @@
 #include "engine/traffic/traffic.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/snapshot.hpp"
+#include "sim-server/effects_stage.hpp"
 
 namespace septet::server {
 
@@ -44,6 +45,7 @@ struct SimulationState {
   traffic::TrafficParameters traffic_parameters;  ///< As the storyboard asked for it.
   traffic::TrafficState traffic;
   Random traffic_random{0};
+  EffectsState effects;
   DriverInput input;  ///< Of the last step.
   Diagnostics diagnostics;
   std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.

@@ -14,6 +14,7 @@
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/render/off_axis_view.hpp"
+#include "engine/scene/resolved_scene.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::render {
@@ -49,6 +50,15 @@ struct DrawnParticipant {
   Shown shown = Shown::whole;
 };
 
+/// Triangles of this instant alone, such as debris between two keyframes. They cast shadows and are culled as a whole.
+struct DynamicMesh {
+  std::uint32_t prototype = 0;  ///< Its first part's material is what they are made of; one that is not there is not drawn.
+  Vec3 origin_m{0.0};           ///< World.
+  float radius_m = 0.0f;        ///< Around the origin.
+  glm::vec3 paint{1.0f};        ///< Linear Rec. 709, for materials that take it.
+  std::vector<scene::SurfaceVertex> vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
+};
+
 /// A line of text over the picture.
 struct OverlayText {
   std::string text;  ///< UTF-8.
@@ -64,6 +74,7 @@ struct FrameInput {
   Environment environment;
   std::vector<FrameView> views;
   std::vector<DrawnParticipant> participants;
+  std::vector<DynamicMesh> meshes;
   std::vector<OverlayText> overlay;
 };
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 
@@ -25,13 +26,14 @@ float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const Fr
 }
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
-                          const FrameView& view, const ShadowCascades& shadows, const PlacedParticipants& participants) {
+                          const FrameView& view, const ShadowCascades& shadows, const PlacedParticipants& participants,
+                          const DynamicSurfaces& dynamic) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
   const ViewVolume volume = view_volume(view);
   prepared.draws = prepare_draws(
-      context, scene, participants.meshes, eye_m,
+      context, scene, participants.meshes, dynamic, eye_m,
       [&](const PlacedMesh& mesh, const glm::vec3& centre_m) { return mesh.seen && intersects(volume, centre_m, mesh.radius_m); },
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
   const float exposure = adapted_exposure(scene, light, view);
@@ -47,7 +49,8 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
 
 /// What casts a shadow into a cascade that some view may see.
 SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
-                             const ShadowCascades& shadows, std::size_t index, std::span<const PlacedMesh> participants) {
+                             const ShadowCascades& shadows, std::size_t index, std::span<const PlacedMesh> participants,
+                             const DynamicSurfaces& dynamic) {
   const Cascade& cascade = shadows.cascades[index];
   const float least_radius_m = 1.5f * cascade.texel_m;
   // A shadow falls away from the light, no further than a high thing's at a low sun.
@@ -70,7 +73,7 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   std::uint32_t solid = no_group;
   for (std::uint32_t i = 0; i < scene.materials.size() && solid == no_group; ++i)
     if (!scene.materials[i].cut && !scene.materials[i].blended) solid = i;
-  return prepare_draws(context, scene, participants, shadows.eye_m, casts, [&](std::uint32_t material) {
+  return prepare_draws(context, scene, participants, dynamic, shadows.eye_m, casts, [&](std::uint32_t material) {
     if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
     return scene.materials[material].cut ? material : solid;
   });
@@ -82,12 +85,13 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   PlacedParticipants participants =
       place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
   for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
+  const DynamicSurfaces dynamic = upload_dynamic(context, scene, input.meshes);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
   for (const FrameView& view : input.views)
-    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants));
+    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants, dynamic));
   for (std::size_t i = 0; i < cascade_count; ++i)
-    frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes);
+    frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes, dynamic);
   return frame;
 }
 

@@ -58,7 +58,7 @@ struct EnvironmentAction {
   std::string name;
   std::optional<double> sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux;
   std::optional<double> visibility_m, cloud_cover, rain_mm_per_h, snow_mm_per_h, road_wetness,
-      friction_scale;
+      friction_scale, snow_cover;
   std::optional<double> temperature_k, wind_speed_mps, wind_direction_rad;
 };
 
@@ -76,6 +76,18 @@ struct LightStateAction {
 struct SirenAction {
   EntityIndex entity = no_entity;
   bool on = false;
+};
+
+/// UserDefinedActions for what the standard has no action for. Type "septet:spill", content "ENTITY PART [X Y SLIDE]":
+/// a breakable part (debris/breakable_part.hpp: "ice-slab", "traffic-cone", …) appears on the entity's roof at (X, Y) of its
+/// frame and slides backwards with SLIDE m/s. Type "septet:ignite" or "septet:extinguish", content "ENTITY": it begins or
+/// ceases to burn.
+struct EffectAction {
+  enum class Kind : std::uint8_t { spill, ignite, extinguish };
+  Kind kind = Kind::spill;
+  EntityIndex entity = no_entity;
+  std::string part;
+  double x_m = 0.0, y_m = 0.0, slide_mps = 0.0;
 };
 
 /// TrafficSwarmAction: keep `vehicle_count` vehicles around the central entity, within the ellipse
@@ -106,6 +118,6 @@ struct TrafficStopAction {
 /// It ends at once.
 using ActionVariant = std::variant<std::monostate, SpeedAction, LaneChangeAction, LaneOffsetAction,
                                    TeleportAction, EnvironmentAction, LightStateAction, SirenAction,
-                                   TrafficSwarmAction, TrafficStopAction>;
+                                   EffectAction, TrafficSwarmAction, TrafficStopAction>;
 
 }  // namespace septet::scenario

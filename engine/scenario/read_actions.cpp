@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -164,11 +165,70 @@ ActionVariant read_global_action(Reading& reading, const Element& action) {
   return {};
 }
 
+namespace {
+
+/// An entity's name, which may hold spaces, and the words after it.
+struct Command {
+  EntityIndex entity = no_entity;
+  std::vector<std::string> words;
+};
+Command split_command(const Reading& reading, const std::string& content) {
+  Command command;
+  std::string name = content;
+  while (!name.empty()) {
+    if (const auto found = find_entity(reading.scenario, name)) {
+      command.entity = *found;
+      break;
+    }
+    const auto space = name.rfind(' ');
+    if (space == std::string::npos) break;
+    command.words.insert(command.words.begin(), name.substr(space + 1));
+    name.resize(space);
+  }
+  return command;
+}
+
+ActionVariant read_effect_command(Reading& reading, const Element& element,
+                                  EffectAction::Kind kind) {
+  const Command command = split_command(reading, element.content());
+  EffectAction effect;
+  effect.kind = kind;
+  effect.entity = command.entity;
+  bool good = effect.entity != no_entity;
+  if (kind == EffectAction::Kind::spill) {
+    good = good && (command.words.size() == 1 || command.words.size() == 4);
+    if (good) effect.part = command.words.front();
+    double* numbers[] = {&effect.x_m, &effect.y_m, &effect.slide_mps};
+    for (std::size_t i = 1; good && i < command.words.size(); ++i) {
+      char* end = nullptr;
+      *numbers[i - 1] = std::strtod(command.words[i].c_str(), &end);
+      good = end && *end == 0 && std::abs(*numbers[i - 1]) < 100.0;
+    }
+  } else {
+    good = good && command.words.empty();
+  }
+  if (good) return effect;
+  element.error("it does not say what happens to whom",
+                kind == EffectAction::Kind::spill
+                    ? "write an entity's name, a part, and perhaps x, y (m) and a speed (m/s)"
+                    : "write an entity's name");
+  return {};
+}
+
+}  // namespace
+
 ActionVariant read_user_defined_action(Reading& reading, const Element& action) {
   const Element command = action.child("CustomCommandAction");
   if (!command) return {};
-  if (command.text("type") != "septet:siren") {
-    command.warning("this command is not known and has no effect", "Septet knows septet:siren");
+  const std::string type = command.text("type");
+  if (type == "septet:spill") return read_effect_command(reading, command, EffectAction::Kind::spill);
+  if (type == "septet:ignite")
+    return read_effect_command(reading, command, EffectAction::Kind::ignite);
+  if (type == "septet:extinguish")
+    return read_effect_command(reading, command, EffectAction::Kind::extinguish);
+  if (type != "septet:siren") {
+    command.warning("this command is not known and has no effect",
+                    "Septet knows septet:siren, septet:spill, septet:ignite, septet:extinguish");
     return {};
   }
   const std::string content = command.content();

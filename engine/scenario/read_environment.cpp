@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -70,6 +71,10 @@ EnvironmentAction read_environment(Reading& reading, const Element& element) {
   if (const Element weather = environment.child("Weather")) read_weather(weather, action);
   if (const Element road = environment.child("RoadCondition")) {
     action.friction_scale = road.number("frictionScaleFactor", 0.0);
+    // The standard's precipitation says what falls, and nothing says what lies.
+    for (const Element& property : road.child("Properties").children("Property"))
+      if (property.text("name") == "septet:snowCover")
+        action.snow_cover = std::clamp(property.number("value", 0.0), 0.0, 1.0);
     if (road.has("wetness")) {
       action.road_wetness = road.word<double>("wetness",
                                               {{"dry", 0.0},

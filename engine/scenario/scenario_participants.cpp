@@ -29,7 +29,8 @@ void append_participants(const Scenario& scenario, const ScenarioState& state,
   for (EntityIndex i = 0; i < state.entities.size(); ++i) {
     const EntityState& from = state.entities[i];
     const Entity& entity = scenario.entities[i];
-    if (!from.active || from.external) continue;
+    // Objects are no participants: whoever runs the effects makes of them what can be hit and broken.
+    if (!from.active || from.external || entity.kind == EntityKind::misc_object) continue;
     Participant participant;
     participant.id = first_id + i;
     participant.model = entity.model;

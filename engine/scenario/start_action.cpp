@@ -15,6 +15,7 @@ void change_environment(const EnvironmentAction& action, Environment& environmen
   take(action.cloud_cover, environment.cloud_cover);
   take(action.rain_mm_per_h, environment.rain_mm_per_h);
   take(action.road_wetness, environment.road_wetness);
+  take(action.snow_cover, environment.snow_cover);
   take(action.temperature_k, environment.temperature_k);
   take(action.wind_speed_mps, environment.wind_speed_mps);
   take(action.wind_direction_rad, environment.wind_direction_rad);
@@ -97,6 +98,8 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     result.stopped_traffic.push_back(stop->name);
   } else if (const auto* siren = std::get_if<SirenAction>(&what)) {
     state.entities[siren->entity].lamps.set(Lamp::siren, siren->on);
+  } else if (const auto* effect = std::get_if<EffectAction>(&what)) {
+    result.effects.push_back(*effect);
   }
   for (const EntityIndex actor : actors) {
     const StartPrivate start{scenario, network, action, actor, state, result, started.replaced};

@@ -33,6 +33,7 @@ struct StoryboardEvent {
 struct StepResult {
   std::vector<StoryboardEvent> events;
   std::vector<TrafficSwarmAction> swarms;    ///< To be started.
+  std::vector<EffectAction> effects;         ///< To be spilled, ignited, extinguished.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<EntityIndex> teleported;  ///< Entities that did not get where they are by driving.
 };
@@ -53,7 +54,7 @@ StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& n
                             ScenarioState& state);
 
 /// The scripted entities as participants, entity i with id first_id + i; external and inactive ones
-/// are left out.
+/// and misc objects are left out.
 void append_participants(const Scenario& scenario, const ScenarioState& state,
                          ParticipantId first_id, std::vector<Participant>& participants);
 

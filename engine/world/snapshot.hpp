@@ -72,11 +72,13 @@ struct Environment {
   bool operator==(const Environment&) const = default;
 };
 
-/// Keyframe of one effect (smoke, debris, …): opaque here, decoded by the effect that wrote it.
+/// Keyframe of one effect (smoke, debris, …): opaque here, decoded by the effect that wrote it. It stays in the snapshots,
+/// unchanged, until the effect's next one takes its place, so that what rests costs nothing and who joins late has it.
 struct EffectKeyframe {
   std::uint32_t id = 0;
   std::uint16_t kind = 0;
   Bytes data;
+  Tick tick = 0;  ///< The instant that it shows; effects are simulated a little ahead, so it may lie in the future.
   bool operator==(const EffectKeyframe&) const = default;
 };
 

@@ -9,7 +9,7 @@
 namespace septet {
 namespace {
 
-constexpr std::uint8_t format_version = 1;
+constexpr std::uint8_t format_version = 2;
 enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2 };
 
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
@@ -166,7 +166,8 @@ void read_participants(ByteReader& reader, std::vector<WireParticipant>& partici
                      [](const auto& a, const auto& b) { return a.id < b.id; });
 }
 
-void put_effects(ByteWriter& writer, const std::vector<EffectKeyframe>& before, const std::vector<EffectKeyframe>& now) {
+void put_effects(ByteWriter& writer, const std::vector<EffectKeyframe>& before, const std::vector<EffectKeyframe>& now,
+                 Tick tick) {
   put_ids(writer, removed_ids(before, now));
   std::vector<const EffectKeyframe*> changed;
   for (const auto& effect : now) {
@@ -178,12 +179,13 @@ void put_effects(ByteWriter& writer, const std::vector<EffectKeyframe>& before, 
   for (const auto* effect : changed) {
     ids.put(writer, effect->id);
     writer.put(effect->kind);
+    writer.put_varint(tick + max_effect_lead_ticks - effect->tick);
     writer.put_varint(effect->data.size());
     writer.put_bytes(effect->data);
   }
 }
 
-void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects) {
+void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects, Tick tick) {
   remove_ids(reader, effects, max_wire_effects);
   const std::size_t count = reader.get_count(max_wire_effects);
   IdReader ids;
@@ -191,6 +193,9 @@ void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects) {
     EffectKeyframe effect;
     effect.id = ids.get(reader);
     effect.kind = reader.get<std::uint16_t>();
+    const Tick newest = tick + max_effect_lead_ticks, age = reader.get_varint();
+    if (newest < tick || age > newest) return reader.fail();
+    effect.tick = newest - age;
     const auto data = reader.take(reader.get_count(max_wire_effect_bytes));
     effect.data.assign(data.begin(), data.end());
     const auto place = std::ranges::lower_bound(effects, effect.id, {}, &EffectKeyframe::id);
@@ -238,6 +243,9 @@ WireSnapshot to_wire(const Snapshot& snapshot) {
   wire.rest.state_hash = snapshot.state_hash;
   wire.rest.environment = snapshot.environment;
   wire.rest.driver_car = snapshot.driver_car;
+  for (const EffectKeyframe& effect : snapshot.effects)
+    SEPTET_CHECK(effect.tick <= snapshot.tick + max_effect_lead_ticks, "effect {} of tick {} at tick {}", effect.id, effect.tick,
+                 snapshot.tick);
   wire.rest.effects = snapshot.effects;
   wire.rest.diagnostics = snapshot.diagnostics;
   return wire;
@@ -275,7 +283,7 @@ void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Byt
   writer.put_varint(rest.diagnostics.input_stale_ticks);
 
   put_participants(writer, expected_participants(baseline, rest.simulated_time_s), wire.participants);
-  put_effects(writer, baseline ? baseline->rest.effects : std::vector<EffectKeyframe>{}, rest.effects);
+  put_effects(writer, baseline ? baseline->rest.effects : std::vector<EffectKeyframe>{}, rest.effects, rest.tick);
 }
 
 Expected<SnapshotHeader> read_snapshot_header(std::span<const std::byte> bytes) {
@@ -319,7 +327,7 @@ Expected<WireSnapshot> decode_snapshot(std::span<const std::byte> bytes, const W
   wire.participants = expected_participants(baseline, rest.simulated_time_s);
   read_participants(reader, wire.participants);
   if (baseline) rest.effects = baseline->rest.effects;
-  read_effects(reader, rest.effects);
+  read_effects(reader, rest.effects, rest.tick);
   if (!reader.ok() || !reader.at_end()) return refused(fmt::format("malformed contents of tick {}", header.tick));
   return wire;
 }

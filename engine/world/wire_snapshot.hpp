@@ -24,6 +24,7 @@ namespace septet {
 inline constexpr std::size_t max_wire_participants = 4096;
 inline constexpr std::size_t max_wire_effects = 4096;
 inline constexpr std::size_t max_wire_effect_bytes = 1 << 20;  ///< Of all effects of one snapshot together.
+inline constexpr Tick max_effect_lead_ticks = 64;  ///< How far an effect's keyframe may be ahead of its snapshot.
 
 /// Field order of a participant on the wire; SNAPSHOT.md gives each one's unit.
 enum ParticipantField : std::size_t {

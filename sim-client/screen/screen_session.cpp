@@ -12,6 +12,8 @@
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
 #include "sim-client/screen/client_frame.hpp"
+#include "sim-client/screen/debris_drawing.hpp"
+#include "sim-client/screen/effect_playout.hpp"
 #include "sim-client/screen/frame_times.hpp"
 #include "sim-client/screen/picture_writer.hpp"
 #include "sim-client/screen/playout.hpp"
@@ -59,6 +61,8 @@ class Session {
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
   Expected<void> draw(const Snapshot& snapshot, std::optional<std::string> message);
+  /// The effects that `snapshot`'s instant shows, by the keyframes around it.
+  void take_effects(double simulated_time_s);
   Expected<void> keep_picture(Tick tick);
   void say_goodbye();
   void wait(double seconds);
@@ -79,6 +83,8 @@ class Session {
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
+  DebrisDrawing debris_;
+  std::vector<render::DynamicMesh> meshes_;  ///< Of the last instant shown.
   double lost_drawn_s_ = 0.0;
   float last_frame_ms_ = 0.0f;
 };
@@ -120,10 +126,16 @@ Expected<void> Session::bring_scene_up() {
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
   const double begun_s = monotonic_s();
   auto frame = client_frame(snapshot, views_, resolver_.scene());
+  frame.meshes = meshes_;
   if (message) frame.overlay.push_back(banner(std::move(*message), *screen_));
   if (auto drawn = display_->renderer().draw(frame); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
   return {};
+}
+
+void Session::take_effects(double simulated_time_s) {
+  const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
+  meshes_ = debris_.draw(effects_at(link_.history(), simulated_time_s, tick_s), simulated_time_s / tick_s, resolver_.scene());
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
@@ -140,6 +152,7 @@ Expected<void> Session::draw_lockstep() {
   const Tick tick = newest.snapshot.tick;
   if (drawn_tick_ && *drawn_tick_ >= tick) return {};
   if (auto scene = bring_scene_up(); !scene) return scene;
+  take_effects(newest.snapshot.simulated_time_s);
   if (auto drawn = draw(newest.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = newest.snapshot;
   drawn_tick_ = tick;
@@ -162,6 +175,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   if (auto scene = bring_scene_up(); !scene) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
   const auto shown = show(link_.history(), *playout_time_s(link_.history(), frame_number(*server_s)), tick_s);
+  take_effects(shown.snapshot.simulated_time_s);
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = shown.snapshot;
   ++frames_;

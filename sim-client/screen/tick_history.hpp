@@ -33,6 +33,7 @@ class TickHistory {
   bool empty() const { return ticks_.empty(); }
   const HistoryTick& newest() const { return ticks_.back(); }
   const HistoryTick* find(Tick tick) const;
+  const std::deque<HistoryTick>& ticks() const { return ticks_; }  ///< Ascending.
 
   /// The two ticks around a simulated time: the last one at or before it and the first one after it (either may be null).
   struct Neighbours {

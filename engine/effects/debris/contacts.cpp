@@ -143,7 +143,7 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
       found.contact.normal = to_eigen(gap.normal);
       found.contact.gap_m = gap.gap_m;
       found.contact.surface_velocity_mps = to_eigen(surface_velocity);
-      found.contact.friction = box.friction;
+      found.contact.friction = std::min(box.friction, piece.material.friction);
       found.box = static_cast<int>(b);
       result.push_back(found);
     }

@@ -25,7 +25,9 @@ Place quantised(const Vec3& p) {
   return result;
 }
 
-Keyframe keyframe_of_shards(const std::vector<Shard>& shards) {
+}  // namespace
+
+Keyframe keyframe_of(const std::vector<Shard>& shards) {
   Keyframe keyframe;
   keyframe.part = Part::windscreen;
   keyframe.material = Material::glass;
@@ -43,8 +45,6 @@ Keyframe keyframe_of_shards(const std::vector<Shard>& shards) {
   }
   return keyframe;
 }
-
-}  // namespace
 
 Keyframe keyframe_of(const Piece& piece) {
   Keyframe keyframe;
@@ -150,7 +150,7 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
 std::vector<EffectKeyframe> effect_keyframes(const State& state) {
   std::vector<EffectKeyframe> result;
   if (!state.shards.empty())
-    result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of_shards(state.shards))});
+    result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of(state.shards))});
   for (const Piece& piece : state.pieces)
     result.push_back({first_effect_id + (piece.id & 0xffffff), keyframe_kind,
                       encode(keyframe_of(piece))});

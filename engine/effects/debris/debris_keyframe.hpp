@@ -33,6 +33,8 @@ struct Keyframe {
 
 /// The outer surface of a piece.
 Keyframe keyframe_of(const Piece& piece);
+/// One triangle a shard.
+Keyframe keyframe_of(const std::vector<Shard>& shards);
 
 Bytes encode(const Keyframe& keyframe);
 /// Refuses anything that `encode` would not write; safe on hostile bytes.

@@ -1,5 +1,7 @@
 #include "engine/render/passes/surface_draws.hpp"
 
+#include "engine/render/passes/dynamic_surfaces.hpp"
+
 #include <map>
 
 namespace septet::render {
@@ -18,7 +20,7 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
       list.back().index_count += part.index_count;
       continue;
     }
-    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, part.first_index, part.index_count, batch.first,
+    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, part.first_index, part.index_count, batch.first,
                     batch.count, group});
     open = true;
   }
@@ -27,13 +29,14 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
 }  // namespace
 
 SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
-                           const Vec3& eye_m, const Keep& keep, const GroupOf& group_of) {
+                           const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of) {
   SurfaceDraws draws;
   DrawList instanced;
   append_visible(instanced, scene.placed, eye_m, keep);
   append_visible(instanced, participants, eye_m, keep);
   sort_by_distance(instanced);
   for (const Batch& batch : instanced.batches) add_batch(draws.list, scene.meshes[batch.mesh], batch, group_of);
+  append_dynamic(dynamic, eye_m, keep, group_of, draws.list, instanced.records);
 
   const Gathered gathered = gather(scene.still, eye_m, keep, group_of);
   draws.instances = static_cast<std::uint32_t>(instanced.records.size()) + gathered.pieces;
@@ -42,7 +45,7 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
   for (const GatheredDraw& draw : gathered.draws) {
     const auto [found, added] = record_of_block.try_emplace(draw.block, static_cast<std::uint32_t>(instanced.records.size()));
     if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m));
-    draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, draw.first_index,
+    draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, 0, draw.first_index,
                           draw.index_count, found->second, 1, draw.group});
   }
   draws.records = store(context, std::span<const InstanceRecord>(instanced.records));
@@ -51,8 +54,8 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
 
 void record_draw(PassContext& context, const SurfaceDraw& draw, SurfaceDraw& bound) {
   const VkCommandBuffer commands = context.slot.commands;
-  if (draw.vertices != bound.vertices) {
-    const VkDeviceSize at = 0;
+  if (draw.vertices != bound.vertices || draw.vertices_at != bound.vertices_at) {
+    const VkDeviceSize at = draw.vertices_at;
     vkCmdBindVertexBuffers(commands, 0, 1, &draw.vertices, &at);
   }
   if (draw.indices != bound.indices || draw.indices_at != bound.indices_at)

@@ -10,9 +10,11 @@
 
 namespace septet::render {
 
+struct DynamicSurfaces;
+
 struct SurfaceDraw {
   VkBuffer vertices = VK_NULL_HANDLE, indices = VK_NULL_HANDLE;
-  std::uint64_t indices_at = 0;
+  std::uint64_t indices_at = 0, vertices_at = 0;
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t first_instance = 0, instance_count = 0;
   std::uint32_t material = 0;
@@ -30,7 +32,7 @@ using Keep = std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>;
 using GroupOf = std::function<std::uint32_t(std::uint32_t material)>;
 
 SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
-                           const Vec3& eye_m, const Keep& keep, const GroupOf& group_of);
+                           const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of);
 
 /// Records one draw and counts it; binds its buffers unless `bound`, the last draw's, were the same.
 void record_draw(PassContext& context, const SurfaceDraw& draw, SurfaceDraw& bound);

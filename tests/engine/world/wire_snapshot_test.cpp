@@ -66,10 +66,10 @@ TEST_CASE("quantisation stays within its stated bounds") {
 TEST_CASE("a keyframe and a difference decode to exactly what was encoded") {
   Random random(2);
   Snapshot first = random_snapshot(random, 10, 100);
-  first.effects = {{7, 1, Bytes(20, std::byte{3})}, {9, 2, Bytes(5, std::byte{4})}};
+  first.effects = {{7, 1, Bytes(20, std::byte{3}), 10}, {9, 2, Bytes(5, std::byte{4}), 12}};
   Snapshot second = random_snapshot(random, 12, 120);
   second.participants.erase(second.participants.begin() + 5, second.participants.begin() + 9);
-  second.effects = {{9, 2, Bytes(6, std::byte{4})}, {11, 1, Bytes(2, std::byte{1})}};
+  second.effects = {{9, 2, Bytes(6, std::byte{4}), 0}, {11, 1, Bytes(2, std::byte{1}), 12 + max_effect_lead_ticks}};
   const WireSnapshot wire_first = to_wire(first), wire_second = to_wire(second);
 
   Bytes keyframe, difference;
@@ -83,6 +83,23 @@ TEST_CASE("a keyframe and a difference decode to exactly what was encoded") {
   const auto decoded_second = decode_snapshot(difference, &*decoded_first);
   REQUIRE(decoded_second);
   CHECK(same(*decoded_second, wire_second));
+}
+
+TEST_CASE("an effect whose keyframe stays costs no byte and whoever has no baseline gets it whole") {
+  Random random(6);
+  Snapshot without = random_snapshot(random, 10, 1), with = without;
+  with.effects = {{7, 1, Bytes(5000, std::byte{3}), 4}, {9, 2, Bytes(300, std::byte{4}), 12}};
+  Snapshot later_without = without, later_with = with;
+  later_without.tick = later_with.tick = 11;
+  Bytes plain, resting, keyframe;
+  const WireSnapshot before = to_wire(without), before_with = to_wire(with);
+  encode_snapshot(to_wire(later_without), &before, plain);
+  encode_snapshot(to_wire(later_with), &before_with, resting);
+  encode_snapshot(to_wire(later_with), nullptr, keyframe);
+  CHECK(resting.size() == plain.size());
+  const auto joined = decode_snapshot(keyframe, nullptr);
+  REQUIRE(joined);
+  CHECK(joined->rest.effects == later_with.effects);
 }
 
 TEST_CASE("a difference refuses a baseline it was not made against") {

@@ -1,0 +1,71 @@
+#include "engine/render/passes/dynamic_surfaces.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace septet::render {
+namespace {
+
+/// The material of a prototype's first part that has one.
+std::uint32_t material_of(const DeviceScene& scene, std::uint32_t prototype) {
+  if (prototype >= scene.prototypes.size()) return no_group;
+  for (const scene::Instance& part : scene.prototypes[prototype].parts)
+    if (part.mesh < scene.meshes.size() && !scene.meshes[part.mesh].parts.empty())
+      return scene.meshes[part.mesh].parts.front().material;
+  return no_group;
+}
+
+}  // namespace
+
+DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const DynamicMesh> meshes) {
+  DynamicSurfaces result;
+  std::uint32_t longest = 0;
+  for (const DynamicMesh& mesh : meshes) {
+    const std::uint32_t material = material_of(scene, mesh.prototype);
+    if (material >= scene.materials.size() || mesh.vertices.empty()) continue;
+    DynamicSurface surface;
+    surface.placed.origin_m = mesh.origin_m;
+    surface.placed.radius_m = mesh.radius_m;
+    surface.placed.tint = glm::vec4(mesh.paint, 1.0f);
+    surface.placed.share_of_sky = share_of_sky(scene, mesh.origin_m);
+    const FrameData vertices = store(context, std::span<const scene::SurfaceVertex>(mesh.vertices));
+    surface.vertices = vertices.buffer;
+    surface.vertices_at = vertices.offset;
+    surface.vertex_count = static_cast<std::uint32_t>(mesh.vertices.size() / 3 * 3);
+    surface.material = material;
+    longest = std::max(longest, surface.vertex_count);
+    result.surfaces.push_back(surface);
+  }
+  std::vector<std::uint32_t> indices(longest);
+  std::iota(indices.begin(), indices.end(), 0u);
+  if (longest > 0) result.indices = store(context, std::span<const std::uint32_t>(indices));
+  return result;
+}
+
+void append_dynamic(const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,
+                    std::vector<SurfaceDraw>& list, std::vector<InstanceRecord>& records) {
+  for (const DynamicSurface& surface : dynamic.surfaces) {
+    const glm::vec3 at(surface.placed.origin_m - eye_m);
+    const std::uint32_t group = group_of(surface.material);
+    if (group == no_group || !keep(surface.placed, at)) continue;
+    SurfaceDraw draw;
+    draw.vertices = surface.vertices;
+    draw.vertices_at = surface.vertices_at;
+    draw.indices = dynamic.indices.buffer;
+    draw.indices_at = dynamic.indices.offset;
+    draw.index_count = surface.vertex_count;
+    draw.first_instance = static_cast<std::uint32_t>(records.size());
+    draw.instance_count = 1;
+    draw.material = group;
+    list.push_back(draw);
+    InstanceRecord record;
+    record.row0 = {1, 0, 0, at.x};
+    record.row1 = {0, 1, 0, at.y};
+    record.row2 = {0, 0, 1, at.z};
+    record.tint = surface.placed.tint;
+    record.light = glm::vec4(surface.placed.share_of_sky);
+    records.push_back(record);
+  }
+}
+
+}  // namespace septet::render

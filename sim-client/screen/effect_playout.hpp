@@ -1,0 +1,23 @@
+#pragma once
+/// Which keyframes of an effect lie around the instant that a screen shows.
+///
+/// A keyframe stays in the snapshots until the next one replaces it, so the ticks that a screen has kept hold all it needs:
+/// the newest keyframe at or before the instant, and the first one after it. Pure functions over the history.
+
+#include <vector>
+
+#include "sim-client/screen/tick_history.hpp"
+
+namespace septet::screen {
+
+/// One effect at an instant. The pointers lead into the history.
+struct EffectMoment {
+  const EffectKeyframe* earlier = nullptr;  ///< The one before `before`; null where it is not kept.
+  const EffectKeyframe* before = nullptr;   ///< Null: the effect begins after the instant.
+  const EffectKeyframe* after = nullptr;    ///< Null: nothing newer has come.
+};
+
+/// The effects that exist at a simulated time, ascending id.
+std::vector<EffectMoment> effects_at(const TickHistory& history, double simulated_time_s, double tick_s);
+
+}  // namespace septet::screen

@@ -1,0 +1,28 @@
+#pragma once
+/// What debris meets besides itself: the road's surface, vehicles, barriers and tunnel walls, as planes and boxes.
+
+#include <vector>
+
+#include "engine/effects/debris/debris_state.hpp"
+#include "sim-server/effects_stage.hpp"
+
+namespace septet::server {
+
+/// The surface at a place, with the memory that makes it cheap.
+debris::GroundPoint surface_below(const road::RoadNetwork& roads, double friction_factor, double x_m, double y_m,
+                                  EffectsState& state);
+
+/// The vehicles that debris may touch within the step; `driver_box` is the index of the driver's car among them, or −1.
+std::vector<debris::Box> vehicle_boxes(const EffectsWorld& world, const debris::State& debris, int& driver_box);
+
+/// Places of debris that moves: where barriers matter.
+std::vector<Vec3> moving_places(const debris::State& debris);
+
+/// Barriers, guard rails, parapets and tunnel walls within seven metres across the road of any of the places, in stretches
+/// of eight metres.
+std::vector<debris::Box> barrier_boxes(const road::RoadNetwork& roads, const std::vector<Vec3>& places, const road::RoadPosition* hint);
+
+/// A vehicle's body as a box, from its ground clearance to its roof.
+debris::Box body_box(const Participant& participant);
+
+}  // namespace septet::server

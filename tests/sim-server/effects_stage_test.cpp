@@ -1,0 +1,181 @@
+#include "sim-server/effects_stage.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/road/opendrive_reader.hpp"
+#include "sim-server/effect_surroundings.hpp"
+
+using namespace septet;
+using namespace septet::server;
+
+namespace {
+
+constexpr double tick_s = 1.0 / 120.0;
+
+const road::RoadNetwork& motorway() {
+  static const road::RoadNetwork network = [] {
+    std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr");
+    std::stringstream text;
+    text << file.rdbuf();
+    auto read = road::read_opendrive(text.str(), "motorway.xodr");
+    REQUIRE(read);
+    return std::move(*read);
+  }();
+  return network;
+}
+
+RigidTransform on_lane(double s_m, int lane) {
+  return road::world_from_lane(road::evaluate_lane(motorway(), {0, lane, s_m, 0.0}));
+}
+
+Participant vehicle(ParticipantId id, std::string_view model, double s_m, int lane, double speed_mps) {
+  Participant p;
+  p.id = id;
+  p.model = *find_vehicle_model(model);
+  p.world_from_vehicle = on_lane(s_m, lane);
+  p.velocity_mps = p.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
+  return p;
+}
+
+/// Drives everybody straight on and steps the effects for some ticks.
+EffectsReport run(std::vector<Participant>& participants, EffectsState& state, Tick from, Tick ticks) {
+  EffectsReport last;
+  for (Tick tick = from; tick < from + ticks; tick += effects_step_ticks) {
+    last = advance_effects({motorway(), participants, 1, 1.0, tick, tick_s}, state);
+    for (Participant& p : participants)
+      p.world_from_vehicle.position_m += p.velocity_mps * (tick_s * static_cast<double>(effects_step_ticks));
+  }
+  return last;
+}
+
+EffectsState slab_from_a_lorry(std::uint64_t seed) {
+  EffectsState state;
+  state.random = Random(seed, 2);
+  scenario::Entity lorry;
+  lorry.box = {{1.7, 0.0, 1.925}, 11.9, 2.55, 3.85};
+  scenario::EntityState where;
+  where.active = true;
+  where.world_from_entity = on_lane(850.0, -5);
+  where.velocity_mps = where.world_from_entity.orientation * Vec3(22.0, 0.0, 0.0);
+  scenario::EffectAction action;
+  action.part = "ice-slab";
+  action.x_m = -2.6;
+  action.slide_mps = 3.0;
+  spill(action, lorry, where, state);
+  return state;
+}
+
+std::vector<Participant> lorry_and_driver() {
+  return {vehicle(1, "volvo-s80", 810.0, -5, 22.0), vehicle(2, "lorry", 850.0, -5, 22.0)};
+}
+
+}  // namespace
+
+TEST_CASE("a slab of ice slides off a lorry and breaks on the road and lies there") {
+  EffectsState state = slab_from_a_lorry(3);
+  REQUIRE(state.debris.pieces.size() == 1);
+  auto participants = lorry_and_driver();
+  participants.erase(participants.begin());
+  run(participants, state, 2, 360);
+  CHECK(state.debris.pieces.size() > 1);
+  for (const debris::Piece& piece : state.debris.pieces) {
+    const Vec3 at = debris::from_eigen(piece.body.position_m.front());
+    const auto ground = road::surface_at(motorway(), {at.x, at.y}, nullptr, 60.0);
+    REQUIRE(ground);
+    CHECK(at.z > ground->height_m - 0.05);
+    CHECK(at.z < ground->height_m + 1.5);
+  }
+}
+
+TEST_CASE("the same seed gives the same effects and another seed others") {
+  EffectsState first = slab_from_a_lorry(3), second = slab_from_a_lorry(3), other = slab_from_a_lorry(4);
+  auto a = lorry_and_driver(), b = lorry_and_driver(), c = lorry_and_driver();
+  run(a, first, 2, 160);
+  run(b, second, 2, 160);
+  run(c, other, 2, 160);
+  CHECK(first.hash == second.hash);
+  CHECK(first.published.keyframes == second.published.keyframes);
+  CHECK(first.hash != other.hash);
+}
+
+TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
+  EffectsState state;
+  RigidTransform place = on_lane(900.0, -5);
+  place.position_m += place.orientation * Vec3(0.0, 0.0, 0.045);
+  Random random(1);
+  debris::spawn_part(state.debris, debris::Part::ice_slab, place, Vec3(0.0), Vec3(0.0), random);
+  const Vec3 ground = on_lane(900.0, -5).position_m;
+  CHECK(obstacle_height_m(state, ground) == doctest::Approx(0.085).epsilon(0.1));
+  CHECK(obstacle_height_m(state, ground + Vec3(0.0, 5.0, 0.0)) == 0.0);
+}
+
+TEST_CASE("a car that hits another throws parts and no part twice") {
+  EffectsState state;
+  state.random = Random(1, 2);
+  std::vector<Participant> participants{vehicle(1, "volvo-s80", 900.0, -5, 22.0), vehicle(7, "saloon", 904.4, -5, 2.0)};
+  state.crashes.struck_by_driver = {7};
+  const EffectsReport report = run(participants, state, 2, 2);
+  CHECK(report.crashes.crashes == 1);
+  CHECK(report.crashes.pieces > 2);
+  const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+  CHECK(glm::dot(report.impulse_on_driver_ns, forward) < -5000.0);
+  REQUIRE(state.crashes.parts.contains(1));
+  const std::size_t left = state.crashes.parts[1].size();
+  const Vec3 half = body_box(participants[0]).half_size_m;
+  CHECK(left < debris::passenger_car_parts(half).size());
+}
+
+TEST_CASE("a car that runs into the barrier between the carriageways crashes once") {
+  EffectsState state;
+  state.random = Random(1, 2);
+  const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, -2.2}));
+  Participant car = vehicle(1, "volvo-s80", 900.0, -3, 0.0);
+  car.world_from_vehicle = {place.position_m, place.orientation * orientation_from_angles(0.35, 0.0, 0.0)};
+  car.velocity_mps = car.world_from_vehicle.orientation * Vec3(22.0, 0.0, 0.0);
+  std::vector<Participant> participants{car};
+  int crashes = 0;
+  for (Tick tick = 2; tick < 30; tick += 2) crashes += run(participants, state, tick, 2).crashes.crashes;
+  CHECK(crashes == 1);
+  CHECK(!state.debris.pieces.empty());
+}
+
+TEST_CASE("cones that the scenario sets up stand still and cost one keyframe each") {
+  scenario::Scenario scenario;
+  scenario::ScenarioState storyboard;
+  for (int i = 0; i < 5; ++i) {
+    scenario::Entity cone;
+    cone.kind = scenario::EntityKind::misc_object;
+    cone.type_name = "traffic-cone";
+    scenario.entities.push_back(cone);
+    scenario::EntityState where;
+    where.active = true;
+    where.world_from_entity = on_lane(1000.0 + 5.0 * i, -5);
+    storyboard.entities.push_back(where);
+  }
+  EffectsState state = initial_effects(scenario, storyboard, 1);
+  REQUIRE(state.debris.pieces.size() == 5);
+  std::vector<Participant> participants{vehicle(1, "volvo-s80", 900.0, -5, 0.0)};
+  run(participants, state, 2, 40);
+  for (const EffectKeyframe& keyframe : state.published.keyframes) CHECK(keyframe.tick == 4);
+  const EffectsReport later = run(participants, state, 42, 2);
+  CHECK(later.published.fresh_bytes == 0);
+}
+
+TEST_CASE("a cone that is driven over flies") {
+  EffectsState state;
+  RigidTransform place = on_lane(900.0, -5);
+  place.position_m += place.orientation * Vec3(0.0, 0.0, 0.252);
+  Random random(1);
+  debris::spawn_part(state.debris, debris::Part::traffic_cone, place, Vec3(0.0), Vec3(0.0), random);
+  state.debris.pieces.back().asleep = true;
+  const Vec3 before = debris::from_eigen(state.debris.pieces.front().body.position_m.front());
+  std::vector<Participant> participants{vehicle(1, "volvo-s80", 893.0, -5, 22.0)};
+  run(participants, state, 2, 60);
+  REQUIRE(!state.debris.pieces.empty());
+  CHECK(glm::length(debris::from_eigen(state.debris.pieces.front().body.position_m.front()) - before) > 1.0);
+}
