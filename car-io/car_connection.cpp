@@ -18,9 +18,9 @@ CarReading CarConnection::poll(double now_s) {
   CarReading reading;
   if (device_) read(now_s, reading);
   reading.is_connected = device_ != nullptr;
-  const bool has_sequence = options_.layout->sequence_byte.has_value();
+  const bool beats = options_.layout->sequence_byte.has_value() || options_.repeats;
   reading.is_stale = !reading.is_connected || !fresh_at_s_ ||
-                     (has_sequence && now_s - *fresh_at_s_ > options_.stale_after_s);
+                     (beats && now_s - *fresh_at_s_ > options_.stale_after_s);
   reading.input = input_;
   if (reading.is_stale) {
     reading.input.accelerator = 0.0;
@@ -50,11 +50,6 @@ void CarConnection::read(double now_s, CarReading& reading) {
     fresh_at_s_ = now_s;
   input_ = *input;
   last_reason_.clear();
-}
-
-Expected<void> CarConnection::write(std::span<const std::byte> report) {
-  if (!device_) return {};
-  return device_->write(report);
 }
 
 void CarConnection::report_error(Error error) {

@@ -18,8 +18,10 @@ namespace septet::car_io {
 
 struct CarConnectionOptions {
   const CarLayout* layout = &car_layouts().front();
-  Calibration calibration = {};
+  rig::CarCalibration calibration = {};
   double stale_after_s = 0.1;
+  bool repeats = false;  ///< Reports come again and again, so that silence is stale also without a
+                         ///< sequence: a car behind a network.
   double retry_s = 0.5;
 };
 
@@ -36,9 +38,6 @@ class CarConnection {
   CarConnection(OpenHidDevice open, const CarConnectionOptions& options);
 
   CarReading poll(double now_s);
-  /// Sends an output report where a device is there. See HidDevice::write about threads.
-  Expected<void> write(std::span<const std::byte> report);
-
   /// Why the device is away or a report was refused, once per change of the reason.
   std::optional<Error> take_error();
   std::uint64_t refused_reports() const { return refused_reports_; }

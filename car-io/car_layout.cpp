@@ -45,7 +45,8 @@ const std::array layouts{
               .selector_byte = 11,
               .head_byte = 12,
               .sequence_byte = 14,
-              .buttons = septet_car_buttons},
+              .buttons = septet_car_buttons,
+              .has_actuators = true},
     CarLayout{.name = "logitech-g29",
               .report_id = std::nullopt,
               .report_bytes = 9,
@@ -82,11 +83,24 @@ double read_axis(const AxisField& field, std::span<const std::byte> report) {
   return (raw - field.at_zero) / (field.at_one - field.at_zero);
 }
 
-double read_pedal(const AxisField& field, const PedalCalibration& calibration,
-                  std::span<const std::byte> report) {
-  return std::clamp((read_axis(field, report) - calibration.released) /
-                        (calibration.floored - calibration.released),
-                    0.0, 1.0);
+/// Travel beyond the dead zone, 0 to 1.
+double beyond(double travel, double dead_zone) {
+  return std::clamp((travel - dead_zone) / (1.0 - dead_zone), 0.0, 1.0);
+}
+
+/// 0 released to 1 floored.
+double calibrated_pedal(const rig::AxisCalibration& axis, double reading) {
+  const double travel = std::clamp((reading - axis.min) / (axis.max - axis.min), 0.0, 1.0);
+  return beyond(axis.inverted ? 1.0 - travel : travel, axis.dead_zone);
+}
+
+/// −1 full right to 1 full left.
+double calibrated_wheel(const rig::AxisCalibration& axis, double reading) {
+  const double from_centre = reading - axis.centre;
+  const double travel =
+      std::abs(from_centre) / (from_centre < 0.0 ? axis.centre - axis.min : axis.max - axis.centre);
+  const double side = (from_centre < 0.0) != axis.inverted ? -1.0 : 1.0;
+  return side * beyond(travel, axis.dead_zone);
 }
 
 bool is_pressed(const CarLayout& layout, CarButton button, std::span<const std::byte> report) {
@@ -122,22 +136,7 @@ Expected<const CarLayout*> find_car_layout(std::string_view name) {
                  "use one of: " + known);
 }
 
-Expected<void> check_calibration(const Calibration& calibration) {
-  const auto is_travel = [](const PedalCalibration& pedal) {
-    return pedal.floored - pedal.released >= 0.05;
-  };
-  if (!is_travel(calibration.accelerator) || !is_travel(calibration.brake) ||
-      !is_travel(calibration.clutch))
-    return failure("a pedal's floored reading is not above its released one by 0.05 or more",
-                   "car calibration", "calibrate the pedal again");
-  if (!(calibration.steering_lock_rad > 0.1) || !(std::abs(calibration.steering_centre) < 1.0))
-    return failure("the hand wheel has no range", "car calibration",
-                   "give steering_lock_rad above 0.1 and a centre within ±1");
-  return {};
-}
-
-Expected<DriverInput> decode_report(const CarLayout& layout, const Calibration& calibration,
-                                    std::span<const std::byte> report) {
+Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::byte> report) {
   const bool fits = layout.may_be_longer ? report.size() >= layout.report_bytes
                                          : report.size() == layout.report_bytes;
   if (!fits)
@@ -146,7 +145,18 @@ Expected<DriverInput> decode_report(const CarLayout& layout, const Calibration& 
   if (layout.report_id && byte_at(report, 0) != *layout.report_id)
     return refused(layout, fmt::format("it has id {} where {} belongs", byte_at(report, 0),
                                        *layout.report_id));
+  return AxisReadings{
+      .steering = read_axis(layout.steering, report),
+      .accelerator = read_axis(layout.accelerator, report),
+      .brake = read_axis(layout.brake, report),
+      .clutch = read_axis(layout.clutch, report),
+  };
+}
 
+Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,
+                                    std::span<const std::byte> report) {
+  const auto axes = read_axes(layout, report);
+  if (!axes) return tl::unexpected(axes.error());
   DriverInput input;
   if (layout.selector_byte) {
     const std::uint8_t value = byte_at(report, *layout.selector_byte);
@@ -155,17 +165,15 @@ Expected<DriverInput> decode_report(const CarLayout& layout, const Calibration& 
       return refused(layout, fmt::format("its selector is {} and its gear {}", selector, gear));
     input.selector = static_cast<GearSelector>(selector);
     input.gear = static_cast<std::int8_t>(gear);
-  } else if (calibration.has_gear_lever) {
+  } else if (calibration.gear_lever) {
     input.selector = GearSelector::manual;
     input.gear = read_gear_lever(layout, report);
   }
-  const double turned = (read_axis(layout.steering, report) - calibration.steering_centre) *
-                        calibration.steering_lock_rad;
   input.steering_wheel_rad =
-      std::clamp(turned, -calibration.steering_lock_rad, calibration.steering_lock_rad);
-  input.accelerator = read_pedal(layout.accelerator, calibration.accelerator, report);
-  input.brake = read_pedal(layout.brake, calibration.brake, report);
-  input.clutch = read_pedal(layout.clutch, calibration.clutch, report);
+      calibration.steering_lock_rad * calibrated_wheel(calibration.steering, axes->steering);
+  input.accelerator = calibrated_pedal(calibration.accelerator, axes->accelerator);
+  input.brake = calibrated_pedal(calibration.brake, axes->brake);
+  input.clutch = calibrated_pedal(calibration.clutch, axes->clutch);
   const bool left = is_pressed(layout, indicator_left, report),
              right = is_pressed(layout, indicator_right, report);
   if (left != right) input.indicator = left ? IndicatorStalk::left : IndicatorStalk::right;

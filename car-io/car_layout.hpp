@@ -11,6 +11,7 @@
 
 #include "car-io/car_report.hpp"
 #include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
 #include "engine/world/driver_input.hpp"
 
 namespace septet::car_io {
@@ -54,6 +55,7 @@ struct CarLayout {
   AxisField steering, accelerator, brake, clutch;
   std::optional<std::uint8_t> selector_byte, head_byte, sequence_byte;
   std::span<const ButtonField> buttons;
+  bool has_actuators = false;  ///< Takes the output reports of REPORTS.md.
 
   bool has(CarButton button) const;
 };
@@ -61,24 +63,15 @@ struct CarLayout {
 std::span<const CarLayout> car_layouts();
 Expected<const CarLayout*> find_car_layout(std::string_view name);
 
-/// Of one pedal: the fractions of its travel that count as released and floored.
-struct PedalCalibration {
-  double released = 0.0, floored = 1.0;
+/// What a layout's own scale makes of each axis, uncalibrated: hand wheel −1 (full right) to 1
+/// (full left), pedals 0 to 1. What `septet-car calibrate` records.
+struct AxisReadings {
+  double steering = 0.0, accelerator = 0.0, brake = 0.0, clutch = 0.0;
 };
+Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::byte> report);
 
-/// How a particular car differs from its layout.
-struct Calibration {
-  double steering_lock_rad = default_steering_lock_rad;
-  double steering_centre = 0.0;  ///< Reading, −1 to 1 (left), of the wheel held straight.
-  PedalCalibration accelerator, brake, clutch;
-  bool has_gear_lever =
-      false;  ///< Without one, a layout's gear buttons do not count and the gearbox is in drive.
-};
-
-/// Refuses a calibration that would divide by zero or turn a pedal round.
-Expected<void> check_calibration(const Calibration& calibration);
-
-Expected<DriverInput> decode_report(const CarLayout& layout, const Calibration& calibration,
+/// The calibration comes from the rig, which has checked it.
+Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,
                                     std::span<const std::byte> report);
 
 }  // namespace septet::car_io

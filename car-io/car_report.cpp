@@ -51,6 +51,14 @@ constexpr std::uint8_t descriptor[] = {
     0x09, 0x20, 0x09, 0x21,        //   Usages 32, 33: firmware, watchdog
     0x27, 0xff, 0xff, 0x00, 0x00,  //   Logical maximum 65535
     0x75, 16, 0x95, 2, 0xb1, 0x02, //   2 × 16 bits: Feature
+    0x85, steering_report_id,      //   Report id 4
+    0x09, 0x30,                    //   Usage 48: force of the hand wheel
+    0x16, 0x01, 0x80,              //   Logical minimum −32767
+    0x26, 0xff, 0x7f,              //   Logical maximum 32767
+    0x75, 16, 0x95, 1, 0x91, 0x02, //   1 × 16 bits: Output
+    0x09, 0x31,                    //   Usage 49: sequence
+    0x15, 0x00, 0x26, 0xff, 0x00,  //   Logical 0 to 255
+    0x75, 8, 0x91, 0x02,           //   1 × 8 bits: Output
     0xc0,                          // End of collection
 };
 // clang-format on
@@ -133,6 +141,22 @@ Expected<Actuators> decode_actuators(std::span<const std::byte> report) {
   actuators.vibration = in.get<std::uint16_t>() / 65535.0;
   actuators.vibration_hz = in.get<std::uint8_t>();
   return actuators;
+}
+
+std::array<std::byte, steering_report_bytes> encode_steering(double force, std::uint8_t sequence) {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  out.put(steering_report_id);
+  out.put(to_i16(-force));  // As the hand wheel of the input report: negative is to the left.
+  out.put(sequence);
+  return as_array<steering_report_bytes>(bytes);
+}
+
+Expected<double> decode_steering(std::span<const std::byte> report) {
+  ByteReader in(report);
+  if (report.size() != steering_report_bytes || in.get<std::uint8_t>() != steering_report_id)
+    return refused(report, steering_report_id, steering_report_bytes);
+  return -in.get<std::int16_t>() / 32767.0;
 }
 
 std::array<std::byte, device_report_bytes> encode_device_status(const DeviceStatus& status) {

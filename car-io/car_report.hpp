@@ -14,9 +14,10 @@
 
 namespace septet::car_io {
 
-inline constexpr std::uint8_t controls_report_id = 1, actuators_report_id = 2, device_report_id = 3;
+inline constexpr std::uint8_t controls_report_id = 1, actuators_report_id = 2, device_report_id = 3,
+                              steering_report_id = 4;
 inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes = 7,
-                             device_report_bytes = 5;
+                             device_report_bytes = 5, steering_report_bytes = 4;
 
 /// Full left or right of a hand wheel with 2½ turns from lock to lock.
 inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
@@ -34,10 +35,15 @@ struct Actuators {
   double fan = 0.0;
   double vibration = 0.0;
   double vibration_hz = 0.0;
+  double steering = 0.0;  ///< Force of the hand wheel's motor, −1 to 1 (turns it to the left).
 };
 std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators,
                                                                std::uint8_t sequence);
+/// Fan and vibration of a report.
 Expected<Actuators> decode_actuators(std::span<const std::byte> report);
+
+std::array<std::byte, steering_report_bytes> encode_steering(double force, std::uint8_t sequence);
+Expected<double> decode_steering(std::span<const std::byte> report);
 
 struct DeviceStatus {
   std::uint16_t firmware = 0;

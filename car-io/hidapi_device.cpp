@@ -1,4 +1,5 @@
 #include <array>
+#include <mutex>
 
 #include <fmt/core.h>
 #include <fmt/xchar.h>
@@ -81,6 +82,9 @@ class HidapiDevice final : public HidDevice {
 }  // namespace
 
 Expected<std::unique_ptr<HidDevice>> open_hid_device(const HidAddress& address) {
+  // hidapi keeps the last error of opening in one place for all threads.
+  static std::mutex opening;
+  const std::lock_guard lock(opening);
   const std::string name = name_of(address);
   hid_device_info* devices = hid_enumerate(address.vendor_id, address.product_id);
   std::string path;

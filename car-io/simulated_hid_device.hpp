@@ -4,7 +4,7 @@
 ///
 /// It behaves as Linux' hidraw does: the oldest 63 reports wait and newer ones are dropped, an
 /// unplugged device stays dead for who holds it, and a replugged one is a new device.
-/// Threads: one at a time, device and port together.
+/// Threads: any; each open device one at a time, as a real one.
 
 #include <deque>
 #include <map>
@@ -27,6 +27,8 @@ class SimulatedHidPort {
   bool send(std::span<const std::byte> report);
   /// Output reports since the last call.
   std::vector<Bytes> take_written();
+  /// A device that takes no output reports: writing blocks until it does again or is unplugged.
+  void block_writes(bool block);
   void set_feature(std::uint8_t id, Bytes report);
   std::optional<Bytes> feature(std::uint8_t id) const;
 

@@ -1,6 +1,8 @@
 #include "sim-server/driver_seat.hpp"
 
+#include "car-io/actuator_writer.hpp"
 #include "car-io/simulated_driver/simulated_driver.hpp"
+#include "sim-server/remote_car.hpp"
 
 namespace septet::server {
 
@@ -12,19 +14,44 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& dr
     if (!parameters) return tl::unexpected(parameters.error());
     // The driver keeps the model alive: the road in it is what they see.
     const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
-    seat.car = std::make_unique<car_io::CarConnection>(person->opener(), car_io::CarConnectionOptions{});
+    seat.actuators = car.actuators;
+    sit_at_device(seat, person->opener(), {});
     seat.look = [person, model](const Snapshot& snapshot) { person->drive(snapshot, 1.0 / tick_rate_hz); };
     return seat;
   }
   if (car.source == rig::CarSource::keyboard) return seat;
   const auto layout = car_io::find_car_layout(car.layout);
   if (!layout) return tl::unexpected(layout.error());
+  car_io::CarConnectionOptions options{.layout = *layout, .calibration = car.calibration};
+  seat.actuators = car.actuators;
+  if (!car.machine.empty()) {
+    seat.remote = std::make_shared<RemoteCar>();
+    options.repeats = true;
+    options.retry_s = 0.0;  // Asking the relay costs nothing.
+    seat.car = std::make_unique<car_io::CarConnection>(seat.remote->device.opener(), options);
+    seat.actuate = [remote = seat.remote](Tick tick, const car_io::Actuators& actuators) -> std::optional<Error> {
+      remote->feedback = control::CarFeedback{tick, static_cast<float>(actuators.fan), static_cast<float>(actuators.vibration),
+                                              static_cast<float>(actuators.vibration_hz), static_cast<float>(actuators.steering)};
+      return std::nullopt;
+    };
+    return seat;
+  }
   const car_io::HidAddress address{car.vendor_id, car.product_id, car.serial};
+  const auto open = [address] { return car_io::open_hid_device(address); };
   // A missing device is noticed before the drive begins; one that is lost during it is opened again.
-  if (const auto device = car_io::open_hid_device(address); !device) return tl::unexpected(device.error());
-  seat.car = std::make_unique<car_io::CarConnection>([address] { return car_io::open_hid_device(address); },
-                                                     car_io::CarConnectionOptions{*layout});
+  if (const auto device = open(); !device) return tl::unexpected(device.error());
+  sit_at_device(seat, open, options);
   return seat;
+}
+
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options) {
+  seat.car = std::make_unique<car_io::CarConnection>(open, options);
+  const auto writer = std::make_shared<car_io::ActuatorWriter>(
+      open, car_io::ActuatorWriterOptions{.layout = options.layout, .has_steering_force = seat.actuators.steering_most > 0.0});
+  seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
+    writer->set(actuators);
+    return writer->take_error();
+  };
 }
 
 }  // namespace septet::server

@@ -14,4 +14,7 @@ namespace septet::server {
 Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& driver, std::uint64_t seed,
                                       std::shared_ptr<const SimulationModel> model);
 
+/// Reads a device here and moves its actuators, within the seat's limits.
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options);
+
 }  // namespace septet::server

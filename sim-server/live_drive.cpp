@@ -1,5 +1,7 @@
 #include "sim-server/live_drive.hpp"
 
+#include "sim-server/car_motion.hpp"
+
 namespace septet::server {
 
 Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log) {
@@ -25,9 +27,22 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
     record.input = reading.input;
     record.report = reading.report;
-    if (const auto error = seat_.car->take_error(); error && log_) log_->record_message("car", describe(*error));
+    if (const auto error = seat_.car->take_error()) tell(describe(*error));
+    if (reading.is_connected && !car_was_there_ && state_.diagnostics.input_stale_ticks > 0) tell("the car's device is there");
+    car_was_there_ = reading.is_connected;
   }
   return record;
+}
+
+void LiveDrive::tell(const std::string& what) {
+  messages_.push_back("car: " + what);
+  if (log_) log_->record_message("car", what);
+}
+
+void LiveDrive::move_actuators() {
+  if (!seat_.actuate) return;
+  const auto motion = car_motion(*model_, state_);
+  if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
 }
 
 Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
@@ -35,6 +50,7 @@ Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optiona
   logging::InputRecord input = read_input(controls);
   std::vector<SimulationEvent> events;
   newest_ = server_step(*model_, input.input, state_, events);
+  move_actuators();
   auto wire = std::make_shared<const WireSnapshot>(to_wire(newest_));
   if (log_) {
     // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.

@@ -4,20 +4,29 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "car-io/actuators.hpp"
 #include "car-io/car_connection.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-server/remote_car.hpp"
 #include "sim-server/session_log.hpp"
 #include "sim-server/simulation.hpp"
 #include "sim-server/tick_source.hpp"
 
 namespace septet::server {
 
-/// Where the driver's input comes from.
+/// Where the driver's input comes from, and where the car's feedback goes.
 struct DriverSeat {
   /// A simulated driver looks at the world before each tick and moves the controls of its device; empty: a person drives.
   std::function<void(const Snapshot&)> look;
   std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
+  /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
+  std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
+  rig::CarActuators actuators;                ///< Their limits.
+  std::shared_ptr<RemoteCar> remote;   ///< Of a car on another machine.
 };
 
 class LiveDrive final : public TickSource {
@@ -27,11 +36,14 @@ class LiveDrive final : public TickSource {
 
   Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) override;
   double tick_rate_hz() const override { return server::tick_rate_hz; }
+  std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_; }
 
  private:
   LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
+  void move_actuators();
+  void tell(const std::string& what);
 
   std::shared_ptr<const SimulationModel> model_;
   DriverSeat seat_;
@@ -39,6 +51,8 @@ class LiveDrive final : public TickSource {
   SimulationState state_;
   DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
   Snapshot newest_;
+  bool car_was_there_ = false;
+  std::vector<std::string> messages_;
 };
 
 }  // namespace septet::server

@@ -14,6 +14,11 @@ namespace {
 constexpr std::size_t scene_bytes_per_pump = 1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
 constexpr double deaf_after_s = 0.5, hung_after_s = 0.25;
 
+Bytes to_bytes(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
 std::uint64_t instance_of(const net::SessionId& session) {
   std::uint64_t number = 0;
   std::memcpy(&number, session.data(), sizeof number);
@@ -53,6 +58,9 @@ void ScreenHost::pump(double now_s) {
       case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
     }
   }
+  if (options_.car)
+    if (const auto feedback = options_.car->take_feedback(); feedback && car_client_)
+      lane_.send(*car_client_, net::share(encode_control(*feedback)), net::Reliability::unreliable);
   const std::vector<net::ClientId> clients = lane_.clients();
   for (const net::ClientId client : clients)
     scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
@@ -105,6 +113,11 @@ void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
 
 void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
   if (const auto* hello = std::get_if<Hello>(&message)) return on_hello(client, *hello, now_s);
+  if (std::holds_alternative<CarHello>(message)) return on_car_hello(client);
+  if (const auto* report = std::get_if<CarReport>(&message)) {
+    if (car_client_ == client) options_.car->device.receive(report->number, to_bytes(report->report), report->problem);
+    return;
+  }
   HostedScreen* screen = screen_of(client);
   if (!screen) return;
   if (const auto* arrived = std::get_if<TickArrived>(&message)) {
@@ -151,12 +164,31 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   send(client, options_.welcome);
 }
 
+void ScreenHost::on_car_hello(net::ClientId client) {
+  const auto* info = lane_.info(client);
+  if (!options_.car || !info || info->name != car_client_name) {
+    const char* reason = options_.car ? "its key is not the one called \"car\" in allowed-clients"
+                                      : "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)";
+    messages_.push_back(fmt::format("refused a car: {}", reason));
+    return send(client, Refusal{reason});
+  }
+  car_client_ = client;
+  options_.car->device.lose("septet-car has connected and has not read its device yet");
+  messages_.push_back("the car connected");
+  send(client, CarWelcome{options_.welcome.rig});
+}
+
 void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason) {
   scene_.disconnect(client);
   baselines_.leave(client);
   if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
     publisher_.remove_destination(destination->second);
     unicast_.erase(destination);
+  }
+  if (car_client_ == client) {
+    messages_.push_back(fmt::format("the car left: {}", reason));
+    options_.car->device.lose("the connection to septet-car was lost");
+    car_client_.reset();
   }
   if (HostedScreen* screen = screen_of(client)) {
     messages_.push_back(fmt::format("screen {} left: {}", screen->name, reason));
@@ -199,6 +231,7 @@ std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(co
 void ScreenHost::finish(const std::string& reason) {
   for (const auto& screen : screens_)
     if (screen.client) send(*screen.client, Finish{reason});
+  if (car_client_) send(*car_client_, Finish{reason});
 }
 
 bool ScreenHost::all_reported() const {

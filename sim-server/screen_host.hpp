@@ -19,6 +19,7 @@
 #include "engine/scene/store.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "sim-server/playout_planner.hpp"
+#include "sim-server/remote_car.hpp"
 
 namespace septet::server {
 
@@ -29,6 +30,7 @@ struct ScreenHostOptions {
   net::ChannelLimits limits;
   control::Welcome welcome;
   std::vector<std::string> screens;  ///< Names that the rig knows; others are refused.
+  std::shared_ptr<RemoteCar> car;    ///< The driver's car where it is on another machine; null: a car is refused.
   double least_playout_delay_s = 2.0 / 120.0;
   std::size_t max_datagram_bytes = 1200;
 };
@@ -91,6 +93,7 @@ class ScreenHost {
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
   void add_unicast(net::ClientId client, std::uint16_t port);
+  void on_car_hello(net::ClientId client);
   void on_disconnected(net::ClientId client, const std::string& reason);
   void send_unicast_to_the_deaf(double now_s);
   HostedScreen* screen_of(net::ClientId client);
@@ -106,6 +109,7 @@ class ScreenHost {
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const WireSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::optional<DriverInput> controls_;
+  std::optional<net::ClientId> car_client_;
   std::size_t last_tick_bytes_ = 0;
   std::vector<std::string> messages_;
 };

@@ -46,6 +46,7 @@ struct Loop {
 
   Expected<std::shared_ptr<const WireSnapshot>> take_tick() {
     auto snapshot = source.next(host.take_controls());
+    for (const auto& text : source.take_messages()) environment.message(text);
     if (snapshot && *snapshot) {
       ++result.ticks;
       result.last_tick = (*snapshot)->rest.tick;

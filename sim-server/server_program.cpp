@@ -17,6 +17,7 @@
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/driver_seat.hpp"
 #include "sim-server/live_drive.hpp"
+#include "sim-server/remote_car.hpp"
 #include "sim-server/replay_source.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/serve.hpp"
@@ -99,12 +100,12 @@ Expected<void> choose_transport(const rig::Network& network, bool one_machine, S
   return {};
 }
 
-/// Whether all screens of the rig are this machine's own.
+/// Whether all screens of the rig, and its car, are this machine's own.
 bool is_one_machine(const rig::Rig& rig) {
   if (rig.network.server_address != "127.0.0.1") return false;
   for (const auto& screen : rig.screens)
     if (!screen.machine.empty()) return false;
-  return true;
+  return rig.car.machine.empty();
 }
 
 /// What screens connect to.
@@ -142,6 +143,7 @@ struct Drive {
   std::optional<logging::SessionReader> session;  ///< Of a replay.
   DriverSeat seat;                                ///< Of a drive.
   std::optional<SessionLog> log;                  ///< Of a drive.
+  std::shared_ptr<RemoteCar> remote_car;          ///< Of a drive whose car is on another machine.
   std::unique_ptr<TickSource> source;
 };
 
@@ -188,6 +190,7 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
   drive.log->record_scene(drive.store);
+  drive.remote_car = drive.seat.remote;
   auto source = LiveDrive::start(drive.loaded.model, std::move(drive.seat), &*drive.log);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);
@@ -250,6 +253,7 @@ Expected<void> run_server(const ServerOptions& options) {
     host_options.limits.timeout_s = options.lockstep ? 60.0 : 5.0;
     host_options.least_playout_delay_s = rig.network.playout_delay_ticks / drive.source->tick_rate_hz();
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
+    host_options.car = drive.remote_car;
     if (auto chosen = choose_transport(rig.network, is_one_machine(rig), sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
     ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(host_options));
     fmt::print("ready {}\n", sockets.lane.local_address().port);

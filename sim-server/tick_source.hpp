@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 #include "engine/world/driver_input.hpp"
@@ -16,6 +18,8 @@ class TickSource {
   /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
   virtual Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
   virtual double tick_rate_hz() const = 0;
+  /// What the operator should know since the last call.
+  virtual std::vector<std::string> take_messages() { return {}; }
 };
 
 }  // namespace septet::server

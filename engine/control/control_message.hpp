@@ -1,5 +1,5 @@
 #pragma once
-/// What server and screens say to each other besides the scene: who is there, what was shown, what the driver did.
+/// What server, screens and car say to each other besides the scene: who is there, what was shown, what the driver did.
 ///
 /// These share the secure lane with scene commands; the first byte of every message tells which of the two it is
 /// (`LaneMessage`). Format: CONTROL.md. A message from outside is decoded whole or refused.
@@ -79,8 +79,32 @@ struct ScreenReport {
   float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;
 };
 
-using ControlMessage =
-    std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport>;
+/// septet-car → server, first of all.
+struct CarHello {
+  std::uint16_t protocol = 1;
+};
+
+/// Server → septet-car, the answer.
+struct CarWelcome {
+  std::string rig;  ///< The rig file's text: it says which device.
+};
+
+/// septet-car → server: the device's newest report, again and again, whether there is a newer one or not.
+struct CarReport {
+  std::uint32_t number = 0;  ///< Counts these messages: one that was overtaken does not count.
+  std::string report;        ///< As the device sent it; empty where there is none yet.
+  std::string problem;       ///< Why the device is away; empty while it is there.
+};
+
+/// Server → septet-car: what fan, shaker and hand wheel shall do, shares of what they can.
+struct CarFeedback {
+  Tick tick = 0;
+  float fan = 0.0f, vibration = 0.0f, vibration_hz = 0.0f;
+  float steering = 0.0f;  ///< Positive turns to the left.
+};
+
+using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport, CarHello,
+                                    CarWelcome, CarReport, CarFeedback>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

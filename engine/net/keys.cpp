@@ -116,6 +116,15 @@ Expected<Identity> load_or_create_identity(const std::filesystem::path& file) {
   return load_identity(file);
 }
 
+Expected<PublicKey> load_public_key(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string text;
+  if (!(stream >> text))
+    return failure("cannot read a public key", file.string(),
+                   "copy server.public from the server's keys");
+  return parse_public_key(text, file.string());
+}
+
 Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in)

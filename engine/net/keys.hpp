@@ -53,6 +53,9 @@ Expected<PublicKey> parse_public_key(std::string_view text, std::string_view whe
 Expected<Identity> load_or_create_identity(const std::filesystem::path& file);
 Expected<Identity> load_identity(const std::filesystem::path& file);
 
+/// The first word of a file that holds a public key (server.public).
+Expected<PublicKey> load_public_key(const std::filesystem::path& file);
+
 struct AllowedClient {
   PublicKey key{};
   std::string name;  ///< "screen/left-1", "car"; what the server calls it.

@@ -73,6 +73,51 @@ Network read_network(const toml::table& table, std::string_view file, Error& err
   return network;
 }
 
+AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisCalibration fallback, std::string_view file, Error& error) {
+  const toml::table* table = calibration.get_table(axis);
+  if (!table) return fallback;
+  TableReader reader(*table, file, fmt::format("car.calibration.{}", axis), error);
+  AxisCalibration result = fallback;
+  result.min = reader.get_double("min", fallback.min, -2.0, 2.0);
+  result.max = reader.get_double("max", fallback.max, -2.0, 2.0);
+  const bool is_wheel = fallback.min < 0.0;
+  result.centre = is_wheel ? reader.get_double("centre", fallback.centre, -2.0, 2.0) : result.min;
+  result.dead_zone = reader.get_double("dead_zone", fallback.dead_zone, 0.0, 0.5);
+  result.inverted = reader.get_bool("inverted", fallback.inverted);
+  if (result.max - result.min < 0.05)
+    reader.report("max", fmt::format("the {}'s max is not above its min by 0.05 or more", axis), "calibrate it again with septet-car calibrate");
+  else if (is_wheel && (result.centre - result.min < 0.02 || result.max - result.centre < 0.02))
+    reader.report("centre", fmt::format("the {}'s centre does not lie between min and max", axis), "calibrate it again with septet-car calibrate");
+  reader.finish();
+  return result;
+}
+
+CarCalibration read_calibration(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "car.calibration", error);
+  CarCalibration calibration;
+  calibration.steering_lock_rad = reader.get_double("steering_lock_rad", calibration.steering_lock_rad, 0.1, 30.0);
+  calibration.gear_lever = reader.get_bool("gear_lever", calibration.gear_lever);
+  calibration.steering = read_axis(reader, "steering", calibration.steering, file, error);
+  calibration.accelerator = read_axis(reader, "accelerator", calibration.accelerator, file, error);
+  calibration.brake = read_axis(reader, "brake", calibration.brake, file, error);
+  calibration.clutch = read_axis(reader, "clutch", calibration.clutch, file, error);
+  reader.finish();
+  return calibration;
+}
+
+CarActuators read_actuators(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "car.actuators", error);
+  CarActuators actuators;
+  actuators.fan_full_speed_mps = reader.get_double("fan_full_speed_mps", actuators.fan_full_speed_mps, 1.0, 200.0);
+  actuators.fan_least = reader.get_double("fan_least", actuators.fan_least, 0.0, 1.0);
+  actuators.fan_most = reader.get_double("fan_most", actuators.fan_most, 0.0, 1.0);
+  actuators.vibration_most = reader.get_double("vibration_most", actuators.vibration_most, 0.0, 1.0);
+  actuators.steering_full_nm = reader.get_double("steering_full_nm", actuators.steering_full_nm, 0.1, 100.0);
+  actuators.steering_most = reader.get_double("steering_most", actuators.steering_most, 0.0, 1.0);
+  reader.finish();
+  return actuators;
+}
+
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
@@ -80,9 +125,12 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
+  car.machine = reader.get_string("machine", car.machine);
   car.layout = reader.get_string("layout", car.layout);
   car.vehicle = reader.get_string("vehicle", car.vehicle);
   car.driver = reader.get_string("driver", car.driver);
+  if (const auto* calibration = reader.get_table("calibration")) car.calibration = read_calibration(*calibration, file, error);
+  if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
   reader.finish();
   return car;
 }

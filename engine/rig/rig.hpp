@@ -5,6 +5,7 @@
 /// the rear axle). Reading a rig is the only function that can fail, and its errors name file, line and remedy.
 
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,13 +52,43 @@ struct Network {
 
 enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard };
 
+/// How one axis of a particular device differs from its report layout: readings on the layout's own scale (hand wheel: −1 full
+/// right to 1 full left; pedal: 0 released to 1 floored). `septet-car calibrate` records and prints them.
+struct AxisCalibration {
+  double min = 0.0;        ///< Reading at one end: full right, or released.
+  double centre = 0.0;     ///< Hand wheel only: reading held straight.
+  double max = 1.0;        ///< Reading at the other end: full left, or floored.
+  double dead_zone = 0.0;  ///< Share of the travel, around straight or from released, that reads as 0.
+  bool inverted = false;   ///< The device counts the other way round.
+};
+
+/// How far full steering is, and each axis.
+struct CarCalibration {
+  double steering_lock_rad = 2.5 * std::numbers::pi;  ///< 2½ turns from lock to lock.
+  AxisCalibration steering{.min = -1.0}, accelerator, brake, clutch;
+  bool gear_lever = false;  ///< Without one, a layout's gear buttons do not count and the gearbox is in drive.
+};
+
+/// What the car's fan, shaker and steering motor may do; outputs are shares of what the device can, 0 to 1.
+struct CarActuators {
+  double fan_full_speed_mps = 41.7;  ///< The fan is linear in the car's speed up to here (150 km/h).
+  double fan_least = 0.2;            ///< Share at which the fan just turns.
+  double fan_most = 1.0;
+  double vibration_most = 0.6;
+  double steering_full_nm = 8.0;     ///< Torque at the hand wheel that full force means.
+  double steering_most = 0.0;        ///< 0: the hand wheel has no motor.
+};
+
 struct Car {
   CarSource source = CarSource::simulated_driver;
   std::uint16_t vendor_id = 0x1209, product_id = 0x0001;
   std::string serial;
+  std::string machine;  ///< Host with the device, where septet-car runs; empty: the server's own machine.
   std::string layout = "septet-car";  ///< Report layout of the device (car-io/REPORTS.md).
   std::string vehicle = "volvo-s80";  ///< Parameter file below vehicles/.
   std::string driver = "plain";       ///< Which simulated driver.
+  CarCalibration calibration;
+  CarActuators actuators;
 };
 
 struct Rig {

@@ -30,13 +30,6 @@ double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Expected<net::PublicKey> read_server_key(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::string text;
-  if (!(stream >> text)) return failure("cannot read the server's public key", file.string(), "copy server.public from the server's keys");
-  return net::parse_public_key(text, file.string());
-}
-
 /// What stays from one welcome of the server to the next.
 class Session {
  public:
@@ -262,7 +255,7 @@ Expected<void> run_screen(const ScreenOptions& options) {
   std::signal(SIGINT, on_signal);
   const auto identity = net::load_identity(options.keys / (options.name + ".key"));
   if (!identity) return tl::unexpected(identity.error());
-  const auto server_key = read_server_key(options.keys / "server.public");
+  const auto server_key = net::load_public_key(options.keys / "server.public");
   if (!server_key) return tl::unexpected(server_key.error());
   std::error_code error;
   if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures, error);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "car-io/relayed_device.hpp"
 #include "car-io/simulated_hid_device.hpp"
 
 namespace septet::car_io {
@@ -133,15 +134,45 @@ TEST_CASE("a device held over a replug stays dead") {
 TEST_CASE("output and feature reports reach the device") {
   SimulatedHidPort port;
   port.plug();
-  CarConnection car(port.opener(), {});
-  car.poll(0.0);
-  const auto actuators = encode_actuators({.fan = 1.0}, 1);
-  REQUIRE(car.write(actuators));
-  REQUIRE(port.take_written().size() == 1);
   const auto device = port.open().value();
+  REQUIRE(device->write(encode_actuators({.fan = 1.0}, 1)));
+  REQUIRE(port.take_written().size() == 1);
   REQUIRE(device->send_feature(encode_device_status({.firmware = 0, .watchdog_ms = 300})));
   CHECK(decode_device_status(device->get_feature(device_report_id, device_report_bytes).value())
             ->watchdog_ms == 300);
+}
+
+TEST_CASE("a far device is read like a near one and what was overtaken on the way does not count") {
+  RelayedDevice far;
+  CarConnection car(far.opener(), {.repeats = true});
+  CHECK_FALSE(car.poll(0.0).is_connected);
+  CHECK(car.take_error()->what == "septet-car has not connected yet");
+  far.receive(7, report_of(0.5, 1), "");
+  CHECK(car.poll(1.0).input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  far.receive(6, report_of(0.9, 0), "");
+  CHECK(car.poll(1.01).input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+  far.receive(8, {}, "reading failed: No such device");
+  const CarReading away = car.poll(1.02);
+  CHECK_FALSE(away.is_connected);
+  CHECK(away.is_stale);
+  CHECK(away.input.accelerator == 0.0);
+  CHECK(car.take_error()->what == "reading failed: No such device");
+  far.receive(9, report_of(0.7, 2), "");
+  CHECK(car.poll(2.0).input.accelerator == doctest::Approx(0.7).epsilon(1e-4));
+  far.lose("");
+  CHECK(car.poll(2.01).is_stale);
+}
+
+TEST_CASE("a far wheel without a sequence is stale when nothing comes for 100 ms") {
+  RelayedDevice far;
+  CarConnection car(far.opener(), {.layout = *find_car_layout("logitech-g29"), .repeats = true});
+  Bytes report(12, std::byte{0});
+  far.receive(1, report, "");
+  CHECK_FALSE(car.poll(0.0).is_stale);
+  CHECK_FALSE(car.poll(0.09).is_stale);
+  CHECK(car.poll(0.11).is_stale);
+  far.receive(2, report, "");
+  CHECK_FALSE(car.poll(0.12).is_stale);
 }
 
 }  // namespace septet::car_io

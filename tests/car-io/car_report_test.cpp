@@ -59,6 +59,7 @@ TEST_CASE("the descriptor announces reports of exactly the sizes that are sent")
   CHECK(bits == std::map<std::pair<int, int>, int>{
                     {{8, controls_report_id}, 8 * (controls_report_bytes - 1)},
                     {{9, actuators_report_id}, 8 * (actuators_report_bytes - 1)},
+                    {{9, steering_report_id}, 8 * (steering_report_bytes - 1)},
                     {{11, device_report_id}, 8 * (device_report_bytes - 1)}});
 }
 
@@ -163,7 +164,7 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
   report[5] = std::byte{0xbf};  // 49151: 0.5 of the way from the centre to full right.
   report[6] = std::byte{127};
   report[7] = report[8] = std::byte{255};
-  Calibration calibration;
+  rig::CarCalibration calibration;
   auto input = decode_report(layout_of("logitech-g29"), calibration, report);
   REQUIRE(input.has_value());
   CHECK(input->steering_wheel_rad ==
@@ -174,31 +175,47 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
   CHECK(input->low_beam);
   CHECK(input->indicator == IndicatorStalk::left);
   CHECK(input->selector == GearSelector::drive);
-  calibration.has_gear_lever = true;
+  calibration.gear_lever = true;
   input = decode_report(layout_of("logitech-g29"), calibration, report);
   CHECK(input->selector == GearSelector::manual);
   CHECK(input->gear == 3);
 }
 
-TEST_CASE("a calibrated pedal reads 0 and 1 at its own ends and a bad calibration is refused") {
-  Calibration calibration;
-  calibration.brake = {.released = 0.2, .floored = 0.7};
-  calibration.steering_centre = 0.1;
-  CHECK(check_calibration(calibration));
-  const auto brake_at = [&](double travel) {
+TEST_CASE("calibrated axes read 0 and 1 at their own ends and nothing in their dead zone") {
+  rig::CarCalibration calibration;
+  calibration.brake = {.min = 0.2, .max = 0.7};
+  calibration.clutch = {.min = 0.0, .max = 1.0, .dead_zone = 0.1, .inverted = true};
+  calibration.steering = {.min = -0.8, .centre = 0.1, .max = 0.9, .dead_zone = 0.05};
+  const auto read = [&](double wheel, double brake, double clutch) {
     DriverInput input;
-    input.brake = travel;
-    return decode_report(layout_of("septet-car"), calibration, encode_controls(input))->brake;
+    input.steering_wheel_rad = wheel * default_steering_lock_rad;
+    input.brake = brake;
+    input.clutch = clutch;
+    return *decode_report(layout_of("septet-car"), calibration, encode_controls(input));
   };
-  CHECK(brake_at(0.1) == 0.0);
-  CHECK(brake_at(0.45) == doctest::Approx(0.5).epsilon(1e-3));
-  CHECK(brake_at(0.8) == 1.0);
-  DriverInput straight;
-  straight.steering_wheel_rad = 0.1 * default_steering_lock_rad;
-  CHECK(std::abs(decode_report(layout_of("septet-car"), calibration, encode_controls(straight))
-                     ->steering_wheel_rad) < 1e-3);
-  calibration.brake = {.released = 0.7, .floored = 0.2};
-  CHECK_FALSE(check_calibration(calibration).has_value());
+  CHECK(read(0, 0.1, 0).brake == 0.0);
+  CHECK(read(0, 0.45, 0).brake == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(read(0, 0.8, 0).brake == 1.0);
+  CHECK(read(0, 0, 1.0).clutch == 0.0);
+  CHECK(read(0, 0, 0.92).clutch == 0.0);
+  CHECK(read(0, 0, 0.0).clutch == 1.0);
+  CHECK(read(0, 0, 0.45).clutch == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(read(0.1, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
+  CHECK(read(0.13, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
+  CHECK(read(0.95, 0, 0).steering_wheel_rad == doctest::Approx(default_steering_lock_rad));
+  CHECK(read(-0.8, 0, 0).steering_wheel_rad ==
+        doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+  calibration.steering.inverted = true;
+  CHECK(read(0.9, 0, 0).steering_wheel_rad ==
+        doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+}
+
+TEST_CASE("the force of the hand wheel goes through its report and back") {
+  for (const double force : {-1.0, -0.25, 0.0, 0.5, 1.0})
+    CHECK(decode_steering(encode_steering(force, 3)).value() ==
+          doctest::Approx(force).epsilon(1e-3));
+  CHECK(encode_steering(1.0, 0)[2] == std::byte{0x80});  // To the left: negative, as the wheel.
+  CHECK_FALSE(decode_steering(Bytes(3)).has_value());
 }
 
 TEST_CASE("an unknown layout is refused with the names that exist") {

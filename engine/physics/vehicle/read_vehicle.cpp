@@ -234,6 +234,7 @@ void read_steering(Entries& in, SteeringParameters& steering) {
 void read_engine(Entries& in, PowertrainParameters& p) {
   in.table("powertrain.full_torque_nm", p.full_torque_nm);
   in.table("powertrain.closed_torque_nm", p.closed_torque_nm);
+  in.whole("powertrain.cylinders", p.cylinders, 1, 16);
   in.number("powertrain.engine_inertia_kgm2", p.engine_inertia_kgm2, 0.02, 10);
   in.number("powertrain.idle_radps", p.idle_radps, 30, 200);
   in.number("powertrain.most_radps", p.most_radps, 100, 2000);

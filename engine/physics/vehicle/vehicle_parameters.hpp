@@ -85,6 +85,7 @@ struct PowertrainParameters {
   // engine
   Table full_torque_nm,
       closed_torque_nm;  ///< At the crankshaft over rad/s: throttle open, throttle closed.
+  int cylinders = 4;
   double engine_inertia_kgm2 = 0.0;
   double idle_radps = 0.0, most_radps = 0.0;
   double torque_lag_s = 0.0;

@@ -127,7 +127,12 @@ TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it
   CHECK_FALSE(read.is_stale);
 
   const auto actuators = encode_actuators({.fan = 0.25}, 1);
-  REQUIRE(car.write(actuators));
+  {
+    // As the thread that writes does it: a second handle on the same device.
+    const auto writer = open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001});
+    REQUIRE(writer.has_value());
+    REQUIRE((*writer)->write(actuators));
+  }
   CHECK(mocked.receive() == Bytes(actuators.begin(), actuators.end()));
 
   mocked.unplug();

@@ -1,0 +1,128 @@
+#include "car-io/actuator_writer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace septet::car_io {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Clock::duration duration(double seconds) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+Actuators scaled(Actuators actuators, double share) {
+  actuators.fan *= share;
+  actuators.vibration *= share;
+  actuators.steering *= share;
+  return actuators;
+}
+
+}  // namespace
+
+struct ActuatorWriter::State {
+  State(OpenHidDevice opener, const ActuatorWriterOptions& chosen)
+      : open(std::move(opener)), options(chosen) {}
+
+  void run() {
+    std::unique_lock lock(mutex);
+    for (auto due = Clock::now(); !stopping;
+         due = std::max(due + duration(options.period_s), Clock::now())) {
+      if (changed.wait_until(lock, due, [&] { return stopping; })) break;
+      const Actuators wanted = scaled(newest, share_now());
+      lock.unlock();
+      auto error = write(wanted);
+      lock.lock();
+      if (error) problem = std::move(error);
+    }
+    lock.unlock();
+    write({});
+  }
+
+  /// 1 while somebody sets, then down to 0.
+  double share_now() const {
+    const double silent_s = std::chrono::duration<double>(Clock::now() - set_at).count();
+    return std::clamp(2.0 - silent_s / options.silent_after_s, 0.0, 1.0);
+  }
+
+  std::optional<Error> write(const Actuators& actuators) {
+    if (!device) {
+      if (Clock::now() < next_try) return std::nullopt;
+      next_try = Clock::now() + duration(options.retry_s);
+      auto opened = open();
+      if (!opened) {
+        refusals = 0;  // It is away, which is another matter.
+        return std::nullopt;
+      }
+      device = std::move(*opened);
+    }
+    auto written = device->write(encode_actuators(actuators, ++sequence));
+    if (written && options.has_steering_force)
+      written = device->write(encode_steering(actuators.steering, sequence));
+    if (written) {
+      refusals = 0;
+      return std::nullopt;
+    }
+    device.reset();
+    next_try = Clock::now() + duration(options.retry_s);
+    // The first failure may be the unplugging; one right after opening again is a refusal.
+    if (++refusals != 2) return std::nullopt;
+    return Error{"it takes no output reports: " + written.error().what, written.error().where,
+                 "check the rig's [car] layout against the device"};
+  }
+
+  // Of the thread alone.
+  OpenHidDevice open;
+  ActuatorWriterOptions options;
+  std::unique_ptr<HidDevice> device;
+  Clock::time_point next_try = Clock::now();
+  std::uint8_t sequence = 0;
+  int refusals = 0;
+
+  // Shared.
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool stopping = false;
+  Actuators newest;
+  Clock::time_point set_at = Clock::now();
+  std::optional<Error> problem;
+  std::thread thread;
+};
+
+ActuatorWriter::ActuatorWriter(OpenHidDevice open, const ActuatorWriterOptions& options) {
+  if (!options.layout->has_actuators) return;
+  state_ = std::make_unique<State>(std::move(open), options);
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+ActuatorWriter::~ActuatorWriter() {
+  if (!state_) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+void ActuatorWriter::set(const Actuators& actuators) {
+  if (!state_) return;
+  const std::lock_guard lock(state_->mutex);
+  state_->newest = actuators;
+  state_->set_at = Clock::now();
+}
+
+std::optional<Error> ActuatorWriter::take_error() {
+  if (!state_) return std::nullopt;
+  const std::lock_guard lock(state_->mutex);
+  return std::exchange(state_->problem, std::nullopt);
+}
+
+}  // namespace septet::car_io

@@ -1,0 +1,45 @@
+#pragma once
+/// Writes the car's output reports from a thread of its own, so that a device that takes its time
+/// never delays who reads it or who simulates.
+///
+/// The thread opens the device for itself (a HID device may be open several times) and opens it
+/// again after an unplug. What was set last is written every `period_s`; where nobody has set
+/// anything for `silent_after_s`, everything fades to 0 in as long again: a simulation that hangs
+/// does not leave a fan blowing. The destructor writes zeros.
+///
+/// Threads: `set` and `take_error` from any; neither waits for the device.
+
+#include <memory>
+#include <optional>
+
+#include "car-io/car_layout.hpp"
+#include "car-io/car_report.hpp"
+#include "car-io/hid_device.hpp"
+
+namespace septet::car_io {
+
+struct ActuatorWriterOptions {
+  const CarLayout* layout = &car_layouts().front();
+  bool has_steering_force = false;
+  double period_s = 0.01;
+  double silent_after_s = 0.2;
+  double retry_s = 0.5;
+};
+
+class ActuatorWriter {
+ public:
+  /// A layout without actuators starts no thread.
+  ActuatorWriter(OpenHidDevice open, const ActuatorWriterOptions& options);
+  ~ActuatorWriter();
+
+  void set(const Actuators& actuators);
+  /// A device that is there and takes no output reports, once; that it is away is for who reads it
+  /// to say.
+  std::optional<Error> take_error();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::car_io

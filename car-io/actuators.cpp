@@ -1,0 +1,58 @@
+#include "car-io/actuators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace septet::car_io {
+namespace {
+
+// Shares of what the shaker may do; engineer's values, to be felt and changed.
+constexpr double idling_engine = 0.10, loaded_engine = 0.30;
+constexpr double road_at_30_mps = 0.25;
+constexpr double anti_lock = 0.60, anti_lock_hz = 12.0;
+constexpr double lowest_hz = 5.0, highest_hz = 200.0;  // What a shaker plays.
+
+struct Shake {
+  double amplitude = 0.0, frequency_hz = 0.0;
+};
+
+double finite(double value) { return std::isfinite(value) ? value : 0.0; }
+
+}  // namespace
+
+Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits) {
+  const double speed_mps = std::abs(finite(motion.speed_mps));
+  Actuators result;
+  if (speed_mps > 0.5) {
+    const double share = std::min(speed_mps / limits.fan_full_speed_mps, 1.0);
+    result.fan =
+        std::min(limits.fan_least + (1.0 - limits.fan_least) * share, 1.0) * limits.fan_most;
+  }
+
+  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  const double engine_hz = std::max(0.0, finite(motion.engine_radps)) / turn_rad;
+  const double load = std::clamp(finite(motion.engine_load), 0.0, 1.0);
+  // The velocity of a road's unevenness is white noise, so its size grows with the root of the
+  // speed (ISO 8608, waviness 2).
+  const Shake shakes[] = {
+      {engine_hz > 1.0 ? idling_engine + load * (loaded_engine - idling_engine) : 0.0,
+       engine_hz * motion.cylinders / 2.0},
+      {road_at_30_mps * std::clamp(finite(motion.roughness), 0.0, 10.0) *
+           std::sqrt(speed_mps / 30.0),
+       speed_mps / (turn_rad * std::max(motion.wheel_radius_m, 0.1))},
+      {motion.anti_lock_active ? anti_lock : 0.0, anti_lock_hz}};
+  double power = 0.0;
+  Shake strongest;
+  for (const Shake& shake : shakes) {
+    power += shake.amplitude * shake.amplitude;
+    if (shake.amplitude > strongest.amplitude) strongest = shake;
+  }
+  result.vibration = std::min(std::sqrt(power), 1.0) * limits.vibration_most;
+  result.vibration_hz = std::clamp(strongest.frequency_hz, lowest_hz, highest_hz);
+  result.steering =
+      std::clamp(finite(motion.steering_torque_nm) / limits.steering_full_nm, -1.0, 1.0) *
+      limits.steering_most;
+  return result;
+}
+
+}  // namespace septet::car_io

@@ -1,0 +1,63 @@
+#pragma once
+/// The car's side of the secure lane (engine/control/CONTROL.md): the device's reports to the
+/// server, the server's feedback to the device.
+///
+/// It reads the device with what the server itself reads a device of its own with, sends each
+/// report as it came, and says why there is none. Fan, shaker and hand wheel are moved by a thread
+/// of their own, which stops them where the server is silent. It connects by itself, also again.
+/// Sockets only through the DatagramSocket seam, time only as an argument. One thread.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "car-io/actuator_writer.hpp"
+#include "car-io/car_connection.hpp"
+#include "engine/control/control_message.hpp"
+#include "engine/net/secure_client.hpp"
+#include "engine/rig/rig.hpp"
+
+namespace septet::car_io {
+
+/// How to open the device that a rig names.
+using FindDevice = std::function<OpenHidDevice(const rig::Car&)>;
+
+class CarLink {
+ public:
+  /// The socket outlives the link.
+  CarLink(net::DatagramSocket& socket, net::SecureClientOptions lane, FindDevice find_device);
+
+  void pump(double now_s);
+
+  net::ClientState state() const { return lane_.state(); }
+  bool finished() const { return finished_; }
+  /// Why this car cannot take part: the server said so, or the device of its rig is not there.
+  const std::optional<Error>& refusal() const { return refusal_; }
+  bool has_device() const { return connection_ != nullptr; }
+  /// What happened since the last call, for the console.
+  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
+  void close() { lane_.close(); }
+
+ private:
+  void on_control(std::span<const std::byte> bytes);
+  void take_rig(const std::string& text);
+  void report(double now_s);
+
+  net::SecureClient lane_;
+  FindDevice find_device_;
+  std::unique_ptr<CarConnection> connection_;
+  std::unique_ptr<ActuatorWriter> writer_;
+  Bytes newest_;
+  std::string problem_;
+  bool was_connected_ = false;
+  std::uint32_t number_ = 0;
+  double reported_s_ = -1.0;
+  Tick feedback_tick_ = 0;
+  bool finished_ = false;
+  std::optional<Error> refusal_;
+  std::vector<std::string> messages_;
+};
+
+}  // namespace septet::car_io

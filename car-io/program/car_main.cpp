@@ -1,0 +1,61 @@
+/// `septet-car`: the car's HID device, on the machine that it is plugged into.
+
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "car-io/program/car_program.hpp"
+
+int main(int argc, char** argv) {
+  using namespace septet;
+  car_io::DriveOptions drive;
+  car_io::CalibrateOptions calibrate;
+  car_io::ActuateOptions actuate;
+  CLI::App app{
+      "septet-car: carries the car's controls to the server, and fan, vibration and steering force "
+      "to "
+      "the car. Run it on the machine that the rig's [car] machine names."};
+  app.add_option("--server", drive.server, "Server's address and port");
+  app.add_option("--keys", drive.keys, "Folder with server.public, and car.key, made if missing");
+
+  CLI::App* calibration =
+      app.add_subcommand("calibrate", "Record the axes and print the rig's [car.calibration]");
+  calibration->add_option("--rig", calibrate.rig, "Rig file")->required();
+  calibration->add_option("--seconds", calibrate.seconds, "How long")
+      ->check(CLI::Range(0.1, 600.0));
+
+  CLI::App* trial = app.add_subcommand("try", "Set fan, vibration and steering force for a while");
+  trial->add_option("--rig", actuate.rig, "Rig file")->required();
+  trial->add_option("--seconds", actuate.seconds, "How long")->check(CLI::Range(0.1, 600.0));
+  trial->add_option("--fan", actuate.actuators.fan, "0 to 1")->check(CLI::Range(0.0, 1.0));
+  trial->add_option("--vibration", actuate.actuators.vibration, "0 to 1")
+      ->check(CLI::Range(0.0, 1.0));
+  trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")
+      ->check(CLI::Range(0.0, 255.0));
+  trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
+      ->check(CLI::Range(-1.0, 1.0));
+  app.require_subcommand(0, 1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
+  });
+  CLI11_PARSE(app, argc, argv);
+
+  const auto run = [&]() -> Expected<void> {
+    if (calibration->parsed()) return car_io::run_calibration(calibrate);
+    if (trial->parsed()) return car_io::run_actuators(actuate);
+    if (drive.keys.empty())
+      return failure("it needs the folder of its keys", "--keys",
+                     "give one; --help lists the options");
+    return car_io::run_car(drive);
+  };
+  Expected<void> outcome;
+  try {
+    outcome = run();
+  } catch (const std::exception& error) {
+    outcome = failure(error.what(), "", "");
+  }
+  if (outcome) return 0;
+  std::fputs(("septet-car: " + describe(outcome.error()) + "\n").c_str(), stderr);
+  return 1;
+}

@@ -1,0 +1,140 @@
+#include "car-io/program/car_program.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "car-io/program/calibration.hpp"
+#include "car-io/program/car_link.hpp"
+#include "engine/net/keys.hpp"
+#include "engine/net/udp_socket.hpp"
+
+namespace septet::car_io {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+void on_signal(int) { stop_requested = 1; }
+
+void stop_on_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Not fmt::print, which throws where standard error is a file on a full disk.
+void say(const std::string& what) { std::fputs(("septet-car: " + what + "\n").c_str(), stderr); }
+
+OpenHidDevice find_device(const rig::Car& car) {
+  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] {
+    return open_hid_device(address);
+  };
+}
+
+/// The rig's car with its layout and its device.
+struct CarHere {
+  rig::Car car;
+  const CarLayout* layout = nullptr;
+  std::unique_ptr<HidDevice> device;
+};
+
+Expected<CarHere> open_car(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  if (stream) text << stream.rdbuf();
+  if (!stream)
+    return failure("the rig cannot be read", file.string(), "give the rig's file with --rig");
+  auto rig = rig::read_rig(text.str(), file.string());
+  if (!rig) return tl::unexpected(rig.error());
+  const auto layout = find_car_layout(rig->car.layout);
+  if (!layout) return tl::unexpected(layout.error());
+  auto device = find_device(rig->car)();
+  if (!device) return tl::unexpected(device.error());
+  return CarHere{rig->car, *layout, std::move(*device)};
+}
+
+void sleep_s(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+Expected<void> run_car(const DriveOptions& options) {
+  stop_on_signals();
+  const auto server = net::parse_address(options.server, "--server");
+  if (!server) return tl::unexpected(server.error());
+  const auto server_key = net::load_public_key(options.keys / "server.public");
+  if (!server_key) return tl::unexpected(server_key.error());
+  const auto identity = net::load_or_create_identity(options.keys / "car.key");
+  if (!identity) return tl::unexpected(identity.error());
+  auto socket = net::UdpSocket::open({{net::is_loopback(*server) ? net::loopback_ip : 0, 0}});
+  if (!socket) return tl::unexpected(socket.error());
+  say(fmt::format("the server's allowed-clients must hold the line: {} car",
+                  net::to_text(identity->public_key())));
+
+  CarLink link(*socket, {*server, *server_key, *identity, {}}, find_device);
+  while (!stop_requested && !link.finished()) {
+    link.pump(monotonic_s());
+    for (const auto& text : link.take_messages()) say(text);
+    if (link.refusal()) return tl::unexpected(*link.refusal());
+    // The device is asked twice a millisecond or so; whatever the server sends wakes this at once.
+    const net::UdpSocket* waiting[] = {&*socket};
+    net::wait_readable(waiting, link.has_device() ? 0.001 : 0.01);
+  }
+  link.close();
+  return {};
+}
+
+Expected<void> run_calibration(const CalibrateOptions& options) {
+  stop_on_signals();
+  auto here = open_car(options.rig);
+  if (!here) return tl::unexpected(here.error());
+  say(fmt::format(
+      "hold the wheel straight and touch nothing else; then, within {:.0f} s, turn it to "
+      "both ends and press each pedal down once",
+      options.seconds));
+  CalibrationRecord record;
+  for (const double end_s = monotonic_s() + options.seconds;
+       monotonic_s() < end_s && !stop_requested; sleep_s(0.001)) {
+    const auto report = here->device->read_newest();
+    if (!report) return tl::unexpected(report.error());
+    if (!*report) continue;
+    const auto readings = read_axes(*here->layout, **report);
+    if (!readings) return tl::unexpected(readings.error());
+    record.add(*readings);
+  }
+  if (record.reports == 0)
+    return failure("the device sent nothing", options.rig.string(), "check its power and firmware");
+  const auto recorded = calibration_of(record, here->car.calibration);
+  if (!recorded.unmoved.empty())
+    say(fmt::format("not moved, and left as the rig has it: {}", recorded.unmoved));
+  std::fputs(calibration_toml(recorded.calibration).c_str(), stdout);
+  return {};
+}
+
+Expected<void> run_actuators(const ActuateOptions& options) {
+  stop_on_signals();
+  auto here = open_car(options.rig);
+  if (!here) return tl::unexpected(here.error());
+  if (!here->layout->has_actuators)
+    return failure(fmt::format("the layout {} has no actuators", here->layout->name),
+                   options.rig.string(), "choose another layout in [car]");
+  ActuatorWriter writer(
+      find_device(here->car),
+      {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
+  for (const double end_s = monotonic_s() + options.seconds;
+       monotonic_s() < end_s && !stop_requested; sleep_s(0.02)) {
+    writer.set(options.actuators);
+    if (auto error = writer.take_error()) return tl::unexpected(std::move(*error));
+  }
+  return {};
+}
+
+}  // namespace septet::car_io

@@ -1,0 +1,35 @@
+#pragma once
+/// What `septet-car` does: drive, calibrate, try the actuators. Each ends with an error or with
+/// nothing to say; Ctrl-C ends it, too.
+
+#include <filesystem>
+#include <string>
+
+#include "car-io/car_report.hpp"
+#include "engine/core/expected.hpp"
+
+namespace septet::car_io {
+
+struct DriveOptions {
+  std::string server = "127.0.0.1:4750";
+  std::filesystem::path keys;  ///< Folder with car.key (made if missing) and server.public.
+};
+/// Carries the device's reports to the server and its feedback back, until the drive is over.
+Expected<void> run_car(const DriveOptions& options);
+
+struct CalibrateOptions {
+  std::filesystem::path rig;
+  double seconds = 20.0;
+};
+/// Records the axes for a while and prints the rig's [car.calibration] on standard output.
+Expected<void> run_calibration(const CalibrateOptions& options);
+
+struct ActuateOptions {
+  std::filesystem::path rig;
+  double seconds = 3.0;
+  Actuators actuators;
+};
+/// Sets fan, shaker and hand wheel to what a person chose, to try them.
+Expected<void> run_actuators(const ActuateOptions& options);
+
+}  // namespace septet::car_io

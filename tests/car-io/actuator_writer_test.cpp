@@ -1,0 +1,119 @@
+#include "car-io/actuator_writer.hpp"
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "car-io/car_connection.hpp"
+#include "car-io/simulated_hid_device.hpp"
+
+namespace septet::car_io {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Waits for what another thread does; generous, as it only costs time where it fails.
+bool comes_true(const std::function<bool()>& condition) {
+  for (const auto end = Clock::now() + std::chrono::seconds(5); Clock::now() < end;) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
+}
+
+/// The fan of the newest output report, or what it was.
+double newest_fan(SimulatedHidPort& port, double before) {
+  for (const Bytes& report : port.take_written())
+    if (const auto actuators = decode_actuators(report)) before = actuators->fan;
+  return before;
+}
+
+Bytes report_of(std::uint8_t sequence) {
+  DriverInput input;
+  input.sequence = sequence;
+  const auto report = encode_controls(input);
+  return {report.begin(), report.end()};
+}
+
+}  // namespace
+
+TEST_CASE("what is set reaches the device and the last report of all is zero") {
+  SimulatedHidPort port;
+  port.plug();
+  double fan = -1.0;
+  {
+    ActuatorWriter writer(port.opener(), {.period_s = 0.002, .silent_after_s = 60.0});
+    writer.set({.fan = 0.5});
+    CHECK(comes_true([&] { return (fan = newest_fan(port, fan)) > 0.49; }));
+  }
+  CHECK(newest_fan(port, fan) == 0.0);
+}
+
+TEST_CASE("where nobody sets anything the fan fades to zero by itself") {
+  SimulatedHidPort port;
+  port.plug();
+  ActuatorWriter writer(port.opener(), {.period_s = 0.002, .silent_after_s = 0.02});
+  writer.set({.fan = 1.0});
+  double fan = -1.0;
+  CHECK(comes_true([&] { return (fan = newest_fan(port, fan)) == 0.0; }));
+}
+
+TEST_CASE("a device that takes no output delays neither who sets nor who reads") {
+  SimulatedHidPort port;
+  port.plug();
+  CarConnection car(port.opener(), {});
+  ActuatorWriter writer(port.opener(), {.period_s = 0.001, .silent_after_s = 60.0});
+  writer.set({.fan = 0.5});
+  double fan = -1.0;
+  REQUIRE(comes_true([&] { return (fan = newest_fan(port, fan)) > 0.49; }));
+  port.block_writes(true);
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));  // It hangs in its write now.
+  for (int tick = 0; tick < 1000; ++tick) {
+    writer.set({.fan = 0.25});
+    port.send(report_of(static_cast<std::uint8_t>(tick)));
+    const CarReading reading = car.poll(tick / 120.0);
+    CHECK(reading.input.sequence == static_cast<std::uint8_t>(tick));
+    CHECK_FALSE(reading.is_stale);
+  }
+  port.block_writes(false);
+  CHECK(comes_true([&] { return (fan = newest_fan(port, fan)) < 0.3; }));
+}
+
+TEST_CASE("a device that was plugged in again is written to again without a word") {
+  SimulatedHidPort port;
+  port.plug();
+  ActuatorWriter writer(port.opener(),
+                        {.period_s = 0.002, .silent_after_s = 60.0, .retry_s = 0.01});
+  writer.set({.fan = 0.5});
+  double fan = -1.0;
+  REQUIRE(comes_true([&] { return (fan = newest_fan(port, fan)) > 0.49; }));
+  port.unplug();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  port.plug();
+  fan = -1.0;
+  CHECK(comes_true([&] { return (fan = newest_fan(port, fan)) > 0.49; }));
+  CHECK_FALSE(writer.take_error().has_value());
+}
+
+TEST_CASE("a device that refuses output reports is named once") {
+  struct Refusing final : HidDevice {
+    Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
+    Expected<void> write(std::span<const std::byte>) override {
+      return failure("Broken pipe", "a wheel", "");
+    }
+    Expected<Bytes> get_feature(std::uint8_t, std::size_t) override { return Bytes{}; }
+    Expected<void> send_feature(std::span<const std::byte>) override { return {}; }
+  };
+  ActuatorWriter writer(
+      []() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Refusing>(); },
+      {.period_s = 0.001, .retry_s = 0.001});
+  std::optional<Error> error;
+  REQUIRE(comes_true([&] { return (error = writer.take_error()).has_value(); }));
+  CHECK(error->what == "it takes no output reports: Broken pipe");
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK_FALSE(writer.take_error().has_value());
+}
+
+}  // namespace septet::car_io

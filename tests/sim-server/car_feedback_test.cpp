@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "car-io/simulated_hid_device.hpp"
+#include "sim-server/drive_loader.hpp"
+#include "sim-server/driver_seat.hpp"
+
+namespace septet::server {
+namespace {
+
+LoadedDrive motorway() {
+  const std::string source = SEPTET_SOURCE_DIR;
+  auto drive = load_drive({source + "/scenarios/motorway-ambulance/motorway-ambulance.xosc", source + "/rigs/desktop.toml", 1});
+  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
+  return std::move(*drive);
+}
+
+}  // namespace
+
+TEST_CASE("the fan of the car at the server rises with the speed of the drive") {
+  const LoadedDrive drive = motorway();
+  car_io::SimulatedHidPort port;
+  port.plug();
+  DriverSeat seat;
+  seat.actuators.fan_full_speed_mps = 70.0;
+  sit_at_device(seat, port.opener(), {});
+  auto live = LiveDrive::start(drive.model, std::move(seat), nullptr);
+  REQUIRE(live.has_value());
+  DriverInput input;
+  input.accelerator = 1.0;
+  const auto drive_for = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      ++input.sequence;
+      port.send(car_io::encode_controls(input));
+      REQUIRE((*live)->next(std::nullopt).has_value());
+    }
+    // The writer has a thread and a clock of its own: give it until it has written this speed.
+    const double share = std::min((*live)->newest().driver_car.speed_mps / 70.0, 1.0);
+    double fan = -1.0;
+    for (int i = 0; i < 500 && std::abs(fan - (0.2 + 0.8 * share)) > 1e-3; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      for (const Bytes& report : port.take_written())
+        if (const auto actuators = car_io::decode_actuators(report)) fan = actuators->fan;
+    }
+    CHECK(fan == doctest::Approx(0.2 + 0.8 * share).epsilon(1e-3));
+    return fan;
+  };
+  const double first = drive_for(120), second = drive_for(360);
+  CHECK(second > first + 0.02);
+}
+
+TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on and counts it") {
+  const LoadedDrive drive = motorway();
+  car_io::SimulatedHidPort port;
+  port.plug();
+  DriverSeat seat;
+  sit_at_device(seat, port.opener(), {});
+  auto live = LiveDrive::start(drive.model, std::move(seat), nullptr);
+  REQUIRE(live.has_value());
+  DriverInput input;
+  const auto drive_for = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      ++input.sequence;
+      port.send(car_io::encode_controls(input));
+      REQUIRE((*live)->next(std::nullopt).has_value());
+    }
+    return (*live)->take_messages();
+  };
+  CHECK(drive_for(60).empty());
+  CHECK((*live)->newest().diagnostics.input_stale_ticks == 0);
+  port.unplug();
+  const auto lost = drive_for(30);
+  REQUIRE(lost.size() == 1);
+  CHECK(lost[0].find("no such device") != std::string::npos);
+  CHECK((*live)->newest().diagnostics.input_stale_ticks == 30);
+  port.plug();
+  const auto back = drive_for(120);
+  REQUIRE(back.size() == 1);
+  CHECK(back[0] == "car: the car's device is there");
+  const auto counted = (*live)->newest().diagnostics.input_stale_ticks;
+  CHECK(counted < 100);
+  drive_for(10);
+  CHECK((*live)->newest().diagnostics.input_stale_ticks == counted);
+}
+
+}  // namespace septet::server
