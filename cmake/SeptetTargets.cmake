@@ -1,5 +1,20 @@
 # Three functions make every target of the project, so that a folder's CMakeLists.txt is a few lines.
 
+# The headers that most files include, precompiled once for all targets.
+if(SEPTET_PRECOMPILE)
+  file(WRITE ${CMAKE_BINARY_DIR}/precompiled.cpp "")
+  add_library(septet_precompiled STATIC ${CMAKE_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(septet_precompiled PUBLIC fmt::fmt tl::expected)
+  target_precompile_headers(septet_precompiled PRIVATE <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream>
+    <functional> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector> <fmt/format.h> <glm/glm.hpp>
+    <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
+endif()
+function(septet_precompile target)
+  if(SEPTET_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM septet_precompiled)
+  endif()
+endfunction()
+
 # septet_library(NAME [DEPENDS library…] [PRIVATE library…])
 # A static library `septet_NAME` of all .cpp files below this folder. DEPENDS names other Septet libraries without their
 # prefix; PRIVATE names third-party targets, whose headers stay in the .cpp files.
@@ -18,6 +33,7 @@ function(septet_library name)
     set(scope PUBLIC)
     target_compile_options(septet_${name} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
     target_link_libraries(septet_${name} PRIVATE ${arg_PRIVATE})
+    septet_precompile(septet_${name})
   else()
     add_library(septet_${name} INTERFACE)
     set(scope INTERFACE)
@@ -35,6 +51,7 @@ function(septet_program name)
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE ${arg_DEPENDS} ${arg_PRIVATE})
+  septet_precompile(${name})
 endfunction()
 
 # septet_test(NAME [DEPENDS library…] [PRIVATE library…])
@@ -59,6 +76,7 @@ function(septet_test_program name label timeout_s sources)
                                              SEPTET_BINARY_DIR="${CMAKE_BINARY_DIR}")
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
+  septet_precompile(${name})
   add_dependencies(${label}_tests ${name})  # So that a sanitizer build makes only what it runs.
   doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s})
 endfunction()

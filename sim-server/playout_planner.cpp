@@ -4,27 +4,33 @@
 
 namespace septet::server {
 
-PlayoutPlanner::PlayoutPlanner(double least_delay_s, double tick_s)
-    : least_s_(least_delay_s), tick_s_(tick_s), current_s_(least_delay_s), next_s_(least_delay_s) {}
-
-void PlayoutPlanner::observe(double lateness_s, double now_s) {
-  while (!worst_.empty() && worst_.back().lateness_s <= lateness_s) worst_.pop_back();
-  worst_.push_back({now_s, lateness_s});
+void SlidingMaximum::add(double value, double now_s) {
+  while (!values_.empty() && values_.back().value <= value) values_.pop_back();
+  values_.push_back({now_s, value});
 }
 
-control::TickHeader PlayoutPlanner::header(double now_s) {
-  while (!worst_.empty() && worst_.front().at_s < now_s - memory_s) worst_.pop_front();
+double SlidingMaximum::at(double now_s, double otherwise) {
+  while (!values_.empty() && values_.front().at_s < now_s - memory_s_) values_.pop_front();
+  return values_.empty() ? otherwise : values_.front().value;
+}
+
+control::TickHeader PlayoutPlanner::header(double now_s, double simulated_time_s) {
+  behind_.add(now_s - simulated_time_s, now_s);
   if (now_s >= next_from_s_) {
     current_s_ = next_s_;
-    const double wanted = worst_.empty() ? least_s_ : worst_.front().lateness_s + 1.5 * tick_s_;
-    const double bounded = std::clamp(wanted, least_s_, std::max(least_s_, largest_s));
-    // Half a tick of hysteresis: a delay that breathes would be seen as a shaking world.
-    if (bounded > current_s_ || bounded < current_s_ - 0.5 * tick_s_) {
-      next_s_ = bounded;
+    const double wanted_s = lateness_.at(now_s, least_s_ - 1.5 * tick_s_) + 1.5 * tick_s_;
+    const double delay_s = std::clamp(wanted_s, least_s_, std::max(least_s_, largest_s));
+    const double offset_s = delay_s + behind_.at(now_s, now_s - simulated_time_s);
+    // Half a tick of hysteresis: an offset that breathes would be seen as a shaking world.
+    if (!started_ || offset_s > current_s_ || offset_s < current_s_ - 0.5 * tick_s_) {
+      next_s_ = offset_s;
+      delay_s_ = delay_s;
       next_from_s_ = now_s + notice_s;
+      if (!started_) current_s_ = offset_s;
+      started_ = true;
     }
   }
-  return {now_s, static_cast<float>(current_s_), static_cast<float>(next_s_), next_from_s_};
+  return {now_s, current_s_, next_s_, next_from_s_};
 }
 
 }  // namespace septet::server

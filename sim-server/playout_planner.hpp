@@ -1,39 +1,54 @@
 #pragma once
-/// The server's choice of the play-out delay D, from how late ticks reach the screens.
+/// The server's choice of which simulated time the screens show when, from how late ticks reach them.
 ///
-/// D is at least the rig's; it grows to the worst lateness of the last seconds plus one tick (a lost datagram comes with the
-/// next tick's repetition), and shrinks again only after a calm while. A change is announced ahead, so that every screen makes
-/// it at the same instant of the server's clock. Pure state, no clock; one thread.
+/// The play-out delay D is at least the rig's; it grows to the worst lateness of the last seconds plus one and a half ticks (a
+/// lost datagram comes with the next tick's repetition), and shrinks again only after a calm while. The offset between the
+/// server's clock and the shown time is D plus what the simulation is behind that clock. A change is announced ahead, so that
+/// every screen makes it at the same instant of the server's clock. Pure state, no clock; one thread.
 
-#include <cstdint>
 #include <deque>
 
 #include "engine/control/control_message.hpp"
 
 namespace septet::server {
 
-class PlayoutPlanner {
+/// The greatest of the values of the last seconds.
+class SlidingMaximum {
  public:
-  PlayoutPlanner(double least_delay_s, double tick_s);
-
-  /// A screen says how late a tick came.
-  void observe(double lateness_s, double now_s);
-  /// The delay part of the header of a tick published now.
-  control::TickHeader header(double now_s);
-
-  double delay_s() const { return next_s_; }
+  explicit SlidingMaximum(double memory_s) : memory_s_(memory_s) {}
+  void add(double value, double now_s);
+  /// `otherwise` if there was none.
+  double at(double now_s, double otherwise);
 
  private:
-  static constexpr double memory_s = 5.0;     ///< How long a late tick is remembered.
-  static constexpr double notice_s = 0.1;     ///< From the announcement of a change to the change.
-  static constexpr double largest_s = 0.25;   ///< Beyond this no driver would believe the wheel.
-
-  struct Lateness {
-    double at_s, lateness_s;
+  struct Value {
+    double at_s, value;
   };
+  double memory_s_;
+  std::deque<Value> values_;  ///< Descending value, ascending time.
+};
+
+class PlayoutPlanner {
+ public:
+  PlayoutPlanner(double least_delay_s, double tick_s) : least_s_(least_delay_s), tick_s_(tick_s) {}
+
+  /// A screen says how long after its publication a tick came.
+  void observe(double lateness_s, double now_s) { lateness_.add(lateness_s, now_s); }
+  /// The header of a tick published now.
+  control::TickHeader header(double now_s, double simulated_time_s);
+
+  double delay_s() const { return delay_s_; }
+
+ private:
+  static constexpr double memory_s = 5.0;   ///< How long a late tick is remembered.
+  static constexpr double notice_s = 0.1;   ///< From the announcement of a change to the change.
+  static constexpr double largest_s = 0.25; ///< Of D: beyond this no driver would believe the wheel.
+
   double least_s_, tick_s_;
-  double current_s_, next_s_, next_from_s_ = 0.0;
-  std::deque<Lateness> worst_;  ///< Descending lateness, ascending time: a sliding maximum.
+  double delay_s_ = 0.0;
+  bool started_ = false;
+  double current_s_ = 0.0, next_s_ = 0.0, next_from_s_ = 0.0;
+  SlidingMaximum lateness_{memory_s}, behind_{memory_s};
 };
 
 }  // namespace septet::server

@@ -206,7 +206,7 @@ void ScreenHost::publish(std::shared_ptr<const WireSnapshot> snapshot, double no
   }
   Bytes payload;
   ByteWriter writer(payload);
-  put_tick_header(writer, planner_.header(now_s));
+  put_tick_header(writer, planner_.header(now_s, snapshot->rest.simulated_time_s));
   encode_snapshot(*snapshot, baseline, payload);
   last_tick_bytes_ = payload.size();
   publisher_.publish(snapshot->rest.tick, payload);

@@ -128,21 +128,19 @@ std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes) {
 
 void put_tick_header(ByteWriter& writer, const TickHeader& header) {
   writer.put(header.published_s);
-  writer.put(header.playout_delay_s);
-  writer.put(header.next_playout_delay_s);
+  writer.put(header.offset_s);
+  writer.put(header.next_offset_s);
   writer.put(header.next_from_s);
 }
 
 TickHeader get_tick_header(ByteReader& reader) {
   TickHeader header;
   header.published_s = reader.get_double();
-  header.playout_delay_s = reader.get_float();
-  header.next_playout_delay_s = reader.get_float();
+  header.offset_s = reader.get_double();
+  header.next_offset_s = reader.get_double();
   header.next_from_s = reader.get_double();
-  const auto sensible = [](float delay_s) { return delay_s >= 0.0f && delay_s <= 10.0f; };
-  if (!std::isfinite(header.published_s) || !std::isfinite(header.next_from_s) || !sensible(header.playout_delay_s) ||
-      !sensible(header.next_playout_delay_s))
-    reader.fail();
+  for (const double value : {header.published_s, header.offset_s, header.next_offset_s, header.next_from_s})
+    if (!std::isfinite(value)) reader.fail();
   return header;
 }
 

@@ -117,13 +117,14 @@ Bytes scene_message(std::span<const std::byte> message);
 /// What kind a received message is; nothing for an empty or unknown one.
 std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes);
 
-/// What the tick lane carries besides the snapshot: when it was published, and how long to hold it back. All screens switch
-/// from one play-out delay to the next at the same instant of the server's clock, so a change does not tear the seams.
+/// What the tick lane carries besides the snapshot: when it was published, and which simulated time to show at which instant.
+/// The offset is the server's alone and changes at an announced instant of its clock: were it taken from the ticks that a
+/// screen happens to hold, screens would differ by the jitter of publication, and a difference tears the seams.
 struct TickHeader {
-  double published_s = 0.0;  ///< Server's clock.
-  float playout_delay_s = 0.0f;
-  float next_playout_delay_s = 0.0f;
-  double next_from_s = 0.0;  ///< Server's clock from which the next delay holds.
+  double published_s = 0.0;     ///< Server's clock.
+  double offset_s = 0.0;        ///< Shown simulated time = server's clock − offset.
+  double next_offset_s = 0.0;
+  double next_from_s = 0.0;     ///< Server's clock from which the next offset holds.
 };
 void put_tick_header(ByteWriter& writer, const TickHeader& header);
 /// Puts the reader into its failed state where the header makes no sense.

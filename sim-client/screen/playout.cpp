@@ -8,18 +8,13 @@
 
 namespace septet::screen {
 
-double playout_delay_s(const control::TickHeader& newest, double server_now_s) {
-  return server_now_s >= newest.next_from_s ? newest.next_playout_delay_s : newest.playout_delay_s;
-}
-
 std::int64_t frame_number(double server_now_s) { return std::llround(server_now_s * frame_rate_hz); }
 
 std::optional<double> playout_time_s(const TickHistory& history, std::int64_t number) {
   if (history.empty()) return std::nullopt;
-  const HistoryTick& newest = history.newest();
-  const double clock_at_zero_s = newest.header.published_s - newest.snapshot.simulated_time_s;
+  const control::TickHeader& newest = history.newest().header;
   const double instant_s = static_cast<double>(number) / frame_rate_hz;
-  return instant_s - playout_delay_s(newest.header, instant_s) - clock_at_zero_s;
+  return instant_s - (instant_s >= newest.next_from_s ? newest.next_offset_s : newest.offset_s);
 }
 
 Shown show(const TickHistory& history, double simulated_time_s, double tick_s) {

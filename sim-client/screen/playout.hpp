@@ -1,20 +1,16 @@
 #pragma once
 /// Which instant of the world a screen shows at a given instant of the server's clock.
 ///
-/// Every tick says when it was published and how long to hold it back. A screen shows simulated time
-///     t = (server's clock − D) − (published − simulated time of the newest tick)
-/// so that all screens, whatever their network did, show the same t at the same time. Frames are numbered by the server's
-/// clock (60 a second): frame n shows the instant n/60 on every screen, however much their clocks differ. D is the server's: it follows the
-/// lateness that the screens report and changes at an announced instant. Pure functions over the history.
+/// The server says what to subtract from its clock, so that all screens, whatever their network did, show the same time at
+/// the same instant. Frames are numbered by the server's clock (60 a second): frame n shows the instant n/60 on every screen,
+/// however much their clocks differ. The offset holds the play-out delay D, which follows the lateness that the screens report,
+/// and what the simulation has fallen behind; it changes at an announced instant. Pure functions over the history.
 
 #include <optional>
 
 #include "sim-client/screen/tick_history.hpp"
 
 namespace septet::screen {
-
-/// The play-out delay that holds at this instant of the server's clock.
-double playout_delay_s(const control::TickHeader& newest, double server_now_s);
 
 inline constexpr double frame_rate_hz = 60.0;
 

@@ -69,6 +69,19 @@ TEST_CASE("loss of five percent and twenty milliseconds of jitter and reordering
   }
 }
 
+TEST_CASE("whatever the play-out delay a tick published late by a millisecond skews no frame") {
+  // The rig publishes on whole milliseconds, so every tick but each third is late by a part of one.
+  for (const double delay_ticks : {2.0, 2.95, 3.02, 3.5}) {
+    SimulatedRig rig({.screens = 3, .faults = {.latency_s = 0.0005, .jitter_s = 0.002}, .least_playout_delay_s = delay_ticks * rig_tick_s});
+    rig.run_for(1.0);
+    const Presented seen = present(rig, 1.0);
+    CAPTURE(delay_ticks);
+    CHECK(seen.skewed == 0);
+    CHECK(seen.held == 0);
+    CHECK(seen.wrong == 0);
+  }
+}
+
 TEST_CASE("a screen that dies costs the others no frame and is back within a second") {
   SimulatedRig rig({});
   rig.run_for(1.0);

@@ -22,6 +22,7 @@ struct SimulatedRigOptions {
   bool multicast = true;
   std::uint64_t seed = 1;
   std::size_t vehicles = 200;
+  double least_playout_delay_s = 2.0 / 120.0;
   std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
   std::set<std::size_t> deaf{};  ///< Screens that the group's datagrams do not reach.
 };
@@ -72,7 +73,8 @@ class SimulatedRig {
     host_.reset();
     server_lane_ = network_.open(server_address_);
     server_tick_ = network_.open({server_address_.ip, 4999});
-    server::ScreenHostOptions options{.identity = server_identity_, .session = net::random_session_id()};
+    server::ScreenHostOptions options{.identity = server_identity_, .session = net::random_session_id(),
+                                      .least_playout_delay_s = options_.least_playout_delay_s};
     for (const auto& screen : screens_) {
       options.allowed.push_back({screen.identity.public_key(), screen.name});
       options.screens.push_back(screen.name);
