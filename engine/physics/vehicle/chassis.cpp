@@ -55,8 +55,14 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const Vec3& centre_m = load.place.centre_m;
 
   const Vec3 normal = glm::conjugate(world_from_body) * ground.normal;
+  // The published height of an axle leaves out that its centre moves sideways under a leaning body.
+  const Vec3 measured_m =
+      parameters.as_published
+          ? Vec3(centre_m.x, side_of(index) * 0.5 * parameters.suspension[axle_of(index)].track_m,
+                 centre_m.z)
+          : centre_m;
   const double height_m =
-      glm::dot(ground.normal, state.world_from_body * centre_m - ground.point_m);
+      glm::dot(ground.normal, state.world_from_body * measured_m - ground.point_m);
   // Deeper than that the rim would be flat; the force stays what it is there.
   const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
   const Vec3 across = glm::cross(axis, normal);
@@ -85,7 +91,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.rolling_mps = wheel.spin_radps * effective_radius_m;
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
-    if (parameters.slip_as_published) {
+    if (parameters.as_published) {
       const Vec3 body_forward = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), normal));
       const Vec3 body_left = glm::cross(normal, body_forward);
       const double axle_roll_radps = state.angular_velocity_radps.x +
@@ -148,6 +154,19 @@ void add_aerodynamics(const BodyParameters& body, const Statics& known, const Ve
     const double lift_n = pressure_pa * body.lift_area_m2[axle] * square(velocity_mps.x);
     force_n.z += lift_n;
     moment_nm.y -= known.axle_x_m[axle] * lift_n;
+  }
+}
+
+/// What it takes to yaw the unsprung masses around the centre of the sprung mass. Published without
+/// its counterpart in yaw; our own cars take the centres to coincide in plan, so that it vanishes.
+void add_yawing_axles(const VehicleParameters& parameters,
+                      const std::array<WheelPlace, wheel_count>& places, double yaw_radps2,
+                      Coordinates& generalised) {
+  for (int i = 0; i < wheel_count; ++i) {
+    const double force_n =
+        -parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.x * yaw_radps2;
+    const Coordinates sideways = centre_jacobian(places[i], i)[1];
+    for (int k = 0; k < coordinate_count; ++k) generalised[k] += sideways[k] * force_n;
   }
 }
 
@@ -227,10 +246,12 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   for (int i = 0; i < 3; ++i) generalised[i] += force_n[i];
   generalised[3] += moment_nm.x;
   generalised[4] += moment_nm.y;
+  const double yaw_radps2 = moment_nm.z / body.inertia_kgm2.z;
+  if (parameters.as_published) add_yawing_axles(parameters, places, yaw_radps2, generalised);
 
   const Coordinates felt = accelerations(parameters, known, places, generalised);
   const Vec3 linear = Vec3(felt[0], felt[1], felt[2]) + gravity;
-  const Vec3 angular{felt[3], felt[4], moment_nm.z / body.inertia_kgm2.z};
+  const Vec3 angular{felt[3], felt[4], yaw_radps2};
   for (int i = 0; i < wheel_count; ++i) {
     WheelState& wheel = state.wheels[i];
     wheel.travel_rate_mps += dt_s * felt[5 + i];

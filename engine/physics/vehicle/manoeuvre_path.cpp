@@ -52,10 +52,9 @@ ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
       least_load_n = std::min(least_load_n, now.least_wheel_load_n);
     }
     const double ahead_m = now.speed_mps * preview_s;
-    const double cos_heading = std::cos(now.heading_rad), sin_heading = std::sin(now.heading_rad);
-    const double target_x_m = x_m + ahead_m * cos_heading;
-    const double error_m = (lane_change_path_m(target_x_m, width_m) - now.y_m) * cos_heading -
-                           ahead_m * cos_heading * sin_heading;
+    const double target_x_m = x_m + ahead_m * std::cos(now.heading_rad);
+    const double target_y_m = now.y_m + ahead_m * std::sin(now.heading_rad);
+    const double error_m = lane_change_path_m(target_x_m, width_m) - target_y_m;
     const double wanted_rad =
         2.0 * error_m / (ahead_m * ahead_m) *
         (parameters.body.wheelbase_m + driver_understeer * now.speed_mps * now.speed_mps);

@@ -303,8 +303,7 @@ Expected<VehicleParameters> read_vehicle(std::string_view text, std::string_view
   read_steering(in, parameters.steering);
   read_powertrain(in, parameters.powertrain);
   read_brakes(in, parameters.brakes);
-  if (in.has("verification"))
-    in.flag("verification.slip_as_published", parameters.slip_as_published);
+  if (in.has("verification")) in.flag("verification.as_published", parameters.as_published);
   const double unsprung_kg =
       2.0 * (parameters.suspension[0].unsprung_mass_kg + parameters.suspension[1].unsprung_mass_kg);
   if (unsprung_kg > 0.6 * parameters.body.mass_kg)

@@ -122,10 +122,9 @@ struct VehicleParameters {
   SteeringParameters steering;
   PowertrainParameters powertrain;
   BrakeParameters brakes;
-  /// Verification only: slip as in the published equations, from the sideways velocity of the
-  /// centre of mass and the rolling of the axle, not from that of the contact; see
-  /// vehicles/README.md.
-  bool slip_as_published = false;
+  /// Verification only: three simplifications of the published equations (slip, height of the
+  /// axles, yawing of the axles), named in vehicles/README.md.
+  bool as_published = false;
 };
 
 }  // namespace septet::vehicle

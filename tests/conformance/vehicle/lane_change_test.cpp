@@ -29,8 +29,7 @@ TEST_CASE("the double lane change peaks where the published model peaks") {
           doctest::Approx(peak(curve, "yawrate") * 57.29577951308232).epsilon(0.05));
     CHECK(report.figure("peak roll") == doctest::Approx(peak(curve, "roll_deg")).epsilon(0.05));
     CHECK(report.figure("peak steer") == doctest::Approx(peak(curve, "delta")).epsilon(0.05));
-    // The sideslip itself is small; vehicles/README.md says why it is not nearer.
-    CHECK(std::abs(report.figure("peak sideslip") - peak(curve, "beta_deg")) < 0.12);
+    CHECK(report.figure("peak sideslip") == doctest::Approx(peak(curve, "beta_deg")).epsilon(0.05));
   }
 }
 
