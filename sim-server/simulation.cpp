@@ -7,6 +7,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/road/lane_links.hpp"
+#include "sim-server/wheel_ground.hpp"
 
 namespace septet::server {
 namespace {
@@ -26,24 +27,19 @@ constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want
 /// The road's surface under each wheel, and how slippery it is there.
 vehicle::Ground ground_below(const SimulationModel& model, SimulationState& state) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
-  const Environment& weather = state.scenario.environment;
-  const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
+  const Environment& sky = state.scenario.environment;
+  const RoadWeather weather{sky.road_wetness, sky.snow_cover, sky.temperature_k, state.scenario.friction_scale};
   vehicle::Ground ground;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     vehicle::WheelGround& wheel = ground[i];
-    const auto surface = road::surface_at(model.roads, {centres[i].x, centres[i].y}, state.car_road ? &state.wheel_roads[i] : nullptr, 60.0);
-    wheel.friction = friction;
-    if (surface) {
-      state.wheel_roads[i] = surface->position;
-      wheel.point_m = {centres[i].x, centres[i].y, surface->height_m};
+    if (find_wheel_ground(model.roads, weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
       wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
-      wheel.normal = surface->normal;
-    } else {
-      // Far off every road the ground goes on level at the height of the wheel's last contact.
-      wheel.point_m = {centres[i].x, centres[i].y, state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
-      wheel.friction = std::min(friction, 0.5);
-      wheel.rolling_resistance = 4.0;
+      continue;
     }
+    // Far off every road the ground goes on level at the height of the wheel's last contact.
+    wheel.point_m = {centres[i].x, centres[i].y, state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
+    wheel.friction = std::min(surface_friction(nullptr, weather), 0.5);
+    wheel.rolling_resistance = 4.0;
   }
   return ground;
 }

@@ -103,6 +103,18 @@ struct LaneSpeed {
   double limit_mps = 0.0;
 };
 
+/// What the surface is made of (OpenDRIVE 1.8, §11.8.1 lane material; §13.4 material of objects,
+/// for patches of the road).
+struct SurfaceMaterial {
+  std::string surface;  ///< The file's own word; Septet knows wet, snow and ice, else it is paved.
+  double friction = 0.0;   ///< Coefficient when dry; 0 where the file gives none.
+  double roughness = 0.0;  ///< For sound and shaking; 0 where the file gives none.
+};
+struct LaneMaterial {
+  double s_m = 0.0;
+  SurfaceMaterial material;
+};
+
 /// Which way traffic runs, beyond the rule of the road.
 enum class LaneDirection : std::uint8_t { standard, reversed, both };
 
@@ -115,6 +127,7 @@ struct Lane {
   CubicProfile borders;  ///< |t| of the outer border; used where there are no widths.
   std::vector<LaneHeight> heights;
   std::vector<LaneSpeed> speeds;
+  std::vector<LaneMaterial> materials;
   std::vector<RoadMark> marks;
   std::vector<int> predecessors;  ///< Lane ids in the section (or linked road) before this one.
   std::vector<int> successors;    ///< Lane ids in the section (or linked road) after this one.

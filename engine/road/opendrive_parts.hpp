@@ -28,6 +28,8 @@ void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
 void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node,
                                  const LaneSection& section);
+/// A `<material>` of a lane or of an object that is a patch of the road.
+SurfaceMaterial read_material(XmlFindings& findings, const pugi::xml_node& node);
 /// Metres per second of a `<speed max unit>`; 0 for "no limit" and "undefined".
 double read_speed(XmlFindings& findings, const pugi::xml_node& node);
 void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);

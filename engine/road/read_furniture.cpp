@@ -1,3 +1,7 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
 #include <pugixml.hpp>
 
 #include "engine/road/opendrive_parts.hpp"
@@ -73,7 +77,43 @@ RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node) {
   for (const auto outline : node.child("outlines").children("outline")) {
     object.outlines.push_back(read_outline(findings, outline));
   }
+  if (const auto material = node.child("material"))
+    object.material = read_material(findings, material);
   return object;
+}
+
+/// An object's outline as a polygon of (s, t); the road's bend within it is left out. Without an
+/// outline: its rectangle, or its circle as 16 corners.
+SurfacePatch patch_of(const RoadObject& object) {
+  SurfacePatch patch{*object.material, {}, {}, {}};
+  const double cosine = std::cos(object.heading_rad), sine = std::sin(object.heading_rad);
+  const auto add_local = [&](double u_m, double v_m) {
+    patch.corners_st_m.push_back(
+        {object.s_m + cosine * u_m - sine * v_m, object.t_m + sine * u_m + cosine * v_m});
+  };
+  if (!object.outlines.empty()) {
+    for (const OutlineCorner& corner : object.outlines.front().corners) {
+      if (corner.in_road_coordinates)
+        patch.corners_st_m.push_back({corner.s_or_u_m, corner.t_or_v_m});
+      else
+        add_local(corner.s_or_u_m, corner.t_or_v_m);
+    }
+  } else if (object.radius_m > 0.0) {
+    for (int i = 0; i < 16; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 16.0;
+      add_local(object.radius_m * std::cos(angle), object.radius_m * std::sin(angle));
+    }
+  } else {
+    const double u = 0.5 * object.length_m, v = 0.5 * object.width_m;
+    for (const auto& [x, y] : {std::pair{-u, -v}, {u, -v}, {u, v}, {-u, v}}) add_local(x, y);
+  }
+  if (patch.corners_st_m.empty()) return patch;
+  patch.low_st_m = patch.high_st_m = patch.corners_st_m.front();
+  for (const Vec2& corner : patch.corners_st_m) {
+    patch.low_st_m = glm::min(patch.low_st_m, corner);
+    patch.high_st_m = glm::max(patch.high_st_m, corner);
+  }
+  return patch;
 }
 
 void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const char* element,
@@ -100,6 +140,8 @@ void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
   const auto objects = road_node.child("objects");
   for (const auto node : objects.children("object"))
     road.objects.push_back(read_object(findings, node));
+  for (const RoadObject& object : road.objects)
+    if (object.material) road.patches.push_back(patch_of(object));
   read_structures(findings, objects, "bridge", RoadStructure::Kind::bridge, road);
   read_structures(findings, objects, "tunnel", RoadStructure::Kind::tunnel, road);
 }

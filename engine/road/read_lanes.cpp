@@ -98,9 +98,14 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
     lane.speeds.push_back(
         {section.s_m + findings.number_or(speed, "sOffset", 0.0), read_speed(findings, speed)});
   }
+  for (const auto material : node.children("material")) {
+    lane.materials.push_back({section.s_m + findings.number_or(material, "sOffset", 0.0),
+                              read_material(findings, material)});
+  }
   const auto by_station = [](const auto& a, const auto& b) { return a.s_m < b.s_m; };
   std::stable_sort(lane.heights.begin(), lane.heights.end(), by_station);
   std::stable_sort(lane.speeds.begin(), lane.speeds.end(), by_station);
+  std::stable_sort(lane.materials.begin(), lane.materials.end(), by_station);
   return lane;
 }
 
@@ -172,6 +177,24 @@ void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection
 
 }  // namespace
 
+SurfaceMaterial read_material(XmlFindings& findings, const pugi::xml_node& node) {
+  SurfaceMaterial material;
+  material.surface = node.attribute("surface").value();
+  material.friction = findings.number_or(node, "friction", 0.0);
+  material.roughness = findings.number_or(node, "roughness", 0.0);
+  if (material.friction < 0.0 || material.friction > 2.0) {
+    findings.error(node, fmt::format("its friction is {}", material.friction),
+                   "give a coefficient from 0 to 2");
+    material.friction = 0.0;
+  }
+  if (material.roughness < 0.0 || material.roughness > 100.0) {
+    findings.error(node, fmt::format("its roughness is {}", material.roughness),
+                   "give a number from 0 to 100");
+    material.roughness = 0.0;
+  }
+  return material;
+}
+
 double read_speed(XmlFindings& findings, const pugi::xml_node& node) {
   const std::string_view max = node.attribute("max").value();
   if (max == "no limit" || max == "undefined") return 0.0;
@@ -227,7 +250,10 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
   }
   road.flat = road.shapes.empty() && road.crossfall_left.empty() && road.crossfall_right.empty();
   for (const LaneSection& section : road.sections) {
-    for (const Lane& lane : section.lanes) road.flat = road.flat && lane.heights.empty();
+    for (const Lane& lane : section.lanes) {
+      road.flat = road.flat && lane.heights.empty();
+      road.has_materials = road.has_materials || !lane.materials.empty();
+    }
   }
 }
 

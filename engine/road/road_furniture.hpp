@@ -6,8 +6,11 @@
 /// traffic to read.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/road/lane.hpp"
 
 namespace septet::road {
 
@@ -45,6 +48,7 @@ struct RoadObject {
   Orientation orientation = Orientation::both;
   std::vector<ObjectRepeat> repeats;
   std::vector<Outline> outlines;
+  std::optional<SurfaceMaterial> material;  ///< A patch of the road: of what, within its outline.
 };
 
 /// A bridge or a tunnel: the stretch of the road from s_m to s_m + length_m.

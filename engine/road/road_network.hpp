@@ -49,6 +49,14 @@ struct LateralShape {
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0;
 };
 
+/// A patch of other material on a road: a polygon in road coordinates (x is s, y is t) with its
+/// bounds.
+struct SurfacePatch {
+  SurfaceMaterial material;
+  std::vector<Vec2> corners_st_m;
+  Vec2 low_st_m{0.0}, high_st_m{0.0};
+};
+
 struct Road {
   std::string id, name;
   double length_m = 0.0;
@@ -66,7 +74,9 @@ struct Road {
   std::vector<LaneSection> sections;  ///< At least one, the first at 0, sorted.
   bool flat = false;  ///< Known to have no lane height, shape or crossfall, so that the surface is
                       ///< the road's plane.
+  bool has_materials = false;  ///< Some lane has one.
   std::vector<RoadObject> objects;
+  std::vector<SurfacePatch> patches;  ///< Of the objects that are patches; the last one on top.
   std::vector<RoadStructure> structures;
   std::vector<Signal> signals;
 };

@@ -93,6 +93,7 @@ struct ScenarioState {
   std::uint64_t step_sequence = 0;  ///< `sequence` at the start of the current step.
   bool finished = false;            ///< The storyboard's stop trigger has fired.
   Environment environment;
+  double friction_scale = 1.0;         ///< RoadCondition's frictionScaleFactor: of every surface.
   std::vector<EntityState> entities;   ///< As Scenario::entities.
   std::vector<ElementState> elements;  ///< By ElementIndex.
   std::vector<ConditionState> conditions;

@@ -6,7 +6,8 @@
 namespace septet::scenario {
 namespace {
 
-void change_environment(const EnvironmentAction& action, Environment& environment) {
+void change_environment(const EnvironmentAction& action, ScenarioState& state) {
+  Environment& environment = state.environment;
   const auto take = [](const std::optional<double>& from, double& to) { to = from.value_or(to); };
   take(action.sun_azimuth_rad, environment.sun_azimuth_rad);
   take(action.sun_elevation_rad, environment.sun_elevation_rad);
@@ -16,6 +17,7 @@ void change_environment(const EnvironmentAction& action, Environment& environmen
   take(action.rain_mm_per_h, environment.rain_mm_per_h);
   take(action.road_wetness, environment.road_wetness);
   take(action.snow_cover, environment.snow_cover);
+  take(action.friction_scale, state.friction_scale);
   take(action.temperature_k, environment.temperature_k);
   take(action.wind_speed_mps, environment.wind_speed_mps);
   take(action.wind_direction_rad, environment.wind_direction_rad);
@@ -91,7 +93,7 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
                            StepResult& result) {
   StartedAction started;
   if (const auto* environment = std::get_if<EnvironmentAction>(&what)) {
-    change_environment(*environment, state.environment);
+    change_environment(*environment, state);
   } else if (const auto* swarm = std::get_if<TrafficSwarmAction>(&what)) {
     result.swarms.push_back(*swarm);
   } else if (const auto* stop = std::get_if<TrafficStopAction>(&what)) {

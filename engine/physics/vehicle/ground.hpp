@@ -34,9 +34,20 @@ enum class SurfaceKind : std::uint8_t { dry, wet, snow, ice };
 /// Peak friction coefficient of a surface at a temperature of the surface. Dry 0.9 and wet 0.55 are
 /// the upper half of the ranges 0.70–0.90 and 0.45–0.60 of accident reconstruction tables; packed
 /// snow rises from 0.22 at 0 °C to 0.35 in deep frost (Noon 1994: 0.20–0.25; tables 0.25–0.35). Ice
-/// is most slippery at its melting point, where pressure and rubbing leave a film of water: 0.06,
-/// rising to 0.15 at −20 °C (0.05–0.15). Above 0 °C snow and ice keep their value at 0 °C.
+/// is most slippery at its melting point: between −5 and 0 °C the tyre's pressure melts a film of
+/// water on it, colder it is a dry, micro-rough surface (tirestesting.com, subjective ice
+/// condition): 0.06 at 0 °C, 0.10 at −5 °C, 0.15 at −20 °C (tables of ice: 0.05–0.15,
+/// bohnenkamp.by; the values at the temperatures are derived from these two). Above 0 °C snow and
+/// ice keep their value at 0 °C.
 double peak_friction(SurfaceKind kind, double temperature_k);
+
+/// Peak friction coefficient of a surface whose own coefficient somebody has measured or wished:
+/// that of a dry one holds when it is dry and changes with the weather as our dry asphalt does;
+/// that of wet ground, snow and ice holds at `reference_surface_k` and changes with temperature as
+/// ours does.
+inline constexpr double reference_surface_k = 268.15;
+double given_friction(SurfaceKind kind, double coefficient, double wetness, double snow_cover,
+                      double temperature_k);
 
 /// Friction of a road that is `wetness` wet and `snow_cover` covered (both 0 to 1; Environment of
 /// the snapshot). A wet road below −1 °C freezes over.

@@ -26,3 +26,17 @@ TEST_CASE("a wet road freezes over below zero") {
   CHECK(weather_friction(0.0, 0.0, 265.0) ==
         doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
 }
+
+TEST_CASE("measured ice keeps its coefficient at minus five and gets more slippery as it thaws") {
+  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 268.15) == doctest::Approx(0.12));
+  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 273.15) ==
+        doctest::Approx(0.12 * 0.06 / 0.10));
+  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 253.15) ==
+        doctest::Approx(0.12 * 0.15 / 0.10));
+}
+
+TEST_CASE("a measured dry surface gets wet and frozen in proportion to asphalt") {
+  CHECK(given_friction(SurfaceKind::dry, 0.7, 0.0, 0.0, 290.0) == doctest::Approx(0.7));
+  CHECK(given_friction(SurfaceKind::dry, 0.7, 1.0, 0.0, 290.0) ==
+        doctest::Approx(0.7 * 0.55 / 0.9));
+}

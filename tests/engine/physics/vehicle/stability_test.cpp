@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -81,6 +82,26 @@ TEST_CASE("on split friction the braked car turns towards the side that grips") 
   input.brake = 1.0;
   drive(car, input, ground, 1.0, state);
   CHECK(outputs(car, state).yaw_rate_radps > 0.02);
+}
+
+TEST_CASE(
+    "on split friction the anti-lock system turns the braked car less than locked wheels do") {
+  const auto heading_after = [](bool anti_lock) {
+    VehicleParameters car = read_car("volvo-s80");
+    car.brakes.stability_control = false;
+    car.brakes.anti_lock = anti_lock;
+    VehicleState state = standstill(car, {}, 25.0);
+    Ground ground = level_ground();
+    ground[1].friction = ground[3].friction = 0.1;  // Ice on the right.
+    DriverInput input;
+    input.brake = 1.0;
+    drive(car, input, ground, 1.5, state);
+    return std::abs(heading_rad(state.world_from_body.orientation));
+  };
+  const double with = heading_after(true), without = heading_after(false);
+  CAPTURE(with);
+  CAPTURE(without);
+  CHECK(with < 0.9 * without);
 }
 
 TEST_CASE("a number that is not finite is undone and counted and the car stands still") {

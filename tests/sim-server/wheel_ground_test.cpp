@@ -1,0 +1,63 @@
+#include "sim-server/wheel_ground.hpp"
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/road/opendrive_reader.hpp"
+
+namespace septet::server {
+namespace {
+
+/// 200 m straight along x, one lane each way, with what the road's objects are.
+road::RoadNetwork straight_road(const std::string& objects) {
+  const std::string lane = "type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+  auto network = road::read_opendrive(
+      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection s=\"0\"><left>"
+      "<lane id=\"1\" " + lane + "</left><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" " + lane +
+          "</right></laneSection></lanes><objects>" + objects + "</objects></road></OpenDRIVE>",
+      "test.xodr");
+  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  return std::move(*network);
+}
+
+double friction_at(const road::RoadNetwork& roads, const RoadWeather& weather, double x_m, double y_m) {
+  vehicle::WheelGround wheel;
+  road::RoadPosition place;
+  REQUIRE(find_wheel_ground(roads, weather, {x_m, y_m, 0.3}, false, place, wheel));
+  return wheel.friction;
+}
+
+}  // namespace
+
+TEST_CASE("a patch of ice lies under one wheel and not under the others") {
+  const auto roads = straight_road(
+      "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\"><material surface=\"ice\"/></object>");
+  const RoadWeather frost{.temperature_k = 268.15};
+  const double ice = vehicle::peak_friction(vehicle::SurfaceKind::ice, frost.temperature_k);
+  CHECK(friction_at(roads, frost, 50.0, -1.0) == doctest::Approx(ice));
+  CHECK(friction_at(roads, frost, 50.0, -2.6) == doctest::Approx(0.9));
+  CHECK(friction_at(roads, frost, 47.2, -1.0) == doctest::Approx(0.9));
+  CHECK(friction_at(roads, frost, 47.2, -2.6) == doctest::Approx(0.9));
+}
+
+TEST_CASE("weather and the scenario's friction scale act on the whole road and thaw on its ice") {
+  const auto roads = straight_road(
+      "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\">"
+      "<material surface=\"ice\" friction=\"0.12\"/></object>");
+  CHECK(friction_at(roads, {.wetness = 1.0}, 20.0, -1.0) == doctest::Approx(0.55));
+  CHECK(friction_at(roads, {.wetness = 1.0, .friction_scale = 0.5}, 20.0, -1.0) == doctest::Approx(0.275));
+  CHECK(friction_at(roads, {.temperature_k = 268.15}, 50.0, -1.0) == doctest::Approx(0.12));
+  CHECK(friction_at(roads, {.temperature_k = 273.15}, 50.0, -1.0) < 0.08);
+  CHECK(friction_at(roads, {.snow_cover = 1.0, .temperature_k = 253.15}, 20.0, -1.0) == doctest::Approx(0.35));
+}
+
+TEST_CASE("far from every road there is no surface to find") {
+  const auto roads = straight_road("");
+  vehicle::WheelGround wheel;
+  road::RoadPosition place;
+  CHECK_FALSE(find_wheel_ground(roads, {}, {50.0, 500.0, 0.3}, false, place, wheel));
+}
+
+}  // namespace septet::server
