@@ -10,8 +10,13 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& dr
                                       std::shared_ptr<const SimulationModel> model) {
   DriverSeat seat;
   if (!driver.empty() || car.source == rig::CarSource::simulated_driver) {
-    const auto parameters = car_io::find_driver(driver.empty() ? car.driver : driver);
+    auto parameters = car_io::find_driver(driver.empty() ? car.driver : driver);
     if (!parameters) return tl::unexpected(parameters.error());
+    const vehicle::PowertrainParameters& powertrain = model->car.powertrain;
+    parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;
+    parameters->car.gears = powertrain.gear_count;
+    for (int gear = 0; gear < powertrain.gear_count; ++gear)
+      parameters->car.engine_radps_per_mps[gear] = powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
     // The driver keeps the model alive: the road in it is what they see.
     const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
     seat.actuators = car.actuators;

@@ -1,64 +1,88 @@
 #include "car-io/simulated_driver/driver_parameters.hpp"
 
+#include <initializer_list>
+
 #include <fmt/core.h>
 
 namespace septet::car_io {
 namespace {
 
-/// Looks less often and longer, sees less exactly, keeps more distance, reacts later.
-DriverParameters novice() {
-  DriverParameters driver{.name = "novice"};
-  driver.steering.position_noise_m = 0.23;
-  driver.steering.peripheral_share = 0.4;
-  driver.steering.heading_noise_rad = 0.0026;
-  driver.steering.delay_s = 0.25;
-  driver.speed.limit_factor = 0.95;
-  driver.speed.time_gap_s = 1.8;
-  driver.speed.reaction_time_s = 0.9;
-  driver.speed.distance_noise = 0.10;
-  driver.lanes.threshold_mps2 = 0.5;
-  driver.lanes.signal_s = 2.5;
-  driver.lanes.duration_s = 6.0;
-  driver.mirrors.interval_s = 14.0;
-  driver.mirrors.glance_s = 0.9;
-  return driver;
-}
+/// Parameters that tell kinds of drivers apart, each by where it stands.
+constexpr auto limit_factor = [](DriverParameters& d) -> double& { return d.speed.limit_factor; };
+constexpr auto time_gap = [](DriverParameters& d) -> double& { return d.speed.time_gap_s; };
+constexpr auto reaction = [](DriverParameters& d) -> double& { return d.speed.reaction_time_s; };
+constexpr auto distance_noise = [](DriverParameters& d) -> double& {
+  return d.speed.distance_noise;
+};
+constexpr auto frequency = [](DriverParameters& d) -> double& {
+  return d.steering.natural_frequency_radps;
+};
+constexpr auto position_noise = [](DriverParameters& d) -> double& {
+  return d.steering.position_noise_m;
+};
+constexpr auto position_time = [](DriverParameters& d) -> double& {
+  return d.steering.position_noise_s;
+};
+constexpr auto heading_noise = [](DriverParameters& d) -> double& {
+  return d.steering.heading_noise_rad;
+};
+constexpr auto peripheral = [](DriverParameters& d) -> double& {
+  return d.steering.peripheral_share;
+};
+constexpr auto eye_to_hand = [](DriverParameters& d) -> double& { return d.steering.delay_s; };
+constexpr auto change_threshold = [](DriverParameters& d) -> double& {
+  return d.lanes.threshold_mps2;
+};
+constexpr auto signal_time = [](DriverParameters& d) -> double& { return d.lanes.signal_s; };
+constexpr auto change_time = [](DriverParameters& d) -> double& { return d.lanes.duration_s; };
+constexpr auto glance_interval = [](DriverParameters& d) -> double& {
+  return d.mirrors.interval_s;
+};
+constexpr auto glance = [](DriverParameters& d) -> double& { return d.mirrors.glance_s; };
 
-DriverParameters experienced() {
-  DriverParameters driver{.name = "experienced"};
-  driver.steering.position_noise_m = 0.15;
-  driver.steering.peripheral_share = 0.8;
-  driver.steering.heading_noise_rad = 0.0014;
-  driver.speed.limit_factor = 1.05;
-  driver.speed.time_gap_s = 1.3;
-  driver.speed.reaction_time_s = 0.6;
-  driver.speed.distance_noise = 0.04;
-  driver.lanes.threshold_mps2 = 0.2;
-  driver.mirrors.interval_s = 6.0;
-  driver.mirrors.glance_s = 0.55;
-  return driver;
-}
+struct Difference {
+  double& (*parameter)(DriverParameters&);
+  double value;
+};
+struct Kind {
+  const char* name;
+  std::initializer_list<Difference> differences;  ///< From the plain driver.
+};
 
-/// Corrects late and slowly: the lane is kept loosely.
-DriverParameters tired() {
-  DriverParameters driver{.name = "tired"};
-  driver.steering.natural_frequency_radps = 0.45;
-  driver.steering.position_noise_m = 0.28;
-  driver.steering.position_noise_s = 4.0;
-  driver.steering.delay_s = 0.30;
-  driver.speed.reaction_time_s = 1.2;
-  driver.speed.distance_noise = 0.12;
-  driver.mirrors.interval_s = 20.0;
-  return driver;
-}
+constexpr std::initializer_list<Difference> from_novice = {
+    // Looks less often and longer, sees less exactly, keeps more distance, reacts later.
+    {position_noise, 0.23}, {peripheral, 0.4},      {heading_noise, 0.0026},
+    {eye_to_hand, 0.25},    {limit_factor, 0.95},   {time_gap, 1.8},
+    {reaction, 0.9},        {distance_noise, 0.10}, {change_threshold, 0.5},
+    {signal_time, 2.5},     {change_time, 6.0},     {glance_interval, 14.0},
+    {glance, 0.9}};
+constexpr std::initializer_list<Difference> from_experienced = {
+    {position_noise, 0.15}, {peripheral, 0.8}, {heading_noise, 0.0014}, {limit_factor, 1.05},
+    {time_gap, 1.3},        {reaction, 0.6},   {distance_noise, 0.04},  {change_threshold, 0.2},
+    {glance_interval, 6.0}, {glance, 0.55}};
+constexpr std::initializer_list<Difference> from_tired = {
+    // Corrects late and slowly: the lane is kept loosely.
+    {frequency, 0.45}, {position_noise, 0.28}, {position_time, 4.0},   {eye_to_hand, 0.30},
+    {reaction, 1.2},   {distance_noise, 0.12}, {glance_interval, 20.0}};
 
 }  // namespace
 
 Expected<DriverParameters> find_driver(std::string_view name) {
-  for (const DriverParameters& driver : {DriverParameters{}, novice(), experienced(), tired()})
-    if (driver.name == name) return driver;
+  const Kind kinds[] = {{"plain", {}},
+                        {"novice", from_novice},
+                        {"experienced", from_experienced},
+                        {"tired", from_tired}};
+  std::string known;
+  for (const Kind& kind : kinds) {
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+    if (kind.name != name) continue;
+    DriverParameters driver{.name = kind.name};
+    for (const Difference& difference : kind.differences)
+      difference.parameter(driver) = difference.value;
+    return driver;
+  }
   return failure(fmt::format("there is no simulated driver '{}'", name), "rig, [car] driver",
-                 "use one of: plain, novice, experienced, tired");
+                 "use one of: " + known);
 }
 
 }  // namespace septet::car_io

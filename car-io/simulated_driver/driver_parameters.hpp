@@ -6,6 +6,7 @@
 /// knowledge of the car and the natural frequency and damping with which they keep the lane; noise
 /// and delays are of the size that the literature names (README.md beside this file).
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,9 @@ struct CarKnowledge {
   double drag_per_speed2_pm = 2.1e-4;        ///< Deceleration by air per speed squared.
   double rolling_drag_mps2 = 0.12;
   double strongest_braking_mps2 = 9.5;  ///< At full pedal.
+  bool has_clutch = false;              ///< A manual gearbox…
+  int gears = 5;                        ///< …of so many, and what the engine turns at in each.
+  std::array<double, 8> engine_radps_per_mps{};
 };
 
 /// Two-point visual steering.
@@ -75,11 +79,25 @@ struct MirrorParameters {
   double turn_s = 0.25;  ///< Head to the mirror, or back.
 };
 
+/// Clutch and lever of a manual gearbox; engine speeds as the driver hears them, with little
+/// accelerator and with all of it.
+struct GearParameters {
+  double up_light_radps = 235.0, up_full_radps = 580.0;  ///< 2,250 and 5,550 a minute.
+  double down_light_radps = 125.0, down_full_radps = 260.0;
+  double clutch_in_radps = 85.0;   ///< Below this the clutch goes down, before the engine stalls.
+  double drive_off_radps = 165.0;  ///< Kept while the clutch bites.
+  double drive_off_accelerator = 0.2;
+  double bite_rate_ps = 0.5;  ///< Clutch travel a second, through the bite.
+  double press_s = 0.20, lever_s = 0.35, release_s = 0.50;
+  double pause_s = 1.0;  ///< Between two changes.
+};
+
 struct DriverParameters {
   std::string name = "plain";
   CarKnowledge car;
   SteeringParameters steering;
   SpeedParameters speed;
+  GearParameters gears;
   LaneChoiceParameters lanes;
   MirrorParameters mirrors;
 };

@@ -90,6 +90,10 @@ DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
   DriverInput input;
   input.steering_wheel_rad = driver.steering.hands_rad;
   input.brake = driver.pedals.brake;
+  if (driver.parameters.car.has_clutch) {
+    input.selector = GearSelector::manual;
+    input.clutch = 1.0;
+  }
   input.hazard_lights = true;
   return input;
 }
@@ -145,6 +149,19 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
                                               driver.now_s, dt_s, driver.hands_random);
   input.accelerator = driver.pedals.accelerator;
   input.brake = driver.pedals.brake;
+  if (parameters.car.has_clutch) {
+    const DriverCar& car = snapshot.driver_car;
+    input.accelerator = advance_gears(driver.gears, parameters.gears, parameters.car,
+                                      {.engine_radps = car.engine_radps,
+                                       .speed_mps = own->speed_mps,
+                                       .gear = car.gear,
+                                       .accelerator = driver.pedals.accelerator,
+                                       .braking = driver.pedals.brake > 0.0},
+                                      dt_s);
+    input.selector = GearSelector::manual;
+    input.gear = static_cast<std::int8_t>(driver.gears.lever);
+    input.clutch = driver.gears.clutch;
+  }
   const bool signals = driver.lanes.phase >= LanePhase::signal;
   if (signals)
     input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right

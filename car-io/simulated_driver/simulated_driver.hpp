@@ -16,6 +16,7 @@
 
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "car-io/simulated_driver/driver_view.hpp"
+#include "car-io/simulated_driver/gears.hpp"
 #include "car-io/simulated_driver/lane_choice.hpp"
 #include "car-io/simulated_driver/mirrors.hpp"
 #include "car-io/simulated_driver/pedals.hpp"
@@ -43,6 +44,7 @@ struct SimulatedDriver {
   double next_look_around_s = 0.0;
   SteeringState steering;
   PedalState pedals;
+  GearState gears;
   MirrorState mirrors;
   LaneState lanes;
   std::uint8_t sequence = 0;

@@ -36,10 +36,15 @@ inline const road::RoadNetwork& motorway() {
   return *network;
 }
 
-inline const vehicle::VehicleParameters& volvo() {
-  static const auto car = vehicle::read_vehicle(file_text("vehicles/volvo-s80.toml"), "volvo-s80");
-  REQUIRE(car.has_value());
+inline vehicle::VehicleParameters read_car(const std::string& name) {
+  const auto car = vehicle::read_vehicle(file_text("vehicles/" + name + ".toml"), name);
+  REQUIRE_MESSAGE(car.has_value(), describe(car.error()));
   return *car;
+}
+
+inline const vehicle::VehicleParameters& volvo() {
+  static const vehicle::VehicleParameters car = read_car("volvo-s80");
+  return car;
 }
 
 class ClosedLoop {
@@ -53,10 +58,10 @@ class ClosedLoop {
       : ClosedLoop(*find_driver(driver_name), seed, lane, s_m, speed_mps) {}
 
   ClosedLoop(const DriverParameters& driver, std::uint64_t seed, int lane, double s_m,
-             double speed_mps)
-      : person_(driver, seed, motorway()), connection_(person_.opener(), {}) {
+             double speed_mps, const vehicle::VehicleParameters& car = volvo())
+      : car_(car), person_(driver, seed, motorway()), connection_(person_.opener(), {}) {
     const auto point = road::evaluate_lane(motorway(), {0, lane, s_m, 0.0});
-    state_ = vehicle::standstill(volvo(), road::world_from_lane(point), speed_mps);
+    state_ = vehicle::standstill(car_, road::world_from_lane(point), speed_mps);
     place_ = {0, s_m, point.t_m};
     take_snapshot();
   }
@@ -68,7 +73,7 @@ class ClosedLoop {
     person_.drive(snapshot, tick_s);
     input = connection_.poll(snapshot.simulated_time_s).input;
     vehicle::Ground ground;
-    const auto centres = vehicle::wheel_centres_m(volvo(), state_);
+    const auto centres = vehicle::wheel_centres_m(car_, state_);
     for (int wheel = 0; wheel < vehicle::wheel_count; ++wheel) {
       const auto surface = road::surface_at(motorway(), Vec2(centres[wheel]), &place_);
       if (!surface) continue;
@@ -76,7 +81,7 @@ class ClosedLoop {
       ground[wheel].normal = surface->normal;
     }
     for (int i = 0; i < steps; ++i)
-      vehicle::advance_vehicle(volvo(), input, ground, tick_s / steps, state_);
+      vehicle::advance_vehicle(car_, input, ground, tick_s / steps, state_);
     ++snapshot.tick;
     take_snapshot();
     if (logging::is_sample_due(snapshot.tick, 120.0))
@@ -96,9 +101,11 @@ class ClosedLoop {
     return hash.value();
   }
 
+  bool engine_running() const { return state_.powertrain.engine_running; }
+
  private:
   void take_snapshot() {
-    const vehicle::VehicleOutputs out = vehicle::outputs(volvo(), state_);
+    const vehicle::VehicleOutputs out = vehicle::outputs(car_, state_);
     snapshot.simulated_time_s = static_cast<double>(snapshot.tick) * tick_s;
     Participant body;
     body.id = driver_id;
@@ -116,6 +123,7 @@ class ClosedLoop {
     car.accelerator = input.accelerator;
     car.brake = input.brake;
     car.gear = static_cast<std::int8_t>(out.gear);
+    car.engine_radps = out.engine_radps;
     car.yaw_rate_radps = out.yaw_rate_radps;
     car.gaze_heading_rad = input.gaze_heading_rad;
     const auto location =
@@ -130,6 +138,7 @@ class ClosedLoop {
     car.lane_width_m = road::lane_width_m(motorway(), place_.road, car.lane, place_.s_m);
   }
 
+  vehicle::VehicleParameters car_;
   vehicle::VehicleState state_;
   SimulatedDriverCar person_;
   CarConnection connection_;

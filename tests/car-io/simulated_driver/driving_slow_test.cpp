@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "logging/measures/glances.hpp"
 #include "logging/measures/lane_changes.hpp"
@@ -20,6 +22,17 @@ double lane_keeping_sd_m(const char* name, std::uint64_t seed) {
   loop.run(200.0);
   CHECK(logging::find_lane_changes(loop.samples).empty());
   return logging::compute_lateral_position_statistics(loop.samples, {}).sd_m;
+}
+
+/// A driver who knows the gears of this car.
+DriverParameters who_knows(const vehicle::VehicleParameters& car, const char* name) {
+  DriverParameters driver = *find_driver(name);
+  driver.car.has_clutch = true;
+  driver.car.gears = car.powertrain.gear_count;
+  for (int gear = 0; gear < driver.car.gears; ++gear)
+    driver.car.engine_radps_per_mps[gear] =
+        car.powertrain.gear_ratio[gear] * car.powertrain.final_ratio / car.tyre.radius_m;
+  return driver;
 }
 
 double mean_lane_keeping_sd_m(const char* name) {
@@ -181,6 +194,55 @@ TEST_CASE("the mirrors are looked into from habit about as often as the paramete
   const double interval_s = 180.0 / static_cast<double>(glances.size());
   CHECK(interval_s > 0.6 * driver.mirrors.interval_s);
   CHECK(interval_s < 1.8 * driver.mirrors.interval_s);
+}
+
+TEST_CASE(
+    "the driver takes a manual car from standstill to 100 km/h through its gears without stalling") {
+  const vehicle::VehicleParameters car = read_car("volvo-s80-manual");
+  for (const std::string who : {"plain", "novice", "tired"}) {
+    CAPTURE(who);
+    DriverParameters driver = who_knows(car, who.c_str());
+    driver.speed.limit_factor *= 110.0 / 120.0;
+    ClosedLoop loop(driver, 1, -3, 100.0, 0.0, car);
+    std::string gears;
+    double slipping_s = 0.0, reached_s = 0.0;
+    while (gears != "12345" && loop.snapshot.simulated_time_s < 90.0) {
+      loop.tick();
+      REQUIRE(loop.engine_running());
+      const int gear = loop.snapshot.driver_car.gear;
+      if (gear > 0 && (gears.empty() || gears.back() != '0' + gear))
+        gears += static_cast<char>('0' + gear);
+      if (loop.input.clutch > 0.25 && loop.input.clutch < 0.75) slipping_s += ClosedLoop::tick_s;
+      if (reached_s == 0.0 && loop.snapshot.driver_car.speed_mps >= 100.0 / 3.6)
+        reached_s = loop.snapshot.simulated_time_s;
+    }
+    MESSAGE(who << ": 100 km/h after " << reached_s << " s, in fifth gear after "
+                << loop.snapshot.simulated_time_s << " s");
+    CHECK(gears == "12345");
+    CHECK(reached_s > 8.0);
+    CHECK(slipping_s > 0.5);
+  }
+}
+
+TEST_CASE("behind a car that stops the driver clutches in and drives off again") {
+  const vehicle::VehicleParameters car = read_car("volvo-s80-manual");
+  DriverParameters driver = who_knows(car, "plain");
+  driver.lanes.threshold_mps2 = 100.0;
+  ClosedLoop loop(driver, 3, -3, 100.0, 20.0, car);
+  // It stands 250 m ahead for 30 s, then drives away.
+  loop.others = [](double time_s, std::vector<Participant>& vehicles) {
+    const double away_s = std::max(0.0, time_s - 30.0);
+    vehicles.push_back(
+        vehicle_on_motorway(2, "volvo-s80", -3, 350.0 + 15.0 * away_s, away_s > 0.0 ? 15.0 : 0.0));
+  };
+  bool stood = false;
+  for (int tick = 0; tick < 50 * 120; ++tick) {
+    loop.tick();
+    REQUIRE(loop.engine_running());
+    stood = stood || std::abs(loop.snapshot.driver_car.speed_mps) < 0.1;
+  }
+  CHECK(stood);
+  CHECK(loop.snapshot.driver_car.speed_mps > 8.0);
 }
 
 }  // namespace septet::car_io
