@@ -42,7 +42,7 @@ struct StepWorkspace {
   BlockVector right_side, solution, residual, direction, image, preconditioned;
   BlockFactor<double> factor;
   std::vector<Eigen::Array4f> single;
-  std::vector<Eigen::Matrix3d> mean_deformation;  ///< Volume-weighted F of each node.
+  std::vector<Block> mean_deformation;  ///< Volume-weighted F of each node.
 };
 
 struct ElasticBody {

@@ -11,7 +11,7 @@
 #include <array>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "engine/physics/elastic/block_matrix.hpp"
@@ -62,52 +62,50 @@ inline Eigen::Matrix3d cofactor(const Eigen::Matrix3d& f) {
   return c;
 }
 
-/// Adds scale·V·(λ h_a h_bᵀ + μ h_b h_aᵀ + μ (g_a·g_b) F Fᵀ + κ c_a c_bᵀ + g_aᵀ T g_b I) to the
-/// matrix, for all node pairs of the element. `volume_stiffness` κ and `tension` T may be zero.
-inline void add_stiffness(const Element& e, const Eigen::Matrix3d& f, const LameConstants& m,
-                          double scale, double volume_stiffness_pa, const Eigen::Matrix3d& tension,
-                          bool with_tension, BlockMatrix& matrix) {
-  const auto g = shape_gradients(e);
-  const double v = scale * e.rest_volume_m3, lambda = v * m.lambda_pa, mu = v * m.mu_pa;
-  const Eigen::Matrix3d fft = f * f.transpose();
-  const Eigen::Array4d fft0 = padded(fft.col(0)), fft1 = padded(fft.col(1)),
-                       fft2 = padded(fft.col(2));
-  std::array<Eigen::Array4d, 4> h;
-  for (int a = 0; a < 4; ++a) h[a] = padded(f * g[a]);
+/// Adds value(a, b) to the block of every pair of the element's nodes.
+template <class Value>
+void for_each_block(const Element& e, BlockMatrix& matrix, const Value& value) {
   const auto add = [&](Block& block, int a, int b) {
-    const double shear = mu * g[a].dot(g[b]);
-    const Eigen::Array4d la = lambda * h[a], mb = mu * h[b];
-    block.column[0] += la * h[b][0] + mb * h[a][0] + shear * fft0;
-    block.column[1] += la * h[b][1] + mb * h[a][1] + shear * fft1;
-    block.column[2] += la * h[b][2] + mb * h[a][2] + shear * fft2;
+    const Eigen::Matrix3d k = value(a, b);
+    for (int c = 0; c < 3; ++c) block.column[c] += padded(k.col(c));
   };
   for (int a = 0; a < 4; ++a) add(matrix.diagonal[e.nodes[a]], a, a);
   std::size_t slot = 0;
   for (int a = 1; a < 4; ++a)
     for (int b = 0; b < a; ++b) add(matrix.lower[e.slots[slot++]], a, b);
-  if (volume_stiffness_pa == 0.0 && !with_tension) return;
-
-  const Eigen::Matrix3d cof = cofactor(f);
-  const auto add_rare = [&](Block& block, int a, int b) {
-    const Eigen::Vector3d ca = cof * g[a], cb = cof * g[b];
-    const double pull = with_tension ? v * g[a].dot(tension * g[b]) : 0.0;
-    for (int c = 0; c < 3; ++c) {
-      block.column[c] += padded(v * volume_stiffness_pa * cb[c] * ca);
-      block.column[c][c] += pull;
-    }
-  };
-  for (int a = 0; a < 4; ++a) add_rare(matrix.diagonal[e.nodes[a]], a, a);
-  slot = 0;
-  for (int a = 1; a < 4; ++a)
-    for (int b = 0; b < a; ++b) add_rare(matrix.lower[e.slots[slot++]], a, b);
 }
 
-/// The part of a symmetric stress that pulls.
-inline Eigen::Matrix3d tensile_part(const Eigen::Matrix3d& stress) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(stress);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         eigen.eigenvectors().transpose();
+/// Adds scale·V·(λ h_a h_bᵀ + μ h_b h_aᵀ + μ (g_a·g_b) F Fᵀ) to the matrix, for all node pairs of
+/// the element. The stepper does the same for four elements at a time (assembly.cpp).
+inline void add_stiffness(const Element& e, const Eigen::Matrix3d& f, const LameConstants& m,
+                          double scale, BlockMatrix& matrix) {
+  const auto g = shape_gradients(e);
+  const double v = scale * e.rest_volume_m3;
+  const Eigen::Matrix3d fft = f * f.transpose();
+  for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
+    const Eigen::Vector3d ha = f * g[a], hb = f * g[b];
+    return v * (m.lambda_pa * ha * hb.transpose() + m.mu_pa * hb * ha.transpose() +
+                m.mu_pa * g[a].dot(g[b]) * fft);
+  });
+}
+
+/// Adds stiffness·V·c_a c_bᵀ, the stiffness of the determinant, with c_a = cof(F) g_a.
+inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, double stiffness_pa,
+                                 BlockMatrix& matrix) {
+  const auto g = shape_gradients(e);
+  const Eigen::Matrix3d cof = cofactor(f);
+  for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
+    return stiffness_pa * e.rest_volume_m3 * (cof * g[a]) * (cof * g[b]).transpose();
+  });
+}
+
+/// Adds V (g_aᵀ S g_b) I, the geometric stiffness of a stress.
+inline void add_geometric_stiffness(const Element& e, const Eigen::Matrix3d& stress_pa,
+                                    BlockMatrix& matrix) {
+  const auto g = shape_gradients(e);
+  for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
+    return e.rest_volume_m3 * g[a].dot(stress_pa * g[b]) * Eigen::Matrix3d::Identity();
+  });
 }
 
 }  // namespace septet::elastic

@@ -17,10 +17,10 @@ BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
   matrix.set_zero(body.pattern);
   for (const Element& e : body.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
-    const double volume_stiffness =
-        f.determinant() < least_determinant ? lame.lambda_pa + 2 * lame.mu_pa : 0.0;
-    add_stiffness(e, f, lame, 1.0, volume_stiffness,
-                  second_piola_stress(green_strain(f), lame), geometric, matrix);
+    add_stiffness(e, f, lame, 1.0, matrix);
+    if (f.determinant() < least_determinant)
+      add_volume_stiffness(e, f, lame.lambda_pa + 2 * lame.mu_pa, matrix);
+    if (geometric) add_geometric_stiffness(e, second_piola_stress(green_strain(f), lame), matrix);
   }
   for (int i = 0; i < body.node_count(); ++i) {
     // A trace of a spring at every node holds a body that is free to turn; it slows Newton's

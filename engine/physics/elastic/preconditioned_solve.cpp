@@ -22,9 +22,9 @@ void prepare_rest_factor(ElasticBody& body, const StepSettings& settings) {
   const LameConstants lame = lame_constants(body.material);
   BlockMatrix matrix;
   matrix.set_zero(body.pattern);
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity(), zero = Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   for (const Element& e : body.elements)
-    add_stiffness(e, identity, lame, scale, 0.0, zero, false, matrix);
+    add_stiffness(e, identity, lame, scale, matrix);
   double stiffest = 0.0;
   for (int i = 0; i < body.node_count(); ++i) {
     Block& d = matrix.diagonal[i];
@@ -84,7 +84,9 @@ double dot(const BlockVector& a, const BlockVector& b) {
 
 void follow_rotations(ElasticBody& body) {
   for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Matrix3d& mean = body.workspace.mean_deformation[i];
+    Eigen::Matrix3d mean;
+    for (int c = 0; c < 3; ++c)
+      mean.col(c) = body.workspace.mean_deformation[i].column[c].head<3>().matrix();
     const double size = std::cbrt(std::abs(mean.determinant()));
     if (!(mean.determinant() > 0.0) || !(size > 0.2 * mean.norm() / std::sqrt(3.0)))
       continue;  // Flattened or inverted: yesterday's rotation is the better guess.

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/core/check.hpp"
+#include "engine/physics/elastic/assembly.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/element.hpp"
 #include "engine/physics/elastic/preconditioned_solve.hpp"
@@ -18,72 +19,6 @@ namespace {
 constexpr double contact_stiffness = 1e3;
 /// Below this sliding speed friction is viscous, so that a resting body comes to rest.
 constexpr double creep_speed_mps = 2e-3;
-/// Δt² σ₁ |g|² / ρ from which an element gets its geometric stiffness; 4 would be unstable.
-constexpr double tension_limit = 1.0;
-
-/// Fills matrix and right side with M + Δt²/γ JᵀDJ and M v + Δt (F − JᵀDφ).
-void assemble(ElasticBody& body, const StepSettings& settings, bool follow_rotation,
-              StepReport& report) {
-  StepWorkspace& w = body.workspace;
-  const double dt = settings.step_s, scale = dt * dt / gamma_of(settings);
-  const LameConstants lame = lame_constants(body.material);
-  w.matrix.set_zero(body.pattern);
-  const int n = body.node_count();
-  w.right_side.resize(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) {
-    const double m = body.mass_kg[i];
-    for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = m;
-    w.right_side[i] = padded(m * body.velocity_mps[i] +
-                             dt * (body.force_n[i] + m * settings.gravity_mps2));
-  }
-  if (follow_rotation)
-    w.mean_deformation.assign(static_cast<std::size_t>(n), Eigen::Matrix3d::Zero());
-  for (const Element& e : body.elements) {
-    const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
-    const Eigen::Matrix3d stress = second_piola_stress(green_strain(f), lame);
-    Eigen::Matrix3d first_piola = f * stress;
-    const double determinant = f.determinant();
-    double volume_stiffness = 0.0;
-    if (determinant < least_determinant) {
-      volume_stiffness = lame.lambda_pa + 2.0 * lame.mu_pa;
-      first_piola += volume_stiffness * (determinant - least_determinant) * cofactor(f);
-      if (determinant <= 0.0) ++report.inverted;
-    }
-    Eigen::Matrix3d tension = Eigen::Matrix3d::Zero();
-    bool with_tension = false;
-    if (settings.tension_stiffness) {
-      const double gradient2 = e.rest_inverse.squaredNorm();
-      const double limit = tension_limit * body.material.density_kgpm3 / (dt * dt * gradient2);
-      if (stress.squaredNorm() > limit * limit) {
-        tension = tensile_part(stress);
-        with_tension = tension.squaredNorm() > limit * limit;
-        report.under_tension += with_tension;
-      }
-    }
-    add_stiffness(e, f, lame, scale, volume_stiffness, tension, with_tension, w.matrix);
-    if (with_tension) {
-      // K_g acts on the change of velocity, so that a body that spins under tension is not slowed.
-      Eigen::Matrix3d edge_velocities;
-      const Eigen::Vector3d& v0 = body.velocity_mps[e.nodes[0]];
-      for (int a = 0; a < 3; ++a)
-        edge_velocities.col(a) = body.velocity_mps[e.nodes[a + 1]] - v0;
-      const Eigen::Matrix3d kept = scale * e.rest_volume_m3 * edge_velocities * e.rest_inverse *
-                                   tension * e.rest_inverse.transpose();
-      w.right_side[e.nodes[0]] -= padded(kept.rowwise().sum());
-      for (int a = 0; a < 3; ++a) w.right_side[e.nodes[a + 1]] += padded(kept.col(a));
-    }
-    const Eigen::Matrix3d impulse =
-        -dt * e.rest_volume_m3 * first_piola * e.rest_inverse.transpose();
-    const Eigen::Array4d i1 = padded(impulse.col(0)), i2 = padded(impulse.col(1)),
-                         i3 = padded(impulse.col(2));
-    w.right_side[e.nodes[0]] -= i1 + i2 + i3;
-    w.right_side[e.nodes[1]] += i1;
-    w.right_side[e.nodes[2]] += i2;
-    w.right_side[e.nodes[3]] += i3;
-    if (follow_rotation)
-      for (const int node : e.nodes) w.mean_deformation[node] += e.rest_volume_m3 * f;
-  }
-}
 
 void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double dt) {
   const Eigen::Vector3d& spin = motion.angular_velocity_radps;
