@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 #include <glm/geometric.hpp>
 
-#include "engine/core/check.hpp"
+#include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/effects/debris/fracture.hpp"
@@ -85,10 +85,15 @@ void bound_energy(Piece& piece, double allowed_j) {
     body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
-/// One elastic step with its bound of energy; answers what the boxes received in `world`.
-void elastic_substep(Piece& piece, const ContactWorld& now, ContactWorld& world, double step_s,
+/// One elastic step with its bound of energy, `ahead_s` after the tick's start; adds what the boxes
+/// received, and answers what the contacts did to the piece.
+Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s,
                      Report& report) {
-  const auto found = find_contacts(piece, now, step_s);
+  auto found = find_contacts(piece, world, step_s, ahead_s);
+  std::vector<Eigen::Vector3d> surface_velocity_mps;
+  for (const FoundContact& f : found)
+    surface_velocity_mps.push_back(f.contact.surface_velocity_mps);
+  const auto closing_mps = add_restitution(piece, found, step_s);
   std::vector<elastic::NodeContact> contacts;
   for (const FoundContact& f : found) contacts.push_back(f.contact);
   elastic::StepSettings settings;
@@ -101,13 +106,14 @@ void elastic_substep(Piece& piece, const ContactWorld& now, ContactWorld& world,
   report.bad_numbers += elastic::step_elastic(piece.body, settings, contacts).bad_numbers;
   // What weight and the surfaces' own motion may have added, generously.
   double added = mass * 9.81 * step_s * (std::sqrt(2.0 * before / mass) + 0.2);
-  for (const auto& c : contacts)
-    added += c.impulse_ns.norm() *
-             (c.surface_velocity_mps.norm() + std::clamp(-c.gap_m / step_s, 0.0, 2.0));
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    added += contacts[i].impulse_ns.norm() *
+             (surface_velocity_mps[i].norm() + std::clamp(-contacts[i].gap_m / step_s, 0.0, 2.0));
   bound_energy(piece, before + added);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].box >= 0)
       world.boxes[found[i].box].impulse_ns -= from_eigen(contacts[i].impulse_ns);
+  return blow_of(piece, contacts, closing_mps, step_s);
 }
 
 /// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of
@@ -115,11 +121,9 @@ void elastic_substep(Piece& piece, const ContactWorld& now, ContactWorld& world,
 void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s,
                 Report& report, std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
-    ContactWorld now = world;
-    for (Box& box : now.boxes) box.world_from_box.position_m += k * substep_s * box.velocity_mps;
-    elastic_substep(piece, now, world, substep_s, report);
-    flow(piece);
-    FractureResult result = fracture(piece);
+    const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
+    flow(piece, blow);
+    FractureResult result = fracture(piece, blow);
     if (result.opened_faces == 0) continue;
     report.fractures += result.opened_faces;
     // The largest part keeps the id, so that a screen goes on with what it shows.
@@ -133,56 +137,12 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
   done.push_back(std::move(piece));
 }
 
-bool is_shard(const Piece& piece) {
-  return part_recipe(piece.part).shards &&
-         std::ranges::all_of(piece.splinter, [&](int s) { return s == piece.splinter.front(); });
-}
-
 }  // namespace
 
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
                          const Vec3& velocity_mps, const Vec3& angular_velocity_radps,
                          Random& random) {
-  const PartRecipe& recipe = part_recipe(part);
-  elastic::TetrahedralMesh mesh = elastic::lattice_mesh(recipe.cells, recipe.size_m);
-  for (auto& x : mesh.nodes_m) {
-    x -= 0.5 * recipe.size_m;
-    const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z() + 0.5);
-    x.x() *= width;
-    x.y() *= width;
-  }
-  Piece piece;
-  piece.part = part;
-  piece.material = spread_material(recipe);
-  auto made = elastic::make_elastic_body(mesh, piece.material.elastic);
-  SEPTET_CHECK(made.has_value(), "part {}: {}", static_cast<int>(part), made.error().what);
-  piece.body = std::move(*made);
-
-  std::vector<Eigen::Vector3d> seeds;
-  for (int i = 0; i < recipe.splinters; ++i) {
-    Eigen::Vector3d seed;
-    for (int c = 0; c < 3; ++c) seed[c] = recipe.size_m[c] * (random.uniform() - 0.5);
-    seeds.push_back(seed);
-  }
-  std::vector<elastic::Tetrahedron> tetrahedra;
-  for (const auto& e : piece.body.elements) {
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const int node : e.nodes) centre += 0.25 * piece.body.rest_position_m[node];
-    int nearest = 0;
-    for (int i = 1; i < recipe.splinters; ++i)
-      if ((seeds[i] - centre).squaredNorm() < (seeds[nearest] - centre).squaredNorm())
-        nearest = i;
-    piece.splinter.push_back(nearest);
-    tetrahedra.push_back(e.nodes);
-  }
-  piece.plastic_strain.assign(tetrahedra.size(), 0.0);
-  piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
-  for (int i = 0; i < piece.body.node_count(); ++i) {
-    const Vec3 arm = world_from_part.orientation * from_eigen(piece.body.rest_position_m[i]);
-    piece.body.position_m[i] = to_eigen(world_from_part.position_m + arm);
-    piece.body.velocity_mps[i] =
-        to_eigen(velocity_mps + glm::cross(angular_velocity_radps, arm));
-  }
+  Piece piece = make_part(part, world_from_part, velocity_mps, angular_velocity_radps, random);
   piece.id = state.next_id++;
   state.pieces.push_back(std::move(piece));
   return state.pieces.back().id;

@@ -5,18 +5,15 @@
 namespace septet::debris {
 
 const MaterialData& material_data(Material material) {
-  // Young's modulus, Poisson's ratio, density; strength; yield; friction. Sources: steel DC04 by
-  // EN 10130 (Rp0.2 140–210 MPa, Rm 270–350 MPa); bumper PP/EPDM by makers' data sheets; soda-lime
-  // glass by EN 572-1 (characteristic bending strength 45 MPa); ice by Petrovic 2003 (tension
-  // 0.7–3.1 MPa at −10 °C); rubber at the paper's 10 MPa, filled natural rubber's strength;
-  // concrete C30/37 by EN 1992-1-1 table 3.1 (E 33 GPa, mean tension 2.9 MPa).
+  // Young's modulus, Poisson's ratio, density; tensile, compressive strength, yield; friction;
+  // energy of a crack; restitution. The sources are in DEBRIS.md, "Materials".
   static constexpr std::array<MaterialData, material_count> table{{
-      {{210e9, 0.30, 7850}, 310e6, 180e6, 0.45},
-      {{1.5e9, 0.40, 950}, 25e6, 18e6, 0.40},
-      {{70e9, 0.20, 2500}, 45e6, 0, 0.40},
-      {{9e9, 0.33, 917}, 1.2e6, 0, 0.10},
-      {{10e6, 0.45, 1100}, 15e6, 0, 0.80},
-      {{33e9, 0.20, 2400}, 2.9e6, 0, 0.60},
+      {{210e9, 0.30, 7850}, 310e6, 310e6, 180e6, 0.45, 250e3, 0.20},
+      {{1.5e9, 0.40, 950}, 25e6, 30e6, 18e6, 0.40, 10e3, 0.40},
+      {{70e9, 0.20, 2500}, 45e6, 1000e6, 0, 0.40, 7.7, 0.40},
+      {{9e9, 0.33, 917}, 1.4e6, 10e6, 0, 0.10, 1.1, 0.30},
+      {{10e6, 0.45, 1100}, 15e6, 100e6, 0, 0.80, 10e3, 0.60},
+      {{33e9, 0.20, 2400}, 2.9e6, 38e6, 0, 0.60, 140, 0.20},
   }};
   return table[static_cast<std::size_t>(material)];
 }
@@ -46,7 +43,9 @@ MaterialData spread_material(const PartRecipe& recipe) {
   data.elastic.density_kgpm3 = density;
   data.elastic.young_modulus_pa *= fill;
   data.strength_pa *= fill;
+  data.compressive_strength_pa *= fill;
   data.yield_pa *= fill;
+  data.fracture_energy_jpm2 *= fill;
   return data;
 }
 

@@ -2,8 +2,9 @@
 /// What can break, and what it is made of.
 ///
 /// Thin parts are lattices thicker than the sheet they stand for. Mass, stiffness and strength are
-/// those of the sheet, spread over the thicker section: all three are multiplied by the fill, the
-/// sheet's volume over the lattice's.
+/// those of the sheet, spread over the thicker section: they, and the energy of a crack, are
+/// multiplied by the fill, the sheet's volume over the lattice's. Where each value comes from is
+/// written in DEBRIS.md.
 
 #include <cstdint>
 
@@ -19,8 +20,11 @@ inline constexpr int material_count = 6;
 struct MaterialData {
   elastic::ElasticMaterial elastic;
   double strength_pa;  ///< Largest tensile stress across a face before it opens.
+  double compressive_strength_pa;  ///< Unconfined: beyond it faces along the pressure open.
   double yield_pa;     ///< Von Mises stress from which it flows; 0: it does not.
   double friction;     ///< On dry asphalt.
+  double fracture_energy_jpm2;  ///< That a crack takes for each square metre of its area.
+  double restitution;           ///< Share of the closing speed that a blow returns.
 };
 const MaterialData& material_data(Material material);
 

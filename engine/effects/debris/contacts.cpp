@@ -109,7 +109,7 @@ BoxGap gap_to_box(const Box& box, const Vec3& point_m) {
 }
 
 std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world,
-                                        double step_s) {
+                                        double step_s, double ahead_s) {
   std::vector<FoundContact> result;
   for (int i = 0; i < piece.body.node_count(); ++i) {
     const Vec3 point = from_eigen(piece.body.position_m[i]);
@@ -129,13 +129,14 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
     }
     for (std::size_t b = 0; b < world.boxes.size(); ++b) {
       const Box& box = world.boxes[b];
-      const Vec3 arm = point - box.world_from_box.position_m;
+      const Vec3 seen = point - ahead_s * box.velocity_mps;  // As if the box had not moved.
+      const Vec3 arm = seen - box.world_from_box.position_m;
       const double far = glm::length(box.half_size_m) + reach +
                          step_s * glm::length(box.velocity_mps);
       if (glm::dot(arm, arm) > far * far) continue;
       const Vec3 surface_velocity =
           box.velocity_mps + glm::cross(box.angular_velocity_radps, arm);
-      const BoxGap gap = gap_to_box(box, point);
+      const BoxGap gap = gap_to_box(box, seen);
       if (gap.gap_m > 0.02 + step_s * (glm::length(velocity - surface_velocity) + 10.0 * step_s))
         continue;
       FoundContact found;

@@ -7,6 +7,8 @@
 
 #include "engine/core/check.hpp"
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/shards.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 
 namespace septet::debris {
@@ -64,16 +66,65 @@ void lift_above_ground(Piece& piece, const ContactWorld& world) {
   if (deepest > 0.0) move(piece, {0, 0, deepest + 0.01});
 }
 
+/// What the crush makes of a part between the two bodies: pressed together by `crush_m`, it splits
+/// as far as the energy reaches that its own motion and the crush bring.
+std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double closing_mps) {
+  const auto& m = piece.material;
+  const Eigen::Vector3d normal = to_eigen(push);
+  double low = INFINITY, high = -INFINITY, volume_m3 = 0.0;
+  for (const auto& x : piece.body.position_m) {
+    low = std::min(low, x.dot(normal));
+    high = std::max(high, x.dot(normal));
+  }
+  for (const auto& e : piece.body.elements) volume_m3 += e.rest_volume_m3;
+  const double strain = std::min(1.0, crush_m / (high - low));
+  piece.body.step_stress_pa.assign(
+      piece.body.elements.size(),
+      -strain * m.elastic.young_modulus_pa * normal * normal.transpose());
+  Blow blow;
+  blow.normal = normal;
+  blow.lost_j = 0.5 * elastic::total_mass_kg(piece.body) * closing_mps * closing_mps *
+                (1.0 - m.restitution * m.restitution);
+  blow.pressed_j = strain * volume_m3 * (m.yield_pa > 0.0 ? m.yield_pa : m.compressive_strength_pa);
+  flow(piece, blow);
+  FractureResult result = fracture(piece, blow);
+  if (result.opened_faces == 0) result.pieces.push_back(std::move(piece));
+  return std::move(result.pieces);
+}
+
+/// A random direction across the blow, rather up than down and rather away from its middle.
+Vec3 way_out(Context& context, const Vec3& from_middle, const Vec3& push) {
+  Vec3 way = from_middle + 0.3 * Vec3(context.random.normal(), context.random.normal(), 0.0);
+  way.z = std::abs(way.z) + 0.2 + 0.3 * context.random.uniform();
+  way -= glm::dot(way, push) * push;
+  return glm::normalize(way);
+}
+
+/// Puts what has become of a part into the state, outside the boxes and above the ground.
+void release(Context& context, std::vector<Piece> pieces, const Vec3& push) {
+  for (Piece& piece : pieces) {
+    squeeze_out(piece, context.boxes, push, context.random.uniform() < 0.5 ? -1.0 : 1.0);
+    lift_above_ground(piece, context.world);
+    if (is_shard(piece)) {
+      context.state.shards.push_back(shard_of(piece));
+      continue;
+    }
+    piece.id = context.state.next_id++;
+    context.report.pieces.push_back(piece.id);
+    context.state.pieces.push_back(std::move(piece));
+  }
+}
+
 void break_off(Context& context, const Crash& crash, CrashBody& body, const CrashBody& other,
                double lost_speed_mps, const Vec3& push) {
   const double closing = context.report.closing_speed_mps;
-  const double crush_m = lost_speed_mps / crush_frequency_radps;
+  const double crush_m = closing / crush_frequency_radps;
   std::vector<MountedPart> left;
   for (const MountedPart& mounted : body.parts) {
     const RigidTransform place = body.box.world_from_box * mounted.box_from_part;
     const double mass = part_recipe(mounted.part).mass_kg;
     const bool struck = gap_to_box(other.box, place.position_m).gap_m <
-                        crush_m + part_radius_m(mounted.part);
+                        lost_speed_mps / crush_frequency_radps + part_radius_m(mounted.part);
     const double peak_n = mass * lost_speed_mps * crush_frequency_radps;
     if (!struck && peak_n <= mounted.mount_strength_n) {
       left.push_back(mounted);
@@ -82,16 +133,12 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     const Vec3 before = velocity_at(body.box, place.position_m);
     Vec3 velocity = before;
     if (struck) {
-      // Carried along by the crush to the common speed; the scatter comes on top.
-      velocity += lost_speed_mps * push;
-      const Vec3 out = place.position_m - crash.point_m;
-      Vec3 aside = out - glm::dot(out, push) * push;
-      aside.z = std::abs(aside.z) + 0.2;
-      aside += 0.3 * Vec3(context.random.normal(), context.random.normal(),
-                          std::abs(context.random.normal()));
-      aside -= glm::dot(aside, push) * push;
-      const double share = std::sqrt(context.random.uniform(0.3, 1.0));
-      velocity += glm::normalize(aside) * 0.45 * closing * share;
+      // Carried along by the crush to the common speed, and out with what the blow returns.
+      const double returned =
+          material_data(part_recipe(mounted.part).material).restitution * closing;
+      velocity +=
+          lost_speed_mps * push + returned * std::sqrt(context.random.uniform()) *
+                                      way_out(context, place.position_m - crash.point_m, push);
       ++context.report.struck;
     } else {
       const double sine = mounted.mount_strength_n / peak_n;
@@ -102,13 +149,14 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     Vec3 spin = body.box.angular_velocity_radps;
     for (int c = 0; c < 3; ++c)
       spin[c] += 0.15 * glm::length(velocity - before) * context.random.normal();
-    const auto id = spawn_part(context.state, mounted.part, place, velocity, spin, context.random);
-    Piece& piece = context.state.pieces.back();
-    SEPTET_CHECK(piece.id == id, "piece {} after {}", piece.id, id);
-    squeeze_out(piece, context.boxes, push, context.random.uniform() < 0.5 ? -1.0 : 1.0);
-    lift_above_ground(piece, context.world);
-    body.impulse_ns -= mass * (velocity - before);
-    context.report.pieces.push_back(id);
+    std::vector<Piece> pieces;
+    pieces.push_back(make_part(mounted.part, place, velocity, spin, context.random));
+    if (struck) pieces = crushed(std::move(pieces.front()), push, crush_m, closing);
+    context.report.fragments += static_cast<int>(pieces.size());
+    for (const Piece& piece : pieces)
+      body.impulse_ns -= from_eigen(elastic::momentum_ns(piece.body));
+    body.impulse_ns += mass * before;
+    release(context, std::move(pieces), push);
   }
   body.parts = std::move(left);
 }

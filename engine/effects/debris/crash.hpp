@@ -11,7 +11,7 @@
 ///   strength; from then on it flies with the speed that the body had at that instant.
 ///
 /// Mass is kept. The momentum of what flies off differs from what it had on the body by impulses
-/// that are given back in CrashBody::impulse_ns. No part gets more energy than the blow took.
+/// that are given back in CrashBody::impulse_ns. No part gets more energy than it brought.
 
 #include <cstdint>
 #include <vector>
@@ -30,16 +30,16 @@ struct CrashBody {
 };
 
 struct Crash {
-  Vec3 point_m{0.0};        ///< Middle of the contact, world frame.
-  Vec3 normal{1.0, 0, 0};   ///< Unit length, from the second body to the first.
+  Vec3 point_m{0.0};       ///< Middle of the contact, world frame.
+  Vec3 normal{1.0, 0, 0};  ///< Unit length, from the second body to the first.
   CrashBody first, second;
 };
 
 struct CrashReport {
-  double closing_speed_mps = 0.0;   ///< Along the normal.
-  int struck = 0, torn_off = 0;     ///< Parts broken loose by the contact, and by their inertia.
-  int fractures = 0;                ///< Faces opened by the blow.
-  std::vector<std::uint32_t> pieces;  ///< Ids of what is now in the state's pieces.
+  double closing_speed_mps = 0.0;     ///< Along the normal.
+  int struck = 0, torn_off = 0;       ///< Parts broken loose by the contact, and by their inertia.
+  int fragments = 0;                  ///< What they have become, shards included.
+  std::vector<std::uint32_t> pieces;  ///< Ids of those that are now in the state's pieces.
 };
 
 /// Below this closing speed nothing breaks off.

@@ -70,6 +70,10 @@ struct Report {
   int bad_numbers = 0;
 };
 
+/// A part in one piece, without an id; the splinters are drawn from `random`.
+Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
+                const Vec3& angular_velocity_radps, Random& random);
+
 /// Adds a part in one piece; the splinters are drawn from `random`. Answers its id.
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
                          const Vec3& velocity_mps, const Vec3& angular_velocity_radps,

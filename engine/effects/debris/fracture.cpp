@@ -54,31 +54,85 @@ std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
   return result;
 }
 
-bool pulls_open(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
-  if (stress.norm() < strength_pa) return false;
+/// By how much a stress passes the strength of a face with this normal; below one it holds.
+double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa,
+                        const Eigen::Vector3d& normal) {
+  if (stress.norm() < strength_pa) return 0.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(stress, Eigen::EigenvaluesOnly);
   const double greatest = eigen.eigenvalues()[2];
-  return greatest >= strength_pa &&
-         normal.dot(stress * normal) > 0.5 * greatest;  // Within 45° of the pull.
+  const bool across = normal.dot(stress * normal) > 0.5 * greatest;  // Within 45° of the pull.
+  return across ? greatest / strength_pa : 0.0;
 }
 
-/// The stress of the shape and that of the last step's impulses: a blow to a stiff piece shows in
-/// the second only, a bend that lasts in the first.
-bool pulls_open(const Piece& piece, int element, const Eigen::Vector3d& normal) {
-  const auto& carried = piece.body.step_stress_pa;
-  const double strength = piece.material.strength_pa;
-  return pulls_open(elastic::cauchy_stress_pa(piece.body, element), strength, normal) ||
-         (!carried.empty() && pulls_open(carried[element], strength, normal));
+double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa,
+                          const Eigen::Vector3d& normal) {
+  if (stress.norm() < strength_pa) return 0.0;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(stress);
+  const double along = normal.dot(eigen.eigenvectors().col(0));
+  return along * along < 0.5 ? -eigen.eigenvalues()[0] / strength_pa : 0.0;
 }
+
+struct Overload {
+  double lasting = 0.0;  ///< Of the shape and of the step's own stress.
+  double blow = 0.0;     ///< Of the blow's peak.
+};
 
 /// Stress jumps from one linear tetrahedron to the next: the greater of a face's two decides.
-bool opens(const Piece& piece, const InnerFace& face) {
+Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow,
+                     const Eigen::Vector3d& normal) {
+  Overload most;
+  const auto& m = piece.material;
+  // Pressure splits a brittle material where it bulges by more than its strength allows.
+  const double splitting_pa = m.yield_pa > 0.0 ? m.compressive_strength_pa
+                                               : std::min(m.compressive_strength_pa,
+                                                          m.strength_pa / m.elastic.poisson_ratio);
+  for (const int element : {face.first, face.second}) {
+    most.lasting = std::max(
+        most.lasting,
+        tensile_overload(elastic::cauchy_stress_pa(piece.body, element), m.strength_pa, normal));
+    if (piece.body.step_stress_pa.empty()) continue;
+    const Eigen::Matrix3d& carried = piece.body.step_stress_pa[element];
+    most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal));
+    if (blow.lost_j <= 0.0) continue;
+    const Eigen::Matrix3d peak = blow.stress_factor * carried;
+    most.blow = std::max({most.blow, tensile_overload(peak, m.strength_pa, normal),
+                          splitting_overload(peak, splitting_pa, normal)});
+  }
+  return most;
+}
+
+/// Which of the inner faces open, and what the cracks leave of the energy that the blow lost.
+std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>& faces,
+                               const Blow& blow, double& left_j) {
   const auto& x = piece.body.position_m;
-  const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]])
-                                     .cross(x[face.nodes[2]] - x[face.nodes[0]])
-                                     .normalized();
-  return pulls_open(piece, face.first, normal) || pulls_open(piece, face.second, normal);
+  std::vector<bool> opened(faces.size(), false);
+  struct Candidate {
+    double overload, cost_j;
+    std::size_t face;
+  };
+  std::vector<Candidate> candidates;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const InnerFace& face = faces[k];
+    if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
+    const Eigen::Vector3d normal =
+        (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
+    const double area = 0.5 * normal.norm();
+    const Overload overload = overload_of(piece, face, blow, normal.normalized());
+    opened[k] = overload.lasting >= 1.0;
+    if (!opened[k] && overload.blow >= 1.0)
+      candidates.push_back({overload.blow, area * piece.material.fracture_energy_jpm2, k});
+  }
+  std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::overload);
+  left_j = blow.lost_j + blow.pressed_j;
+  for (const Candidate& c : candidates) {
+    if (c.cost_j > left_j) break;
+    left_j -= c.cost_j;
+    opened[c.face] = true;
+  }
+  left_j = std::min(left_j, blow.lost_j);
+  return opened;
 }
 
 /// The part of the rest shape that has flowed: edges(rest) · rest_inverse = Fp⁻¹.
@@ -99,8 +153,8 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements,
   for (const int e : elements) {
     elastic::Tetrahedron t;
     for (std::size_t a = 0; a < 4; ++a) {
-      const auto [place, fresh] = node_of_group.try_emplace(
-          corner_group[e][a], static_cast<int>(mesh.nodes_m.size()));
+      const auto [place, fresh] =
+          node_of_group.try_emplace(corner_group[e][a], static_cast<int>(mesh.nodes_m.size()));
       if (fresh) {
         source.push_back(old.elements[e].nodes[a]);
         mesh.nodes_m.push_back(old.rest_position_m[source.back()]);
@@ -135,21 +189,25 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements,
 
 }  // namespace
 
-FractureResult fracture(const Piece& piece) {
+FractureResult fracture(const Piece& piece, const Blow& blow) {
   FractureResult result;
   const auto& body = piece.body;
   const auto strained = [&](int e) {
     const double strength = piece.material.strength_pa;
     return elastic::cauchy_stress_pa(body, e).norm() >= strength ||
-           (!body.step_stress_pa.empty() && body.step_stress_pa[e].norm() >= strength);
+           (!body.step_stress_pa.empty() &&
+            blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
   };
   const int element_count = static_cast<int>(body.elements.size());
   if (std::ranges::none_of(std::views::iota(0, element_count), strained)) return result;
   const auto faces = inner_faces(body);
   const std::size_t count = body.elements.size();
   DisjointSets islands(count), corners(4 * count);
-  for (const InnerFace& face : faces) {
-    if (piece.splinter[face.first] != piece.splinter[face.second] && opens(piece, face)) {
+  double left_j = 0.0;
+  const auto opened = opened_faces(piece, faces, blow, left_j);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const InnerFace& face = faces[k];
+    if (opened[k]) {
       ++result.opened_faces;
       continue;
     }
@@ -171,24 +229,35 @@ FractureResult fracture(const Piece& piece) {
   }
   for (const auto& [representative, elements] : members)
     result.pieces.push_back(cut_out(piece, elements, group));
+  scatter(result.pieces, blow.normal, scatter_share * left_j);
   return result;
 }
 
-int flow(Piece& piece) {
-  constexpr double most_plastic_strain = 0.5;
-  if (piece.material.yield_pa <= 0.0) return 0;
+int flow(Piece& piece, const Blow& blow) {
+  constexpr double most_plastic_strain = 0.5, most_per_step = 0.1;
+  const double yield = piece.material.yield_pa;
+  if (yield <= 0.0) return 0;
   const auto lame = elastic::lame_constants(piece.body.material);
+  const auto deviator_of = [](const Eigen::Matrix3d& m) -> Eigen::Matrix3d {
+    return m - m.trace() / 3.0 * Eigen::Matrix3d::Identity();
+  };
   int count = 0;
+  std::vector<std::size_t> struck;
+  double struck_volume_m3 = 0.0;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
-    const Eigen::Matrix3d strain = elastic::green_strain(f);
-    const Eigen::Matrix3d deviator =
-        strain - strain.trace() / 3.0 * Eigen::Matrix3d::Identity();
+    if (f.determinant() <= 0.0 || piece.plastic_strain[k] >= most_plastic_strain) continue;
+    if (blow.lost_j > 0.0 && !piece.body.step_stress_pa.empty() &&
+        std::sqrt(1.5) * blow.stress_factor * deviator_of(piece.body.step_stress_pa[k]).norm() >
+            yield) {
+      struck.push_back(k);
+      struck_volume_m3 += e.rest_volume_m3;
+    }
+    const Eigen::Matrix3d deviator = deviator_of(elastic::green_strain(f));
     const double von_mises = 2.0 * lame.mu_pa * std::sqrt(1.5) * deviator.norm();
-    if (von_mises <= piece.material.yield_pa || f.determinant() <= 0.0) continue;
-    if (piece.plastic_strain[k] >= most_plastic_strain) continue;
-    const double share = 1.0 - piece.material.yield_pa / von_mises;
+    if (von_mises <= yield) continue;
+    const double share = 1.0 - yield / von_mises;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(f.transpose() * f);
     const Eigen::Vector3d stretch = eigen.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
     const double volume_root = std::cbrt(stretch.prod());
@@ -196,6 +265,26 @@ int flow(Piece& piece) {
     e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() *
                      eigen.eigenvectors().transpose();
     piece.plastic_strain[k] += share * deviator.norm();
+    ++count;
+  }
+  // A blow's work is the yield stress times the strain over what it overloads. The shape takes the
+  // strain as well, for the stress was there and gone within the step; what that stores springs
+  // back later and is no more than half of what the blow lost.
+  const double strain =
+      struck.empty() ? 0.0
+                     : std::min({most_per_step, blow.lost_j / (yield * struck_volume_m3),
+                                 std::sqrt(0.5 * blow.lost_j / (lame.mu_pa * struck_volume_m3))});
+  for (const std::size_t k : struck) {
+    Element& e = piece.body.elements[k];
+    const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
+    // The stress turned back to the rest frame.
+    const Eigen::Matrix3d at_rest = f.transpose() * deviator_of(piece.body.step_stress_pa[k]) * f;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(deviator_of(at_rest));
+    const Eigen::Vector3d way = eigen.eigenvalues().normalized();
+    const Eigen::Vector3d undone = (-strain * way).array().exp();
+    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() *
+                     eigen.eigenvectors().transpose();
+    piece.plastic_strain[k] += strain;
     ++count;
   }
   if (count > 0) elastic::invalidate_rest_factor(piece.body);

@@ -26,6 +26,11 @@ void bounce(Shard& shard, const Vec3& normal, const Vec3& surface_velocity, doub
 
 }  // namespace
 
+bool is_shard(const Piece& piece) {
+  return part_recipe(piece.part).shards &&
+         std::ranges::all_of(piece.splinter, [&](int s) { return s == piece.splinter.front(); });
+}
+
 Shard shard_of(const Piece& piece) {
   const auto motion = elastic::rigid_motion(piece.body);
   Shard shard;

@@ -5,6 +5,9 @@
 
 namespace septet::debris {
 
+/// Whether a piece is down to one splinter of a material that flies on as shards.
+bool is_shard(const Piece& piece);
+
 /// The shard with a piece's mass and motion.
 Shard shard_of(const Piece& piece);
 

@@ -138,8 +138,7 @@ std::array<LaneVector, 4> gradients(const LaneMatrix& rest_inverse) {
 void add_stiffness_blocks(const Batch& b, const LaneMatrix& f, const LaneMatrix* tension,
                           const LameConstants& lame, double scale, BlockMatrix& matrix) {
   const auto g = gradients(b.rest_inverse);
-  const Lanes volume = scale * b.volume, lambda = lame.lambda_pa * volume,
-              mu = lame.mu_pa * volume;
+  const Lanes volume = scale * b.volume, lambda = lame.lambda_pa * volume, mu = lame.mu_pa * volume;
   const LaneMatrix fft = gram(transposed(f));
   std::array<LaneVector, 4> h, lambda_h, mu_h, pull_g;
   for (int a = 1; a < 4; ++a) h[a] = times(f, g[a]);
@@ -213,8 +212,8 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
   for (int i = 0; i < n; ++i) {
     const double m = body.mass_kg[i];
     for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = m;
-    w.right_side[i] = padded(m * body.velocity_mps[i] +
-                             dt * (body.force_n[i] + m * settings.gravity_mps2));
+    w.right_side[i] =
+        padded(m * body.velocity_mps[i] + dt * (body.force_n[i] + m * settings.gravity_mps2));
   }
   if (mean_deformation) w.mean_deformation.assign(static_cast<std::size_t>(n), zero_block());
   const double limit_factor = tension_limit * body.material.density_kgpm3 / (dt * dt);
@@ -228,10 +227,9 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
       for (int r = 0; r < 3; ++r) stress(r, c) *= lame.mu_pa;
       stress(c, c) += trace;
     }
-    const Lanes determinant =
-        f(0, 0) * (f(1, 1) * f(2, 2) - f(2, 1) * f(1, 2)) +
-        f(1, 0) * (f(2, 1) * f(0, 2) - f(0, 1) * f(2, 2)) +
-        f(2, 0) * (f(0, 1) * f(1, 2) - f(1, 1) * f(0, 2));
+    const Lanes determinant = f(0, 0) * (f(1, 1) * f(2, 2) - f(2, 1) * f(1, 2)) +
+                              f(1, 0) * (f(2, 1) * f(0, 2) - f(0, 1) * f(2, 2)) +
+                              f(2, 0) * (f(0, 1) * f(1, 2) - f(1, 1) * f(0, 2));
 
     LaneMatrix tension;
     bool with_tension = false;
@@ -253,8 +251,8 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     for (int c = 0; c < 9; ++c) impulse(c % 3, c / 3) *= -dt * b.volume;
     if (with_tension) {
       // K_g acts on the change of velocity, so that a body that spins under tension is not slowed.
-      const LaneMatrix kept = times(
-          times(times(edges(b, body.velocity_mps), b.rest_inverse), tension), gradient);
+      const LaneMatrix kept =
+          times(times(times(edges(b, body.velocity_mps), b.rest_inverse), tension), gradient);
       for (int c = 0; c < 9; ++c) impulse(c % 3, c / 3) += scale * b.volume * kept(c % 3, c / 3);
     }
     add_forces(b, impulse, w.right_side);

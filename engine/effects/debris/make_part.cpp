@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/core/check.hpp"
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/physics/elastic/tetrahedral_mesh.hpp"
+
+namespace septet::debris {
+
+Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
+                const Vec3& angular_velocity_radps, Random& random) {
+  const PartRecipe& recipe = part_recipe(part);
+  elastic::TetrahedralMesh mesh = elastic::lattice_mesh(recipe.cells, recipe.size_m);
+  for (auto& x : mesh.nodes_m) {
+    x -= 0.5 * recipe.size_m;
+    const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z() + 0.5);
+    x.x() *= width;
+    x.y() *= width;
+  }
+  Piece piece;
+  piece.part = part;
+  piece.material = spread_material(recipe);
+  auto made = elastic::make_elastic_body(mesh, piece.material.elastic);
+  SEPTET_CHECK(made.has_value(), "part {}: {}", static_cast<int>(part), made.error().what);
+  piece.body = std::move(*made);
+
+  std::vector<Eigen::Vector3d> seeds;
+  for (int i = 0; i < recipe.splinters; ++i) {
+    Eigen::Vector3d seed;
+    for (int c = 0; c < 3; ++c) seed[c] = recipe.size_m[c] * (random.uniform() - 0.5);
+    seeds.push_back(seed);
+  }
+  std::vector<elastic::Tetrahedron> tetrahedra;
+  for (const auto& e : piece.body.elements) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const int node : e.nodes) centre += 0.25 * piece.body.rest_position_m[node];
+    int nearest = 0;
+    for (int i = 1; i < recipe.splinters; ++i)
+      if ((seeds[i] - centre).squaredNorm() < (seeds[nearest] - centre).squaredNorm()) nearest = i;
+    piece.splinter.push_back(nearest);
+    tetrahedra.push_back(e.nodes);
+  }
+  piece.plastic_strain.assign(tetrahedra.size(), 0.0);
+  piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
+  for (int i = 0; i < piece.body.node_count(); ++i) {
+    const Vec3 arm = world_from_part.orientation * from_eigen(piece.body.rest_position_m[i]);
+    piece.body.position_m[i] = to_eigen(world_from_part.position_m + arm);
+    piece.body.velocity_mps[i] = to_eigen(velocity_mps + glm::cross(angular_velocity_radps, arm));
+  }
+  return piece;
+}
+
+}  // namespace septet::debris
