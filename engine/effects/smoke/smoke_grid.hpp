@@ -39,6 +39,15 @@ struct Grid {
   Vec3 world_from_cells(const Vec3& grid) const { return world_from_grid * (grid * cell_m); }
 };
 
+/// Whether a cell outside the box lies in open air: every face that it is beyond is open.
+inline bool is_open(const Grid& grid, int i, int j, int k) {
+  const auto beyond = [&](int at, int count, std::uint8_t low, std::uint8_t high) {
+    return at < 0 ? (grid.open_faces & low) != 0 : at < count || (grid.open_faces & high) != 0;
+  };
+  return !grid.inside(i, j, k) && beyond(i, grid.nx, open_x_low, open_x_high) &&
+         beyond(j, grid.ny, open_y_low, open_y_high) && beyond(k, grid.nz, open_z_low, open_z_high);
+}
+
 /// A box without walls. Sizes must be 1 to `max_cells_along` and `max_cells` in all (checked).
 Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int ny, int nz,
                std::uint8_t open_faces);

@@ -1,7 +1,7 @@
 #pragma once
 /// Smoke on the wire and between keyframes. The format is written down in SMOKE.md.
 ///
-/// Slots go in chunks of `chunk_slots`; a chunk is one EffectKeyframe, renewed every `keyframe_ticks` ticks, each chunk on
+/// Particles go in chunks by their numbers, `chunk_slots` to each; a chunk is one EffectKeyframe, renewed every `keyframe_ticks` ticks, each chunk on
 /// a tick of its own, so that the load is even. A keyframe tells where each particle was when the chunk's last keyframe
 /// was taken and where it is now; a screen draws the way between them during the time until the next. What is shown is
 /// therefore one renewal late, without a jump, and needs no other keyframe.
@@ -17,9 +17,9 @@
 
 namespace septet::smoke {
 
-inline constexpr std::uint16_t keyframe_kind = 1, soot_kind = 3;
-/// Effect ids: a base plus the number of the chunk; soot has an id of its own.
-inline constexpr std::uint32_t first_effect_id = 0x01000000, soot_effect_id = 0x01ffffff;
+inline constexpr std::uint16_t keyframe_kind = 1;
+/// Effect ids: a base plus the number of the chunk.
+inline constexpr std::uint32_t first_effect_id = 0x01000000, max_chunks = 1 << 16;
 inline constexpr std::size_t chunk_slots = 512;
 inline constexpr std::uint64_t keyframe_ticks = 30;
 /// Coordinates on the wire are multiples of a cell over this; the error of one is at most half of it.
@@ -30,11 +30,11 @@ struct KeyframeTrack {
   struct Chunk {
     double time_s = 0.0;
     std::vector<std::array<std::int32_t, 3>> place;  ///< Of each slot, quantised.
-    std::vector<std::uint8_t> alive;
-    Bytes data;
+    std::vector<std::uint8_t> known;                ///< 1 where the slot's particle was in the last keyframe.
+    Bytes data;  ///< Empty where no particle is alive.
   };
+  std::uint32_t first_chunk = 0;  ///< Where a world has several smokes, each numbers its chunks from its own first.
   std::vector<Chunk> chunks;
-  Bytes soot;
 };
 
 /// Call once a tick, after advance_smoke: all smoke of this instant, ascending id, ready for a snapshot.
@@ -46,17 +46,19 @@ struct Keyframe {
     std::array<float, 3> albedo{};
     float extinction_area_m2 = 0.0f;
     float glow = 0.0f;
+    float lifetime_s = 0.0f;  ///< 0: it does not thin out.
   };
   struct Particle {
     std::uint16_t slot = 0;   ///< Within the chunk.
     std::uint8_t look = 0;
-    std::uint8_t age = 0;     ///< Share of its lifetime in 1/15; 15 is its end.
+    bool newborn = false;     ///< Since the last keyframe: fades in.
+    float age_s = 0.0f;       ///< At `time_s`; steps of lifetime/255, or of a quarter second up to 64 s.
     glm::vec3 from{0.0f}, to{0.0f};  ///< Grid coordinates, cells.
   };
   RigidTransform world_from_grid;
-  double cell_m = 0.5;
+  float cell_m = 0.5f;
   double time_s = 0.0;      ///< When `to` was taken and `from` is shown.
-  double duration_s = 0.0;  ///< After which `to` is shown.
+  float duration_s = 0.0f;   ///< After which `to` is shown.
   std::uint32_t chunk = 0;
   std::vector<Look> looks;
   std::vector<Particle> particles;

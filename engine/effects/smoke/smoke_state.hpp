@@ -15,17 +15,22 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/effects/smoke/smoke_grid.hpp"
+#include "engine/effects/smoke/velocity_field.hpp"
 
 namespace septet::smoke {
 
 inline constexpr std::size_t max_emitters = 16;
 inline constexpr std::size_t max_particles = 1'000'000;
+inline constexpr std::uint64_t extinction_ticks = 4;
 
 struct Parameters {
   double steepness = 1.0;        ///< k of the logistic function of the density.
   double crowd = 5.0;            ///< Particles in a cell from which it repels.
   double speed_cells_per_s = 20.0;  ///< Of a particle whose mean sample vector (figure 1) is one cell long.
-  double jitter_cells = 0.6;     ///< Largest random step a tick, reached in a full cell; 0 switches it off.
+  /// Random walk out of crowded cells: the steps of a second along an axis add up to this standard deviation for each ½
+  /// by which the cell's attraction is below ½.
+  double jitter_cells = 2.4;
+  std::uint16_t most_in_cell = 12;  ///< A cell with so many lets no more in.
   double soot_per_s = 0.004;     ///< Share of a full cell's soot that a second leaves on a wall beside it.
 };
 
@@ -49,16 +54,16 @@ struct Obstacle {
   Vec3 half_size_m{1.0};
 };
 
-/// Particles by slot; a slot keeps its particle until that dies, so that a screen can follow it. Grid coordinates.
+/// Particles in grid coordinates, in the order of their cells as of the last sorting: neighbours in space are neighbours
+/// in memory. A particle keeps its number until it dies, so that a screen can follow it.
 struct Particles {
-  std::vector<float> x, y, z;
-  std::vector<float> age_s;            ///< Negative: the slot is free.
+  std::vector<float> x, y, z, age_s;
   std::vector<std::uint8_t> emitter;   ///< Index of the emitter it came from.
-  std::vector<std::uint32_t> free_slots;  ///< The last one is used first.
+  std::vector<std::uint32_t> number;
+  std::vector<std::uint32_t> free_numbers;  ///< The last one is used first.
+  std::uint32_t numbers = 0;           ///< All those ever used are below.
 
-  std::size_t slots() const { return x.size(); }
-  std::size_t alive() const { return x.size() - free_slots.size(); }
-  bool is_alive(std::size_t slot) const { return age_s[slot] >= 0.0f; }
+  std::size_t size() const { return x.size(); }
 };
 
 struct State {
@@ -69,12 +74,15 @@ struct State {
   std::size_t capacity = 20'000;  ///< Births stop there.
   std::uint64_t seed = 1;
   std::uint64_t tick = 0;
+  std::uint64_t births = 0;
   double time_s = 0.0;
-  // Of the last step, and wholly determined by the above.
+  std::vector<std::uint32_t> beside_wall;  ///< Free cells that touch a wall, ascending.
+  std::vector<float> soot;                 ///< Left on those walls, 0 to 1; as many.
+  // Follow from the above and the obstacles of the last step.
   std::vector<std::uint16_t> density;      ///< Particles in each cell.
-  std::vector<float> extinction_area_m2;   ///< Their cross-sections in each cell.
+  std::vector<float> extinction_area_m2;   ///< Their cross-sections in each cell, every `extinction_ticks` ticks.
   std::vector<std::uint8_t> full;          ///< Walls and vehicles: 1 where nothing can be.
-  std::vector<float> soot;                 ///< Left on the walls around each free cell, 0 to 1.
+  VelocityField field;                     ///< Memory of the step.
 };
 
 /// Smoke without a particle in it.
@@ -91,7 +99,14 @@ StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obs
                          double step_s);
 
 /// Puts a particle into the nearest cell that is not full. False: at capacity, or nothing free within reach.
+/// Its extinction is not counted before the next tick.
 bool add_particle(State& state, const Vec3& grid_position, std::uint8_t emitter, float age_s = 0.0f);
+
+/// Share of its extinction that a particle still has at this share of its lifetime: all of it for the first 70 %, then
+/// less, steadily, to nothing.
+inline double remaining_extinction(double lifetime_share) {
+  return lifetime_share <= 0.7 ? 1.0 : lifetime_share >= 1.0 ? 0.0 : (1.0 - lifetime_share) / 0.3;
+}
 
 void add_to_hash(const State& state, StateHash& hash);
 

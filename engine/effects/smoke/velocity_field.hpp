@@ -1,0 +1,39 @@
+#pragma once
+/// The paper's update, once per cell instead of once per particle.
+///
+/// All particles of a cell read the same 46 cells, so figure 1 is a convolution of the attraction with the pattern. It is
+/// linear in the bias: the sum over what lies above is kept apart, and a particle adds it times its own bias. The sums
+/// over the 3×3×3 block are made from sums along rows. Equal to `mean_sample` but for rounding.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace septet::smoke {
+
+struct State;
+
+/// Of one cell: the velocity of a particle in it is (rest + bias·above), in multiples of `velocity_quantum` cells/s.
+/// Small, because a tick's time goes into reading these.
+struct CellVelocity {
+  std::int16_t rest[3];
+  std::int16_t crowding;  ///< max(0, ½ − f) of the cell itself, which the 46 samples do not see, in the same multiples.
+  std::int16_t above[3];
+  std::int16_t unused;
+};
+static_assert(sizeof(CellVelocity) == 16, "a particle's look-up is a quarter of a cache line");
+inline constexpr float velocity_quantum = 1.0f / 256.0f;
+/// Of one sum; beyond it is cut off.
+inline constexpr float greatest_velocity = 127.0f;
+
+/// Memory of the convolution, kept so that a tick allocates nothing. Holds no state.
+struct VelocityField {
+  std::vector<CellVelocity> cells;  ///< Valid where a row of cells along x has a particle.
+  std::vector<float> attraction, difference, sum, magnitude;  ///< Padded by 3; the last three over 3 cells along x.
+  std::vector<std::uint8_t> row_used;
+};
+
+/// From State::density and State::full.
+void update_velocity_field(const State& state, std::span<const float> table, VelocityField& field);
+
+}  // namespace septet::smoke

@@ -1,0 +1,174 @@
+#include <doctest/doctest.h>
+
+#include "engine/effects/smoke/attraction.hpp"
+#include "engine/effects/smoke/visibility.hpp"
+#include "smoke_fixtures.hpp"
+
+using namespace septet;
+using namespace septet::smoke;
+
+namespace {
+
+constexpr double step_s = 1.0 / 60.0;
+
+std::uint64_t hash_of(const State& state) {
+  StateHash hash;
+  add_to_hash(state, hash);
+  return hash.value();
+}
+
+}  // namespace
+
+TEST_CASE("the pattern has 46 samples whose levels weigh as the paper says") {
+  std::array<double, 3> weight{};
+  Vec3 sum(0.0);
+  for (const SampleOffset& s : sample_pattern()) {
+    const int level = std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z)});
+    weight[level - 1] += glm::length(Vec3(s.x, s.y, s.z));
+    sum += Vec3(s.x, s.y, s.z);
+  }
+  CHECK(weight[0] == doctest::Approx(36.8).epsilon(0.002));
+  CHECK(weight[1] == doctest::Approx(39.7).epsilon(0.002));
+  CHECK(weight[2] == doctest::Approx(18.0));
+  CHECK(sum == Vec3(0.0));
+}
+
+TEST_CASE("attraction is one in an empty cell and none at the crowd and minus one beyond twice it") {
+  const Parameters parameters;
+  CHECK(attraction(0.0, parameters) == 1.0);
+  CHECK(attraction(5.0, parameters) == 0.0);
+  CHECK(attraction(10.0, parameters) == -1.0);
+  CHECK(attraction(200.0, parameters) == -1.0);
+  CHECK(attraction_table(parameters).size() == 11);
+}
+
+TEST_CASE("the convolution of the cells equals the samples of the particles") {
+  State state = tunnel_fire(3, 4000);
+  const Obstacle lorry{state.grid.world_from_grid * RigidTransform{{70.0, 5.0, 2.0}}, {8.0, 1.3, 2.0}};
+  for (int tick = 0; tick < 60; ++tick) advance_smoke(state, Vec3(0.0), {&lorry, 1}, step_s);
+  const auto table = attraction_table(state.parameters);
+  update_velocity_field(state, table, state.field);
+  int compared = 0;
+  for (int k = 0; k < state.grid.nz; ++k)
+    for (int j = 0; j < state.grid.ny; ++j)
+      for (int i = 0; i < state.grid.nx; ++i) {
+        const int cell = state.grid.index(i, j, k);
+        if (state.density[cell] == 0) continue;
+        const double bias = 1.37;
+        const Vec3 expected = mean_sample(state, table, i, j, k, bias) * state.parameters.speed_cells_per_s;
+        const CellVelocity& v = state.field.cells[cell];
+        for (int c = 0; c < 3; ++c)
+          REQUIRE(std::abs(velocity_quantum * (v.rest[c] + bias * v.above[c]) - expected[c]) <=
+                  0.51 * velocity_quantum * (1.0 + bias) + 1e-4);
+        ++compared;
+      }
+  CHECK(compared > 100);
+}
+
+TEST_CASE("no smoke is in a wall or a vehicle and none is lost") {
+  State state = tunnel_fire(1, 3000);
+  state.grid.open_faces = 0;
+  state = make_smoke(state.grid, state.emitters, 1, 3000);
+  state.emitters[0].lifetime_s = 0.0;
+  std::array<Obstacle, 2> lorries;
+  const Vec3 draught = state.grid.world_from_grid.orientation * Vec3(2.0, 0.5, 0.0);
+  int born = 0, pushed = 0;
+  for (int tick = 0; tick < 480; ++tick) {
+    // Two lorries drive through the smoke, one each way.
+    const double x = 30.0 + 20.0 * tick * step_s;
+    lorries[0] = {state.grid.world_from_grid * RigidTransform{{x, 4.0, 2.0}}, {8.0, 1.25, 2.0}};
+    lorries[1] = {state.grid.world_from_grid * RigidTransform{{120.0 - x, 8.0, 2.0}}, {8.0, 1.25, 2.0}};
+    const StepReport report = advance_smoke(state, draught, lorries, step_s);
+    born += report.born;
+    pushed += report.pushed;
+    REQUIRE(report.left == 0);
+    if (tick % 20 == 0) REQUIRE(particles_in_full_cells(state) == 0);
+  }
+  CHECK(state.particles.size() == static_cast<std::size_t>(born));
+  CHECK(born == 3000);
+  CHECK(pushed > 0);
+  int counted = 0;
+  for (const std::uint16_t density : state.density) counted += density;
+  CHECK(counted == born);
+}
+
+TEST_CASE("a draught carries smoke out of the portal it blows towards") {
+  const auto mean_x = [](double draught_mps) {
+    State state = tunnel_fire(1, 3000);
+    const Vec3 wind = state.grid.world_from_grid.orientation * Vec3(draught_mps, 0.0, 0.0);
+    int left = 0;
+    for (int tick = 0; tick < 900; ++tick) left += advance_smoke(state, wind, {}, step_s).left;
+    double sum = 0.0;
+    for (const float x : state.particles.x) sum += x;
+    return std::pair(sum / static_cast<double>(state.particles.size()), left);
+  };
+  const auto [still, none_left] = mean_x(0.0);
+  const auto [blown, left] = mean_x(5.0);
+  CHECK(std::abs(still - 60.0) < 4.0);
+  CHECK(none_left == 0);
+  CHECK(blown > 75.0);
+  CHECK(left > 0);
+}
+
+TEST_CASE("particles die at the end of their life and their numbers are used again") {
+  State state = tunnel_fire(1, 20000);
+  state.emitters[0].lifetime_s = 0.5;
+  for (int tick = 0; tick < 120; ++tick) advance_smoke(state, Vec3(0.0), {}, step_s);
+  CHECK(state.particles.size() == doctest::Approx(300).epsilon(0.05));
+  CHECK(state.particles.numbers < 330);
+  state.emitters[0].rate_per_s = 0.0;
+  for (int tick = 0; tick < 40; ++tick) advance_smoke(state, Vec3(0.0), {}, step_s);
+  CHECK(state.particles.size() == 0);
+}
+
+TEST_CASE("the same seed gives the same smoke and another seed another") {
+  State first = tunnel_fire(7, 2000), second = tunnel_fire(7, 2000), other = tunnel_fire(8, 2000);
+  for (int tick = 0; tick < 120; ++tick)
+    for (State* state : {&first, &second, &other}) advance_smoke(*state, Vec3(0.3, 0.0, 0.0), {}, step_s);
+  CHECK(hash_of(first) == hash_of(second));
+  CHECK(hash_of(first) != hash_of(other));
+}
+
+TEST_CASE("a line of sight loses light by the cross-sections of the cells that it passes") {
+  State state = make_smoke(make_grid({}, 0.5, 20, 10, 10, 0), {Emitter{}}, 1);
+  state.extinction_area_m2.assign(state.extinction_area_m2.size(), 0.05f);
+  const double extinction = 0.05 / 0.125;
+  CHECK(extinction_per_m(state, {5.0, 2.0, 2.0}) == doctest::Approx(extinction));
+  CHECK(extinction_per_m(state, {-0.1, 2.0, 2.0}) == 0.0);
+  const Vec3 from(1.0, 1.1, 1.3), to(8.2, 4.0, 3.1);
+  CHECK(transmittance(state, from, to) ==
+        doctest::Approx(std::exp(-extinction * glm::length(to - from))).epsilon(1e-6));
+  CHECK(transmittance(state, to, from) == doctest::Approx(transmittance(state, from, to)));
+  // Only the part inside counts: 10 m of smoke along x.
+  CHECK(transmittance(state, {-50.0, 2.3, 2.3}, {90.0, 2.3, 2.3}) ==
+        doctest::Approx(std::exp(-extinction * 10.0)).epsilon(1e-6));
+  CHECK(transmittance(state, {-50.0, 9.0, 2.3}, {90.0, 9.0, 2.3}) == 1.0);
+  CHECK(*visibility_m(0.4, false) == doctest::Approx(7.5));
+  CHECK(*visibility_m(0.4, true) == doctest::Approx(20.0));
+  CHECK(!visibility_m(0.0, true));
+}
+
+TEST_CASE("a tunnel fire hides the far portal under the ceiling before it does on the road") {
+  State state = tunnel_fire(1, 20000);
+  for (int tick = 0; tick < 600; ++tick) advance_smoke(state, Vec3(0.0), {}, step_s);
+  const auto along = [&](double height_m) {
+    return transmittance(state, state.grid.world_from_grid * Vec3(20.0, 6.0, height_m),
+                         state.grid.world_from_grid * Vec3(100.0, 6.0, height_m));
+  };
+  CHECK(along(5.5) < 0.02);
+  CHECK(along(0.5) > 10.0 * along(5.5));
+}
+
+TEST_CASE("smoke leaves soot on the walls beside it and nowhere else") {
+  State state = tunnel_fire(1, 20000);
+  for (int tick = 0; tick < 600; ++tick) advance_smoke(state, Vec3(0.0), {}, step_s);
+  float near_fire = 0.0f, far_away = 0.0f;
+  for (std::size_t n = 0; n < state.beside_wall.size(); ++n) {
+    const int i = static_cast<int>(state.beside_wall[n]) % state.grid.nx;
+    REQUIRE(state.soot[n] <= 1.0f);
+    if (std::abs(i - 60) < 5) near_fire += state.soot[n];
+    if (i < 5) far_away += state.soot[n];
+  }
+  CHECK(near_fire > 0.0f);
+  CHECK(far_away == 0.0f);
+}
