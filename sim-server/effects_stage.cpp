@@ -96,7 +96,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
 
 bool effects_are_still(const road::RoadNetwork& roads, const Vec3& driver_m, const EffectsState& state) {
   return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
-         state.crashes.struck_by_driver.empty() && barrier_boxes(roads, {driver_m}, hint_of(state)).empty();
+         state.crashes.struck_by_driver.empty() && !state.fires.smoke && barrier_boxes(roads, {driver_m}, hint_of(state)).empty();
 }
 
 EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
@@ -119,14 +119,41 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   report.impulse_on_driver_ns = report.crashes.impulse_on_driver_ns;
   if (driver_box >= 0) report.impulse_on_driver_ns += contacts.boxes[static_cast<std::size_t>(driver_box)].impulse_ns;
 
+  advance_fires(world.participants, world.environment, world.tick, step_s, state.fires);
+
   StateHash hash;
   hash.add(state.hash);
+  // What is new of the smoke; its keyframes follow wholly from it.
+  for (const EffectKeyframe& keyframe : state.fires.keyframes)
+    if (keyframe.tick == world.tick) hash.add_bytes(keyframe.data);
   add_to_hash(state.debris, hash);
   for (const auto word : state.random.state()) hash.add(word);
   state.hash = hash.value();
 
   report.published = publish(debris_offers(state.debris), world.tick + effects_step_ticks, {}, state.published);
   return report;
+}
+
+std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state) {
+  std::vector<EffectKeyframe> keyframes = state.fires.keyframes;
+  keyframes.insert(keyframes.end(), state.published.keyframes.begin(), state.published.keyframes.end());
+  return keyframes;
+}
+
+void show_damage(const EffectsState& state, std::vector<Participant>& participants) {
+  for (Participant& participant : participants) {
+    const auto parts = state.crashes.parts.find(participant.id);
+    if (parts == state.crashes.parts.end()) continue;
+    const auto has_lamp = [&](double side) {
+      return std::ranges::any_of(parts->second, [&](const debris::MountedPart& mounted) {
+        return mounted.part == debris::Part::lamp && side * mounted.box_from_part.position_m.x > 0.0;
+      });
+    };
+    if (!has_lamp(1.0))
+      for (const Lamp lamp : {Lamp::low_beam, Lamp::high_beam}) participant.lamps.set(lamp, false);
+    if (!has_lamp(-1.0))
+      for (const Lamp lamp : {Lamp::brake, Lamp::reverse}) participant.lamps.set(lamp, false);
+  }
 }
 
 double obstacle_height_m(const EffectsState& state, const Vec3& surface_point_m) {

@@ -20,6 +20,7 @@
 #include "engine/scenario/scenario_state.hpp"
 #include "engine/world/snapshot.hpp"
 #include "sim-server/crashes.hpp"
+#include "sim-server/fire_stage.hpp"
 #include "sim-server/keyframe_schedule.hpp"
 
 namespace septet::server {
@@ -31,6 +32,7 @@ inline constexpr double debris_reach_m = 600.0;  ///< Debris further from the dr
 struct EffectsState {
   debris::State debris;
   CrashMemory crashes;
+  FireState fires;
   Random random{0};
   PublishedEffects published;
   std::uint64_t hash = 0;  ///< Of all steps so far, chained: two drives that ever differed in their effects differ in it.
@@ -43,6 +45,7 @@ struct EffectsState {
 struct EffectsWorld {
   const road::RoadNetwork& roads;
   const std::vector<Participant>& participants;  ///< Ascending id, as they are at `tick`.
+  const Environment& environment;
   ParticipantId driver = 0;
   double ground_friction = 1.0;  ///< Multiplies a material's friction on the road: less than 1 on ice and snow.
   Tick tick = 0;                 ///< A multiple of effects_step_ticks.
@@ -69,6 +72,12 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
 
 /// Nothing would change: the stage may be skipped. `driver_m`: middle of the driver's car.
 bool effects_are_still(const road::RoadNetwork& roads, const Vec3& driver_m, const EffectsState& state);
+
+/// All keyframes as a snapshot carries them, ascending id.
+std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state);
+
+/// Lamps that were torn off shine no more.
+void show_damage(const EffectsState& state, std::vector<Participant>& participants);
 
 EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state);
 

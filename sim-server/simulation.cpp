@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/hash.hpp"
+#include "engine/effects/smoke/visibility.hpp"
 #include "engine/road/lane_links.hpp"
 #include "sim-server/wheel_ground.hpp"
 
@@ -174,11 +175,31 @@ void apply_swarms(const SimulationModel& model, const scenario::StepResult& step
   if (!step.stopped_traffic.empty()) state.traffic = {};
 }
 
-/// Spills what the storyboard asked for.
+/// Everybody who takes part, ascending id.
+std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state) {
+  std::vector<Participant> participants{car_participant(model, state)};
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+  traffic::append_participants(state.traffic, model.roads, participants);
+  std::ranges::sort(participants, {}, &Participant::id);
+  show_damage(state.effects, participants);
+  return participants;
+}
+
+/// Spills and burns what the storyboard asked for.
 void apply_effects(const SimulationModel& model, const scenario::StepResult& step, SimulationState& state) {
-  for (const scenario::EffectAction& action : step.effects)
-    if (action.kind == scenario::EffectAction::Kind::spill)
+  using Kind = scenario::EffectAction::Kind;
+  for (const scenario::EffectAction& action : step.effects) {
+    if (action.kind == Kind::spill) {
       spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], state.effects);
+      continue;
+    }
+    const ParticipantId id = action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
+    if (action.kind == Kind::extinguish) extinguish(id, state.effects.fires);
+    if (action.kind != Kind::ignite) continue;
+    const auto participants = participants_now(model, state);
+    if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
+      ignite(model.roads, *burning, state.time_s(), model.seed, state.effects.fires);
+  }
 }
 
 void advance_storyboard(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
@@ -191,13 +212,12 @@ void advance_storyboard(const SimulationModel& model, SimulationState& state, st
   apply_effects(model, step, state);
 }
 
-/// Everybody who takes part, ascending id.
-std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state) {
-  std::vector<Participant> participants{car_participant(model, state)};
-  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
-  traffic::append_participants(state.traffic, model.roads, participants);
-  std::ranges::sort(participants, {}, &Participant::id);
-  return participants;
+/// Once a second, where there is smoke around the driver: how far he sees.
+void note_visibility(const SimulationState& state, std::vector<SimulationEvent>& events) {
+  if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
+  const double extinction = smoke::extinction_per_m(*state.effects.fires.smoke, state.car.world_from_body.position_m + Vec3(0.0, 0.0, 0.6));
+  const auto dull = smoke::visibility_m(extinction, false), shining = smoke::visibility_m(extinction, true);
+  if (dull && *dull < 200.0) events.push_back({"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
 }
 
 void run_effects(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
@@ -207,8 +227,9 @@ void run_effects(const SimulationModel& model, SimulationState& state, std::vect
   const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
   const auto participants = participants_now(model, state);
   const EffectsReport report = advance_effects(
-      {model.roads, participants, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
+      {model.roads, participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
   state.car.velocity_mps += report.impulse_on_driver_ns / model.car.body.mass_kg;
+  note_visibility(state, events);
   if (report.crashes.barrier_closing_mps > 0.0) {
     ++state.diagnostics.collisions;
     events.push_back({"collision", std::nullopt, fmt::format("barrier closing_speed_mps={:.2f}", report.crashes.barrier_closing_mps)});
@@ -262,7 +283,7 @@ Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& s
   snapshot.environment = state.scenario.environment;
   snapshot.driver_car = driver_car(model, state);
   snapshot.participants = participants_now(model, state);
-  snapshot.effects = state.effects.published.keyframes;
+  snapshot.effects = effect_keyframes(state.effects);
   snapshot.diagnostics = state.diagnostics;
   return snapshot;
 }

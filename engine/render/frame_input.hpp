@@ -59,6 +59,16 @@ struct DynamicMesh {
   std::vector<scene::SurfaceVertex> vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
 };
 
+/// A ball of smoke whose density falls off as a Gaussian.
+struct SmokePuff {
+  Vec3 position_m{0.0};             ///< World.
+  float radius_m = 0.5f;            ///< Standard deviation of the density.
+  float extinction_area_m2 = 0.0f;  ///< Optical depth through its middle is this over 2π radius².
+  glm::vec3 albedo{0.25f};          ///< Of the light that it scatters, linear Rec. 709.
+  float glow = 0.0f;                ///< Of the flame that it still is, 0 to 1.
+  std::uint32_t seed = 0;           ///< Which way its pattern is turned.
+};
+
 /// A line of text over the picture.
 struct OverlayText {
   std::string text;  ///< UTF-8.
@@ -75,6 +85,7 @@ struct FrameInput {
   std::vector<FrameView> views;
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
+  std::vector<SmokePuff> smoke;
   std::vector<OverlayText> overlay;
 };
 

@@ -8,6 +8,7 @@
 
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 
 namespace septet::render {
@@ -27,7 +28,7 @@ float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const Fr
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
                           const FrameView& view, const ShadowCascades& shadows, const PlacedParticipants& participants,
-                          const DynamicSurfaces& dynamic) {
+                          const DynamicSurfaces& dynamic, std::span<const SmokePuff> smoke) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -40,7 +41,13 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, exposure);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
-  const std::vector<GlowRecord> glows = glow_records(participants.glows, eye_m, exposure);
+  const std::vector<PuffRecord> puffs = puff_records(smoke, scene, light, view, eye_m);
+  prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
+  prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
+  std::vector<LampGlow> lamps = participants.glows;
+  if (!smoke.empty())
+    for (LampGlow& lamp : lamps) lamp.share = transmittance(smoke, eye_m, lamp.position_m);
+  const std::vector<GlowRecord> glows = glow_records(lamps, eye_m, exposure);
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   context.statistics.instances += prepared.draws.instances;
@@ -86,10 +93,11 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
       place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
   for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, input.meshes);
+  const std::vector<SmokePuff> smoke = merged_puffs(input.smoke, world_eye(input.views.front()));
   PreparedFrame frame;
   frame.shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
   for (const FrameView& view : input.views)
-    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants, dynamic));
+    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants, dynamic, smoke));
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes, dynamic);
   return frame;

@@ -18,6 +18,8 @@ struct PreparedView {
   FrameData uniforms;
   FrameData glows;
   std::uint32_t glow_count = 0;
+  FrameData smoke;
+  std::uint32_t puff_count = 0;
   bool lit_by_headlights = false;
 };
 

@@ -18,6 +18,7 @@
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
 #include "engine/render/passes/sky_pass.hpp"
+#include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/smoothing_pass.hpp"
 #include "engine/render/passes/surface_pass.hpp"
 #include "engine/render/vulkan/swapchain.hpp"
@@ -52,6 +53,7 @@ struct Renderer::Parts {
   ShadowPass shadow_pass;
   SkyPass sky_pass;
   GlowPass glow_pass;
+  SmokePass smoke_pass;
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;  ///< That `light` was computed for.
@@ -97,6 +99,7 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   noise = create_texture(device, memory, noise_side, noise_side, cloud_noise(), false);
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);
+  create_smoke_pass(smoke_pass, device, layout, formats);
   create_smoothing_pass(smoothing_pass, device, layout, formats.color);
   Expected<image::Font> font = image::Font::find(image::FontStyle::bold);
   if (!font) throw vulkan::Failure{font.error()};
@@ -112,6 +115,7 @@ void Renderer::Parts::destroy() {
   vkDeviceWaitIdle(device.device);
   if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
   destroy_smoothing_pass(smoothing_pass, device);
+  destroy_smoke_pass(smoke_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
   destroy_shadow_pass(shadow_pass, device);
@@ -143,6 +147,7 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
     draw_sky(sky_pass, context, environment.cloud_cover > 0.0, light.night > 0.0f);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
+    draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
     draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
   }
   vkCmdEndRendering(context.slot.commands);

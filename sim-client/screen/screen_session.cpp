@@ -19,6 +19,7 @@
 #include "sim-client/screen/playout.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
+#include "sim-client/screen/smoke_drawing.hpp"
 
 namespace septet::screen {
 namespace {
@@ -55,7 +56,7 @@ class Session {
   Expected<void> draw_lost(double now_s);
   Expected<void> draw(const Snapshot& snapshot, std::optional<std::string> message);
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
-  void take_effects(double simulated_time_s);
+  void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
   void say_goodbye();
   void wait(double seconds);
@@ -77,7 +78,9 @@ class Session {
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
   DebrisDrawing debris_;
+  SmokeDrawing smoke_;
   std::vector<render::DynamicMesh> meshes_;  ///< Of the last instant shown.
+  std::vector<render::SmokePuff> puffs_;     ///< Likewise.
   double lost_drawn_s_ = 0.0;
   float last_frame_ms_ = 0.0f;
 };
@@ -120,15 +123,18 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   const double begun_s = monotonic_s();
   auto frame = client_frame(snapshot, views_, resolver_.scene());
   frame.meshes = meshes_;
+  frame.smoke = puffs_;
   if (message) frame.overlay.push_back(banner(std::move(*message), *screen_));
   if (auto drawn = display_->renderer().draw(frame); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
   return {};
 }
 
-void Session::take_effects(double simulated_time_s) {
+void Session::take_effects(const Snapshot& snapshot) {
+  const double simulated_time_s = snapshot.simulated_time_s;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
   meshes_ = debris_.draw(effects_at(link_.history(), simulated_time_s, tick_s), simulated_time_s / tick_s, resolver_.scene());
+  puffs_ = smoke_.draw(snapshot.effects, simulated_time_s);
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
@@ -145,7 +151,7 @@ Expected<void> Session::draw_lockstep() {
   const Tick tick = newest.snapshot.tick;
   if (drawn_tick_ && *drawn_tick_ >= tick) return {};
   if (auto scene = bring_scene_up(); !scene) return scene;
-  take_effects(newest.snapshot.simulated_time_s);
+  take_effects(newest.snapshot);
   if (auto drawn = draw(newest.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = newest.snapshot;
   drawn_tick_ = tick;
@@ -168,7 +174,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   if (auto scene = bring_scene_up(); !scene) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
   const auto shown = show(link_.history(), *playout_time_s(link_.history(), frame_number(*server_s)), tick_s);
-  take_effects(shown.snapshot.simulated_time_s);
+  take_effects(shown.snapshot);
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = shown.snapshot;
   ++frames_;

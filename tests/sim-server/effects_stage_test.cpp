@@ -45,8 +45,9 @@ Participant vehicle(ParticipantId id, std::string_view model, double s_m, int la
 /// Drives everybody straight on and steps the effects for some ticks.
 EffectsReport run(std::vector<Participant>& participants, EffectsState& state, Tick from, Tick ticks) {
   EffectsReport last;
+  static const Environment environment;
   for (Tick tick = from; tick < from + ticks; tick += effects_step_ticks) {
-    last = advance_effects({motorway(), participants, 1, 1.0, tick, tick_s}, state);
+    last = advance_effects({motorway(), participants, environment, 1, 1.0, tick, tick_s}, state);
     for (Participant& p : participants)
       p.world_from_vehicle.position_m += p.velocity_mps * (tick_s * static_cast<double>(effects_step_ticks));
   }

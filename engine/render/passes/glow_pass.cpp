@@ -37,8 +37,8 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     if (distance_m < 0.3f || distance_m > 3000.0f) continue;
     const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
     const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / distance_m);
-    const float share = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
-    if (share <= 0.0f) continue;
+    const float share = glow.share * std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
+    if (share <= 1e-3f) continue;
     const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
     // The core is whiter than the halo: an eye (and a camera) saturates there.
     const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);

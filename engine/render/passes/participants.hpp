@@ -14,6 +14,7 @@ struct LampGlow {
   glm::vec3 facing{0.0f};        ///< Unit, world axes; zero: all around.
   glm::vec3 color{1.0f};         ///< Emission of its material.
   float radius_m = 0.3f;
+  float share = 1.0f;            ///< Of its light that reaches the eye, through smoke.
 };
 
 /// Where the headlights of one vehicle stand and point.

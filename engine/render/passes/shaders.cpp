@@ -27,6 +27,12 @@ constexpr std::uint32_t glow_vert_code[] = {
 constexpr std::uint32_t glow_frag_code[] = {
 #include "engine/render/shaders/glow.frag.inc"
 };
+constexpr std::uint32_t smoke_vert_code[] = {
+#include "engine/render/shaders/smoke.vert.inc"
+};
+constexpr std::uint32_t smoke_frag_code[] = {
+#include "engine/render/shaders/smoke.frag.inc"
+};
 constexpr std::uint32_t smoothing_vert_code[] = {
 #include "engine/render/shaders/smoothing.vert.inc"
 };
@@ -50,6 +56,8 @@ std::span<const std::uint32_t> sky_vert() { return sky_vert_code; }
 std::span<const std::uint32_t> sky_frag() { return sky_frag_code; }
 std::span<const std::uint32_t> glow_vert() { return glow_vert_code; }
 std::span<const std::uint32_t> glow_frag() { return glow_frag_code; }
+std::span<const std::uint32_t> smoke_vert() { return smoke_vert_code; }
+std::span<const std::uint32_t> smoke_frag() { return smoke_frag_code; }
 std::span<const std::uint32_t> smoothing_vert() { return smoothing_vert_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
 std::span<const std::uint32_t> overlay_vert() { return overlay_vert_code; }

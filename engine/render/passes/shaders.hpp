@@ -14,6 +14,8 @@ std::span<const std::uint32_t> sky_vert();
 std::span<const std::uint32_t> sky_frag();
 std::span<const std::uint32_t> glow_vert();
 std::span<const std::uint32_t> glow_frag();
+std::span<const std::uint32_t> smoke_vert();
+std::span<const std::uint32_t> smoke_frag();
 std::span<const std::uint32_t> smoothing_vert();
 std::span<const std::uint32_t> smoothing_frag();
 std::span<const std::uint32_t> overlay_vert();

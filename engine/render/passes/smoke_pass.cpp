@@ -1,0 +1,190 @@
+#include "engine/render/passes/smoke_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+#include "engine/render/passes/shaders.hpp"
+
+namespace septet::render {
+namespace {
+
+/// A puff is drawn out to two standard deviations of its density.
+constexpr float drawn_deviations = 2.0f;
+/// Behind this optical depth nothing is seen: a 400th of the light is left.
+constexpr float opaque_depth = 6.0f;
+
+/// Side of the cells that puffs are merged in, by distance from the eye; powers of two, so that cells nest.
+double cell_side_m(double distance_m) {
+  return distance_m < 7.0 ? 1.0 : distance_m < 40.0 ? 2.0 : distance_m < 120.0 ? 4.0 : 8.0;
+}
+
+float depth_through_middle(const SmokePuff& puff) {
+  return puff.extinction_area_m2 / (2.0f * std::numbers::pi_v<float> * puff.radius_m * puff.radius_m);
+}
+
+/// Coarse tiles of a view's picture that add up the optical depth seen so far.
+class Coverage {
+ public:
+  static constexpr int columns = 48, rows = 32;
+
+  /// Adds a puff (NDC and extent in NDC); false where all its tiles are opaque already.
+  bool add(float x, float y, float half_width, float half_height, float depth) {
+    const int left = tile(x - half_width, columns), right = tile(x + half_width, columns);
+    const int top = tile(y - half_height, rows), bottom = tile(y + half_height, rows);
+    bool seen = false;
+    for (int row = top; row <= bottom; ++row)
+      for (int column = left; column <= right; ++column) seen = seen || depth_[row * columns + column] < opaque_depth;
+    if (!seen) return false;
+    // What lies wholly inside counts; a puff's edge is thin. Half of its middle's depth is its mean.
+    for (int row = top + 1; row < bottom; ++row)
+      for (int column = left + 1; column < right; ++column) depth_[row * columns + column] += 0.4f * depth;
+    return true;
+  }
+
+ private:
+  static int tile(float ndc, int count) {
+    return std::clamp(static_cast<int>((std::clamp(ndc, -1.0f, 1.0f) * 0.5f + 0.5f) * static_cast<float>(count)), 0, count - 1);
+  }
+  std::array<float, columns * rows> depth_{};
+};
+
+glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& light) {
+  constexpr glm::vec3 tunnel_lamps(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
+  const glm::vec3 around = 0.5f * (light.sky_irradiance + light.ground_irradiance) + 0.35f * light.light_irradiance;
+  const glm::vec3 irradiance = around * share_of_sky + tunnel_lamps * (1.0f - share_of_sky);
+  constexpr glm::vec3 flame(9.0f, 3.4f, 0.7f);
+  return puff.albedo * irradiance / std::numbers::pi_v<float> + flame * (puff.glow * puff.glow);
+}
+
+}  // namespace
+
+void create_smoke_pass(SmokePass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                       const TargetFormats& formats) {
+  vulkan::PipelineDescription description;
+  description.vertex_code = shaders::smoke_vert();
+  description.fragment_code = shaders::smoke_frag();
+  description.vertex_input = vulkan::VertexInput::none;
+  description.color_format = formats.color;
+  description.depth_format = formats.depth;
+  description.samples = formats.samples;
+  description.blend = vulkan::Blend::over;
+  description.depth_write = false;
+  pass.pipeline = create_pipeline(device, layout, description);
+}
+
+void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device) {
+  if (pass.pipeline) vkDestroyPipeline(device.device, pass.pipeline, nullptr);
+  pass = {};
+}
+
+std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3& eye_m) {
+  struct Keyed {
+    std::array<std::int64_t, 5> cell;  // Side, flame or smoke, x, y, z.
+    std::uint32_t puff;
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(puffs.size());
+  for (std::uint32_t i = 0; i < puffs.size(); ++i) {
+    const double side = cell_side_m(glm::length(puffs[i].position_m - eye_m));
+    const glm::dvec3 cell = glm::floor(puffs[i].position_m / side);
+    keyed.push_back({{std::int64_t(side), puffs[i].glow > 0.0f, std::int64_t(cell.x), std::int64_t(cell.y), std::int64_t(cell.z)}, i});
+  }
+  std::ranges::sort(keyed, [](const Keyed& a, const Keyed& b) { return a.cell != b.cell ? a.cell < b.cell : a.puff < b.puff; });
+  std::vector<SmokePuff> merged;
+  for (std::size_t begin = 0, end; begin < keyed.size(); begin = end) {
+    end = begin;
+    SmokePuff sum;
+    Vec3 place(0.0);
+    glm::vec3 albedo(0.0f);
+    float area = 0.0f, square = 0.0f, glow = 0.0f;
+    for (; end < keyed.size() && keyed[end].cell == keyed[begin].cell; ++end) {
+      const SmokePuff& puff = puffs[keyed[end].puff];
+      const float weight = std::max(puff.extinction_area_m2, 1e-6f);
+      place += double(weight) * puff.position_m;
+      albedo += weight * puff.albedo;
+      square += weight * puff.radius_m * puff.radius_m;
+      glow += weight * puff.glow;
+      area += weight;
+    }
+    sum.position_m = place / double(area);
+    sum.albedo = albedo / area;
+    sum.glow = glow / area;
+    sum.extinction_area_m2 = area;
+    // Parts of a cell lie apart by its side over √12 along each axis.
+    const float side = static_cast<float>(keyed[begin].cell[0]), apart = end - begin > 1 ? side * side / 12.0f : 0.0f;
+    sum.radius_m = std::sqrt(square / area + apart);
+    sum.seed = puffs[keyed[begin].puff].seed;
+    merged.push_back(sum);
+  }
+  return merged;
+}
+
+float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m) {
+  const Vec3 way = point_m - eye_m;
+  const double length = glm::length(way);
+  if (length < 1e-6) return 1.0f;
+  const Vec3 along = way / length;
+  double depth = 0.0;
+  for (const SmokePuff& puff : puffs) {
+    const Vec3 to_puff = puff.position_m - eye_m;
+    const double at = glm::dot(to_puff, along);
+    if (at < 0.0 || at > length) continue;
+    const double square = glm::dot(to_puff, to_puff) - at * at, radius = puff.radius_m;
+    if (square < 9.0 * radius * radius) depth += depth_through_middle(puff) * std::exp(-0.5 * square / (radius * radius));
+  }
+  return static_cast<float>(std::exp(-depth));
+}
+
+std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const DeviceScene& scene, const SkyLight& light,
+                                     const FrameView& view, const Vec3& eye_m) {
+  struct Placed {
+    glm::vec3 at;
+    float distance_m;
+    const SmokePuff* puff;
+  };
+  const ViewVolume volume = view_volume(view);
+  std::vector<Placed> placed;
+  for (const SmokePuff& puff : merged) {
+    const glm::vec3 at(puff.position_m - eye_m);
+    if (intersects(volume, at, drawn_deviations * puff.radius_m)) placed.push_back({at, glm::length(at), &puff});
+  }
+  std::ranges::stable_sort(placed, {}, &Placed::distance_m);
+  // Front to back, so that what is behind enough smoke is known; then turned round.
+  const Quat car_from_world = glm::conjugate(view.world_from_car.orientation);
+  const OffAxisView& projection = view.projection;
+  Coverage coverage;
+  std::vector<PuffRecord> records;
+  for (const Placed& p : placed) {
+    const float radius = drawn_deviations * p.puff->radius_m, depth = depth_through_middle(*p.puff);
+    const Vec3 in_car = car_from_world * Vec3(p.at);
+    const double ahead = -glm::dot(in_car, projection.back);
+    if (ahead > 2.0 * radius) {
+      const double x = glm::dot(in_car, projection.right) / ahead, y = glm::dot(in_car, projection.up) / ahead;
+      const double wide = projection.right_slope - projection.left_slope, high = projection.top_slope - projection.bottom_slope;
+      if (!coverage.add(static_cast<float>(2.0 * (x - projection.left_slope) / wide - 1.0),
+                        static_cast<float>(2.0 * (y - projection.bottom_slope) / high - 1.0), static_cast<float>(2.0 * radius / (ahead * wide)),
+                        static_cast<float>(2.0 * radius / (ahead * high)), depth))
+        continue;
+    }
+    const glm::vec3 radiance = scattered(*p.puff, share_of_sky(scene, p.puff->position_m), light);
+    records.push_back({glm::vec4(p.at, radius), glm::vec4(radiance, depth), glm::vec4(static_cast<float>(p.puff->seed % 1024u) / 1024.0f)});
+  }
+  std::ranges::reverse(records);
+  return records;
+}
+
+void draw_smoke(const SmokePass& pass, PassContext& context, const FrameData& records, std::uint32_t count) {
+  if (count == 0) return;
+  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
+  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
+  push_glows(context, records);
+  vkCmdDraw(context.slot.commands, 6, count, 0, 0);
+  ++context.statistics.draws;
+  context.statistics.triangles += 2 * count;
+}
+
+}  // namespace septet::render

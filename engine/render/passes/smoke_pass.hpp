@@ -1,0 +1,44 @@
+#pragma once
+/// Draws smoke: soft balls that face the viewer, lit by sky and lamps, back to front over what stands behind them.
+///
+/// Many puffs lie over each other in every pixel, so they are merged first, into cells that grow with the distance from the
+/// eye, and what lies behind enough smoke is left out. Cells are fixed in the world and all screens of a rig have one eye, so
+/// that smoke meets at their edges. Optical depth adds up: alpha is 1 − exp(−depth) (Beer and Lambert).
+
+#include <span>
+#include <vector>
+
+#include "engine/render/atmosphere.hpp"
+#include "engine/render/passes/device_scene.hpp"
+#include "engine/render/passes/pass_context.hpp"
+
+namespace septet::render {
+
+/// The twin of Puff in shaders/smoke.vert.
+struct PuffRecord {
+  glm::vec4 position_radius{0.0f};  ///< Relative to the eye; radius of what is drawn, m.
+  glm::vec4 radiance_depth{0.0f};   ///< Light that it scatters and gives off; optical depth through its middle.
+  glm::vec4 turn{0.0f};             ///< x: where in the noise its pattern lies.
+};
+
+struct SmokePass {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
+void create_smoke_pass(SmokePass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                       const TargetFormats& formats);
+void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device);
+
+/// Puffs merged for an eye: see above. World frame.
+std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3& eye_m);
+
+/// Share of the light that the puffs let through from a point to the eye.
+float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const Vec3& point_m);
+
+/// What a view draws of them, farthest first.
+std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const DeviceScene& scene, const SkyLight& light,
+                                     const FrameView& view, const Vec3& eye_m);
+
+void draw_smoke(const SmokePass& pass, PassContext& context, const FrameData& records, std::uint32_t count);
+
+}  // namespace septet::render

@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+// A puff of smoke: a square that faces the viewer. The host's twin is PuffRecord in passes/smoke_pass.hpp.
+struct Puff {
+  vec4 position_radius;  // Relative to the eye; radius, m.
+  vec4 radiance_depth;   // Its light; optical depth through its middle.
+  vec4 turn;
+};
+layout(set = 0, binding = 1, std430) readonly buffer Puffs { Puff puffs[]; };
+
+layout(location = 0) out vec2 out_at;
+layout(location = 1) flat out vec4 out_radiance_depth;
+layout(location = 2) flat out vec4 out_shift_fog;  // xy: place in the noise. z: share of the fog before it.
+layout(location = 3) flat out vec3 out_fog;
+
+void main() {
+  Puff puff = puffs[gl_InstanceIndex];
+  const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+  vec2 at = corners[gl_VertexIndex];
+  vec3 middle = puff.position_radius.xyz;
+  float radius = puff.position_radius.w;
+  float distance_m = length(middle);
+  vec3 to_eye = -middle / max(distance_m, 1e-3);
+  // Faces the eye and not the screen, so that it is the same ball on the next screen.
+  vec3 side = normalize(cross(abs(to_eye.z) < 0.99 ? vec3(0, 0, 1) : vec3(1, 0, 0), to_eye));
+  vec3 up = cross(to_eye, side);
+  out_at = at;
+  out_radiance_depth = puff.radiance_depth;
+  // Seen from within it would be a wall before the eye: it thins out there.
+  out_radiance_depth.w *= smoothstep(0.15, 1.2, distance_m / radius);
+  float azimuth = -dot(to_eye.xy, view.sun_level.xy) * inversesqrt(dot(to_eye.xy, to_eye.xy) + 1e-6);
+  out_fog = view.fog_middle.rgb + azimuth * (view.fog_slope.rgb + azimuth * view.fog_bend.rgb);
+  out_shift_fog = vec4(puff.turn.x * 7.31, puff.turn.x * 3.77, 1.0 - exp2(-distance_m * view.sky_irradiance.w), 0.0);
+  gl_Position = view.clip_from_relative * vec4(middle + (side * at.x + up * at.y) * radius, 1.0);
+}

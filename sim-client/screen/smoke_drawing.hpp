@@ -1,0 +1,31 @@
+#pragma once
+/// Smoke as a screen draws it: puffs of the keyframes at hand, each moved to the instant shown. One thread.
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "engine/effects/smoke/smoke_keyframe.hpp"
+#include "engine/render/frame_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::screen {
+
+class SmokeDrawing {
+ public:
+  /// All puffs of a snapshot at a simulated time.
+  std::vector<render::SmokePuff> draw(std::span<const EffectKeyframe> effects, double simulated_time_s);
+  /// Keyframes that could not be read.
+  std::uint32_t refused() const { return refused_; }
+
+ private:
+  struct Decoded {
+    Tick tick = 0;
+    bool readable = false, used = false;
+    smoke::Keyframe keyframe;
+  };
+  std::map<std::uint32_t, Decoded> decoded_;  ///< By effect: each keyframe is read once.
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace septet::screen

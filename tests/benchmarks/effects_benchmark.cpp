@@ -1,0 +1,57 @@
+// What the effects add to the server's tick and to the tick lane: ten seconds of each scenario that has them, with a
+// simulated driver. Bytes are those of a snapshot as a difference to the one of three ticks before, as a screen acknowledges
+// them on a local network; without repetition.
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+
+#include <benchmark/benchmark.h>
+
+#include "engine/core/check.hpp"
+#include "engine/world/wire_snapshot.hpp"
+#include "sim-server/drive_loader.hpp"
+#include "sim-server/driver_seat.hpp"
+#include "sim-server/live_drive.hpp"
+#include "sim-server/resources.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr std::size_t baseline_age = 3;
+
+void effects_tick(benchmark::State& bench, const char* name, int seconds_before) {
+  const auto scenario = find_resource(name, "scenarios", ".xosc");
+  const auto rig = find_resource("seven-screens", "rigs", ".toml");
+  SEPTET_CHECK(scenario && rig, "the shipped scenario and rig are missing");
+  const auto loaded = load_drive(DriveFiles{scenario->string(), rig->string(), 1});
+  SEPTET_CHECK(loaded.has_value(), "{}", describe(loaded.error()));
+  auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded->model);
+  auto drive = LiveDrive::start(loaded->model, std::move(*seat), nullptr);
+  for (int tick = 0; tick < 120 * seconds_before; ++tick) SEPTET_CHECK((*drive)->next(std::nullopt).has_value(), "tick {}", tick);
+  std::deque<std::shared_ptr<const WireSnapshot>> sent;
+  double bytes = 0.0, most = 0.0, keyframe = 0.0, worst_ms = 0.0;
+  for (auto _ : bench) {
+    const auto begun = std::chrono::steady_clock::now();
+    auto snapshot = *(*drive)->next(std::nullopt);
+    worst_ms = std::max(worst_ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
+    bench.PauseTiming();
+    Bytes out, whole;
+    encode_snapshot(*snapshot, sent.size() < baseline_age ? nullptr : sent.front().get(), out);
+    if (sent.size() >= baseline_age) bytes += static_cast<double>(out.size()), most = std::max(most, static_cast<double>(out.size()));
+    encode_snapshot(*snapshot, nullptr, whole);
+    keyframe = std::max(keyframe, static_cast<double>(whole.size()));
+    sent.push_back(std::move(snapshot));
+    if (sent.size() > baseline_age) sent.pop_front();
+    bench.ResumeTiming();
+  }
+  bench.counters["bytes_per_s"] = bytes / static_cast<double>(bench.iterations()) * 120.0;
+  bench.counters["most_bytes"] = most;
+  bench.counters["keyframe_bytes"] = keyframe;
+  bench.counters["worst_ms"] = worst_ms;
+}
+BENCHMARK_CAPTURE(effects_tick, winter_lorry, "winter-lorry", 4)->Name("effects_tick/winter-lorry")->Iterations(1200)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(effects_tick, tunnel_fire, "tunnel-fire", 30)->Name("effects_tick/tunnel-fire")->Iterations(1200)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace septet::server

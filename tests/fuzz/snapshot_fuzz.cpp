@@ -1,0 +1,59 @@
+// Hostile bytes against what a screen decodes of a tick: the snapshot, as a keyframe and as a difference, and the effects'
+// keyframes in it. The first byte chooses. Whatever is taken must come back from its own encoder.
+
+#include <cstdlib>
+
+#include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/smoke/smoke_keyframe.hpp"
+#include "engine/world/wire_snapshot.hpp"
+
+namespace {
+
+using namespace septet;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void feed_snapshots(ByteReader& input) {
+  const auto first_bytes = input.take(std::min<std::size_t>(input.get<std::uint16_t>(), input.remaining()));
+  const auto first = decode_snapshot(first_bytes, nullptr);
+  if (!first) return;
+  Bytes again;
+  encode_snapshot(*first, nullptr, again);
+  const auto returned = decode_snapshot(again, nullptr);
+  require(returned && returned->participants == first->participants && returned->rest.effects == first->rest.effects);
+  const auto second = decode_snapshot(input.take(input.remaining()), &*first);
+  if (!second || second->rest.tick <= first->rest.tick) return;
+  Bytes difference;
+  encode_snapshot(*second, &*first, difference);
+  const auto came_back = decode_snapshot(difference, &*first);
+  require(came_back && came_back->participants == second->participants && came_back->rest.effects == second->rest.effects);
+}
+
+void feed_debris(std::span<const std::byte> bytes) {
+  const auto keyframe = debris::decode(bytes);
+  if (!keyframe) return;
+  for (const auto& triangle : keyframe->triangles)
+    for (const auto corner : triangle) require(corner < keyframe->vertices_m.size());
+  require(debris::decode(debris::encode(*keyframe)).has_value());
+}
+
+void feed_smoke(std::span<const std::byte> bytes) {
+  const auto keyframe = smoke::decode(bytes);
+  if (!keyframe) return;
+  std::vector<smoke::Puff> puffs;
+  smoke::add_puffs(*keyframe, keyframe->time_s + 0.1, puffs);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  ByteReader input(std::as_bytes(std::span(data, size)));
+  switch (input.get<std::uint8_t>() % 3) {
+    case 0: feed_snapshots(input); break;
+    case 1: feed_debris(input.take(input.remaining())); break;
+    default: feed_smoke(input.take(input.remaining())); break;
+  }
+  return 0;
+}
