@@ -11,12 +11,6 @@ Observation observe(DriveObserver& observer, const Snapshot& snapshot,
   const auto add = [&](Tick tick, double time_s, const char* kind, std::string detail) {
     result.events.push_back({tick, time_s, kind, driver, std::move(detail)});
   };
-  if (const std::uint32_t collisions = snapshot.diagnostics.collisions;
-      collisions > observer.collisions) {
-    add(snapshot.tick, snapshot.simulated_time_s, "collision",
-        fmt::format("count={}", collisions - observer.collisions));
-    observer.collisions = collisions;
-  }
   if (!is_sample_due(snapshot.tick, observer.ticks_per_second)) return result;
   result.sample = take_sample(snapshot, leader);
   if (const auto change = advance(observer.lane_changes, *result.sample))

@@ -17,12 +17,11 @@ struct DriveObserver {
   double ticks_per_second = 120.0;
   LaneChangeDetector lane_changes = {};
   GlanceDetector glances = {};
-  std::uint32_t collisions = 0;  ///< Of the snapshots so far.
 };
 
 struct Observation {
   std::optional<Sample> sample;
-  std::vector<Event> events;  ///< lane_change, mirror_glance, collision.
+  std::vector<Event> events;  ///< lane_change, mirror_glance.
 };
 
 Observation observe(DriveObserver& observer, const Snapshot& snapshot,

@@ -4,8 +4,9 @@
 
 namespace septet::server {
 
-Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log) {
-  auto state = initial_state(*model);
+Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                                                      DriverSeat seat, SessionLog* log) {
+  auto state = initial_state(*model, std::move(traffic));
   if (!state) return tl::unexpected(state.error());
   return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), log, std::move(*state)));
 }
@@ -51,6 +52,10 @@ Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optiona
   std::vector<SimulationEvent> events;
   newest_ = server_step(*model_, input.input, state_, events);
   move_actuators();
+  if (auto error = state_.traffic->take_error()) {
+    if (log_) log_->record_message("traffic", describe(*error));
+    return tl::unexpected(std::move(*error));
+  }
   auto wire = std::make_shared<const WireSnapshot>(to_wire(newest_));
   if (log_) {
     // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.

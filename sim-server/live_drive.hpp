@@ -32,7 +32,8 @@ struct DriverSeat {
 class LiveDrive final : public TickSource {
  public:
   /// `log` may be null and outlives the drive otherwise.
-  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log);
+  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                                                    DriverSeat seat, SessionLog* log);
 
   Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) override;
   double tick_rate_hz() const override { return server::tick_rate_hz; }

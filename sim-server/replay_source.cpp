@@ -9,10 +9,10 @@ Expected<std::unique_ptr<ReplaySource>> ReplaySource::start(const logging::Sessi
 }
 
 Expected<std::shared_ptr<const WireSnapshot>> ReplaySource::next(const std::optional<DriverInput>&) {
-  auto snapshot = cursor_.next();
+  auto snapshot = cursor_.next_wire();
   if (!snapshot) return tl::unexpected(snapshot.error());
   if (!*snapshot) return std::shared_ptr<const WireSnapshot>();
-  return std::make_shared<const WireSnapshot>(to_wire(**snapshot));
+  return std::make_shared<const WireSnapshot>(std::move(**snapshot));
 }
 
 }  // namespace septet::server

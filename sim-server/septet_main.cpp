@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name below scenarios/");
   drive_command->add_option("--seed", drive.seed, "Seed of everything random");
   drive_command->add_option("--driver", drive.driver, "Which simulated driver (plain, novice, experienced, tired)");
+  drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
   drive_command->add_flag("--no-screens", drive.no_screens, "Server and car only, as fast as it goes");
   drive_command->callback([&] { status = run_drive(drive); });
 

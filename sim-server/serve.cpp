@@ -49,7 +49,6 @@ struct Loop {
     for (const auto& text : source.take_messages()) environment.message(text);
     if (snapshot && *snapshot) {
       ++result.ticks;
-      result.last_tick = (*snapshot)->rest.tick;
       result.simulated_s = (*snapshot)->rest.simulated_time_s;
       result.state_hash = (*snapshot)->rest.state_hash;
     }

@@ -40,7 +40,6 @@ struct ServeEnvironment {
 
 struct ServeResult {
   std::uint64_t ticks = 0;
-  Tick last_tick = 0;
   double simulated_s = 0.0;
   double wall_s = 0.0;
   std::uint64_t late_ticks = 0;  ///< Real time: ticks that began more than a tick late.

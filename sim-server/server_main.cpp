@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until stopped");
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--driver", options.driver, "Which simulated driver");
+  app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");

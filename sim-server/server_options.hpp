@@ -16,6 +16,7 @@ struct ServerOptions {
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
   std::string driver;    ///< Simulated driver; empty: the rig's.
+  std::string traffic = "own";  ///< Who moves the traffic: own or sumo.
   bool lockstep = false;
   bool no_screens = false;
   bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.

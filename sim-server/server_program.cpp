@@ -21,6 +21,7 @@
 #include "sim-server/replay_source.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/serve.hpp"
+#include "sim-server/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -142,6 +143,7 @@ struct Drive {
   scene::Store store;
   std::optional<logging::SessionReader> session;  ///< Of a replay.
   DriverSeat seat;                                ///< Of a drive.
+  std::unique_ptr<traffic::TrafficEngine> traffic;  ///< Of a drive, until its source has it.
   std::optional<SessionLog> log;                  ///< Of a drive.
   std::shared_ptr<RemoteCar> remote_car;          ///< Of a drive whose car is on another machine.
   std::unique_ptr<TickSource> source;
@@ -178,6 +180,9 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
   if (!seat) return tl::unexpected(seat.error());
   drive.seat = std::move(*seat);
+  auto traffic = open_traffic(options.traffic, *drive.loaded.model);
+  if (!traffic) return tl::unexpected(traffic.error());
+  drive.traffic = std::move(*traffic);
   return {};
 }
 
@@ -186,12 +191,12 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) return failure(error.message(), options.out.string(), "choose a folder that can be written with --out");
-  auto log = SessionLog::create(options.out / "session.sqlite", drive.loaded, options.seed, !options.lockstep && !options.no_screens);
+  auto log = SessionLog::create(options.out / "session.sqlite", drive.loaded, options.seed, options.traffic, !options.lockstep && !options.no_screens);
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
   drive.log->record_scene(drive.store);
   drive.remote_car = drive.seat.remote;
-  auto source = LiveDrive::start(drive.loaded.model, std::move(drive.seat), &*drive.log);
+  auto source = LiveDrive::start(drive.loaded.model, std::move(drive.traffic), std::move(drive.seat), &*drive.log);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);
   return {};
@@ -206,7 +211,6 @@ Expected<ServeResult> run_headless(TickSource& source, std::uint64_t ticks, Prog
     if (!snapshot) return tl::unexpected(snapshot.error());
     if (!*snapshot) break;
     ++result.ticks;
-    result.last_tick = (*snapshot)->rest.tick;
     result.simulated_s = (*snapshot)->rest.simulated_time_s;
     result.state_hash = (*snapshot)->rest.state_hash;
     result.wall_s = monotonic_s() - begun_s;

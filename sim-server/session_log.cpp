@@ -28,7 +28,8 @@ std::string now_utc() {
 
 }  // namespace
 
-Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed, bool real_time) {
+Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed,
+                                        const std::string& traffic, bool real_time) {
   logging::SessionInfo info;
   info.septet_version = version;
   info.git_revision = SEPTET_REVISION;
@@ -37,6 +38,7 @@ Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const
   info.seeds["drive"] = seed;
   info.files = drive.sources;
   info.other["driver"] = drive.rig.car.driver;
+  info.other["traffic"] = traffic;
   logging::WriterOptions options;
   options.when_full = real_time ? logging::WhenFull::drop : logging::WhenFull::wait;
   auto writer = logging::SessionWriter::create(file, info, options);

@@ -17,7 +17,8 @@ namespace septet::server {
 
 class SessionLog {
  public:
-  static Expected<SessionLog> create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed, bool real_time);
+  static Expected<SessionLog> create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed,
+                                     const std::string& traffic, bool real_time);
 
   void record_scene(const scene::Store& store);
   void record_input(logging::InputRecord input) { writer_.record(std::move(input)); }

@@ -45,8 +45,8 @@ vehicle::Ground ground_below(const SimulationModel& model, SimulationState& stat
   return ground;
 }
 
-void advance_car(const SimulationModel& model, const DriverInput& input, SimulationState& state,
-                 std::vector<SimulationEvent>& events) {
+vehicle::VehicleOutputs advance_car(const SimulationModel& model, const DriverInput& input, SimulationState& state,
+                                    std::vector<SimulationEvent>& events) {
   const auto ground = ground_below(model, state);
   const std::uint32_t bad_before = state.car.bad_numbers;
   for (int i = 0; i < car_steps; ++i) vehicle::advance_vehicle(model.car, input, ground, tick_s / car_steps, state.car);
@@ -54,9 +54,11 @@ void advance_car(const SimulationModel& model, const DriverInput& input, Simulat
     state.diagnostics.bad_numbers += state.car.bad_numbers - bad_before;
     events.push_back({"bad_number", driver_participant, "the car was reset"});
   }
-  const Vec3 origin = vehicle::outputs(model.car, state.car).world_from_vehicle.position_m;
+  const auto out = vehicle::outputs(model.car, state.car);
+  const Vec3 origin = out.world_from_vehicle.position_m;
   if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
     state.car_road = place->position;
+  return out;
 }
 
 Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s) {
@@ -72,8 +74,7 @@ Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car,
   return lamps;
 }
 
-Participant car_participant(const SimulationModel& model, const SimulationState& state) {
-  const auto out = vehicle::outputs(model.car, state.car);
+Participant car_participant(const SimulationModel& model, const SimulationState& state, const vehicle::VehicleOutputs& out) {
   Participant car;
   car.id = driver_participant;
   car.model = model.scenario.entities[model.driver_entity].model;
@@ -90,8 +91,7 @@ Participant car_participant(const SimulationModel& model, const SimulationState&
   return car;
 }
 
-DriverCar driver_car(const SimulationModel& model, const SimulationState& state) {
-  const auto out = vehicle::outputs(model.car, state.car);
+DriverCar driver_car(const SimulationModel& model, const SimulationState& state, const vehicle::VehicleOutputs& out) {
   DriverCar car;
   car.participant = driver_participant;
   car.speed_mps = out.speed_mps;
@@ -154,8 +154,9 @@ void notice_collisions(Snapshot& snapshot, SimulationState& state, std::vector<S
 }
 
 /// Everybody whom traffic has to mind and does not move itself; the driver's car comes first.
-std::vector<traffic::ForeignVehicle> foreign_vehicles(const SimulationModel& model, const SimulationState& state) {
-  std::vector<Participant> others{car_participant(model, state)};
+std::vector<traffic::ForeignVehicle> foreign_vehicles(const SimulationModel& model, const SimulationState& state,
+                                                      const vehicle::VehicleOutputs& car) {
+  std::vector<Participant> others{car_participant(model, state, car)};
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
   std::vector<traffic::ForeignVehicle> foreign;
   foreign.reserve(others.size());
@@ -164,29 +165,31 @@ std::vector<traffic::ForeignVehicle> foreign_vehicles(const SimulationModel& mod
 }
 
 /// Starts and ends the swarms that the storyboard asked for.
-void apply_swarms(const SimulationModel& model, const scenario::StepResult& step, SimulationState& state) {
+void apply_swarms(const SimulationModel& model, const scenario::StepResult& step, const vehicle::VehicleOutputs& car, SimulationState& state) {
   for (const auto& swarm : step.swarms) {
-    state.traffic_parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
-    state.traffic_parameters.first_id = first_traffic_participant;
+    traffic::TrafficParameters parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
+    parameters.first_id = first_traffic_participant;
     if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
-      state.traffic_parameters.opposite_share = swarm.opposite_direction_weight / both;
-    state.traffic = traffic::populate(state.traffic_parameters, model.roads, foreign_vehicles(model, state), state.traffic_random);
+      parameters.opposite_share = swarm.opposite_direction_weight / both;
+    state.traffic->start(parameters, foreign_vehicles(model, state, car));
   }
-  if (!step.stopped_traffic.empty()) state.traffic = {};
+  if (!step.stopped_traffic.empty()) state.traffic->stop();
 }
 
 /// Everybody who takes part, ascending id.
-std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state) {
-  std::vector<Participant> participants{car_participant(model, state)};
+std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state, const vehicle::VehicleOutputs& car) {
+  std::vector<Participant> participants;
+  participants.reserve(256);
+  participants.push_back(car_participant(model, state, car));
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
-  traffic::append_participants(state.traffic, model.roads, participants);
-  std::ranges::sort(participants, {}, &Participant::id);
+  state.traffic->append_participants(participants);
+  if (!std::ranges::is_sorted(participants, {}, &Participant::id)) std::ranges::sort(participants, {}, &Participant::id);
   show_damage(state.effects, participants);
   return participants;
 }
 
 /// Spills and burns what the storyboard asked for.
-void apply_effects(const SimulationModel& model, const scenario::StepResult& step, SimulationState& state) {
+void apply_effects(const SimulationModel& model, const scenario::StepResult& step, const vehicle::VehicleOutputs& car, SimulationState& state) {
   using Kind = scenario::EffectAction::Kind;
   for (const scenario::EffectAction& action : step.effects) {
     if (action.kind == Kind::spill) {
@@ -196,20 +199,20 @@ void apply_effects(const SimulationModel& model, const scenario::StepResult& ste
     const ParticipantId id = action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
     if (action.kind == Kind::extinguish) extinguish(id, state.effects.fires);
     if (action.kind != Kind::ignite) continue;
-    const auto participants = participants_now(model, state);
+    const auto participants = participants_now(model, state, car);
     if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
       ignite(model.roads, *burning, state.time_s(), model.seed, state.effects.fires);
   }
 }
 
-void advance_storyboard(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
-  const auto car = vehicle::outputs(model.car, state.car);
+void advance_storyboard(const SimulationModel& model, const vehicle::VehicleOutputs& car, SimulationState& state,
+                        std::vector<SimulationEvent>& events) {
   scenario::place_external(model.roads, model.driver_entity, car.world_from_vehicle, car.velocity_mps, car.acceleration_mps2, state.scenario);
   const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
   for (const auto& event : step.events)
     events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
-  apply_swarms(model, step, state);
-  apply_effects(model, step, state);
+  apply_swarms(model, step, car, state);
+  apply_effects(model, step, car, state);
 }
 
 /// Once a second, where there is smoke around the driver: how far he sees.
@@ -220,12 +223,12 @@ void note_visibility(const SimulationState& state, std::vector<SimulationEvent>&
   if (dull && *dull < 200.0) events.push_back({"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
 }
 
-void run_effects(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
+void run_effects(const SimulationModel& model, const vehicle::VehicleOutputs& car, SimulationState& state, std::vector<SimulationEvent>& events) {
   if (state.tick % effects_step_ticks != 0) return;
   if (effects_are_still(model.roads, state.car.world_from_body.position_m, state.effects)) return;
   const Environment& weather = state.scenario.environment;
   const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
-  const auto participants = participants_now(model, state);
+  const auto participants = participants_now(model, state, car);
   const EffectsReport report = advance_effects(
       {model.roads, participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
   state.car.velocity_mps += report.impulse_on_driver_ns / model.car.body.mass_kg;
@@ -244,8 +247,9 @@ void run_effects(const SimulationModel& model, SimulationState& state, std::vect
 
 }  // namespace
 
-Expected<SimulationState> initial_state(const SimulationModel& model) {
+Expected<SimulationState> initial_state(const SimulationModel& model, std::unique_ptr<traffic::TrafficEngine> traffic) {
   SimulationState state;
+  state.traffic = std::move(traffic);
   scenario::StepResult init;
   auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
   if (!started) return tl::unexpected(started.error());
@@ -255,10 +259,10 @@ Expected<SimulationState> initial_state(const SimulationModel& model) {
     return failure(fmt::format("the driver's car \"{}\" has no place", model.scenario.entities[model.driver_entity].name), "Init",
                    "give it a TeleportAction");
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
-  state.traffic_random = Random(model.seed, 1);
-  apply_swarms(model, init, state);
+  apply_swarms(model, init, vehicle::outputs(model.car, state.car), state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
   apply_effects(model, init, state);
+  if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   return state;
 }
 
@@ -266,23 +270,24 @@ Snapshot server_step(const SimulationModel& model, const DriverInput& input, Sim
                      std::vector<SimulationEvent>& events) {
   ++state.tick;
   state.input = input;
-  advance_car(model, input, state, events);
-  advance_storyboard(model, state, events);
-  traffic::advance(state.traffic_parameters, model.roads, foreign_vehicles(model, state), tick_s, state.traffic_random, state.traffic);
-  run_effects(model, state, events);
+  const auto car = advance_car(model, input, state, events);
+  advance_storyboard(model, car, state, events);
+  state.traffic->advance(foreign_vehicles(model, state, car), tick_s);
+  run_effects(model, car, state, events);
   Snapshot snapshot = capture_snapshot(model, state);
   notice_collisions(snapshot, state, events);
   return snapshot;
 }
 
 Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state) {
+  const auto car = vehicle::outputs(model.car, state.car);  // Again: the effects push the car.
   Snapshot snapshot;
   snapshot.tick = state.tick;
   snapshot.simulated_time_s = state.time_s();
   snapshot.state_hash = hash_state(state);
   snapshot.environment = state.scenario.environment;
-  snapshot.driver_car = driver_car(model, state);
-  snapshot.participants = participants_now(model, state);
+  snapshot.driver_car = driver_car(model, state, car);
+  snapshot.participants = participants_now(model, state, car);
   snapshot.effects = effect_keyframes(state.effects);
   snapshot.diagnostics = state.diagnostics;
   return snapshot;
@@ -293,8 +298,7 @@ std::uint64_t hash_state(const SimulationState& state) {
   hash.add(state.tick);
   vehicle::hash_state(hash, state.car);
   scenario::add_to_hash(state.scenario, hash);
-  traffic::hash_state(hash, state.traffic);
-  for (const auto word : state.traffic_random.state()) hash.add(word);
+  state.traffic->add_to_hash(hash);
   hash.add(state.effects.hash);
   hash.add(state.diagnostics.collisions);
   hash.add(state.diagnostics.bad_numbers);

@@ -2,8 +2,8 @@
 /// The simulation: all models and all state of one drive, and one step of it.
 ///
 /// `SimulationModel` is const after loading; `SimulationState` is everything that changes. `server_step` reads like the
-/// diagram of the design: driver input → vehicle → storyboard → traffic → effects → snapshot. No file, socket or clock in here: the
-/// same model, seed and inputs give the same state hash at every tick.
+/// diagram of the design: driver input → vehicle → storyboard → traffic → effects → snapshot. No file, socket or clock in here
+/// (a traffic engine that has a socket keeps it to itself): the same model, seed and inputs give the same state hash at every tick.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
-#include "engine/traffic/traffic.hpp"
+#include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/snapshot.hpp"
 #include "sim-server/effects_stage.hpp"
@@ -42,9 +42,7 @@ struct SimulationState {
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
   std::optional<road::RoadPosition> car_road;
   scenario::ScenarioState scenario;
-  traffic::TrafficParameters traffic_parameters;  ///< As the storyboard asked for it.
-  traffic::TrafficState traffic;
-  Random traffic_random{0};
+  std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
   DriverInput input;  ///< Of the last step.
   Diagnostics diagnostics;
@@ -60,8 +58,8 @@ struct SimulationEvent {
   std::string detail;
 };
 
-/// The state at tick 0, after the scenario's Init actions. Error: a scenario that does not fit its road.
-Expected<SimulationState> initial_state(const SimulationModel& model);
+/// The state at tick 0, after the scenario's Init actions. Error: a scenario that does not fit its road, or `traffic` fails.
+Expected<SimulationState> initial_state(const SimulationModel& model, std::unique_ptr<traffic::TrafficEngine> traffic);
 
 /// One tick on; answers the snapshot of the new tick. Events are appended.
 Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,

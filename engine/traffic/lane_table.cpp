@@ -45,6 +45,48 @@ std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corri
   return found;
 }
 
+LaneCentre exact_centre(const road::RoadNetwork& network, const CorridorPiece& piece, double x_m,
+                        int lane) {
+  const road::Road& road = network.roads[piece.road];
+  const double along = std::clamp(x_m - piece.x_m, 0.0, piece.length_m);
+  const double s = piece.along_s ? along : piece.length_m - along;
+  const auto& section = road::section_at(road, s);
+  const int outermost = piece.side > 0 ? section.left_count : section.right_count;
+  const auto borders = road::lane_borders(road, section, piece.side * std::min(lane, outermost), s);
+  return {borders.centre_t_m(), borders.centre_slope()};
+}
+
+LaneCentre between(const CentreLine::Knot& from, const CentreLine::Knot& to, double u) {
+  constexpr double h = LaneTable::knot_step_m;
+  const double rise = to.t_m - from.t_m, m0 = h * from.slope_by_x, m1 = h * to.slope_by_x;
+  const double quadratic = 3.0 * rise - 2.0 * m0 - m1, cubic = m0 + m1 - 2.0 * rise;
+  return {from.t_m + u * (m0 + u * (quadratic + u * cubic)),
+          (m0 + u * (2.0 * quadratic + u * 3.0 * cubic)) / h};
+}
+
+CentreLine centre_line(const road::RoadNetwork& network, const Corridor& corridor, int lane) {
+  constexpr double h = LaneTable::knot_step_m;
+  CentreLine line;
+  line.knots.resize(static_cast<std::size_t>(corridor.length_m / h) + 1);
+  const auto at = [&](double x) { return exact_centre(network, piece_at(corridor, x), x, lane); };
+  const auto sign = [&](double x) { return piece_at(corridor, x).along_s ? 1.0 : -1.0; };
+  for (std::size_t k = 0; k < line.knots.size(); ++k) {
+    const double x = h * static_cast<double>(k);
+    const LaneCentre centre = at(x);
+    line.knots[k] = {centre.t_m, sign(x) * centre.slope, false};
+  }
+  for (std::size_t k = 0; k + 1 < line.knots.size(); ++k) {
+    const double x = h * static_cast<double>(k);
+    bool smooth = &piece_at(corridor, x) == &piece_at(corridor, x + h);
+    for (const double u : {0.15, 0.4, 0.6, 0.85}) {
+      const LaneCentre guess = between(line.knots[k], line.knots[k + 1], u);
+      smooth = smooth && std::abs(guess.t_m - at(x + u * h).t_m) < 1e-6;
+    }
+    line.knots[k].smooth = smooth;
+  }
+  return line;
+}
+
 double length_m(const std::vector<OpenStretch>& open, double most_m) {
   double sum = 0.0;
   for (const auto& stretch : open)
@@ -76,7 +118,19 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
   const auto middle = position_at(corridor, 0.5 * corridor.length_m, table.lowest);
   const double width = road::lane_width_m(network, middle.road, middle.lane, middle.s_m);
   if (width > narrowest_m) table.lane_width_m = width;
+  for (int lane = 0; lane < static_cast<int>(table.open.size()); ++lane)
+    table.centres.push_back(centre_line(network, corridor, lane));
   return table;
+}
+
+LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
+                       const CorridorPiece& piece, double x_m, int lane) {
+  const auto& knots = table.centres[static_cast<std::size_t>(lane)].knots;
+  const double at = x_m / LaneTable::knot_step_m;
+  const auto k = static_cast<std::size_t>(at);
+  if (k + 1 >= knots.size() || !knots[k].smooth) return exact_centre(network, piece, x_m, lane);
+  const LaneCentre centre = between(knots[k], knots[k + 1], at - static_cast<double>(k));
+  return {centre.t_m, piece.along_s ? centre.slope : -centre.slope};
 }
 
 double lane_end_m(const LaneTable& table, int lane, double x_m) {

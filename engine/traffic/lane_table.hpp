@@ -14,14 +14,37 @@ struct OpenStretch {
   double begin_m = 0.0, end_m = 0.0;
 };
 
+/// The middle of a lane in the road's own t, and how it shifts along s.
+struct LaneCentre {
+  double t_m = 0.0, slope = 0.0;
+};
+
+/// One lane's middle, cubic between knots of which each has its place and slope. Where that would be
+/// off by more than a micrometre (a width record begins, a road ends) the road is asked.
+struct CentreLine {
+  struct Knot {
+    double t_m = 0.0, slope_by_x = 0.0;
+    bool smooth = false;  ///< From here to the next knot.
+  };
+  std::vector<Knot> knots;  ///< Every `knot_step_m` of x.
+};
+
 struct LaneTable {
+  static constexpr double knot_step_m = 10.0;
+
   int lowest = 1, highest = 0;  ///< Lane numbers that are open anywhere along most of the corridor,
                                 ///< and anywhere at all.
   double lane_width_m = 3.5;    ///< Of the lowest lane at the corridor's middle.
   std::vector<std::vector<OpenStretch>> open;  ///< [lane number], ascending, apart.
+  std::vector<CentreLine> centres;             ///< [lane number]
 };
 
 LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corridor);
+
+/// The middle of lane `lane` at x, which lies on `piece` and within the corridor; of the outermost
+/// lane where the road has no such lane.
+LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
+                       const CorridorPiece& piece, double x_m, int lane);
 
 /// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the
 /// lane is not open.

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "engine/road/cross_section.hpp"
 #include "engine/road/lane_geometry.hpp"
-#include "engine/road/lane_links.hpp"
 #include "engine/traffic/traffic_parts.hpp"
 
 namespace septet::traffic {
@@ -16,60 +18,90 @@ double indicated_side(const CorridorTraffic& traffic, std::size_t i, double acro
   return std::abs(away) > 0.15 ? away : 0.0;
 }
 
-Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
-                           const road::RoadNetwork& network, double time_s) {
+/// (cos, sin) of half the angle that has this cosine and sine.
+Vec2 half_turn(double cosine, double sine) {
+  const double c = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));
+  const double s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine))), sine);
+  return {c, s};
+}
+
+/// The road's line at a station and t: what a pose needs, without angles.
+struct Line {
+  Vec3 position_m, forward, left;  ///< Towards increasing s.
+  Quat world_from_line;
+  double curvature_per_m = 0.0;
+};
+
+Line line_at(const road::Road& road, double s_m, double t_m) {
+  const road::CrossSection section = road::cross_section_at(road, s_m);
+  const Vec2 direction = section.plan.direction, across = section.left();
+  Line line;
+  line.position_m = section.place(t_m, road::surface_offset_m(road, s_m, t_m));
+  line.forward = {direction * section.cos_pitch, -section.sin_pitch};
+  const Vec2 flat = direction * (section.sin_pitch * section.sin_roll) + across * section.cos_roll;
+  line.left = {flat, section.cos_pitch * section.sin_roll};
+  const Vec2 heading = half_turn(direction.x, direction.y);
+  line.world_from_line = Quat(heading.x, 0.0, 0.0, heading.y);
+  if (section.grade != 0.0) {
+    const Vec2 pitch = half_turn(section.cos_pitch, section.sin_pitch);
+    line.world_from_line = line.world_from_line * Quat(pitch.x, 0.0, pitch.y, 0.0);
+  }
+  if (section.roll_rad != 0.0) {
+    const Vec2 roll = half_turn(section.cos_roll, section.sin_roll);
+    line.world_from_line = line.world_from_line * Quat(roll.x, roll.y, 0.0, 0.0);
+  }
+  const double curvature = section.plan.curvature_per_m;
+  line.curvature_per_m = curvature / (1.0 - curvature * t_m);
+  return line;
+}
+
+void fill_participant(const CorridorTraffic& traffic, std::size_t i,
+                      const road::RoadNetwork& network, double time_s, Participant& participant) {
   const VehicleModel& model = vehicle_models()[traffic.model[i]];
   // The vehicle frame's origin is below the rear axle.
-  const double rear_axle_x = traffic.x_m[i] - model.front_m();
-  const auto position =
-      position_at(traffic.corridor, wrap_x(traffic.corridor, rear_axle_x), traffic.lane[i]);
-  const road::Road& road = network.roads[position.road];
-  const auto& section = road::section_at(road, position.s_m);
-  const CorridorPiece& piece = piece_at(traffic.corridor, wrap_x(traffic.corridor, rear_axle_x));
-  const auto borders_of = [&](int lane) {
-    const int id = piece.side * lane;
-    return section.has_lane(id)
-               ? road::lane_borders(road, section, id, position.s_m)
-               : road::lane_borders(road, section,
-                                    piece.side > 0 ? section.left_count : -section.right_count,
-                                    position.s_m);
-  };
-  const auto to = borders_of(traffic.lane[i]), from = borders_of(traffic.from_lane[i]);
-  const bool changing = traffic.lane[i] != traffic.from_lane[i];
-  const LateralBlend blend =
-      changing ? lateral_blend(traffic.change_s[i], traffic.driver[i].lane_change.duration_s)
-               : LateralBlend{};
+  const double x = wrap_x(traffic.corridor, traffic.x_m[i] - model.front_m());
+  const CorridorPiece& piece = piece_at(traffic.corridor, x);
+  const double along = std::clamp(x - piece.x_m, 0.0, piece.length_m);
+  const double s = piece.along_s ? along : piece.length_m - along;
   const double direction = piece.along_s ? 1.0 : -1.0;
-  const double t =
-      glm::mix(from.centre_t_m(), to.centre_t_m(), blend.value) + direction * traffic.aside_m[i];
-  const double across = to.centre_t_m() - from.centre_t_m();
-  const double slope = glm::mix(from.centre_slope(), to.centre_slope(), blend.value);
 
-  const road::RoadPoint point = road::evaluate(network, {position.road, position.s_m, t});
+  LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
+  double across = 0.0;
+  LateralBlend blend;
+  if (traffic.lane[i] != traffic.from_lane[i]) {
+    const auto from = lane_centre(network, traffic.table, piece, x, traffic.from_lane[i]);
+    blend = lateral_blend(traffic.change_s[i], traffic.driver[i].lane_change.duration_s);
+    across = centre.t_m - from.t_m;
+    centre.t_m = glm::mix(from.t_m, centre.t_m, blend.value);
+    centre.slope = glm::mix(from.slope, centre.slope, blend.value);
+  }
+  const double t = centre.t_m + direction * traffic.aside_m[i];
+  const Line line = line_at(network.roads[piece.road], s, t);
   const double v = traffic.speed_mps[i];
   // Sideways speed in the frame of travel, positive to the left.
-  const double lateral_mps = direction * across * blend.rate + slope * v + traffic.aside_mps[i];
-  const RigidTransform world_from_line = road::world_from_road(point);
-  const Quat turned = glm::angleAxis(
-      (direction > 0.0 ? 0.0 : std::acos(-1.0)) + std::atan2(lateral_mps, std::max(v, 1.0)),
-      Vec3(0, 0, 1));
+  const double lateral_mps =
+      direction * across * blend.rate + centre.slope * v + traffic.aside_mps[i];
+  // The vehicle points where it goes; against s it is turned by half a turn as well.
+  const double ahead = std::max(v, 1.0), way = std::sqrt(ahead * ahead + lateral_mps * lateral_mps);
+  const Vec2 turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
 
-  Participant participant;
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
-  participant.world_from_vehicle = {point.position_m, world_from_line.orientation * turned};
-  const Vec3 forward = world_from_line.orientation * Vec3(direction, 0.0, 0.0);
-  const Vec3 left = world_from_line.orientation * Vec3(0.0, direction, 0.0);
-  const double yaw_rate = direction * point.curvature_per_m * v;
-  participant.velocity_mps = forward * v + left * lateral_mps;
-  participant.acceleration_mps2 = forward * traffic.acceleration_mps2[i] +
-                                  left * (v * yaw_rate + direction * across * blend.acceleration);
+  participant.world_from_vehicle = {line.position_m,
+                                    line.world_from_line * Quat(turned.x, 0.0, 0.0, turned.y)};
+  const double yaw_rate = direction * line.curvature_per_m * v;
+  participant.velocity_mps = direction * (line.forward * v + line.left * lateral_mps);
+  participant.acceleration_mps2 =
+      direction * (line.forward * traffic.acceleration_mps2[i] +
+                   line.left * (v * yaw_rate + direction * across * blend.acceleration));
   participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
-  participant.front_steer_rad = std::atan(model.wheelbase_m * direction * point.curvature_per_m);
+  const double bend = model.wheelbase_m * direction * line.curvature_per_m;
+  participant.front_steer_rad = bend == 0.0 ? 0.0 : std::atan(bend);
   // Rolling along the corridor is all that turns the wheels.
-  participant.wheel_spin_rad =
-      std::fmod(std::max(traffic.x_m[i], 0.0) / model.wheel_radius_m, 2.0 * std::acos(-1.0));
+  constexpr double turn_rad = 2.0 * std::numbers::pi;
+  const double turns = std::max(traffic.x_m[i], 0.0) / (model.wheel_radius_m * turn_rad);
+  participant.wheel_spin_rad = (turns - std::floor(turns)) * turn_rad;
   participant.wheel_spin_radps = v / model.wheel_radius_m;
   participant.lamps.set(Lamp::low_beam, true);
   participant.lamps.set(Lamp::brake, traffic.acceleration_mps2[i] < -0.7);
@@ -78,7 +110,6 @@ Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
   const double side = indicated_side(traffic, i, direction * across);
   if (side != 0.0 && std::fmod(time_s + 0.13 * static_cast<double>(traffic.id[i] % 7), 0.7) < 0.37)
     participant.lamps.set(side > 0.0 ? Lamp::indicator_left : Lamp::indicator_right, true);
-  return participant;
 }
 
 }  // namespace
@@ -92,7 +123,7 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       if (!traffic.corridor.closed &&
           (rear_axle_x < 0.0 || traffic.x_m[i] > traffic.corridor.length_m))
         continue;
-      participants.push_back(participant_of(traffic, i, network, state.time_s));
+      fill_participant(traffic, i, network, state.time_s, participants.emplace_back());
     }
 }
 

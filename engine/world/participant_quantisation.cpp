@@ -18,6 +18,9 @@ constexpr double spin_rate_per_radps = 64.0;
 constexpr double spin_steps = 65536.0;                 // of one turn
 constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 
+/// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over.
+std::int64_t rounded(double value) { return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value)); }
+
 constexpr std::int64_t limit(double value) { return static_cast<std::int64_t>(value); }
 
 constexpr std::array<FieldLimits, participant_field_count> make_limits() {
@@ -57,7 +60,7 @@ WireParticipant quantise(const Participant& participant) {
   const auto put = [&](std::size_t field, double scaled) {
     const auto [low, high] = limits_of_field[field];
     wire.fields[field] = std::isfinite(scaled)
-                             ? std::clamp<std::int64_t>(std::llround(std::clamp(scaled, -9e15, 9e15)), low, high)
+                             ? rounded(std::clamp(scaled, static_cast<double>(low), static_cast<double>(high)))
                              : 0;
   };
   const auto put3 = [&](std::size_t field, const Vec3& v, double scale) {
@@ -74,7 +77,8 @@ WireParticipant quantise(const Participant& participant) {
   put(field_wheel_spin_rate, participant.wheel_spin_radps * spin_rate_per_radps);
   for (std::size_t i = 0; i < 4; ++i) put(field_lift_front_left + i, participant.wheel_lift_m[i] * position_per_m);
   const double turns = participant.wheel_spin_rad / (2.0 * glm::pi<double>());
-  put(field_wheel_spin, std::fmod(std::floor((turns - std::floor(turns)) * spin_steps), spin_steps));
+  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
+  put(field_wheel_spin, steps < spin_steps ? steps : 0.0);  // A hair below a whole turn rounds to one.
 
   // Smallest three: the largest component follows from the unit length and is made positive.
   const Quat& q = participant.world_from_vehicle.orientation;
@@ -123,7 +127,7 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
   const double half_square = 0.5 * seconds * seconds;
   const auto advance = [&](std::size_t field, double step) {
     const auto [low, high] = limits_of_field[field];
-    result.fields[field] = std::clamp<std::int64_t>(wire.fields[field] + std::llround(step), low, high);
+    result.fields[field] = std::clamp<std::int64_t>(wire.fields[field] + rounded(step), low, high);
   };
   for (std::size_t i = 0; i < 3; ++i) {
     const auto velocity = static_cast<double>(wire.fields[field_velocity_x + i]);
@@ -133,7 +137,7 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
     advance(field_velocity_x + i, acceleration * seconds * (velocity_per_mps / acceleration_per_mps2));
   }
   const auto spin_rate = static_cast<double>(wire.fields[field_wheel_spin_rate]) / spin_rate_per_radps;
-  const auto turned = std::llround(spin_rate * seconds / (2.0 * glm::pi<double>()) * spin_steps);
+  const auto turned = rounded(spin_rate * seconds / (2.0 * glm::pi<double>()) * spin_steps);
   const auto steps = static_cast<std::int64_t>(spin_steps);
   result.fields[field_wheel_spin] = ((wire.fields[field_wheel_spin] + turned) % steps + steps) % steps;
   return result;

@@ -1,6 +1,7 @@
 #include "engine/world/wire_snapshot.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "engine/core/check.hpp"
@@ -108,19 +109,20 @@ std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline,
 void put_participants(ByteWriter& writer, const std::vector<WireParticipant>& expected,
                       const std::vector<WireParticipant>& actual) {
   put_ids(writer, removed_ids(expected, actual));
+  static const WireParticipant nothing{};
   struct Change {
-    const WireParticipant* participant;
-    WireParticipant reference;
+    const WireParticipant *participant, *reference;
     std::uint64_t mask;
   };
   std::vector<Change> changes;
+  changes.reserve(actual.size());
   std::size_t j = 0;
   for (const auto& participant : actual) {
     while (j < expected.size() && expected[j].id < participant.id) ++j;
     const bool known = j < expected.size() && expected[j].id == participant.id;
-    Change change{&participant, known ? expected[j] : WireParticipant{}, 0};
+    Change change{&participant, known ? &expected[j] : &nothing, 0};
     for (std::size_t f = 0; f < participant_field_count; ++f)
-      if (participant.fields[f] != change.reference.fields[f]) change.mask |= 1ull << f;
+      change.mask |= static_cast<std::uint64_t>(participant.fields[f] != change.reference->fields[f]) << f;
     if (change.mask != 0 || !known) changes.push_back(change);
   }
   writer.put_varint(changes.size());
@@ -128,8 +130,10 @@ void put_participants(ByteWriter& writer, const std::vector<WireParticipant>& ex
   for (const auto& change : changes) {
     ids.put(writer, change.participant->id);
     writer.put_varint(change.mask);
-    for (std::size_t f = 0; f < participant_field_count; ++f)
-      if (change.mask & (1ull << f)) writer.put_signed_varint(change.participant->fields[f] - change.reference.fields[f]);
+    for (std::uint64_t left = change.mask; left != 0; left &= left - 1) {
+      const auto f = static_cast<std::size_t>(std::countr_zero(left));
+      writer.put_signed_varint(change.participant->fields[f] - change.reference->fields[f]);
+    }
   }
 }
 

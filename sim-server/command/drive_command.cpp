@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <random>
 #include <thread>
 #include <vector>
 
@@ -129,7 +128,7 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
                       "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", options.seconds), "--any-port"};
   const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
-  if (options.replay.empty()) add({"--scenario", options.scenario});
+  if (options.replay.empty()) add({"--scenario", options.scenario, "--traffic", options.traffic});
   else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
   if (!options.driver.empty()) add({"--driver", options.driver});
   if (options.virtual_screens) add({"--lockstep"});

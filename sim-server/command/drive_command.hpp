@@ -15,6 +15,7 @@ struct DriveOptions {
   std::uint64_t seed = 1;
   bool virtual_screens = false;
   std::string driver;           ///< Which simulated driver; empty: the rig's.
+  std::string traffic = "own";   ///< Who moves the traffic: own or sumo.
   std::filesystem::path replay;  ///< A session to show again, instead of a scenario to drive.
   double replay_from_s = 0.0;
   bool no_screens = false;  ///< Server and car only.

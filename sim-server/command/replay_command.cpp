@@ -4,6 +4,7 @@
 
 #include "logging/session_reader.hpp"
 #include "sim-server/drive_loader.hpp"
+#include "sim-server/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -21,7 +22,11 @@ Expected<Verified> verify(const std::filesystem::path& file) {
   if (!inputs) return tl::unexpected(inputs.error());
   auto recorded = session->snapshots();
   if (!recorded) return tl::unexpected(recorded.error());
-  auto state = initial_state(*drive->model);
+  const auto& other = session->info().other;
+  const auto engine = other.find("traffic");
+  auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
+  if (!traffic) return tl::unexpected(traffic.error());
+  auto state = initial_state(*drive->model, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
 
   Verified result;
@@ -41,7 +46,9 @@ Expected<Verified> verify(const std::filesystem::path& file) {
     if (!go_on) return tl::unexpected(go_on.error());
     if (!*go_on) break;
     events.clear();
-    go_on = compare(server_step(*drive->model, input.input, *state, events).state_hash);
+    const Snapshot snapshot = server_step(*drive->model, input.input, *state, events);
+    if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
+    go_on = compare(snapshot.state_hash);
     ++result.ticks;
   }
   if (!go_on) return tl::unexpected(go_on.error());

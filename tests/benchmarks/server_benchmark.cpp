@@ -23,7 +23,7 @@ std::shared_ptr<const SimulationModel> motorway_model() {
 /// The drive some seconds after its start, when everybody has found their pace.
 struct RunningDrive {
   std::shared_ptr<const SimulationModel> model = motorway_model();
-  SimulationState state = *initial_state(*model);
+  SimulationState state = *initial_state(*model, traffic::own_traffic(model->roads, 1));
   std::vector<SimulationEvent> events;
   DriverInput input;
 
@@ -49,7 +49,7 @@ void server_realtime_factor(benchmark::State& bench) {
   const auto model = motorway_model();
   std::uint64_t ticks = 0;
   auto seat = open_driver_seat(rig::Car{}, "plain", 1, model);
-  auto drive = LiveDrive::start(model, std::move(*seat), nullptr);
+  auto drive = LiveDrive::start(model, traffic::own_traffic(model->roads, 1), std::move(*seat), nullptr);
   for (auto _ : bench) {
     benchmark::DoNotOptimize((*drive)->next(std::nullopt));
     ++ticks;

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "tests/engine/traffic/emergency_run.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::traffic {
@@ -48,6 +49,16 @@ void participants(benchmark::State& bench) {
   bench.SetItemsProcessed(bench.iterations() * bench.range(0));
 }
 BENCHMARK(participants)->Name("traffic_participants")->Arg(1000);
+
+/// An ambulance's 5 km through 40 vehicles/km/lane; the argument is the seed.
+void emergency_run(benchmark::State& bench) {
+  EmergencyRun run;
+  for (auto _ : bench) run = drive_5_km(static_cast<std::uint64_t>(bench.range(0)));
+  bench.counters["ambulance_mps"] = run.ambulance_mps;
+  bench.counters["traffic_mps"] = run.traffic_mps;
+  bench.counters["overlaps"] = run.overlaps;
+}
+BENCHMARK(emergency_run)->Name("traffic_emergency_run")->DenseRange(1, 10)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace septet::traffic

@@ -1,0 +1,43 @@
+#pragma once
+/// Whoever moves a drive's traffic: Septet's own models, or another simulator that is asked to.
+///
+///     engine.start(parameters, foreign)          when the scenario asks for a swarm
+///     engine.advance(foreign, tick_s)            each tick
+///     engine.append_participants(participants)   each snapshot
+///
+/// An engine answers for the network it was made with. Same network, seed and calls: same traffic;
+/// no engine looks at a clock. One thread.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/traffic/traffic.hpp"
+
+namespace septet::traffic {
+
+class TrafficEngine {
+ public:
+  virtual ~TrafficEngine() = default;
+  /// A swarm around the first foreign vehicle; one that was there before is gone.
+  virtual void start(const TrafficParameters& parameters,
+                     std::span<const ForeignVehicle> foreign) = 0;
+  /// Nobody is on the road any more.
+  virtual void stop() = 0;
+  /// One tick on. `foreign` has the same vehicles in the same order each time.
+  virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
+  virtual void append_participants(std::vector<Participant>& participants) const = 0;
+  /// Everything that decides how the traffic goes on.
+  virtual void add_to_hash(StateHash& hash) const = 0;
+  /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.
+  virtual std::optional<Error> take_error() { return std::nullopt; }
+};
+
+/// Septet's own traffic (traffic.hpp). `network` outlives it.
+std::unique_ptr<TrafficEngine> own_traffic(const road::RoadNetwork& network, std::uint64_t seed);
+
+}  // namespace septet::traffic

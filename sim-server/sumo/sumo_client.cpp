@@ -1,0 +1,23 @@
+#include "sim-server/sumo/sumo_client.hpp"
+
+#include <dlfcn.h>
+
+#include "sim-server/child_process.hpp"
+
+namespace septet::server {
+
+Expected<ConnectSumo> load_sumo_module() {
+  const auto file = program_folder() / "septet-sumo.so";
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    return failure("this Septet was built without SUMO's client library", "--traffic sumo", "install the package sumo and build again, or drive with --traffic own");
+  void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.
+  void* connect = module ? ::dlsym(module, "septet_connect_sumo") : nullptr;
+  if (!connect) {
+    const char* reason = ::dlerror();
+    return failure(reason ? reason : "not a module of this Septet", file.string(), "install the package sumo, or drive with --traffic own");
+  }
+  return reinterpret_cast<ConnectSumo>(connect);
+}
+
+}  // namespace septet::server

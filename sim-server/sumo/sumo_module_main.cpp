@@ -1,0 +1,143 @@
+/// septet-sumo.so: the only place that knows SUMO's client library (libtracicpp).
+///
+/// What SUMO knows of its vehicles comes by subscription: one message per step for all of them together. A call per vehicle
+/// and value costs a round trip of some 17 µs each, which for 200 vehicles would take longer than the step.
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <libsumo/libtraci.h>
+
+#include "sim-server/sumo/sumo_client.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr double degrees_per_radian = 57.295779513082320877;
+/// moveToXY: any edge, and off the network where there is none.
+constexpr int anywhere = 2;
+
+std::string name_of(ParticipantId id) { return std::to_string(id); }
+
+template <class Call>
+auto asked(Call call) -> Expected<decltype(call())> {
+  try {
+    if constexpr (std::is_void_v<decltype(call())>) {
+      call();
+      return {};
+    } else {
+      return call();
+    }
+  } catch (const libsumo::TraCIException& refusal) {
+    return failure(std::string("SUMO refuses: ") + refusal.what(), "--traffic sumo", "check the scenario's road, or drive with --traffic own");
+  } catch (const std::exception& gone) {
+    return failure(std::string("SUMO has gone: ") + gone.what(), "--traffic sumo", "start the drive again, or drive with --traffic own");
+  }
+}
+
+double number(const libsumo::TraCIResults& values, int variable) {
+  const auto found = values.find(variable);
+  const auto* value = found == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIDouble*>(found->second.get());
+  return value ? value->value : 0.0;
+}
+
+class TraciClient final : public SumoClient {
+ public:
+  explicit TraciClient(int port) {
+    libtraci::Simulation::init(port, 0);
+    libtraci::Simulation::subscribe(std::vector<int>{libsumo::VAR_DEPARTED_VEHICLES_IDS});
+  }
+  ~TraciClient() override {
+    (void)asked([] { libtraci::Simulation::close(); });
+  }
+
+  Expected<void> define_type(const SumoVehicleType& type) override {
+    return asked([&] {
+      using libtraci::VehicleType;
+      VehicleType::copy(type.base, type.id);
+      VehicleType::setLength(type.id, type.length_m);
+      VehicleType::setWidth(type.id, type.width_m);
+      VehicleType::setHeight(type.id, type.height_m);
+      VehicleType::setMaxSpeed(type.id, type.following.desired_speed_mps);
+      VehicleType::setTau(type.id, type.following.time_gap_s);
+      VehicleType::setAccel(type.id, type.following.acceleration_mps2);
+      VehicleType::setDecel(type.id, type.following.comfortable_braking_mps2);
+      VehicleType::setMinGap(type.id, type.following.standstill_gap_m);
+    });
+  }
+
+  Expected<void> add_vehicle(const SumoDeparture& departure) override {
+    return asked([&] {
+      // A route is known by where it begins: the rest follows from the corridor.
+      const std::string route = departure.route.front() + ">" + departure.route.back();
+      if (std::ranges::find(routes_, route) == routes_.end()) {
+        libtraci::Route::add(route, departure.route);
+        routes_.push_back(route);
+      }
+      libtraci::Vehicle::add(name_of(departure.id), route, departure.type, "now", std::to_string(departure.lane_index),
+                             std::to_string(departure.along_m), "desired");
+      if (!departure.watched) libtraci::Vehicle::setSpeedMode(name_of(departure.id), 0);
+      std::erase(unwatched_, name_of(departure.id));
+      if (!departure.watched) unwatched_.push_back(name_of(departure.id));
+    });
+  }
+
+  Expected<void> remove_vehicle(ParticipantId id) override {
+    return asked([&] { libtraci::Vehicle::remove(name_of(id)); });
+  }
+
+  Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) override {
+    // SUMO's angles run clockwise from north.
+    const double angle = 90.0 - heading_rad * degrees_per_radian;
+    return asked([&] {
+      try {
+        libtraci::Vehicle::moveToXY(name_of(id), "", 0, front_m.x, front_m.y, angle, anywhere);
+      } catch (const libsumo::TraCIException&) {
+        // No road within its reach: nobody has to mind it.
+      }
+    });
+  }
+
+  Expected<std::vector<SumoVehicle>> step() override {
+    return asked([&] {
+      libtraci::Simulation::step();
+      const auto simulation = libtraci::Simulation::getSubscriptionResults();
+      if (const auto found = simulation.find(libsumo::VAR_DEPARTED_VEHICLES_IDS); found != simulation.end())
+        if (const auto* list = dynamic_cast<const libsumo::TraCIStringList*>(found->second.get()))
+          for (const auto& name : list->value)
+            if (std::ranges::find(unwatched_, name) == unwatched_.end()) libtraci::Vehicle::subscribe(name, watched_values);
+      std::vector<SumoVehicle> vehicles;
+      for (const auto& [name, values] : libtraci::Vehicle::getAllSubscriptionResults()) {
+        SumoVehicle vehicle;
+        std::from_chars(name.data(), name.data() + name.size(), vehicle.id);
+        const auto place = values.find(libsumo::VAR_POSITION);
+        const auto* at = place == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIPosition*>(place->second.get());
+        if (!at || at->x == libsumo::INVALID_DOUBLE_VALUE) continue;
+        vehicle.front_m = {at->x, at->y};
+        vehicle.heading_rad = (90.0 - number(values, libsumo::VAR_ANGLE)) / degrees_per_radian;
+        vehicle.speed_mps = number(values, libsumo::VAR_SPEED);
+        vehicle.acceleration_mps2 = number(values, libsumo::VAR_ACCELERATION);
+        const auto signals = values.find(libsumo::VAR_SIGNALS);
+        if (const auto* bits = signals == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIInt*>(signals->second.get()))
+          vehicle.signals = bits->value;
+        vehicles.push_back(vehicle);
+      }
+      std::ranges::sort(vehicles, {}, &SumoVehicle::id);
+      return vehicles;
+    });
+  }
+
+ private:
+  inline static const std::vector<int> watched_values{libsumo::VAR_POSITION, libsumo::VAR_ANGLE, libsumo::VAR_SPEED,
+                                                      libsumo::VAR_ACCELERATION, libsumo::VAR_SIGNALS};
+  std::vector<std::string> routes_, unwatched_;
+};
+
+}  // namespace
+
+extern "C" Expected<std::unique_ptr<SumoClient>> septet_connect_sumo(int port) {
+  return asked([&]() -> std::unique_ptr<SumoClient> { return std::make_unique<TraciClient>(port); });
+}
+
+}  // namespace septet::server

@@ -1,0 +1,258 @@
+#include "sim-server/sumo/sumo_traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "engine/road/road_locate.hpp"
+#include "engine/world/interpolate.hpp"
+
+namespace septet::server {
+namespace {
+
+using traffic::ForeignVehicle;
+
+constexpr double turn = 6.283185307179586477;
+constexpr double rim_m = 60.0;
+/// A place at the rim that SUMO finds no room at is given up after half a second.
+constexpr int patient_steps = 10;
+constexpr double drift_time_s = 0.3;
+constexpr double slip_time_s = 2.0, most_slip_m = 6.0;
+constexpr double brake_lamp_mps2 = 0.7;
+
+bool is_emergency(const ForeignVehicle& vehicle) { return vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren); }
+
+std::string type_name(ParticipantId id) { return fmt::format("type{}", id); }
+
+}  // namespace
+
+SumoTraffic::SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client, std::uint64_t seed)
+    : roads_(roads), network_(std::move(network)), client_(std::move(client)), random_(seed, 1) {}
+
+bool SumoTraffic::ok(const Expected<void>& outcome) {
+  if (!outcome && !error_) error_ = outcome.error();
+  if (!outcome) running_ = false;
+  return outcome.has_value();
+}
+
+void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) {
+  stop();
+  parameters_ = parameters;
+  auto swarm = traffic::populate(parameters, roads_, foreign, random_);
+  corridors_ = std::move(swarm.corridors);
+  running_ = true;
+  for (std::size_t c = 0; c < corridors_.size() && running_; ++c) {
+    const auto& corridor = corridors_[c];
+    for (std::size_t i = 0; i < corridor.size() && running_; ++i) {
+      const VehicleModel& model = vehicle_models()[corridor.model[i]];
+      members_.push_back({.id = corridor.id[i], .model = corridor.model[i], .paint = corridor.paint[i], .corridor = c,
+                          .desired_speed_mps = corridor.driver[i].following.desired_speed_mps,
+                          .place = std::nullopt});
+      ok(client_->define_type({type_name(corridor.id[i]), "driver", model.length_m, model.width_m, model.height_m, corridor.driver[i].following}));
+      if (corridor.lane[i] > 0 && running_) enter(members_.back(), corridor.lane[i], corridor.x_m[i]);
+    }
+  }
+  std::ranges::sort(members_, {}, &Member::id);
+  // SUMO's clock begins one step before the drive: the first step sets everybody out.
+  if (running_) place_foreign(foreign, 0.0);
+  if (running_) step(foreign);
+  if (running_) place_foreign(foreign, sumo_step_s);
+  if (running_) step(foreign);
+}
+
+void SumoTraffic::stop() {
+  for (Member& member : members_)
+    if (running_ && member.stay != Member::Stay::outside) leave(member);
+  for (const ParticipantId id : told_)
+    if (running_) ok(client_->remove_vehicle(id));
+  members_.clear();
+  told_.clear();
+  corridors_.clear();
+  before_.clear();
+  after_.clear();
+  phase_s_ = 0.0;
+  running_ = false;
+}
+
+void SumoTraffic::enter(Member& member, int lane, double x_m) {
+  auto place = place_in_sumo(network_, roads_, corridors_[member.corridor].corridor, lane, x_m);
+  if (place.route.empty()) return;
+  member.stay = Member::Stay::asked_for;
+  member.steps_waiting = 0;
+  member.place.reset();
+  ok(client_->add_vehicle({.id = member.id, .type = type_name(member.id), .route = std::move(place.route), .lane_index = place.lane_index,
+                          .along_m = place.along_m}));
+}
+
+void SumoTraffic::leave(Member& member) {
+  member.stay = Member::Stay::outside;
+  ok(client_->remove_vehicle(member.id));
+}
+
+/// As Septet's own swarm: out of the radius on one side, in again on the other; slower ones come in ahead.
+void SumoTraffic::recycle(Member& member, std::span<const ForeignVehicle> foreign) {
+  if (foreign.empty()) return;
+  const auto& corridor = corridors_[member.corridor];
+  if (corridor.corridor.closed) return;
+  const Vec3& at = foreign.front().world_from_vehicle.position_m;
+  const auto middle = road::locate(roads_, {at.x, at.y});
+  if (!middle) return;
+  const auto x_of = [&](const road::RoadPosition& place) -> std::optional<double> {
+    for (const auto& piece : corridor.corridor.pieces)
+      if (piece.road == place.road) return traffic::x_of(roads_, corridor.corridor, place, piece.side);
+    return std::nullopt;
+  };
+  const auto middle_x = x_of(middle->position);
+  if (!middle_x) return;
+  if (member.stay == Member::Stay::on_road) {
+    const auto x = member.place ? x_of(*member.place) : std::nullopt;
+    if (x && std::abs(*x - *middle_x) < parameters_.radius_m + rim_m) return;
+    leave(member);
+  }
+  if (member.stay == Member::Stay::asked_for) {
+    if (++member.steps_waiting < patient_steps) return;
+    leave(member);
+  }
+  const bool ahead = member.desired_speed_mps < glm::length(foreign.front().velocity_mps);
+  const bool this_side = random_.below(4) != 0;
+  const double x = *middle_x + (ahead == this_side ? 1.0 : -1.0) * (parameters_.radius_m - random_.uniform(0.0, 40.0));
+  if (x < rim_m || x > corridor.corridor.length_m - rim_m) return;
+  const int lowest = corridor.table.lowest, highest = std::max(lowest, corridor.table.highest);
+  const int lane = lowest + static_cast<int>(random_.below(static_cast<std::uint64_t>(highest - lowest + 1)));
+  if (traffic::lane_end_m(corridor.table, lane, x) < x + 300.0) return;
+  if (running_) enter(member, lane, x);
+}
+
+void SumoTraffic::place_foreign(std::span<const ForeignVehicle> foreign, double ahead_s) {
+  for (const ForeignVehicle& vehicle : foreign) {
+    const VehicleModel& model = vehicle_models()[vehicle.model];
+    const Vec3 front = vehicle.world_from_vehicle * Vec3(model.front_m(), 0.0, 0.0) + ahead_s * vehicle.velocity_mps;
+    if (std::ranges::find(told_, vehicle.id) == told_.end()) {
+      if (network_.edges.empty()) return;
+      told_.push_back(vehicle.id);
+      const auto type = type_name(vehicle.id);
+      ok(client_->define_type({type, is_emergency(vehicle) ? "emergency" : "foreign", model.length_m, model.width_m, model.height_m, {}}));
+      if (running_) ok(client_->add_vehicle({.id = vehicle.id, .type = type, .route = {network_.edges.front().id}, .watched = false}));
+    }
+    if (running_) ok(client_->place_vehicle(vehicle.id, {front.x, front.y}, heading_rad(vehicle.world_from_vehicle.orientation)));
+    if (!running_) return;
+  }
+}
+
+void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
+  const auto vehicles = client_->step();
+  if (!vehicles) {
+    ok(tl::unexpected(vehicles.error()));
+    return;
+  }
+  before_ = std::move(after_);
+  after_.clear();
+  auto seen = vehicles->begin();
+  for (Member& member : members_) {
+    while (seen != vehicles->end() && seen->id < member.id) ++seen;
+    if (seen != vehicles->end() && seen->id == member.id) {
+      const bool is_new = member.stay != Member::Stay::on_road;
+      member.stay = Member::Stay::on_road;
+      if (auto participant = participant_of(member, *seen, is_new)) after_.push_back(*participant);
+    } else if (member.stay == Member::Stay::on_road) {
+      member.stay = Member::Stay::outside;  // It reached the end of its route.
+    }
+    recycle(member, foreign);
+    if (!running_) return;
+  }
+}
+
+std::optional<Participant> SumoTraffic::participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const {
+  const VehicleModel& model = vehicle_models()[member.model];
+  const auto front = road::locate(roads_, vehicle.front_m, member.place ? &*member.place : nullptr);
+  if (!front) return std::nullopt;
+  const auto line = road::evaluate(roads_, front->position);
+  const double direction = std::cos(vehicle.heading_rad - line.heading_rad) >= 0.0 ? 1.0 : -1.0;
+  const double driven = 0.5 * (member.speed_mps + vehicle.speed_mps) * sumo_step_s;
+  if (is_new) {
+    member.lateral_mps = member.slip_m = 0.0;
+  } else if (member.place && member.place->road == front->position.road) {
+    const double rate = direction * (front->position.t_m - member.place->t_m) / sumo_step_s;
+    member.lateral_mps += (rate - member.lateral_mps) * sumo_step_s / drift_time_s;
+    // All lanes of an edge are equally long to SUMO: in a bend it sets whoever changes lanes forwards or back. That is
+    // taken up and given back slowly.
+    const double slip = direction * (front->position.s_m - member.place->s_m) * line.stretch - driven;
+    member.slip_m = std::abs(slip) < most_slip_m ? (member.slip_m - slip) * (1.0 - sumo_step_s / slip_time_s) : 0.0;
+  }
+  if (!is_new) member.rolled_m += driven;
+  member.place = front->position;
+  member.speed_mps = vehicle.speed_mps;
+
+  const double heading = line.heading_rad + (direction > 0.0 ? 0.0 : 0.5 * turn) + std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, 1.0));
+  const Vec2 rear = vehicle.front_m + (member.slip_m - model.front_m()) * Vec2(std::cos(heading), std::sin(heading));
+  const double speed = vehicle.speed_mps - member.slip_m / slip_time_s;
+  const auto place = road::locate(roads_, rear, &*member.place);
+  if (!place) return std::nullopt;
+  const auto point = road::evaluate(roads_, place->position);
+  const RigidTransform world_from_line = road::world_from_road(point);
+  const Vec3 forward = world_from_line.orientation * Vec3(direction, 0.0, 0.0);
+  const Vec3 left = world_from_line.orientation * Vec3(0.0, direction, 0.0);
+  const double yaw_rate = direction * point.curvature_per_m * speed;
+
+  Participant participant;
+  participant.id = member.id;
+  participant.model = member.model;
+  participant.paint = member.paint;
+  participant.world_from_vehicle = {point.position_m, world_from_line.orientation * glm::angleAxis(heading - point.heading_rad, Vec3(0, 0, 1))};
+  participant.velocity_mps = forward * speed + left * member.lateral_mps;
+  participant.acceleration_mps2 = forward * vehicle.acceleration_mps2 + left * (speed * yaw_rate);
+  participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
+  participant.front_steer_rad = std::atan(model.wheelbase_m * direction * point.curvature_per_m);
+  participant.wheel_spin_rad = std::fmod(member.rolled_m / model.wheel_radius_m, turn);
+  participant.wheel_spin_radps = speed / model.wheel_radius_m;
+  participant.lamps.set(Lamp::low_beam, true);
+  // At speed SUMO lights the brake lamps only from about 5 m/s²; drivers behind need to see less.
+  participant.lamps.set(Lamp::brake, (vehicle.signals & sumo_signal::brake_light) != 0 || vehicle.acceleration_mps2 < -brake_lamp_mps2);
+  // Whether the indicator is on; it blinks where it is shown.
+  participant.lamps.set(Lamp::indicator_left, (vehicle.signals & sumo_signal::blinker_left) != 0);
+  participant.lamps.set(Lamp::indicator_right, (vehicle.signals & sumo_signal::blinker_right) != 0);
+  return participant;
+}
+
+Participant SumoTraffic::shown(const Participant& participant) const {
+  Participant result = participant;
+  const bool lit = std::fmod(time_s_ + 0.13 * static_cast<double>(participant.id % 7), 0.7) < 0.37;
+  for (const Lamp lamp : {Lamp::indicator_left, Lamp::indicator_right}) result.lamps.set(lamp, lit && participant.lamps.has(lamp));
+  return result;
+}
+
+void SumoTraffic::advance(std::span<const ForeignVehicle> foreign, double dt_s) {
+  if (!running_) return;
+  time_s_ += dt_s;
+  phase_s_ += dt_s;
+  while (running_ && phase_s_ > sumo_step_s - 1e-9) {
+    phase_s_ -= sumo_step_s;
+    place_foreign(foreign, sumo_step_s);
+    if (running_) step(foreign);
+  }
+}
+
+void SumoTraffic::append_participants(std::vector<Participant>& participants) const {
+  auto before = before_.begin();
+  for (const Participant& after : after_) {
+    while (before != before_.end() && before->id < after.id) ++before;
+    // Who has just come in is shown from the step on at which SUMO set it out.
+    if (before == before_.end() || before->id != after.id) continue;
+    participants.push_back(shown(interpolate(*before, after, sumo_step_s, phase_s_ / sumo_step_s)));
+  }
+}
+
+void SumoTraffic::add_to_hash(StateHash& hash) const {
+  hash.add(phase_s_);
+  for (const auto* frame : {&before_, &after_})
+    for (const Participant& participant : *frame) {
+      hash.add(participant.id);
+      for (int i = 0; i < 3; ++i) hash.add(participant.world_from_vehicle.position_m[i]);
+      hash.add(participant.lamps.bits);
+    }
+  for (const Member& member : members_) hash.add(static_cast<int>(member.stay));
+  for (const auto word : random_.state()) hash.add(word);
+}
+
+}  // namespace septet::server

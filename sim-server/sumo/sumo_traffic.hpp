@@ -1,0 +1,72 @@
+#pragma once
+/// Traffic moved by SUMO, as a TrafficEngine: whoever reads participants sees no difference.
+///
+/// SUMO runs one of its steps (50 ms) ahead of the drive; ticks in between are interpolated (interpolate.hpp). The swarm is
+/// the one that Septet's own engine would set out: same places, same kinds of vehicles, same drivers with IDM; whoever falls
+/// out of its radius comes in at the other rim. Positions are mapped by x and y; height and tilt are those of Septet's road,
+/// heading is that of the road with the vehicle's drift across it, because SUMO's own turns in steps. Vehicles that others
+/// move are told to SUMO at each of its steps, at where they will be then.
+
+#include <memory>
+#include <vector>
+
+#include "engine/traffic/traffic_engine.hpp"
+#include "sim-server/sumo/sumo_client.hpp"
+#include "sim-server/sumo/sumo_network.hpp"
+
+namespace septet::server {
+
+inline constexpr double sumo_step_s = 0.05;
+
+class SumoTraffic final : public traffic::TrafficEngine {
+ public:
+  /// `network` is made from `roads`, which outlive this.
+  SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client, std::uint64_t seed);
+
+  void start(const traffic::TrafficParameters& parameters, std::span<const traffic::ForeignVehicle> foreign) override;
+  void stop() override;
+  void advance(std::span<const traffic::ForeignVehicle> foreign, double dt_s) override;
+  void append_participants(std::vector<Participant>& participants) const override;
+  void add_to_hash(StateHash& hash) const override;
+  std::optional<Error> take_error() override { return std::exchange(error_, std::nullopt); }
+
+ private:
+  /// One vehicle of the swarm, on the road or waiting outside.
+  struct Member {
+    ParticipantId id = 0;
+    ModelIndex model = 0;
+    std::uint8_t paint = 0;
+    std::size_t corridor = 0;
+    double desired_speed_mps = 0.0;
+    enum class Stay { outside, asked_for, on_road } stay = Stay::outside;
+    int steps_waiting = 0;  ///< Since it was asked for.
+    std::optional<road::RoadPosition> place;
+    double speed_mps = 0.0, lateral_mps = 0.0, rolled_m = 0.0;
+    double slip_m = 0.0;  ///< How far ahead of SUMO's place it is shown.
+  };
+
+  bool ok(const Expected<void>& outcome);
+  void enter(Member& member, int lane, double x_m);
+  void leave(Member& member);
+  void recycle(Member& member, std::span<const traffic::ForeignVehicle> foreign);
+  void place_foreign(std::span<const traffic::ForeignVehicle> foreign, double ahead_s);
+  void step(std::span<const traffic::ForeignVehicle> foreign);
+  std::optional<Participant> participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const;
+  Participant shown(const Participant& participant) const;
+
+  const road::RoadNetwork& roads_;
+  SumoNetwork network_;
+  std::shared_ptr<SumoClient> client_;
+  Random random_;
+  traffic::TrafficParameters parameters_;
+  std::vector<traffic::CorridorTraffic> corridors_;
+  std::vector<Member> members_;  ///< Ascending id.
+  std::vector<ParticipantId> told_;  ///< Foreign vehicles that SUMO knows.
+  std::vector<Participant> before_, after_;  ///< At SUMO's last step and at the one ahead; ascending id.
+  double phase_s_ = 0.0;                     ///< Since `before_`.
+  double time_s_ = 0.0;
+  bool running_ = false;
+  std::optional<Error> error_;
+};
+
+}  // namespace septet::server

@@ -1,0 +1,138 @@
+#include "sim-server/sumo/sumo_traffic.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/traffic/ring_road.hpp"
+
+namespace septet::server {
+namespace {
+
+/// A SUMO in which everybody departs at once and drives straight on along +x from where it was set out, at 20 m/s.
+class StraightSumo final : public SumoClient {
+ public:
+  std::map<ParticipantId, SumoVehicle> vehicles;
+  std::map<ParticipantId, Vec2> foreign;
+  int steps = 0, steps_until_gone = 1000;
+
+  Expected<void> define_type(const SumoVehicleType&) override { return {}; }
+  Expected<void> add_vehicle(const SumoDeparture& departure) override {
+    if (departure.watched) vehicles[departure.id] = {departure.id, {departure.along_m, -2.0}, 0.0, 20.0, 0.0, sumo_signal::brake_light};
+    return {};
+  }
+  Expected<void> remove_vehicle(ParticipantId id) override {
+    vehicles.erase(id);
+    return {};
+  }
+  Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double) override {
+    foreign[id] = front_m;
+    return {};
+  }
+  Expected<std::vector<SumoVehicle>> step() override {
+    if (++steps > steps_until_gone) return failure("SUMO has gone: closed", "--traffic sumo", "start again");
+    std::vector<SumoVehicle> seen;
+    for (auto& [id, vehicle] : vehicles) {
+      vehicle.front_m.x += 20.0 * sumo_step_s;
+      seen.push_back(vehicle);
+    }
+    return seen;
+  }
+};
+
+road::RoadNetwork straight_road() {
+  auto network = road::read_opendrive(
+      R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="1" length="5000" junction="-1"><planView>)"
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="5000"><line/></geometry></planView><lanes><laneSection s="0">)"
+      R"(<center><lane id="0" type="none"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane>)"
+      R"(</right></laneSection></lanes></road></OpenDRIVE>)",
+      "straight.xodr");
+  REQUIRE(network.has_value());
+  return std::move(*network);
+}
+
+struct Scene {
+  road::RoadNetwork roads = straight_road();
+  std::shared_ptr<StraightSumo> sumo = std::make_shared<StraightSumo>();
+  SumoTraffic traffic{roads, make_sumo_network(roads), sumo, 1};
+  std::vector<traffic::ForeignVehicle> foreign{1};
+
+  Scene() {
+    foreign[0].id = 1;
+    foreign[0].world_from_vehicle.position_m = {2500.0, -2.0, 0.0};
+    foreign[0].velocity_mps = {20.0, 0.0, 0.0};
+    traffic.start(traffic::motorway_traffic(10, 1000.0), foreign);
+  }
+  std::vector<Participant> tick() {
+    traffic.advance(foreign, 1.0 / 120.0);
+    std::vector<Participant> participants;
+    traffic.append_participants(participants);
+    return participants;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("between the steps of SUMO every tick is where the speed says") {
+  Scene scene;
+  auto before = scene.tick();
+  REQUIRE(before.size() == 10);
+  for (int tick = 0; tick < 120; ++tick) {
+    const auto now = scene.tick();
+    REQUIRE(now.size() == before.size());
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      CHECK(now[i].id == before[i].id);
+      CHECK(now[i].world_from_vehicle.position_m.x - before[i].world_from_vehicle.position_m.x == doctest::Approx(20.0 / 120.0).epsilon(1e-6));
+      CHECK(now[i].velocity_mps.x == doctest::Approx(20.0));
+      CHECK(now[i].lamps.has(Lamp::brake));
+    }
+    before = now;
+  }
+  // Twenty steps of SUMO a second, two of them before the drive begins.
+  CHECK(scene.sumo->steps == 2 + 20);
+}
+
+TEST_CASE("SUMO is told where the vehicles of others will be at its next step") {
+  Scene scene;
+  scene.tick();
+  const double front = vehicle_models()[0].front_m();
+  REQUIRE(scene.sumo->foreign.contains(1));
+  CHECK(scene.sumo->foreign[1].x == doctest::Approx(2500.0 + front + 20.0 * sumo_step_s));
+  CHECK(scene.sumo->foreign[1].y == doctest::Approx(-2.0));
+}
+
+TEST_CASE("a SUMO that goes away is one error and the traffic stands still from then on") {
+  Scene scene;
+  scene.sumo->steps_until_gone = 10;
+  std::optional<Error> error;
+  int tick = 0;
+  for (; tick < 120 && !error; ++tick) {
+    scene.tick();
+    error = scene.traffic.take_error();
+  }
+  REQUIRE(error.has_value());
+  CHECK(error->what.find("gone") != std::string::npos);
+  CHECK(tick == (10 - 2 + 1) * 6);
+  const auto before = scene.tick(), after = scene.tick();
+  CHECK_FALSE(scene.traffic.take_error().has_value());
+  REQUIRE(before.size() == after.size());
+  for (std::size_t i = 0; i < after.size(); ++i) CHECK(after[i].world_from_vehicle.position_m == before[i].world_from_vehicle.position_m);
+}
+
+TEST_CASE("a road becomes one edge a direction whose lanes begin with the right-most") {
+  const auto roads = traffic::ring_road(1000.0, 3);
+  const SumoNetwork network = make_sumo_network(roads);
+  REQUIRE(network.edges.size() == 1);
+  CHECK(network.edges[0].lanes == std::vector<int>{-3, -2, -1});
+  const auto corridor = traffic::build_corridor(roads, {0, -1, 1.0, 0.0});
+  const SumoPlace place = place_in_sumo(network, roads, corridor, 1, 250.0);
+  REQUIRE_FALSE(place.route.empty());
+  CHECK(place.route.front() == network.edges[0].id);
+  CHECK(place.lane_index == 2);
+  CHECK(place.along_m == doctest::Approx(250.0));
+  CHECK(network.connections_xml.find("fromLane=\"0\" toLane=\"0\"") != std::string::npos);
+  CHECK(place_in_sumo(network, roads, corridor, 4, 250.0).route.empty());
+}
+
+}  // namespace septet::server
