@@ -31,7 +31,7 @@ struct SecureClient::State {
   void knock();
   /// While it does, an answer to a new handshake is no longer wanted.
   bool hears_server() const {
-    return channel && now_s - channel->heard_s() <= options.limits.timeout_s / 2.0;
+    return channel && now_s - channel->heard_s() <= options.knock_after_s;
   }
 
   DatagramSocket& socket;
@@ -197,6 +197,9 @@ void SecureClient::close() {
 }
 
 ClientState SecureClient::state() const { return state_->state; }
+double SecureClient::silence_s() const {
+  return state_->channel ? std::max(0.0, state_->now_s - state_->channel->heard_s()) : 0.0;
+}
 const SessionId& SecureClient::session() const { return state_->session; }
 const ClockEstimate& SecureClient::clock() const {
   return state_->channel ? state_->channel->clock() : state_->no_clock;

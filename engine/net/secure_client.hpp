@@ -19,6 +19,8 @@ struct SecureClientOptions {
   PublicKey server_key{};  ///< Pinned: nobody else can be the server.
   Identity identity;
   ChannelLimits limits;
+  /// Silence after which it looks for another server in the old one's place, without giving the old one up yet.
+  double knock_after_s = 1.0;
 };
 
 struct ClientEvent {
@@ -51,6 +53,8 @@ class SecureClient {
   void close();
 
   ClientState state() const;
+  /// For how long the server has not been heard on this connection; 0 without one.
+  double silence_s() const;
   /// Of the running connection; what the tick lane is to follow.
   const SessionId& session() const;
   /// Of the server's `now_s` from pings on this connection; not valid before the first answer.

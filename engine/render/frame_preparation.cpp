@@ -33,9 +33,16 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
   const ViewVolume volume = view_volume(view);
+  // What would cover less than a pixel is left out.
+  const OffAxisView& projection = view.projection;
+  const double pixel_slope = (projection.top_slope - projection.bottom_slope) / std::max(1u, view.viewport.height);
+  const auto least = static_cast<float>(0.5 * pixel_slope);
+  const auto is_seen = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
+    return mesh.seen && mesh.radius_m * mesh.radius_m > least * least * glm::dot(centre_m, centre_m) &&
+           intersects(volume, centre_m, mesh.radius_m);
+  };
   prepared.draws = prepare_draws(
-      context, scene, participants.meshes, dynamic, eye_m,
-      [&](const PlacedMesh& mesh, const glm::vec3& centre_m) { return mesh.seen && intersects(volume, centre_m, mesh.radius_m); },
+      context, scene, participants.meshes, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
   const float exposure = adapted_exposure(scene, light, view);
   const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, exposure);
@@ -53,6 +60,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   context.statistics.instances += prepared.draws.instances;
   return prepared;
 }
+
+/// Vehicles cast the shadow of the form that they show at this distance: a texel of the cascade is no finer.
+constexpr std::array<float, cascade_count> caster_ranges_m{60.0f, 200.0f};
 
 /// What casts a shadow into a cascade that some view may see.
 SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
@@ -83,15 +93,15 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   return prepare_draws(context, scene, participants, dynamic, shadows.eye_m, casts, [&](std::uint32_t material) {
     if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
     return scene.materials[material].cut ? material : solid;
-  });
+  }, caster_ranges_m[index]);
 }
 
 }  // namespace
 
 PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input) {
-  PlacedParticipants participants =
-      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s);
-  for (PlacedMesh& mesh : participants.meshes) mesh.share_of_sky = share_of_sky(scene, mesh.origin_m);
+  const PlacedParticipants participants =
+      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s,
+                         world_eye(input.views.front()), [&](const Vec3& place_m) { return share_of_sky(scene, place_m); });
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, input.meshes);
   const std::vector<SmokePuff> smoke = merged_puffs(input.smoke, world_eye(input.views.front()));
   PreparedFrame frame;

@@ -20,7 +20,7 @@ using geometry::MeshBuilder;
 
 enum class Kind { oak, birch, spruce, bush };
 constexpr int kind_count = 4;
-constexpr float tree_near_m = 130.0f;
+constexpr float tree_near_m = 100.0f;
 
 void add_trunk(MeshBuilder& builder, Ground bark, float radius, float height) {
   builder.material = index_of(bark);

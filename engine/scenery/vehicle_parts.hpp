@@ -14,7 +14,7 @@
 
 namespace septet::scenery {
 
-inline constexpr float near_until_m = 45.0f, middle_until_m = 160.0f, vehicles_until_m = 2500.0f;
+inline constexpr float near_until_m = 36.0f, middle_until_m = 130.0f, vehicles_until_m = 2500.0f;
 
 enum class DetailLevel { near, middle, far };
 

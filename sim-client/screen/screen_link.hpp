@@ -38,6 +38,8 @@ class ScreenLink {
 
   /// Whether the server is there now. Lost: the last ticks stay in the history.
   net::ClientState state() const { return lane_.state(); }
+  /// Whether the server has been silent for as long as a driver should not mistake for a standstill.
+  bool server_is_gone() const { return state() == net::ClientState::lost || lane_.silence_s() > gone_after_s; }
   const std::optional<control::Welcome>& welcome() const { return welcome_; }
   /// Counts the server's welcomes: a new one may bring another rig and other times.
   std::uint32_t welcomes() const { return welcomes_; }
@@ -64,6 +66,7 @@ class ScreenLink {
   std::uint64_t refused_ticks() const { return refused_ticks_; }
 
  private:
+  static constexpr double gone_after_s = 1.0;  ///< A living server answers four pings in it.
   void on_connected();
   void on_control(std::span<const std::byte> bytes);
   void receive_ticks(double now_s);

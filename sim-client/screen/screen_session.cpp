@@ -101,6 +101,8 @@ Expected<void> Session::take_welcome() {
   drawn_tick_.reset();
   resolver_.forget();
   uploaded_revision_ = 0;
+  // A server that was started again brings the same rig as a rule: its content is new, the picture's place is not.
+  if (display_ && display_->renderer().width() == screen_->width_px && display_->renderer().height() == screen_->height_px) return {};
   auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen, options_.monitor,
                                 options_.validation, "Septet " + screen_->name});
   if (!display) return tl::unexpected(display.error());
@@ -243,7 +245,7 @@ Expected<void> Session::run() {
     if (link_.welcome()) drawn = take_welcome();
     if (drawn && display_) {
       if (display_->poll_closed()) break;
-      if (link_.state() == net::ClientState::lost) drawn = draw_lost(now_s);
+      if (link_.server_is_gone()) drawn = draw_lost(now_s);
       else if (link_.welcome()->lockstep) drawn = draw_lockstep();
       else drawn = draw_real_time(now_s);
     }
@@ -273,7 +275,7 @@ Expected<void> run_screen(const ScreenOptions& options) {
   if (!tick_socket) return tl::unexpected(tick_socket.error());
   const std::uint16_t tick_port = tick_socket->local_address().port;
   net::SecureClientOptions lane{options.server, *server_key, *identity, {}};
-  if (options.is_virtual) lane.limits.timeout_s = 10.0;  // Lockstep on a slow machine: the server may be busy for seconds.
+  if (options.is_virtual) lane.limits.timeout_s = 10.0;  // On a slow machine a server may be silent for seconds and go on.
   Session session(options, std::move(*lane_socket), std::move(*tick_socket), {options.name, tick_port, std::move(lane)});
   return session.run();
 }

@@ -38,14 +38,14 @@ bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radiu
 }
 
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
-                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep) {
+                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, float least_range_m) {
   Batch batch;
   const auto close = [&] {
     if (batch.count > 0) list.batches.push_back(batch);
   };
   for (const PlacedMesh& mesh : placed) {
     const glm::vec3 origin(mesh.origin_m - eye_m);
-    const float square = glm::dot(origin, origin);
+    const float square = std::max(glm::dot(origin, origin), least_range_m * least_range_m);
     if (square < mesh.visible_from_m * mesh.visible_from_m || square >= mesh.visible_to_m * mesh.visible_to_m) continue;
     const glm::vec3 centre = origin + mesh.centre_m;
     if (!keep(mesh, centre)) continue;

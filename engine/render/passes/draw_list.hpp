@@ -66,9 +66,11 @@ using ViewVolume = std::array<glm::vec3, 4>;
 ViewVolume view_volume(const FrameView& view);
 
 /// The meshes of `placed` (ordered by mesh) that are within their range of the eye and that `keep` wants, given the centre
-/// relative to the eye and the radius. Batches come in the order of their meshes.
+/// relative to the eye and the radius. Batches come in the order of their meshes. What is nearer than `least_range_m` is
+/// shown in the level of detail that it has there.
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
-                    const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep);
+                    const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
+                    float least_range_m = 0.0f);
 
 bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radius_m);
 

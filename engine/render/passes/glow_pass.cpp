@@ -42,8 +42,10 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
     // The core is whiter than the halo: an eye (and a camera) saturates there.
     const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);
-    records.push_back({glm::vec4(relative, glow.radius_m * (1.0f + 0.9f * dark)),
-                       glm::vec4(hue * (share * (0.75f + 0.65f * dark)), 0.0f)});
+    // By day a lamp is hardly more than its lens; a beacon is made to be seen.
+    const float radius_m = glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark);
+    const float strength = around ? 1.8f + 1.8f * dark : 0.6f + 2.6f * dark;
+    records.push_back({glm::vec4(relative, radius_m), glm::vec4(hue * (share * strength), 0.0f)});
   }
   return records;
 }

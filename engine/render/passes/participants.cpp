@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/world/paint.hpp"
@@ -78,15 +79,20 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
 
 PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
                                       std::span<const scene::Prototype> prototypes,
-                                      std::span<const MeshSummary> meshes, double simulated_time_s) {
+                                      std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
+                                      const std::function<float(const Vec3&)>& share_of_sky) {
+  // Further than any part of a vehicle is from its origin, and mirrors' eyes from the driver's.
+  constexpr double margin_m = 12.0;
   PlacedParticipants result;
   for (const DrawnParticipant& participant : participants) {
     if (participant.prototype >= prototypes.size()) continue;
     const bool whole = participant.shown == Shown::whole;
+    const double distance_m = glm::length(participant.world_from_vehicle.position_m - eye_m);
+    const float sky = share_of_sky(participant.world_from_vehicle.position_m);
     Vec3 lamps_m(0.0);
     int head_lamps = 0;
     for (const scene::Instance& part : prototypes[participant.prototype].parts) {
-      if (part.mesh >= meshes.size()) continue;
+      if (part.mesh >= meshes.size() || distance_m - margin_m >= part.visible_to_m) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
       PlacedMesh placed = place(part.mesh, mesh.bounds, participant.world_from_vehicle * in_vehicle, part.scale);
@@ -96,13 +102,15 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.visible_to_m = part.visible_to_m;
       placed.casts_shadow = part.casts_shadow;
       placed.seen = whole;
+      placed.share_of_sky = sky;
       placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
         lamps_m += middle_m;
         ++head_lamps;
       }
-      if (is_lamp(part.role) && lit && whole)
+      const bool in_range = distance_m >= part.visible_from_m && distance_m < part.visible_to_m;
+      if (is_lamp(part.role) && lit && whole && in_range)
         result.glows.push_back({participant.world_from_vehicle * middle_m,
                                 glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
                                 mesh.emission, glow_radius_m(part.role)});

@@ -1,6 +1,7 @@
 #pragma once
 /// From participants to placed meshes: wheels that turn, lamps that light, and the glow and pool of light around them.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,8 +43,11 @@ bool shines(scene::PartRole role, Lamps lamps, double simulated_time_s, double b
 /// Where a part stands in its vehicle now: steered, rolled and lifted.
 RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant);
 
+/// Parts that cannot be seen from around `eye_m`, for their level of detail, are left out; lamps glow where they are seen.
+/// `share_of_sky` answers for the place of a participant.
 PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
                                       std::span<const scene::Prototype> prototypes,
-                                      std::span<const MeshSummary> meshes, double simulated_time_s);
+                                      std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
+                                      const std::function<float(const Vec3& place_m)>& share_of_sky);
 
 }  // namespace septet::render

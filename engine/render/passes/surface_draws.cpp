@@ -29,11 +29,12 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
 }  // namespace
 
 SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
-                           const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of) {
+                           const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,
+                           float least_participant_range_m) {
   SurfaceDraws draws;
   DrawList instanced;
   append_visible(instanced, scene.placed, eye_m, keep);
-  append_visible(instanced, participants, eye_m, keep);
+  append_visible(instanced, participants, eye_m, keep, least_participant_range_m);
   sort_by_distance(instanced);
   for (const Batch& batch : instanced.batches) add_batch(draws.list, scene.meshes[batch.mesh], batch, group_of);
   append_dynamic(dynamic, eye_m, keep, group_of, draws.list, instanced.records);

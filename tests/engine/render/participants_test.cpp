@@ -18,6 +18,8 @@ std::vector<MeshSummary> summaries(const scene::ResolvedScene& scene) {
   return result;
 }
 
+float in_the_open(const Vec3&) { return 1.0f; }
+
 }  // namespace
 
 TEST_CASE("front wheels steer and every wheel rolls forward and lifts") {
@@ -63,7 +65,7 @@ TEST_CASE("only lit lamps shine and glow") {
   const std::vector<MeshSummary> meshes = summaries(reference.scene);
   DrawnParticipant car = reference_car(reference, {0, 0, 0});
   const auto glows = [&] {
-    return place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0).glows.size();
+    return place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0, car.world_from_vehicle.position_m, in_the_open).glows.size();
   };
   CHECK(glows() == 0);
   car.lamps.set(Lamp::brake, true);
@@ -78,17 +80,37 @@ TEST_CASE("a car that is shown by its shadow and light alone has both and nothin
   car.lamps.set(Lamp::low_beam, true);
   car.shown = Shown::shadow_and_light;
   const PlacedParticipants placed =
-      place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0);
+      place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0,
+                         car.world_from_vehicle.position_m, in_the_open);
   CHECK_FALSE(placed.meshes.empty());
   for (const PlacedMesh& mesh : placed.meshes) CHECK_FALSE(mesh.seen);
   CHECK(placed.headlights.size() == 1);
   CHECK(placed.glows.empty());
 }
 
+TEST_CASE("a lamp glows once whatever the levels of detail and a far vehicle has no near parts") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  scene::Prototype prototype = reference.scene.prototypes.front();
+  const std::size_t parts = prototype.parts.size();
+  for (std::size_t i = 0; i < parts; ++i) {
+    scene::Instance far = prototype.parts[i];
+    prototype.parts[i].visible_to_m = far.visible_from_m = 50.0f;
+    prototype.parts.push_back(far);
+  }
+  DrawnParticipant car;
+  car.lamps.set(Lamp::brake, true);
+  for (const double distance_m : {20.0, 80.0}) {
+    const PlacedParticipants placed = place_participants(
+        std::span(&car, 1), std::span(&prototype, 1), summaries(reference.scene), 0.0, Vec3(distance_m, 0, 0), in_the_open);
+    CHECK(placed.glows.size() == 2);
+    CHECK(placed.meshes.size() == (distance_m > 50.0 ? parts : 2 * parts));
+  }
+}
+
 TEST_CASE("a participant whose prototype has not arrived is left out") {
   DrawnParticipant car;
   car.prototype = 5;
-  CHECK(place_participants(std::span(&car, 1), {}, {}, 0.0).meshes.empty());
+  CHECK(place_participants(std::span(&car, 1), {}, {}, 0.0, Vec3(0.0), in_the_open).meshes.empty());
 }
 
 }  // namespace septet::render
