@@ -261,7 +261,7 @@ Expected<SimulationState> initial_state(const SimulationModel& model, std::uniqu
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
   apply_swarms(model, init, vehicle::outputs(model.car, state.car), state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
-  apply_effects(model, init, state);
+  apply_effects(model, init, vehicle::outputs(model.car, state.car), state);
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   return state;
 }

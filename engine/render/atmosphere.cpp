@@ -164,8 +164,11 @@ SkyLight sky_light(const Environment& environment) {
   // A closed cover lets through about a quarter of the light, without its colour (Kasten and Czeplak 1980).
   const Vec3 clear_total = clear_sky_irradiance + solar_constant * sun_scale * air.transmittance(2.0, sun.z) * std::max(0.0, sun.z);
   const Vec3 grey = Vec3(luminance(clear_total)) * Vec3(0.97, 1.0, 1.04);
+  // At night clouds send back the light of towns: brighter than a clear sky (Kyba et al. 2011).
+  const double night = step_between(0.02, -0.12, elevation);
+  const Vec3 towns = Vec3(0.0046, 0.0042, 0.0040) * (night * overcast);
   const Vec3 sky_irradiance = glm::mix(clear_sky_irradiance, 0.25 * grey, overcast) +
-                              (direct - sunlight) * (0.6 * std::max(0.0, sun.z));
+                              (direct - sunlight) * (0.6 * std::max(0.0, sun.z)) + pi * towns;
   const Vec3 ground = ground_albedo * (sky_irradiance + sunlight * std::max(0.0, sun.z)) / pi;
   const double fogged = 1.0 - std::exp(-8.0 * 150.0 * std::max(0.0, 3.912 / visibility_m - 2.0e-4));
   const Vec3 fog_radiance = glm::mix(sky_irradiance, Vec3(luminance(sky_irradiance)), 0.7) / pi;
@@ -173,7 +176,7 @@ SkyLight sky_light(const Environment& environment) {
     for (std::uint32_t column = 0; column < SkyTable::columns; ++column) {
       const double z = table_direction(column, row, sun).z;
       // CIE overcast sky: L(z) ∝ (1 + 2z)/3, mean weight 7/9.
-      const Vec3 cover = 0.25 * grey / pi * ((1.0 + 2.0 * z) / 3.0 * 9.0 / 7.0 * 0.6 + 0.4);
+      const Vec3 cover = 0.25 * grey / pi * ((1.0 + 2.0 * z) / 3.0 * 9.0 / 7.0 * 0.6 + 0.4) + towns;
       Vec3 radiance = glm::mix(clear[row * SkyTable::columns + column], cover, overcast);
       radiance = glm::mix(radiance, fog_radiance, fogged);
       table.radiance[row * SkyTable::columns + column] = glm::vec3(radiance);
@@ -188,7 +191,6 @@ SkyLight sky_light(const Environment& environment) {
 
   light.sky_irradiance = glm::vec3(sky_irradiance);
   light.ground_irradiance = glm::vec3(pi * ground);
-  const double night = step_between(0.02, -0.12, elevation);
   light.night = static_cast<float>(night);
   if (luminance(sunlight) > 0.01) {
     light.light_direction = glm::vec3(sun);

@@ -73,7 +73,16 @@ void begin_view_rendering(PassContext& context, const FrameTargets& targets) {
   vkCmdBeginRendering(context.slot.commands, &rendering);
 }
 
-void clear_inset(PassContext& context, const PixelRectangle& rectangle) {
+void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle) {
+  constexpr std::int32_t rim_px = 3;
+  const std::int32_t left = std::max(0, rectangle.x - rim_px), top = std::max(0, rectangle.y - rim_px);
+  const std::int32_t right = std::min(std::int32_t(targets.width), rectangle.x + std::int32_t(rectangle.width) + rim_px);
+  const std::int32_t bottom = std::min(std::int32_t(targets.height), rectangle.y + std::int32_t(rectangle.height) + rim_px);
+  VkClearAttachment rim{};
+  rim.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
+  rim.clearValue.color = {{0.05f, 0.05f, 0.055f, 1.0f}};
+  const VkClearRect around{{{left, top}, {std::uint32_t(right - left), std::uint32_t(bottom - top)}}, 0, 1};
+  vkCmdClearAttachments(context.slot.commands, 1, &rim, 1, &around);
   VkClearAttachment clear{};
   clear.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
   clear.clearValue.depthStencil = {0.0f, 0};

@@ -29,8 +29,8 @@ void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
 /// Begins drawing into all of the target, cleared to an empty depth.
 void begin_view_rendering(PassContext& context, const FrameTargets& targets);
-/// Empties the depth of a part of the target, for a view that lies over another.
-void clear_inset(PassContext& context, const PixelRectangle& rectangle);
+/// Empties the depth of a part of the target, for a view that lies over another, and draws a dark rim around it.
+void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle);
 
 /// Replaces an image's texels by way of the frame's arena.
 void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::span<const std::byte> texels);

@@ -136,7 +136,7 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
   const Environment& environment = input.environment;
   begin_view_rendering(context, targets);
   for (const PreparedView& prepared : views) {
-    if (prepared.view != views.front().view) clear_inset(context, prepared.view->viewport);
+    if (prepared.view != views.front().view) clear_inset(context, targets, prepared.view->viewport);
     set_viewport(context, prepared.view->viewport);
     vkCmdSetFrontFace(context.slot.commands,
                       prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);

@@ -72,11 +72,10 @@ RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node) {
   object.orientation = read_orientation(node);
   for (const auto repeat : node.children("repeat"))
     object.repeats.push_back(read_repeat(findings, repeat, object));
-  if (const auto outline = node.child("outline"))
-    object.outlines.push_back(read_outline(findings, outline));
-  for (const auto outline : node.child("outlines").children("outline")) {
-    object.outlines.push_back(read_outline(findings, outline));
-  }
+  // Up to 1.4 the one outline is a child of the object; since then all are in a list.
+  for (const auto& holder : {node, node.child("outlines")})
+    for (const auto outline : holder.children("outline"))
+      object.outlines.push_back(read_outline(findings, outline));
   if (const auto material = node.child("material"))
     object.material = read_material(findings, material);
   return object;

@@ -41,8 +41,9 @@ geometry::PolygonMesh bonnet(const VehicleModel& model) {
 geometry::PolygonMesh dashboard() {
   MeshBuilder builder;
   builder.material = index_of(Finish::cabin);
-  // Profile from the foot of the windscreen back and down, in (x, z).
-  constexpr std::array<glm::vec2, 6> profile{{{2.34f, 0.915f},
+  // Profile from the scuttle under the bonnet's edge back and down, in (x, z).
+  constexpr std::array<glm::vec2, 7> profile{{{2.66f, 0.908f},
+                                              {2.34f, 0.915f},
                                               {1.98f, 0.945f},
                                               {1.83f, 0.935f},
                                               {1.77f, 0.90f},
@@ -53,9 +54,9 @@ geometry::PolygonMesh dashboard() {
     const float y = std::lerp(0.76f, -0.76f, static_cast<float>(i) / columns);
     const float hood = std::exp(-std::pow((y - 0.37f) / 0.19f, 4.0f));
     for (std::size_t k = 0; k < profile.size(); ++k) {
-      const float raise = k == 2 ? 0.040f : k == 3 ? 0.055f : k == 1 ? 0.015f : 0.0f;
+      const float raise = k == 3 ? 0.040f : k == 4 ? 0.055f : k == 2 ? 0.015f : 0.0f;
       builder.vertex(
-          {profile[k].x - (k == 3 ? 0.05f : 0.0f) * hood, y, profile[k].y + raise * hood});
+          {profile[k].x - (k == 4 ? 0.05f : 0.0f) * hood, y, profile[k].y + raise * hood});
     }
   }
   const auto count = static_cast<std::uint32_t>(profile.size());
@@ -108,6 +109,9 @@ VehicleParts interior_parts() {
   pillars.material = index_of(Finish::cabin);
   for (const float side : {1.0f, -1.0f})
     add_limb(pillars, {2.02f, side * 0.80f, 0.94f}, {1.36f, side * 0.60f, 1.37f}, 0.045f, 0.04f, 8);
+  // The doors below their windows, and the scuttle's ends.
+  pillars.patch({1.4f, 0.80f, 0.2f}, {2.66f, 0.80f, 0.2f}, {2.66f, 0.80f, 0.93f}, {1.4f, 0.80f, 0.99f});
+  pillars.patch({2.66f, -0.80f, 0.2f}, {1.4f, -0.80f, 0.2f}, {1.4f, -0.80f, 0.99f}, {2.66f, -0.80f, 0.93f});
   parts.push_back({"pillars", pillars.take(), 0, {Placement{}}});
   Placement wheel;
   wheel.role = scene::PartRole::steering_wheel;

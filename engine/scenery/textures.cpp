@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/noise.hpp"
@@ -31,62 +32,65 @@ double bell(double x, double middle, double width) {
   return std::exp(-d * d);
 }
 
+/// A square texture, pixel by pixel: `paint` gets the pixel and the place of its middle in [0, 1].
+template <class Paint>
+Image painted(std::uint32_t size, Paint paint) {
+  Image image(size, size);
+  for (std::uint32_t y = 0; y < size; ++y)
+    for (std::uint32_t x = 0; x < size; ++x)
+      image.set(x, y, paint(x, y, (x + 0.5) / size, (y + 0.5) / size));
+  return image;
+}
+
+/// Where something at `x` is drawn so that the texture tiles: also over the edges that it is within `reach` of.
+std::vector<double> copies(double x, double size, double reach) {
+  std::vector<double> result;
+  for (const double shifted : {x - size, x, x + size})
+    if (shifted >= -reach && shifted <= size + reach) result.push_back(shifted);
+  return result;
+}
+
 }  // namespace
 
 Image asphalt_texture(std::uint64_t seed) {
-  constexpr std::uint32_t size = 512;
-  Image image(size, size);
-  for (std::uint32_t y = 0; y < size; ++y)
-    for (std::uint32_t x = 0; x < size; ++x) {
-      const double u = (x + 0.5) / size, v = (y + 0.5) / size;
-      // Stones of two sizes: single light and dark grains over a fine mottle.
-      const double grain = lattice_random(x, y, seed) - 0.5;
-      const double stone = lattice_random(x / 2, y / 2, seed + 1);
-      const double mottle = fractal_noise(u * 24, v * 24, 3, seed + 2, 24);
-      const double patches = fractal_noise(u * 4, v * 4, 3, seed + 3, 4);
-      double value = 92.0 + 26.0 * grain + 7.0 * mottle + 5.0 * patches;
-      if (stone > 0.93) value += 26.0;
-      if (stone < 0.05) value -= 20.0;
-      // Wheels polish two tracks; oil darkens the middle; the paver's seam runs along both edges.
-      const double tracks = bell(u, 0.27, 0.09) + bell(u, 0.73, 0.09);
-      value += 9.0 * tracks - 7.0 * bell(u, 0.5, 0.10) * (0.7 + 0.5 * patches);
-      const double edge = std::min(u, 1.0 - u);
-      value -= 16.0 * bell(edge, 0.0, 0.006 + 0.003 * gradient_noise(v * 32, 0.5, seed + 4, 32));
-      image.set(x, y, grey(value, 1.0));
-    }
-  return image;
+  return painted(512, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
+    // Stones of two sizes: single light and dark grains over a fine mottle.
+    const double grain = lattice_random(x, y, seed) - 0.5;
+    const double stone = lattice_random(x / 2, y / 2, seed + 1);
+    const double mottle = fractal_noise(u * 24, v * 24, 3, seed + 2, 24);
+    const double patches = fractal_noise(u * 4, v * 4, 3, seed + 3, 4);
+    double value = 92.0 + 26.0 * grain + 7.0 * mottle + 5.0 * patches;
+    if (stone > 0.93) value += 26.0;
+    if (stone < 0.05) value -= 20.0;
+    // Wheels polish two tracks; oil darkens the middle; the paver's seam runs along both edges.
+    const double tracks = bell(u, 0.27, 0.09) + bell(u, 0.73, 0.09);
+    value += 9.0 * tracks - 7.0 * bell(u, 0.5, 0.10) * (0.7 + 0.5 * patches);
+    const double edge = std::min(u, 1.0 - u);
+    value -= 16.0 * bell(edge, 0.0, 0.006 + 0.003 * gradient_noise(v * 32, 0.5, seed + 4, 32));
+    return grey(value, 1.0);
+  });
 }
 
 Image ground_texture(std::uint64_t seed) {
-  constexpr std::uint32_t size = 256;
-  Image image(size, size);
-  for (std::uint32_t y = 0; y < size; ++y)
-    for (std::uint32_t x = 0; x < size; ++x) {
-      const double u = (x + 0.5) / size, v = (y + 0.5) / size;
-      const double clumps = fractal_noise(u * 8, v * 8, 4, seed, 8);
-      const double blades = lattice_random(x, y / 2, seed + 1) - 0.5;
-      const double value = 196.0 + 34.0 * clumps + 46.0 * blades;
-      const double dry = 10.0 * fractal_noise(u * 4, v * 4, 2, seed + 2, 4);
-      image.set(x, y, {byte_of(value + dry), byte_of(value), byte_of(value - 10.0 - dry)});
-    }
-  return image;
+  return painted(256, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
+    const double clumps = fractal_noise(u * 8, v * 8, 4, seed, 8);
+    const double blades = lattice_random(x, y / 2, seed + 1) - 0.5;
+    const double value = 196.0 + 34.0 * clumps + 46.0 * blades;
+    const double dry = 10.0 * fractal_noise(u * 4, v * 4, 2, seed + 2, 4);
+    return {byte_of(value + dry), byte_of(value), byte_of(value - 10.0 - dry)};
+  });
 }
 
 Image concrete_texture(std::uint64_t seed) {
-  constexpr std::uint32_t size = 256;
-  Image image(size, size);
-  for (std::uint32_t y = 0; y < size; ++y)
-    for (std::uint32_t x = 0; x < size; ++x) {
-      const double u = (x + 0.5) / size, v = (y + 0.5) / size;
-      double value = 198.0 + 14.0 * fractal_noise(u * 8, v * 8, 4, seed, 8) +
-                     10.0 * (lattice_random(x, y, seed + 1) - 0.5);
-      // Rain streaks run down; panels meet at the texture's edge.
-      value -= 16.0 * std::max(0.0, fractal_noise(u * 32, v * 2, 2, seed + 2, 2)) * (0.4 + 0.6 * v);
-      if (x < 2 || y < 2) value -= 42.0;
-      if (lattice_random(x / 2, y / 2, seed + 3) > 0.994) value -= 45.0;
-      image.set(x, y, grey(value, 2.0));
-    }
-  return image;
+  return painted(256, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
+    double value = 198.0 + 14.0 * fractal_noise(u * 8, v * 8, 4, seed, 8) +
+                   10.0 * (lattice_random(x, y, seed + 1) - 0.5);
+    // Rain streaks run down; panels meet at the texture's edge.
+    value -= 16.0 * std::max(0.0, fractal_noise(u * 32, v * 2, 2, seed + 2, 2)) * (0.4 + 0.6 * v);
+    if (x < 2 || y < 2) value -= 42.0;
+    if (lattice_random(x / 2, y / 2, seed + 3) > 0.994) value -= 45.0;
+    return grey(value, 2.0);
+  });
 }
 
 Image leaf_texture(std::uint64_t seed) {
@@ -101,14 +105,10 @@ Image leaf_texture(std::uint64_t seed) {
     const double depth = static_cast<double>(i) / dabs, length = random.uniform(5, 9);
     const double light = 0.50 + 0.50 * depth + random.uniform(-0.10, 0.10);
     const Color color{byte_of(118 * light), byte_of(148 * light), byte_of(62 * light)};
-    // Drawn over the edges too, so that the texture tiles.
-    for (const double dx : {-double(size), 0.0, double(size)})
-      for (const double dy : {-double(size), 0.0, double(size)}) {
-        const double px = x + dx, py = y + dy;
-        if (px < -12 || py < -12 || px > size + 12 || py > size + 12) continue;
+    for (const double px : copies(x, size, 12.0))
+      for (const double py : copies(y, size, 12.0))
         image::line(image, px, py, px + length * std::cos(turn), py + length * std::sin(turn), 4.6,
                     color);
-      }
   }
   return image;
 }
@@ -191,25 +191,21 @@ Image wood_edge_texture(std::uint64_t seed) {
     const Color color =
         spruce ? Color{byte_of(74 * light), byte_of(98 * light), byte_of(62 * light)}
                : Color{byte_of(124 * light), byte_of(144 * light), byte_of(72 * light)};
-    for (const double dx : {-double(width), 0.0, double(width)})
-      if (x + dx > -40 && x + dx < width + 40) {
-        Random own(seed + static_cast<std::uint64_t>(i));
-        paint_crown(image, {x + dx, (top + 118) / 2, spruce ? 13.0 : 22.0, (118 - top) / 2, color},
-                    own, 190, spruce);
-      }
+    for (const double px : copies(x, width, 40.0)) {
+      Random own(seed + static_cast<std::uint64_t>(i));
+      paint_crown(image, {px, (top + 118) / 2, spruce ? 13.0 : 22.0, (118 - top) / 2, color}, own,
+                  190, spruce);
+    }
   }
   return image;
 }
 
 Image facade_texture(std::uint64_t seed) {
-  constexpr std::uint32_t size = 128;
-  Image image(size, size);
-  for (std::uint32_t y = 0; y < size; ++y)
-    for (std::uint32_t x = 0; x < size; ++x) {
-      // Upright boards.
-      const double board = x % 8 == 0 ? -34.0 : 0.0;
-      image.set(x, y, grey(214.0 + board + 12.0 * (lattice_random(x / 8, y / 24, seed) - 0.5)));
-    }
+  Image image = painted(128, [&](std::uint32_t x, std::uint32_t y, double, double) -> Color {
+    // Upright boards.
+    const double board = x % 8 == 0 ? -34.0 : 0.0;
+    return grey(214.0 + board + 12.0 * (lattice_random(x / 8, y / 24, seed) - 0.5));
+  });
   image::fill(image, 40, 34, 48, 56, {246, 246, 242});
   image::fill(image, 45, 39, 38, 46, {58, 66, 78});
   image::fill(image, 62, 39, 4, 46, {246, 246, 242});

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
@@ -63,22 +64,21 @@ glm::vec3 column_point(const WorldContext& world, const RoadTile& tile, double s
   return world.roads.local(tile, Vec3(p, z));
 }
 
-template <std::size_t N>
 void draw_side(const WorldContext& world, const RoadTile& tile, double side, double step_m,
-               const std::array<Column, N>& columns, MeshBuilder& builder, bool near) {
+               std::span<const Column> columns, MeshBuilder& builder, bool near) {
   const std::vector<double> along = stations(tile, step_m);
   std::uint32_t first = 0;
   for (std::size_t i = 0; i < along.size(); ++i) {
     const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
     const double edge_t = side > 0 ? extent.left_t_m : extent.right_t_m;
     std::uint32_t row = 0;
-    for (std::size_t k = 0; k < N; ++k) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
       const std::uint32_t v =
           builder.vertex(column_point(world, tile, along[i], edge_t, side, columns[k]));
       if (k == 0) row = v;
     }
     if (i > 0)
-      for (std::uint32_t k = 0; k + 1 < N; ++k) {
+      for (std::uint32_t k = 0; k + 1 < columns.size(); ++k) {
         builder.material = index_of(!near    ? Ground::far_verge
                                     : k == 0 ? Ground::gravel
                                              : Ground::verge);
@@ -105,28 +105,31 @@ bool is_at_mouth(const WorldContext& world, const RoadTile& tile) {
   return false;
 }
 
+/// Both sides of a tile; finer in its steps, and further out, at a tunnel's mouth.
+void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
+                double step_m, bool near) {
+  if (tile.in_tunnel || tile.on_bridge) return;
+  const bool mouth = is_at_mouth(world, tile);
+  std::span<const Column> columns = far_columns;
+  if (near) columns = near_columns;
+  if (mouth) columns = mouth_columns;
+  for (const double side : {1.0, -1.0})
+    draw_side(world, tile, side, mouth ? step_m / 2 : step_m, columns, builder, near);
+}
+
 }  // namespace
 
 void draw_far_verges(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
                      double step_m) {
-  if (tile.in_tunnel || tile.on_bridge) return;
-  for (const double side : {1.0, -1.0})
-    if (is_at_mouth(world, tile))
-      draw_side(world, tile, side, step_m / 2, mouth_columns, builder, false);
-    else
-      draw_side(world, tile, side, step_m, far_columns, builder, false);
+  draw_sides(builder, world, tile, step_m, false);
 }
 
 void build_verges(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
-    if (tile.in_tunnel || tile.on_bridge) continue;
     MeshBuilder near;
-    for (const double side : {1.0, -1.0})
-      if (is_at_mouth(world, tile))
-        draw_side(world, tile, side, 8.0, mouth_columns, near, true);
-      else
-        draw_side(world, tile, side, 16.0, near_columns, near, true);
-    add_tile_mesh(world, tile, "verge", near.mesh(), 0.0f, road_near_m);
+    draw_sides(near, world, tile, 16.0, true);
+    if (!near.mesh().polygons.empty())
+      add_tile_mesh(world, tile, "verge", near.mesh(), 0.0f, road_near_m);
   }
 }
 
