@@ -1,0 +1,61 @@
+#pragma once
+/// Face normals between two keyframes of a mesh whose vertices move along straight lines.
+///
+/// Source: Parus, Hast and Kolingerová, "Temporal Face Normal Interpolation" (SIGRAD 2006). The t-variant cross product
+/// (eqs. 2 and 3) is exact and, evaluated for all faces at once, costs what linear interpolation does; it is what Septet
+/// draws with. The others are here to be compared. Frame and unit are those of the vertices.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace septet {
+
+enum class NormalMethod : std::uint8_t {
+  t_variant,               ///< Exact (eq. 3).
+  linear,                  ///< Between the first and the last normal (eq. 4).
+  quadratic, cubic,        ///< Lagrange, through one or two exact normals more.
+  vector_slerp,            ///< Eq. 5.
+  spherical_de_casteljau,  ///< Section 2.4, with two exact normals between.
+  quaternion_slerp,        ///< Section 2.5: the face's frame turns (eqs. 6 to 8).
+};
+inline constexpr int normal_method_count = 7;
+std::string_view name_of(NormalMethod method);
+
+/// One number for each face of each component: flat, so that many faces are worked on at once.
+struct FaceNormals {
+  std::vector<float> x, y, z;
+};
+
+/// Corners of a triangle, counter-clockwise from outside, at t = 0 and t = 1.
+struct MovingFace {
+  std::array<glm::vec3, 3> from, to;
+};
+
+/// The faces of an indexed mesh whose vertices go from one place to another.
+std::vector<MovingFace> moving_faces(std::span<const glm::vec3> from, std::span<const glm::vec3> to,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles);
+
+/// The normal as eq. 1 gives it; zero for a face without area.
+glm::vec3 face_normal(const MovingFace& face, float t);
+
+/// Everything that does not depend on t is worked out on construction.
+class TemporalNormals {
+ public:
+  TemporalNormals(NormalMethod method, std::span<const MovingFace> faces);
+
+  /// Unit normals at t in [0, 1]. A face without area has the zero normal (t-variant, linear, quadratic, cubic).
+  void at(float t, FaceNormals& normals) const;
+  std::size_t size() const { return count_; }
+
+ private:
+  NormalMethod method_;
+  std::size_t count_ = 0;
+  std::vector<std::vector<float>> planes_;  ///< The coefficients, each of all faces.
+};
+
+}  // namespace septet
