@@ -34,6 +34,7 @@ debris::CrashBody body_of(const Participant& participant, const MountedParts& pa
 /// The driver's car against another body. Answers the closing speed, 0 where they do not touch or drift apart.
 double crash_with(const Participant& car, debris::CrashBody other, const debris::ContactWorld& world, CrashMemory& memory,
                   debris::State& debris, Random& random, CrashOutcome& outcome, std::vector<debris::MountedPart>* left) {
+  const bool barrier = std::isinf(other.mass_kg);
   debris::Crash blow;
   blow.first = body_of(car, memory.parts);
   blow.second = std::move(other);
@@ -41,12 +42,18 @@ double crash_with(const Participant& car, debris::CrashBody other, const debris:
   if (!contact) return 0.0;
   blow.point_m = contact->point_m;
   blow.normal = contact->normal;
+  if (barrier) {
+    // A stretch of barrier has no ends: it is only ever met from its sides.
+    const RigidTransform& stretch = blow.second.box.world_from_box;
+    const Vec3 side = stretch.orientation * Vec3(0.0, 1.0, 0.0);
+    blow.normal = glm::dot(blow.first.box.world_from_box.position_m - stretch.position_m, side) < 0.0 ? -side : side;
+  }
   const double closing = glm::dot(blow.second.box.velocity_mps - blow.first.box.velocity_mps, blow.normal);
   if (closing < debris::least_crash_speed_mps) return 0.0;
   const debris::CrashReport report = debris::crash(debris, blow, world, random);
   ++outcome.crashes;
   outcome.pieces += static_cast<int>(report.pieces.size());
-  const double own = blow.first.mass_kg, common = std::isinf(blow.second.mass_kg) ? own : own * blow.second.mass_kg / (own + blow.second.mass_kg);
+  const double own = blow.first.mass_kg, common = barrier ? own : own * blow.second.mass_kg / (own + blow.second.mass_kg);
   outcome.impulse_on_driver_ns += blow.normal * (common * closing) + blow.first.impulse_ns;
   memory.parts[car.id] = std::move(blow.first.parts);
   if (left) *left = std::move(blow.second.parts);

@@ -145,6 +145,19 @@ TEST_CASE("a car that runs into the barrier between the carriageways crashes onc
   CHECK(!state.debris.pieces.empty());
 }
 
+TEST_CASE("a car that grazes a barrier keeps its parts") {
+  EffectsState state;
+  const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, -1.1}));
+  Participant car = vehicle(1, "volvo-s80", 900.0, -3, 0.0);
+  car.world_from_vehicle = {place.position_m, place.orientation * orientation_from_angles(0.05, 0.0, 0.0)};
+  car.velocity_mps = car.world_from_vehicle.orientation * Vec3(22.0, 0.0, 0.0);
+  std::vector<Participant> participants{car};
+  int crashes = 0;
+  for (Tick tick = 2; tick < 30; tick += 2) crashes += run(participants, state, tick, 2).crashes.crashes;
+  CHECK(crashes == 0);
+  CHECK(state.debris.pieces.empty());
+}
+
 TEST_CASE("cones that the scenario sets up stand still and cost one keyframe each") {
   scenario::Scenario scenario;
   scenario::ScenarioState storyboard;
