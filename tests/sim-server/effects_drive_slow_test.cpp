@@ -23,7 +23,7 @@ Driven drive(const std::string& name, double seconds, std::uint64_t seed) {
   const std::string root = SEPTET_SOURCE_DIR;
   const auto loaded = load_drive(DriveFiles{root + "/scenarios/" + name + "/" + name + ".xosc", root + "/rigs/seven-screens.toml", seed});
   REQUIRE_MESSAGE(loaded.has_value(), describe(loaded.error()));
-  auto state = initial_state(*loaded->model);
+  auto state = initial_state(*loaded->model, traffic::own_traffic(loaded->model->roads, 1));
   REQUIRE(state);
   Driven driven;
   driven.warnings = loaded->warnings;
