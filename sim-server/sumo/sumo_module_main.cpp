@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 
+#include <fmt/core.h>
 #include <libsumo/libtraci.h>
 
 #include "sim-server/sumo/sumo_client.hpp"
@@ -17,8 +19,6 @@ namespace {
 constexpr double degrees_per_radian = 57.295779513082320877;
 /// moveToXY: any edge, and off the network where there is none.
 constexpr int anywhere = 2;
-
-std::string name_of(ParticipantId id) { return std::to_string(id); }
 
 template <class Call>
 auto asked(Call call) -> Expected<decltype(call())> {
@@ -75,16 +75,20 @@ class TraciClient final : public SumoClient {
         libtraci::Route::add(route, departure.route);
         routes_.push_back(route);
       }
+      ++entries_[departure.id];
       libtraci::Vehicle::add(name_of(departure.id), route, departure.type, "now", std::to_string(departure.lane_index),
                              std::to_string(departure.along_m), "desired");
       if (!departure.watched) libtraci::Vehicle::setSpeedMode(name_of(departure.id), 0);
-      std::erase(unwatched_, name_of(departure.id));
       if (!departure.watched) unwatched_.push_back(name_of(departure.id));
     });
   }
 
   Expected<void> remove_vehicle(ParticipantId id) override {
-    return asked([&] { libtraci::Vehicle::remove(name_of(id)); });
+    return asked([&] {
+      // SUMO would still answer the subscription once, with an error.
+      if (std::erase(watched_, name_of(id)) > 0) libtraci::Vehicle::unsubscribe(name_of(id));
+      libtraci::Vehicle::remove(name_of(id));
+    });
   }
 
   Expected<void> place_vehicle(ParticipantId id, const Vec2& front_m, double heading_rad) override {
@@ -106,7 +110,10 @@ class TraciClient final : public SumoClient {
       if (const auto found = simulation.find(libsumo::VAR_DEPARTED_VEHICLES_IDS); found != simulation.end())
         if (const auto* list = dynamic_cast<const libsumo::TraCIStringList*>(found->second.get()))
           for (const auto& name : list->value)
-            if (std::ranges::find(unwatched_, name) == unwatched_.end()) libtraci::Vehicle::subscribe(name, watched_values);
+            if (std::ranges::find(unwatched_, name) == unwatched_.end()) {
+              libtraci::Vehicle::subscribe(name, watched_values);
+              watched_.push_back(name);
+            }
       std::vector<SumoVehicle> vehicles;
       for (const auto& [name, values] : libtraci::Vehicle::getAllSubscriptionResults()) {
         SumoVehicle vehicle;
@@ -129,9 +136,14 @@ class TraciClient final : public SumoClient {
   }
 
  private:
+  /// "101.3": the third entry of participant 101. SUMO remembers a subscription to a vehicle that was removed; a new one of
+  /// the same name that still waits for room would answer it with an error.
+  std::string name_of(ParticipantId id) const { return fmt::format("{}.{}", id, entries_.at(id)); }
+
   inline static const std::vector<int> watched_values{libsumo::VAR_POSITION, libsumo::VAR_ANGLE, libsumo::VAR_SPEED,
                                                       libsumo::VAR_ACCELERATION, libsumo::VAR_SIGNALS};
-  std::vector<std::string> routes_, unwatched_;
+  std::vector<std::string> routes_, unwatched_, watched_;
+  std::map<ParticipantId, int> entries_;
 };
 
 }  // namespace

@@ -84,6 +84,8 @@ class SimulatedRig {
       options.welcome.group_ip = group_.ip;
       options.welcome.group_port = group_.port;
     }
+    // A server that was away does not make up for the ticks that it missed.
+    next_tick_ = static_cast<Tick>(std::ceil(now_s_ / rig_tick_s));
     host_ = std::make_unique<server::ScreenHost>(*server_lane_, *server_tick_, store_, std::move(options));
   }
   void stop_server() {

@@ -72,7 +72,8 @@ TEST_CASE("SUMO moves the swarm that the scenario asks for and every tick follow
   constexpr int ticks = 30 * 120;
   for (int tick = 0; tick < ticks; ++tick) {
     const auto traffic = traffic_of(ride.step());
-    REQUIRE_FALSE(ride.state.traffic->take_error().has_value());
+    const auto error = ride.state.traffic->take_error();
+    REQUIRE_MESSAGE(!error, describe(*error));
     least = std::min(least, traffic.size());
     std::map<ParticipantId, Participant> now;
     for (const Participant& p : traffic) {
