@@ -1,14 +1,17 @@
 # Three functions make every target of the project, so that a folder's CMakeLists.txt is a few lines.
 
 # The headers that most files include, precompiled once for all targets.
+set(SEPTET_COMMON_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional>
+    <set> <span> <sstream> <string> <variant> <vector> <fmt/format.h> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp>
+    <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
 if(SEPTET_PRECOMPILE)
   file(WRITE ${CMAKE_BINARY_DIR}/precompiled.cpp "")
   add_library(septet_precompiled STATIC ${CMAKE_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(septet_precompiled PUBLIC fmt::fmt tl::expected)
-  target_precompile_headers(septet_precompiled PRIVATE <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream>
-    <functional> <map> <memory> <optional> <set> <span> <sstream> <string> <variant> <vector> <fmt/format.h> <glm/glm.hpp>
-    <glm/gtc/matrix_transform.hpp> <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
+  target_precompile_headers(septet_precompiled PRIVATE ${SEPTET_COMMON_HEADERS})
 endif()
+# What sets an optimisation level of its own must go without: what was precompiled for another crashes the compiler.
+# set_target_properties(TARGET PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 function(septet_precompile target)
   if(SEPTET_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM septet_precompiled)
@@ -54,8 +57,8 @@ function(septet_program name)
   septet_precompile(${name})
 endfunction()
 
-# septet_test(NAME [DEPENDS library…] [PRIVATE library…])
-# One doctest program, label fast, of this folder's *_test.cpp files, and one, label slow, of its *_slow_test.cpp files
+# septet_test(NAME [SERIAL] [DEPENDS library…] [PRIVATE library…])
+# SERIAL: its slow tests run alone. One doctest program, label fast, of this folder's *_test.cpp files, and one, label slow, of its *_slow_test.cpp files
 # (a slow test starts processes, draws frames or runs for more than a second). Every test case is one CTest test.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
@@ -69,7 +72,7 @@ function(septet_test_program name label timeout_s sources)
   if(NOT sources)
     return()
   endif()
-  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "SERIAL" "" "DEPENDS;PRIVATE" ${ARGN})
   add_executable(${name} ${sources})
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wno-missing-field-initializers)
   target_compile_definitions(${name} PRIVATE SEPTET_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
@@ -78,5 +81,6 @@ function(septet_test_program name label timeout_s sources)
   target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
   septet_precompile(${name})
   add_dependencies(${label}_tests ${name})  # So that a sanitizer build makes only what it runs.
-  doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s})
+  doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s}
+                         RUN_SERIAL ${arg_SERIAL})
 endfunction()
