@@ -1,6 +1,5 @@
 #pragma once
-// What the tests of the session file share: a folder of their own, a small drive, and a writer that
-// is given it.
+// What the tests of the session file share: a small drive, and a writer that is given it.
 
 #include <cmath>
 #include <filesystem>
@@ -8,32 +7,12 @@
 #include <string>
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include "logging/session_reader.hpp"
 #include "logging/session_writer.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::logging {
-
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(
-      const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
-    std::string name = (parent / "septet-logging-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A car on a circle and a few others, so that every tick differs.
 inline Snapshot drive_snapshot(Tick tick, int participants = 5) {

@@ -1,8 +1,6 @@
 #pragma once
 /// Septet's programs as processes, on a small rig in a folder of their own. Every wait is bounded.
 
-#include <unistd.h>
-
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -18,30 +16,12 @@
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "sim-server/child_process.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::pipeline {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "septet-pipeline-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 inline std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);

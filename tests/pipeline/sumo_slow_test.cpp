@@ -1,6 +1,7 @@
 // Drives with --traffic sumo as people start them. Without SUMO on this machine they say so and pass.
 
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <csignal>
 

@@ -1,16 +1,15 @@
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include "tests/temporary_folder.hpp"
+
 namespace {
-namespace fs = std::filesystem;
 
 struct Ended {
   int code = -1;
@@ -44,9 +43,7 @@ void check_refused(const std::string& arguments, std::initializer_list<const cha
 }  // namespace
 
 TEST_CASE("a wrong option or rig or device ends septet-car with one message") {
-  std::string pattern = (fs::temp_directory_path() / "septet-car-XXXXXX").string();
-  REQUIRE(::mkdtemp(pattern.data()));
-  const fs::path folder = pattern;
+  const septet::TemporaryFolder folder;
   const std::string screen =
       "[[screen]]\nname = \"a\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
       "0]\nupper_left_m = [2, 1, 1]\n";
@@ -58,8 +55,8 @@ TEST_CASE("a wrong option or rig or device ends septet-car with one message") {
   };
   check_refused("--bogus", {"--bogus"});
   check_refused("", {"--keys"});
-  check_refused("--keys " + folder.string(), {"server.public"});
-  check_refused("--server nowhere --keys " + folder.string(), {"--server"});
+  check_refused("--keys " + folder.path().string(), {"server.public"});
+  check_refused("--server nowhere --keys " + folder.path().string(), {"--server"});
   check_refused("calibrate --rig " + (folder / "none.toml").string(), {"none.toml"});
   check_refused("calibrate " + rig("source = 3"), {"rig.toml:4", "car.source"});
   check_refused("calibrate " + rig("source = \"hid\"\nlayout = \"tractor\""),
@@ -67,5 +64,4 @@ TEST_CASE("a wrong option or rig or device ends septet-car with one message") {
   check_refused("try --fan 0.5 " + rig("source = \"hid\"\nproduct_id = 0xfffe"),
                 {"1209:fffe", "not plugged in"});
   check_refused("try --fan 1.5 " + rig("source = \"hid\""), {"--fan"});
-  fs::remove_all(folder);
 }

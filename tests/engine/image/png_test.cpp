@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/random.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::image {
 namespace {
@@ -28,11 +29,11 @@ TEST_CASE("an image comes back from PNG as it was") {
 }
 
 TEST_CASE("a PNG file is written and read") {
-  const auto path = std::filesystem::temp_directory_path() / "septet-png-test.png";
+  const TemporaryFolder folder;
+  const auto path = folder / "noise.png";
   const Image image = noise(16, 9);
   REQUIRE(write_png(path, image).has_value());
   const auto back = read_png(path);
-  std::filesystem::remove(path);
   REQUIRE(back.has_value());
   CHECK(*back == image);
 }

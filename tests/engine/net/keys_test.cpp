@@ -2,32 +2,22 @@
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "tests/engine/net/net_fixtures.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::net {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of its own, gone at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("septet-keys-test-" + std::to_string(::getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
 TEST_CASE(
     "the first start makes a key file that only the owner can read and the second start reads it") {
-  Folder folder;
-  const fs::path file = folder.path / "keys" / "server.key";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "keys" / "server.key";
   const auto made = load_or_create_identity(file);
   REQUIRE(made.has_value());
   struct stat status {};
@@ -41,8 +31,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a key file that others can read or that is damaged is refused with a remedy") {
-  Folder folder;
-  const fs::path file = folder.path / "client.key";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "client.key";
   REQUIRE(load_or_create_identity(file).has_value());
   ::chmod(file.c_str(), 0644);
   const auto open_to_all = load_identity(file);
@@ -51,20 +41,20 @@ TEST_CASE("a key file that others can read or that is damaged is refused with a 
   ::chmod(file.c_str(), 0600);
   fs::resize_file(file, 100);
   CHECK_FALSE(load_identity(file).has_value());
-  CHECK_FALSE(load_identity(folder.path / "absent.key").has_value());
+  CHECK_FALSE(load_identity(folder / "absent.key").has_value());
 }
 
 TEST_CASE("a folder that cannot be made gives one clear message") {
-  Folder folder;
-  std::ofstream(folder.path / "file") << "not a folder";
-  const auto identity = load_or_create_identity(folder.path / "file" / "server.key");
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "not a folder";
+  const auto identity = load_or_create_identity(folder / "file" / "server.key");
   REQUIRE_FALSE(identity.has_value());
   CHECK(identity.error().where.find("server.key") != std::string::npos);
 }
 
 TEST_CASE("the list of allowed clients is read and its faults are named by line") {
-  Folder folder;
-  const fs::path file = folder.path / "clients.txt";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "clients.txt";
   const std::string key = to_text(identity_of(5).public_key());
   std::ofstream(file) << "# screens\n\n" << key << " screen/left-1\n";
   const auto clients = load_allowed_clients(file);
