@@ -1,7 +1,6 @@
 // One virtual screen on lavapipe, from the scenario's motorway with traffic: CPU time of drawing a frame and reading it
 // back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread.
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "engine/scenery/vehicles.hpp"
 #include "engine/world/paint.hpp"
 #include "tests/engine/render/reference_scene.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::render {
 namespace {
@@ -32,10 +32,7 @@ struct Motorway {
 
 const Motorway& motorway() {
   static const Motorway world = [] {
-    std::ifstream file(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr", std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    Motorway result{must(road::read_opendrive(text.str(), "motorway.xodr")), {}};
+    Motorway result{must(road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr")), {}};
     scene::Store store;
     scene::SceneBuilder builder(store);
     scenery::build_vehicles(builder);

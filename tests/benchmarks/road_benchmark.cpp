@@ -1,7 +1,5 @@
 // The road as traffic asks for it: a thousand vehicles on the motorway, each a metre on from where
 // it was.
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -11,17 +9,14 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_locate.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::road {
 namespace {
 
 const RoadNetwork& motorway() {
   static const RoadNetwork network = [] {
-    std::ifstream file(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr",
-                       std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    auto read = read_opendrive(text.str(), "motorway.xodr");
+    auto read = read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
     if (!read) throw std::runtime_error(describe(read.error()));
     return *read;
   }();

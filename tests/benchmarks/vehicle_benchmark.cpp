@@ -1,24 +1,20 @@
 // The driver's car at 1 kHz: one simulated second of driving through bends, and with the anti-lock
 // system at work.
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <benchmark/benchmark.h>
 
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::vehicle {
 namespace {
 
 const VehicleParameters& volvo_s80() {
   static const VehicleParameters parameters = [] {
-    std::ifstream file(SEPTET_SOURCE_DIR "/vehicles/volvo-s80.toml", std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    const auto read = read_vehicle(text.str(), "volvo-s80.toml");
+    const auto read = read_vehicle(shipped_text("vehicles/volvo-s80.toml"), "volvo-s80.toml");
     if (!read) throw std::runtime_error(describe(read.error()));
     return *read;
   }();

@@ -4,22 +4,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
-#include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/vehicle_model.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 namespace septet {
 namespace {
@@ -36,16 +34,10 @@ struct Instant {
 class Motorway {
  public:
   Motorway() {
-    std::ifstream file(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr", std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    auto network = road::read_opendrive(text.str(), "motorway.xodr");
-    REQUIRE(network.has_value());
-    network_ = std::move(*network);
     scene::Store store;
     scene::SceneBuilder builder(store);
     scenery::build_vehicles(builder);
-    scenery::build_road_world(builder, network_, 1);
+    scenery::build_road_world(builder, road::motorway(), 1);
     scene_ = scene::resolve(store);
   }
   const scene::ResolvedScene& scene() const { return scene_; }
@@ -94,7 +86,7 @@ class Motorway {
 
  private:
   RigidTransform in_lane(int lane, double s_m) const {
-    return road::world_from_lane(road::evaluate_lane(network_, {0, lane, s_m, 0.0}));
+    return road::world_from_lane(road::evaluate_lane(road::motorway(), {0, lane, s_m, 0.0}));
   }
   std::uint32_t prototype(std::string_view name) const {
     const auto found = std::ranges::find(scene_.prototypes, name, &scene::Prototype::name);
@@ -102,7 +94,6 @@ class Motorway {
     return static_cast<std::uint32_t>(found - scene_.prototypes.begin());
   }
 
-  road::RoadNetwork network_;
   scene::ResolvedScene scene_;
 };
 

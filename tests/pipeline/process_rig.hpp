@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,19 +15,13 @@
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
 #include "sim-server/child_process.hpp"
+#include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::pipeline {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-
-inline std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 inline void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 

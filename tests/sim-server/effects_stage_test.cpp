@@ -1,33 +1,19 @@
 #include "sim-server/effects_stage.hpp"
 
-#include <fstream>
-#include <sstream>
-
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
-#include "engine/road/opendrive_reader.hpp"
 #include "sim-server/effect_surroundings.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 using namespace septet;
 using namespace septet::server;
+using road::motorway;
 
 namespace {
 
 constexpr double tick_s = 1.0 / 120.0;
-
-const road::RoadNetwork& motorway() {
-  static const road::RoadNetwork network = [] {
-    std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr");
-    std::stringstream text;
-    text << file.rdbuf();
-    auto read = road::read_opendrive(text.str(), "motorway.xodr");
-    REQUIRE(read);
-    return std::move(*read);
-  }();
-  return network;
-}
 
 RigidTransform on_lane(double s_m, int lane) {
   return road::world_from_lane(road::evaluate_lane(motorway(), {0, lane, s_m, 0.0}));

@@ -1,29 +1,15 @@
 #include "sim-server/fire_stage.hpp"
 
-#include <fstream>
-#include <sstream>
-
 #include <doctest/doctest.h>
 
 #include "engine/effects/smoke/visibility.hpp"
-#include "engine/road/opendrive_reader.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 using namespace septet;
 using namespace septet::server;
+using road::motorway;
 
 namespace {
-
-const road::RoadNetwork& motorway() {
-  static const road::RoadNetwork network = [] {
-    std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance/motorway.xodr");
-    std::stringstream text;
-    text << file.rdbuf();
-    auto read = road::read_opendrive(text.str(), "motorway.xodr");
-    REQUIRE(read);
-    return std::move(*read);
-  }();
-  return network;
-}
 
 Participant van_at(double s_m) {
   Participant van;

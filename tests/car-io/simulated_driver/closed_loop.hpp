@@ -2,8 +2,6 @@
 // The driver, the S80 and the motorway in a loop, without a server: 120 ticks a second, ten steps
 // of the car in each.
 
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -11,36 +9,19 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/simulated_driver/simulated_driver.hpp"
 #include "engine/core/hash.hpp"
-#include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
-#include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/traffic/traffic.hpp"
 #include "logging/records.hpp"
+#include "tests/engine/physics/vehicle/car.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 namespace septet::car_io {
 
-inline std::string file_text(const std::string& name) {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-inline const road::RoadNetwork& motorway() {
-  static const auto network = road::read_opendrive(
-      file_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
-  REQUIRE(network.has_value());
-  return *network;
-}
-
-inline vehicle::VehicleParameters read_car(const std::string& name) {
-  const auto car = vehicle::read_vehicle(file_text("vehicles/" + name + ".toml"), name);
-  REQUIRE_MESSAGE(car.has_value(), describe(car.error()));
-  return *car;
-}
+using road::motorway;
+using vehicle::read_car;
 
 inline const vehicle::VehicleParameters& volvo() {
   static const vehicle::VehicleParameters car = read_car("volvo-s80");

@@ -22,7 +22,7 @@ TEST_CASE("the double lane change peaks where the published model peaks") {
     CAPTURE(std::string(reference.curve));
     const Curve curve = read_curve("dlc_" + std::string(reference.curve) + "_80.csv");
     if (curve.empty()) return;
-    const ManoeuvreReport report = double_lane_change(commonroad_car(reference.vehicle), {});
+    const ManoeuvreReport report = double_lane_change(read_car(reference.vehicle), {});
     CHECK(report.figure("peak lateral acceleration") ==
           doctest::Approx(peak(curve, "ay")).epsilon(0.05));
     CHECK(report.figure("peak yaw rate") ==
@@ -41,7 +41,7 @@ TEST_CASE("stopping distances match those of the published tyre within two perce
     CAPTURE(friction);
     ManoeuvreOptions options;
     options.friction = friction;
-    const VehicleParameters car = commonroad_car("commonroad-escort");
+    const VehicleParameters car = read_car("commonroad-escort");
     CHECK(stop(car, options).figure("stopping distance") ==
           doctest::Approx(distance_m).epsilon(0.02));
   }

@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/physics/vehicle/manoeuvre.hpp"
-#include "engine/physics/vehicle/read_vehicle.hpp"
+#include "tests/engine/physics/vehicle/car.hpp"
 
 namespace septet::vehicle {
 
@@ -55,15 +55,6 @@ std::vector<double> column(const ManoeuvreReport& report, Quantity quantity) {
   std::vector<double> values;
   for (const ManoeuvreSample& sample : report.series) values.push_back(quantity(sample));
   return values;
-}
-
-inline VehicleParameters commonroad_car(const std::string& name) {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/vehicles/" + name + ".toml");
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto parameters = read_vehicle(text.str(), name);
-  REQUIRE_MESSAGE(parameters.has_value(), describe(parameters.error()));
-  return *parameters;
 }
 
 struct ReferenceCar {

@@ -14,7 +14,7 @@ TEST_CASE("steer and yaw rate in steady cornering match the published model with
       if (curve.empty()) return;
       ManoeuvreOptions options;
       options.speed_mps = speed_kmph / 3.6;
-      const ManoeuvreReport report = steady_circle(commonroad_car(reference.vehicle), options);
+      const ManoeuvreReport report = steady_circle(read_car(reference.vehicle), options);
       const auto ours = column(report, [](auto& s) { return s.lateral_acceleration_mps2; });
       const auto steer = column(report, [](auto& s) { return s.steer_rad; });
       const auto yaw = column(report, [](auto& s) { return s.yaw_rate_radps; });

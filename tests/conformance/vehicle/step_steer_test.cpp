@@ -44,7 +44,7 @@ TEST_CASE("a step of steer answers as fast and as strongly as in the published m
       const auto input = negated(curve.at("delta"));
       const Response yaw = respond(curve.at("t"), input, negated(curve.at("yawrate")));
       const Response lateral = respond(curve.at("t"), input, negated(curve.at("ay")));
-      const VehicleParameters car = commonroad_car(reference.vehicle);
+      const VehicleParameters car = read_car(reference.vehicle);
       ManoeuvreOptions options;
       options.speed_mps = speed_kmph / 3.6;
       options.steer_rad = input.back();

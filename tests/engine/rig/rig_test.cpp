@@ -1,20 +1,15 @@
 #include "engine/rig/rig.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <doctest/doctest.h>
+
+#include "tests/shipped_files.hpp"
 
 namespace septet::rig {
 namespace {
 
-std::string shipped(const std::string& name) {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/rigs/" + name + ".toml");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string shipped(const std::string& name) { return shipped_text("rigs/" + name + ".toml"); }
 
 Vec3 from_eye(const Rig& rig, const Vec3& point) { return point - rig.eye_point_m; }
 double azimuth_deg(const Vec3& direction) { return std::atan2(direction.y, direction.x) * 57.29577951308232; }

@@ -1,22 +1,18 @@
 #pragma once
 /// Roads for the tests: the motorway of the tree, and small files written on the spot.
 
-#include <fstream>
 #include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/road/opendrive_reader.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::road {
 
 inline std::string motorway_text() {
-  std::ifstream file(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr",
-                     std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return shipped_text("scenarios/motorway-ambulance/motorway.xodr");
 }
 
 inline RoadNetwork read_or_fail(const std::string& xml) {

@@ -1,32 +1,20 @@
 #include "engine/scenery/road_world.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <doctest/doctest.h>
 
 #include "engine/core/hash.hpp"
-#include "engine/road/opendrive_reader.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/road_shape.hpp"
 #include "engine/scenery/terrain.hpp"
+#include "tests/engine/road/road_files.hpp"
 
 namespace septet::scenery {
 namespace {
 
-const road::RoadNetwork& motorway() {
-  static const road::RoadNetwork network = [] {
-    std::ifstream file(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr");
-    const std::string text((std::istreambuf_iterator<char>(file)),
-                           std::istreambuf_iterator<char>());
-    auto read = road::read_opendrive(text, "motorway.xodr");
-    REQUIRE(read.has_value());
-    return std::move(*read);
-  }();
-  return network;
-}
+using road::motorway;
 
 struct Encoded {
   std::size_t bytes = 0;

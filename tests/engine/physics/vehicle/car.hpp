@@ -1,22 +1,18 @@
 #pragma once
 /// The cars of vehicles/ for the tests.
 
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::vehicle {
 
 inline std::string vehicle_text(const std::string& name) {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) + "/vehicles/" + name + ".toml");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return shipped_text("vehicles/" + name + ".toml");
 }
 
 inline VehicleParameters read_car(const std::string& name) {

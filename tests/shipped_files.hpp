@@ -1,0 +1,27 @@
+#pragma once
+/// Files as text, those of the source tree first of all.
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace septet {
+
+/// The bytes of a file; none where it cannot be read.
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// A file of the source tree, such as "rigs/desktop.toml"; throws where there is none.
+inline std::string shipped_text(const std::string& name) {
+  std::string text = text_of(std::filesystem::path(SEPTET_SOURCE_DIR) / name);
+  if (text.empty()) throw std::runtime_error(name + " is missing or empty");
+  return text;
+}
+
+}  // namespace septet
