@@ -23,16 +23,22 @@ State full_tunnel() {
   return state;
 }
 
+/// The keyframes that stand after so many ticks in still air.
+std::vector<EffectKeyframe> keyframes_after(int ticks, State& state) {
+  KeyframeTrack track;
+  std::vector<EffectKeyframe> effects;
+  for (int tick = 0; tick < ticks; ++tick) {
+    advance_smoke(state, Vec3(0.0), {}, step_s);
+    effects = advance_keyframes(track, state);
+  }
+  return effects;
+}
+
 }  // namespace
 
 TEST_CASE("a keyframe gives back every particle within its stated bound") {
   State state = tunnel_fire(1, 2000);
-  KeyframeTrack track;
-  std::vector<EffectKeyframe> effects;
-  for (int tick = 0; tick < 360; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
-    effects = advance_keyframes(track, state);
-  }
+  const auto effects = keyframes_after(360, state);
   REQUIRE(effects.size() >= 3);
   std::size_t compared = 0;
   for (const EffectKeyframe& effect : effects) {
@@ -86,12 +92,7 @@ TEST_CASE("what is shown goes on without a jump when the next keyframe comes") {
 
 TEST_CASE("puffs carry the cross-section of their particles to where they are in the world") {
   State state = full_tunnel();
-  KeyframeTrack track;
-  std::vector<EffectKeyframe> effects;
-  for (int tick = 0; tick < 60; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
-    effects = advance_keyframes(track, state);
-  }
+  const auto effects = keyframes_after(60, state);
   std::uint32_t refused = 0;
   const auto puffs = puffs_of(effects, state.time_s, &refused);
   CHECK(refused == 0);
@@ -135,12 +136,7 @@ TEST_CASE("twenty thousand visible particles need less than two megabytes a seco
 
 TEST_CASE("hostile smoke keyframes are refused or harmless") {
   State state = tunnel_fire(1, 600);
-  KeyframeTrack track;
-  std::vector<EffectKeyframe> effects;
-  for (int tick = 0; tick < 61; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
-    effects = advance_keyframes(track, state);
-  }
+  const auto effects = keyframes_after(61, state);
   REQUIRE(!effects.empty());
   const Bytes good = effects.front().data;
   REQUIRE(decode(good));
