@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
 #include "sim-server/effect_surroundings.hpp"
 #include "tests/engine/road/road_files.hpp"
 
@@ -55,6 +56,24 @@ EffectsState slab_from_a_lorry(std::uint64_t seed) {
   action.slide_mps = 3.0;
   spill(action, lorry, where, state);
   return state;
+}
+
+/// The driver's car goes on at 22 m/s from beside the barrier, turned towards it: so many times it crashes.
+int crashes_beside_barrier(EffectsState& state, double t_m, double heading_rad) {
+  const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, t_m}));
+  Participant car = vehicle(1, "volvo-s80", 900.0, -3, 0.0);
+  car.world_from_vehicle = {place.position_m, place.orientation * orientation_from_angles(heading_rad, 0.0, 0.0)};
+  car.velocity_mps = car.world_from_vehicle.orientation * Vec3(22.0, 0.0, 0.0);
+  std::vector<Participant> participants{car};
+  int crashes = 0;
+  for (Tick tick = 2; tick < 30; tick += 2) crashes += run(participants, state, tick, 2).crashes.crashes;
+  return crashes;
+}
+
+double mass_kg(const std::vector<debris::MountedPart>& parts) {
+  double mass = 0.0;
+  for (const debris::MountedPart& mounted : parts) mass += debris::part_recipe(mounted.part).mass_kg;
+  return mass;
 }
 
 std::vector<Participant> lorry_and_driver() {
@@ -112,35 +131,28 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
   CHECK(glm::dot(report.impulse_on_driver_ns, forward) < -5000.0);
   REQUIRE(state.crashes.parts.contains(1));
-  const std::size_t left = state.crashes.parts[1].size();
-  const Vec3 half = body_box(participants[0]).half_size_m;
-  CHECK(left < debris::passenger_car_parts(half).size());
+  const auto all_parts = [&](std::size_t i) { return debris::passenger_car_parts(body_box(participants[i]).half_size_m); };
+  CHECK(state.crashes.parts[1].size() < all_parts(0).size());
+  // It hits the same car once more: what both carry and what lies about is still what they had.
+  state.crashes.struck_by_driver = {7};
+  CHECK(run(participants, state, 4, 2).crashes.crashes == 1);
+  double thrown = 0.0;
+  for (const debris::Piece& piece : state.debris.pieces) thrown += elastic::total_mass_kg(piece.body);
+  for (const debris::Shard& shard : state.debris.shards) thrown += shard.mass_kg;
+  CHECK(thrown + mass_kg(state.crashes.parts[1]) + mass_kg(state.crashes.parts[7]) ==
+        doctest::Approx(mass_kg(all_parts(0)) + mass_kg(all_parts(1))).epsilon(0.02));
 }
 
 TEST_CASE("a car that runs into the barrier between the carriageways crashes once") {
   EffectsState state;
   state.random = Random(1, 2);
-  const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, -2.2}));
-  Participant car = vehicle(1, "volvo-s80", 900.0, -3, 0.0);
-  car.world_from_vehicle = {place.position_m, place.orientation * orientation_from_angles(0.35, 0.0, 0.0)};
-  car.velocity_mps = car.world_from_vehicle.orientation * Vec3(22.0, 0.0, 0.0);
-  std::vector<Participant> participants{car};
-  int crashes = 0;
-  for (Tick tick = 2; tick < 30; tick += 2) crashes += run(participants, state, tick, 2).crashes.crashes;
-  CHECK(crashes == 1);
+  CHECK(crashes_beside_barrier(state, -2.2, 0.35) == 1);
   CHECK(!state.debris.pieces.empty());
 }
 
 TEST_CASE("a car that grazes a barrier keeps its parts") {
   EffectsState state;
-  const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, -1.1}));
-  Participant car = vehicle(1, "volvo-s80", 900.0, -3, 0.0);
-  car.world_from_vehicle = {place.position_m, place.orientation * orientation_from_angles(0.05, 0.0, 0.0)};
-  car.velocity_mps = car.world_from_vehicle.orientation * Vec3(22.0, 0.0, 0.0);
-  std::vector<Participant> participants{car};
-  int crashes = 0;
-  for (Tick tick = 2; tick < 30; tick += 2) crashes += run(participants, state, tick, 2).crashes.crashes;
-  CHECK(crashes == 0);
+  CHECK(crashes_beside_barrier(state, -1.1, 0.05) == 0);
   CHECK(state.debris.pieces.empty());
 }
 
@@ -161,6 +173,7 @@ TEST_CASE("cones that the scenario sets up stand still and cost one keyframe eac
   REQUIRE(state.debris.pieces.size() == 5);
   std::vector<Participant> participants{vehicle(1, "volvo-s80", 900.0, -5, 0.0)};
   run(participants, state, 2, 40);
+  CHECK(state.published.keyframes.size() == 5);
   for (const EffectKeyframe& keyframe : state.published.keyframes) CHECK(keyframe.tick == 4);
   const EffectsReport later = run(participants, state, 42, 2);
   CHECK(later.published.fresh_bytes == 0);
