@@ -11,7 +11,18 @@ using namespace septet::vehicle;
 
 namespace {
 constexpr double kmph = 1.0 / 3.6;
+
+/// Braked hard from 25 m/s with ice under the right wheels.
+VehicleState braked_on_split_friction(const VehicleParameters& car, double time_s) {
+  VehicleState state = standstill(car, {}, 25.0);
+  Ground ground = level_ground();
+  ground[1].friction = ground[3].friction = 0.1;
+  DriverInput input;
+  input.brake = 1.0;
+  drive(car, input, ground, time_s, state);
+  return state;
 }
+}  // namespace
 
 TEST_CASE("the car runs straight and true at 250 km/h and in reverse") {
   const VehicleParameters car = read_car("volvo-s80");
@@ -75,13 +86,7 @@ TEST_CASE("a car on its roof comes to rest above the ground") {
 TEST_CASE("on split friction the braked car turns towards the side that grips") {
   VehicleParameters car = read_car("volvo-s80");
   car.brakes.stability_control = false;
-  VehicleState state = standstill(car, {}, 25.0);
-  Ground ground = level_ground();
-  ground[1].friction = ground[3].friction = 0.1;  // Ice on the right.
-  DriverInput input;
-  input.brake = 1.0;
-  drive(car, input, ground, 1.0, state);
-  CHECK(outputs(car, state).yaw_rate_radps > 0.02);
+  CHECK(outputs(car, braked_on_split_friction(car, 1.0)).yaw_rate_radps > 0.02);
 }
 
 TEST_CASE(
@@ -90,13 +95,7 @@ TEST_CASE(
     VehicleParameters car = read_car("volvo-s80");
     car.brakes.stability_control = false;
     car.brakes.anti_lock = anti_lock;
-    VehicleState state = standstill(car, {}, 25.0);
-    Ground ground = level_ground();
-    ground[1].friction = ground[3].friction = 0.1;  // Ice on the right.
-    DriverInput input;
-    input.brake = 1.0;
-    drive(car, input, ground, 1.5, state);
-    return std::abs(heading_rad(state.world_from_body.orientation));
+    return std::abs(heading_rad(braked_on_split_friction(car, 1.5).world_from_body.orientation));
   };
   const double with = heading_after(true), without = heading_after(false);
   CAPTURE(with);
