@@ -16,23 +16,30 @@ constexpr double sigma = 0.5;
 const Quat from = orientation_from_angles(0.3, 0.2, -0.4), to = orientation_from_angles(2.0, -0.5, 0.9);
 using Path = std::vector<UnitVector<double, 4>>;
 
-void slerp_quadratic_steps(benchmark::State& run) {
+/// `walk` writes one orientation for each step into the path.
+template <class Walk>
+void time_walk(benchmark::State& run, Walk walk) {
   Path path(steps);
   for (auto _ : run) {
-    auto turn = *turn_between(from, to, steps, sigma);
-    for (auto& q : path) {
-      turn.advance();
-      q = turn.value();
-    }
+    walk(path);
     benchmark::DoNotOptimize(path.data());
     benchmark::ClobberMemory();
   }
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(steps));
 }
 
+void slerp_quadratic_steps(benchmark::State& run) {
+  time_walk(run, [](Path& path) {
+    auto turn = *turn_between(from, to, steps, sigma);
+    for (auto& q : path) {
+      turn.advance();
+      q = turn.value();
+    }
+  });
+}
+
 void slerp_trigonometric(benchmark::State& run) {
-  Path path(steps);
-  for (auto _ : run) {
+  time_walk(run, [](Path& path) {
     const double dot = glm::dot(from, to);
     const Quat across = glm::normalize(to - from * dot);
     const double theta = std::acos(dot), k = static_cast<double>(steps);
@@ -45,25 +52,18 @@ void slerp_trigonometric(benchmark::State& run) {
       q = {from.w * c + across.w * s, from.x * c + across.x * s, from.y * c + across.y * s,
            from.z * c + across.z * s};
     }
-    benchmark::DoNotOptimize(path.data());
-    benchmark::ClobberMemory();
-  }
-  run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(steps));
+  });
 }
 
 void slerp_glm(benchmark::State& run) {
-  Path path(steps);
-  for (auto _ : run) {
+  time_walk(run, [](Path& path) {
     double n = 0.0;
     for (auto& q : path) {
       const double t = ++n / static_cast<double>(steps);
       const Quat value = glm::slerp(from, to, t * (sigma * t + (1.0 - sigma)));
       q = {value.w, value.x, value.y, value.z};
     }
-    benchmark::DoNotOptimize(path.data());
-    benchmark::ClobberMemory();
-  }
-  run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(steps));
+  });
 }
 
 BENCHMARK(slerp_quadratic_steps)->Name("slerp_quadratic")->Unit(benchmark::kMicrosecond);

@@ -36,36 +36,33 @@ inline bool at_end(const ElasticBody& b, int i) {
 
 inline void clamp_start(ElasticBody& body) { fix_nodes(body, {-1, -1, -1e-9}, {1, 1, 1e-9}); }
 
-/// A uniform traction on both ends (free = true), or on the far end of a clamped beam.
-inline void pull(ElasticBody& body, double force_n, bool free) {
+/// A uniform traction along z on the part of the surface whose nodes are all `on_face`.
+template <class OnFace>
+void load_face(ElasticBody& body, OnFace on_face, double traction_pa) {
   // Consistent loads: each face triangle gives a third of its force to each of its nodes.
   std::vector<Tetrahedron> tetrahedra;
   for (const auto& e : body.elements) tetrahedra.push_back(e.nodes);
-  for (const auto& face : surface_triangles(body.rest_position_m, tetrahedra)) {
-    const auto& x = body.rest_position_m;
+  const auto& x = body.rest_position_m;
+  for (const auto& face : surface_triangles(x, tetrahedra)) {
     const auto [a, b, c] = face.nodes;
-    const bool end = at_end(body, a) && at_end(body, b) && at_end(body, c);
-    const bool start = at_start(body, a) && at_start(body, b) && at_start(body, c);
-    if (!end && !(start && free)) continue;
+    if (!on_face(body, a) || !on_face(body, b) || !on_face(body, c)) continue;
     const double area = 0.5 * (x[b] - x[a]).cross(x[c] - x[a]).norm();
-    const double share = (end ? 1.0 : -1.0) * force_n * area / area_m2 / 3.0;
-    for (const int node : face.nodes) body.force_n[node].z() += share;
+    for (const int node : face.nodes) body.force_n[node].z() += traction_pa * area / 3.0;
   }
 }
 
-inline double mean_end_z(const ElasticBody& body) {
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < body.node_count(); ++i)
-    if (at_end(body, i)) sum += body.position_m[i].z(), ++count;
-  return sum / count;
+/// A uniform traction on both ends (free = true), or on the far end of a clamped beam.
+inline void pull(ElasticBody& body, double force_n, bool free) {
+  load_face(body, at_end, force_n / area_m2);
+  if (free) load_face(body, at_start, -force_n / area_m2);
 }
 
-inline double mean_start_z(const ElasticBody& body) {
+template <class OnFace>
+double mean_z(const ElasticBody& body, OnFace on_face) {
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < body.node_count(); ++i)
-    if (at_start(body, i)) sum += body.position_m[i].z(), ++count;
+    if (on_face(body, i)) sum += body.position_m[i].z(), ++count;
   return sum / count;
 }
 
@@ -86,7 +83,7 @@ inline double static_stretch(int cells_across, double force_over_ya, bool free,
   const auto report = find_equilibrium(body, Eigen::Vector3d::Zero());
   SEPTET_CHECK(report.converged, "no equilibrium at {}", force_over_ya);
   if (volume_ratio) *volume_ratio = volume_m3(body) / before;
-  return (mean_end_z(body) - mean_start_z(body)) / length_m - 1.0;
+  return (mean_z(body, at_end) - mean_z(body, at_start)) / length_m - 1.0;
 }
 
 /// Strain of a block pushed by a static force. It is short, because the long beam would buckle at
@@ -96,23 +93,13 @@ inline double static_push_strain(int cells_across, double force_over_ya) {
       lattice_mesh({cells_across, cells_across, 2 * cells_across}, {side_m, side_m, 2 * side_m}),
       {1e8, 0.0, 1000.0});
   clamp_start(body);
-  const auto is_end = [&](int i) { return body.rest_position_m[i].z() > 2 * side_m - 1e-9; };
-  std::vector<Tetrahedron> tetrahedra;
-  for (const auto& e : body.elements) tetrahedra.push_back(e.nodes);
-  const auto& x = body.rest_position_m;
-  for (const auto& face : surface_triangles(x, tetrahedra)) {
-    const auto [a, b, c] = face.nodes;
-    if (!is_end(a) || !is_end(b) || !is_end(c)) continue;
-    const double area = 0.5 * (x[b] - x[a]).cross(x[c] - x[a]).norm();
-    for (const int node : face.nodes) body.force_n[node].z() += force_over_ya * 1e8 * area / 3.0;
-  }
+  const auto is_end = [](const ElasticBody& b, int i) {
+    return b.rest_position_m[i].z() > 2 * side_m - 1e-9;
+  };
+  load_face(body, is_end, force_over_ya * 1e8);
   const auto report = find_equilibrium(body, Eigen::Vector3d::Zero());
   SEPTET_CHECK(report.converged, "no equilibrium at {}", force_over_ya);
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < body.node_count(); ++i)
-    if (is_end(i)) sum += body.position_m[i].z(), ++count;
-  return sum / count / (2 * side_m) - 1.0;
+  return mean_z(body, is_end) / (2 * side_m) - 1.0;
 }
 
 /// Twist of the clamped beam's end by a small moment, relative to θ = τL/(μK).

@@ -25,7 +25,7 @@ double stretch_after_sudden_pull(double young_pa, double load, bool tension_stif
   for (int k = 0; k < 400; ++k) step_elastic(body, settings);
   for (const auto& v : body.velocity_mps)
     if (!(v.norm() < 0.01)) return NAN;
-  return (beam::mean_end_z(body) / beam::length_m - 1.0) /
+  return (beam::mean_z(body, beam::at_end) / beam::length_m - 1.0) /
          beam::st_venant_kirchhoff_strain(load);
 }
 
