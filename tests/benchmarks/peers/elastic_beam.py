@@ -3,8 +3,8 @@
 
 The beam is that of tests/benchmarks/elastic_benchmark.cpp: cubes of 0.1 m cut into five tetrahedra,
 clamped at one end, bent by its own weight; 100 MPa, Poisson's ratio 0.25, 1000 kg/m3, steps of
-15 ms, one thread, CPU time. Needs `pip install mujoco pybullet numpy` (numbers below are of
-mujoco 4.0.0 and pybullet 3.2.7) and the built septet-bench.
+15 ms, one thread, CPU time. Needs `pip install mujoco pybullet numpy` (docs/elastic.md names the
+versions measured) and the built septet-bench.
 
     tests/benchmarks/peers/elastic_beam.py build/release/septet-bench
 """
@@ -73,7 +73,7 @@ def mujoco_step(nodes, tetrahedra):
     mass = DENSITY_KGPM3 * 0.1**3 * len(tetrahedra) / 5
     xml = f"""
 <mujoco>
-  <option timestep="{STEP_S}" integrator="{{integrator}}" gravity="0 -9.81 0"/>
+  <option timestep="{STEP_S}" integrator="discrete" gravity="0 -9.81 0"/>
   <worldbody>
     <body name="root">
       <flexcomp name="beam" type="direct" dim="3" mass="{mass}" radius="0.001"
@@ -87,7 +87,7 @@ def mujoco_step(nodes, tetrahedra):
   </worldbody>
 </mujoco>"""
     # Euler and the implicit integrators blow up or refuse the flex at this stiffness and step.
-    model = mujoco.MjModel.from_xml_string(xml.replace("{integrator}", "discrete"))
+    model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
 
     def step():

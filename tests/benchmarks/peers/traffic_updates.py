@@ -49,14 +49,14 @@ def factor(timid, aggressive, u):
     return timid ** (1 - 2 * u) if u < 0.5 else aggressive ** (2 * u - 1)
 
 
-def driver_type(name, kind, u, extra=""):
+def driver_type(name, kind, u):
     length, width, v0, gap, a, b, s0 = kind
     return (f'<vType id="{name}" carFollowModel="IDM" length="{length}" width="{width}" speedFactor="1" speedDev="0" '
             f'maxSpeed="{v0 * factor(0.90, 1.15, u):.3f}" tau="{gap * factor(1.35, 0.62, u):.3f}" '
-            f'accel="{a * factor(0.65, 1.40, u):.3f}" decel="{b * factor(0.65, 1.25, u):.3f}" minGap="{s0 * factor(1.40, 0.75, u):.3f}" {extra}/>')
+            f'accel="{a * factor(0.65, 1.40, u):.3f}" decel="{b * factor(0.65, 1.25, u):.3f}" minGap="{s0 * factor(1.40, 0.75, u):.3f}"/>')
 
 
-def demand(folder, parts, length, vehicles, seed, extra):
+def demand(folder, parts, length, vehicles, seed):
     rng = random.Random(seed)
     spacing = length * LANES / vehicles
     with open(f"{folder}/r.xml", "w") as routes:
@@ -69,7 +69,7 @@ def demand(folder, parts, length, vehicles, seed, extra):
             lane = i % LANES  # SUMO counts from the right.
             heavy = lane < 2 and rng.randrange(3) == 0
             u = (rng.random() + rng.random() + rng.random()) / 3
-            routes.write(driver_type(f"t{i}", LORRY if heavy else CAR, u, extra))
+            routes.write(driver_type(f"t{i}", LORRY if heavy else CAR, u))
             x = ((i // LANES) * spacing + rng.uniform(0, 0.1) * spacing + lane * 3) % length
             order.append((i, lane, x))
         part = length / parts
@@ -84,7 +84,7 @@ def sumo_updates(steps):
     """CPU seconds of SUMO's own program for so many steps of 1,000 vehicles."""
     with tempfile.TemporaryDirectory() as folder:
         parts = ring_network(folder, 10000.0)
-        demand(folder, parts, 10000.0, 1000, 1, "")
+        demand(folder, parts, 10000.0, 1000, 1)
 
         def cpu(count):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)

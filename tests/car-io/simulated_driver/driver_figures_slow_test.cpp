@@ -1,5 +1,5 @@
-// The figures of docs/simulated-driver.md: measured here, printed with `-s`, and held within what
-// the literature allows.
+// The figures of docs/simulated-driver.md: measured and printed here, and held within what the
+// literature allows.
 
 #include <algorithm>
 #include <numeric>
