@@ -99,9 +99,12 @@ TEST_CASE("materials of one group share a draw and those of none are left out") 
   const scene::ResolvedScene scene = scattered(100);
   const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
   const Gathered merged = gather(geometry, {0, 0, 0}, everything, [](std::uint32_t) { return 0u; });
+  CHECK(merged.pieces > 0);
+  CHECK(merged.indices.size() == 9 * merged.pieces);
   CHECK(merged.draws.size() <= geometry.blocks.size());
   const Gathered second = gather(geometry, {0, 0, 0}, everything,
                                  [](std::uint32_t material) { return material == 1 ? 1u : no_group; });
+  CHECK(second.pieces == merged.pieces);
   CHECK(second.indices.size() == 3 * second.pieces);
 }
 
