@@ -5,23 +5,13 @@
 #include <doctest/doctest.h>
 
 #include "car-io/simulated_hid_device.hpp"
-#include "sim-server/drive_loader.hpp"
 #include "sim-server/driver_seat.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
-namespace {
-
-LoadedDrive motorway() {
-  const std::string source = SEPTET_SOURCE_DIR;
-  auto drive = load_drive({source + "/scenarios/motorway-ambulance/motorway-ambulance.xosc", source + "/rigs/desktop.toml", 1});
-  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
-  return std::move(*drive);
-}
-
-}  // namespace
 
 TEST_CASE("the fan of the car at the server rises with the speed of the drive") {
-  const LoadedDrive drive = motorway();
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   car_io::SimulatedHidPort port;
   port.plug();
   DriverSeat seat;
@@ -53,7 +43,7 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
 }
 
 TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on and counts it") {
-  const LoadedDrive drive = motorway();
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   car_io::SimulatedHidPort port;
   port.plug();
   DriverSeat seat;

@@ -4,7 +4,7 @@
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/net/tick_publisher.hpp"
 #include "engine/world/wire_snapshot.hpp"
-#include "sim-server/drive_loader.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
 
 using namespace septet;
 using namespace septet::server;
@@ -20,19 +20,17 @@ struct Driven {
 
 /// Drives straight on for some seconds, then brakes: enough for what the scenario throws.
 Driven drive(const std::string& name, double seconds, std::uint64_t seed) {
-  const std::string root = SEPTET_SOURCE_DIR;
-  const auto loaded = load_drive(DriveFiles{root + "/scenarios/" + name + "/" + name + ".xosc", root + "/rigs/seven-screens.toml", seed});
-  REQUIRE_MESSAGE(loaded.has_value(), describe(loaded.error()));
-  auto state = initial_state(*loaded->model, traffic::own_traffic(loaded->model->roads, 1));
+  const LoadedDrive loaded = shipped_drive(name, "seven-screens", seed);
+  auto state = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
   REQUIRE(state);
   Driven driven;
-  driven.warnings = loaded->warnings;
+  driven.warnings = loaded.warnings;
   std::vector<SimulationEvent> events;
   DriverInput input;
   for (int tick = 0; tick < static_cast<int>(seconds * tick_rate_hz); ++tick) {
     input.accelerator = tick < 600 ? 0.3 : 0.0;
     input.brake = tick < 600 ? 0.0 : 0.3;
-    driven.last = server_step(*loaded->model, input, *state, events);
+    driven.last = server_step(*loaded.model, input, *state, events);
     driven.hashes.push_back(driven.last.state_hash);
   }
   for (const EffectKeyframe& keyframe : driven.last.effects) {

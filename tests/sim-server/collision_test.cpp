@@ -1,0 +1,40 @@
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+
+TEST_CASE("a vehicle that the driver's car touches is one collision for as long as they touch") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  auto state = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+  REQUIRE(state.has_value());
+  std::vector<SimulationEvent> events;
+  const auto collisions = [&] {
+    return std::ranges::count(events, "collision", &SimulationEvent::kind);
+  };
+  const Snapshot before = server_step(*drive.model, {}, *state, events);
+  CHECK(collisions() == 0);
+  CHECK(before.diagnostics.collisions == 0);
+
+  const Participant* car = find_participant(before, driver_participant);
+  REQUIRE(car != nullptr);
+  const auto distance_m = [&](const Participant& p) {
+    return p.id == car->id ? INFINITY : glm::length(p.world_from_vehicle.position_m - car->world_from_vehicle.position_m);
+  };
+  const Participant other = *std::ranges::min_element(before.participants, {}, distance_m);
+  state->car.world_from_body.position_m += other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
+  state->car.velocity_mps = other.velocity_mps;
+  for (int tick = 0; tick < 10; ++tick) {
+    const Snapshot now = server_step(*drive.model, {}, *state, events);
+    CHECK(now.diagnostics.collisions == 1);
+  }
+  CHECK(collisions() == 1);
+  const auto event = std::ranges::find(events, "collision", &SimulationEvent::kind);
+  REQUIRE(event != events.end());
+  CHECK(event->participant == other.id);
+}
+
+}  // namespace septet::server

@@ -1,0 +1,19 @@
+#pragma once
+/// A shipped scenario on a shipped rig, as a drive loads them.
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "sim-server/drive_loader.hpp"
+
+namespace septet::server {
+
+inline LoadedDrive shipped_drive(const std::string& scenario, const std::string& rig, std::uint64_t seed = 1) {
+  const std::string root = SEPTET_SOURCE_DIR;
+  auto drive = load_drive(DriveFiles{root + "/scenarios/" + scenario + "/" + scenario + ".xosc", root + "/rigs/" + rig + ".toml", seed});
+  REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
+  return std::move(*drive);
+}
+
+}  // namespace septet::server
