@@ -58,6 +58,14 @@ EffectsState slab_from_a_lorry(std::uint64_t seed) {
   return state;
 }
 
+/// A part at rest, its middle so high over the lane at 900 m.
+void put_on_lane(debris::Part part, double up_m, EffectsState& state) {
+  RigidTransform place = on_lane(900.0, -5);
+  place.position_m += place.orientation * Vec3(0.0, 0.0, up_m);
+  Random random(1);
+  debris::spawn_part(state.debris, part, place, Vec3(0.0), Vec3(0.0), random);
+}
+
 /// The driver's car goes on at 22 m/s from beside the barrier, turned towards it: so many times it crashes.
 int crashes_beside_barrier(EffectsState& state, double t_m, double heading_rad) {
   const auto place = road::world_from_road(road::evaluate(motorway(), {0, 900.0, t_m}));
@@ -111,10 +119,7 @@ TEST_CASE("the same seed gives the same effects and another seed others") {
 
 TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
   EffectsState state;
-  RigidTransform place = on_lane(900.0, -5);
-  place.position_m += place.orientation * Vec3(0.0, 0.0, 0.045);
-  Random random(1);
-  debris::spawn_part(state.debris, debris::Part::ice_slab, place, Vec3(0.0), Vec3(0.0), random);
+  put_on_lane(debris::Part::ice_slab, 0.045, state);
   const Vec3 ground = on_lane(900.0, -5).position_m;
   CHECK(obstacle_height_m(state, ground) == doctest::Approx(0.085).epsilon(0.1));
   CHECK(obstacle_height_m(state, ground + Vec3(0.0, 5.0, 0.0)) == 0.0);
@@ -181,10 +186,7 @@ TEST_CASE("cones that the scenario sets up stand still and cost one keyframe eac
 
 TEST_CASE("a cone that is driven over flies") {
   EffectsState state;
-  RigidTransform place = on_lane(900.0, -5);
-  place.position_m += place.orientation * Vec3(0.0, 0.0, 0.252);
-  Random random(1);
-  debris::spawn_part(state.debris, debris::Part::traffic_cone, place, Vec3(0.0), Vec3(0.0), random);
+  put_on_lane(debris::Part::traffic_cone, 0.252, state);
   state.debris.pieces.back().asleep = true;
   const Vec3 before = debris::from_eigen(state.debris.pieces.front().body.position_m.front());
   std::vector<Participant> participants{vehicle(1, "volvo-s80", 893.0, -5, 22.0)};
