@@ -1,7 +1,5 @@
 #include "sim-server/command/drive_command.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -16,6 +14,7 @@
 #include "sim-server/child_process.hpp"
 #include "sim-server/panorama_file.hpp"
 #include "sim-server/resources.hpp"
+#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -27,35 +26,20 @@ void on_interrupt(int) { interrupted = 1; }
 bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
 /// The keys of a drive whose machines are all this one: made for it, gone with it.
-class DriveKeys {
- public:
-  static Expected<DriveKeys> make(const std::vector<std::string>& clients) {
-    std::string pattern = (fs::temp_directory_path() / "septet-XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) return failure("cannot make a folder for keys", pattern, "free space there or set TMPDIR");
-    DriveKeys keys(pattern);
-    std::ofstream allowed(keys.folder_ / "allowed-clients");
-    for (const auto& client : clients) {
-      const auto identity = net::load_or_create_identity(keys.folder_ / (client + ".key"));
-      if (!identity) return tl::unexpected(identity.error());
-      allowed << net::to_text(identity->public_key()) << ' ' << client << '\n';
-    }
-    const auto server = net::load_or_create_identity(keys.folder_ / "server.key");
-    if (!server) return tl::unexpected(server.error());
-    std::ofstream(keys.folder_ / "server.public") << net::to_text(server->public_key()) << '\n';
-    return keys;
+Expected<TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
+  auto folder = TemporaryFolder::make("septet");
+  if (!folder) return folder;
+  std::ofstream allowed(folder->path() / "allowed-clients");
+  for (const auto& client : clients) {
+    const auto identity = net::load_or_create_identity(folder->path() / (client + ".key"));
+    if (!identity) return tl::unexpected(identity.error());
+    allowed << net::to_text(identity->public_key()) << ' ' << client << '\n';
   }
-  DriveKeys(DriveKeys&& other) noexcept : folder_(std::exchange(other.folder_, {})) {}
-  DriveKeys& operator=(DriveKeys&&) = delete;
-  ~DriveKeys() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-  }
-  const fs::path& folder() const { return folder_; }
-
- private:
-  explicit DriveKeys(fs::path folder) : folder_(std::move(folder)) {}
-  fs::path folder_;
-};
+  const auto server = net::load_or_create_identity(folder->path() / "server.key");
+  if (!server) return tl::unexpected(server.error());
+  std::ofstream(folder->path() / "server.public") << net::to_text(server->public_key()) << '\n';
+  return folder;
+}
 
 /// The folder of a drive. An earlier drive in it is moved aside, for a log is never overwritten; anything else is left alone.
 class DriveFolder {
@@ -157,9 +141,9 @@ enum class Outcome { driven, gave_up };  ///< Gave up: the server has said why.
 Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
-  const auto keys = DriveKeys::make(clients);
+  const auto keys = make_keys(clients);
   if (!keys) return tl::unexpected(keys.error());
-  auto server = ChildProcess::start(server_options(options, rig_file, keys->folder()));
+  auto server = ChildProcess::start(server_options(options, rig_file, keys->path()));
   if (!server) return tl::unexpected(server.error());
 
   // The server says on its standard output which port it got, once it has read and built everything.
@@ -170,7 +154,7 @@ Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig
   if (!port && server->poll() && server->poll()->code == 1) return Outcome::gave_up;
   std::vector<RunningScreen> screens;
   if (port && !options.no_screens)
-    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, *port, keys->folder()));
+    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, *port, keys->path()));
 
   Expected<void> outcome;
   while (outcome && !server->poll()) {

@@ -70,45 +70,37 @@ std::string first_error_in(const fs::path& log) {
 }  // namespace
 
 Expected<std::unique_ptr<SumoProcess>> SumoProcess::start(const SumoNetwork& network, const SumoOptions& options) {
-  std::unique_ptr<SumoProcess> sumo(new SumoProcess);
+  auto folder = TemporaryFolder::make("septet-sumo");
+  if (!folder) return tl::unexpected(folder.error());
+  std::unique_ptr<SumoProcess> sumo(new SumoProcess(std::move(*folder)));
   auto done = sumo->write_files(network).and_then([&] { return sumo->convert_network(); }).and_then([&] { return sumo->run(options); });
   if (!done) return tl::unexpected(done.error());
   return sumo;
 }
 
-SumoProcess::~SumoProcess() {
-  client_.reset();
-  process_.reset();
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 Expected<void> SumoProcess::write_files(const SumoNetwork& network) {
-  std::string pattern = (fs::temp_directory_path() / "septet-sumo-XXXXXX").string();
-  if (!::mkdtemp(pattern.data())) return failure("cannot make a folder for SUMO's files", pattern, "free space there or set TMPDIR");
-  folder_ = pattern;
-  return write_file(folder_ / "nodes.xml", network.nodes_xml)
-      .and_then([&] { return write_file(folder_ / "edges.xml", network.edges_xml); })
-      .and_then([&] { return write_file(folder_ / "connections.xml", network.connections_xml); })
-      .and_then([&] { return write_file(folder_ / "types.xml", types_xml); });
+  return write_file(folder_.path() / "nodes.xml", network.nodes_xml)
+      .and_then([&] { return write_file(folder_.path() / "edges.xml", network.edges_xml); })
+      .and_then([&] { return write_file(folder_.path() / "connections.xml", network.connections_xml); })
+      .and_then([&] { return write_file(folder_.path() / "types.xml", types_xml); });
 }
 
 Expected<void> SumoProcess::convert_network() {
   const auto program = find_program("netconvert");
   if (!program) return tl::unexpected(program.error());
-  const auto in = [&](const char* name) { return (folder_ / name).string(); };
+  const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
   auto process = ChildProcess::start({.program = program->string(),
                                       .arguments = {"--node-files", in("nodes.xml"), "--edge-files", in("edges.xml"), "--connection-files",
                                                     in("connections.xml"), "--output-file", in("net.xml"), "--precision", "4",
                                                     "--offset.disable-normalization", "true", "--no-turnarounds", "true", "--no-warnings", "true",
                                                     "--xml-validation", "never", "--log", in("netconvert.log")},
                                       .environment = {},
-                                      .log = folder_ / "netconvert.err"});
+                                      .log = folder_.path() / "netconvert.err"});
   if (!process) return tl::unexpected(process.error());
   const auto until = std::chrono::steady_clock::now() + patience;
   while (!process->poll() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(5ms);
   if (!process->poll() || process->poll()->code != 0)
-    return failure("SUMO's netconvert does not accept the road: " + first_error_in(folder_ / "netconvert.err"), "--traffic sumo",
+    return failure("SUMO's netconvert does not accept the road: " + first_error_in(folder_.path() / "netconvert.err"), "--traffic sumo",
                    "drive with --traffic own");
   return {};
 }
@@ -122,7 +114,7 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
   if (!program) return tl::unexpected(program.error());
   const auto port = free_port();
   if (!port) return tl::unexpected(port.error());
-  const auto in = [&](const char* name) { return (folder_ / name).string(); };
+  const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
   auto process = ChildProcess::start(
       {.program = program->string(),
        .arguments = {"--net-file", in("net.xml"), "--additional-files", in("types.xml"), "--remote-port", std::to_string(*port),
@@ -131,13 +123,13 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
                      "--no-step-log", "true", "--no-warnings", "true", "--xml-validation", "never", "--xml-validation.net", "never",
                      "--log", in("sumo.log")},
        .environment = {},
-       .log = folder_ / "sumo.err"});
+       .log = folder_.path() / "sumo.err"});
   if (!process) return tl::unexpected(process.error());
   process_ = std::move(*process);
   // Only the start is waited for by the clock; from the first step on, SUMO's time is the simulation's.
   const auto until = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < until) {
-    if (process_->poll()) return failure("SUMO does not start: " + first_error_in(folder_ / "sumo.err"), "--traffic sumo", "drive with --traffic own");
+    if (process_->poll()) return failure("SUMO does not start: " + first_error_in(folder_.path() / "sumo.err"), "--traffic sumo", "drive with --traffic own");
     auto client = (*connect)(*port);
     if (client) {
       client_ = std::move(*client);

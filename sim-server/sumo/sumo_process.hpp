@@ -1,13 +1,14 @@
 #pragma once
 /// SUMO as a child process: its network made by `netconvert`, then `sumo` itself, waiting for a client.
 
-#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "engine/core/expected.hpp"
 #include "sim-server/child_process.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
 #include "sim-server/sumo/sumo_network.hpp"
+#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 
@@ -21,17 +22,17 @@ class SumoProcess {
  public:
   /// Error: SUMO is not installed, does not accept the network, or does not answer.
   static Expected<std::unique_ptr<SumoProcess>> start(const SumoNetwork& network, const SumoOptions& options);
-  ~SumoProcess();
 
   SumoClient& client() { return *client_; }
 
  private:
-  SumoProcess() = default;
+  explicit SumoProcess(TemporaryFolder folder) : folder_(std::move(folder)) {}
   Expected<void> write_files(const SumoNetwork& network);
   Expected<void> convert_network();
   Expected<void> run(const SumoOptions& options);
 
-  std::filesystem::path folder_;
+  // They end in the opposite order: who talks to SUMO, SUMO, the files that it reads.
+  TemporaryFolder folder_;
   std::optional<ChildProcess> process_;
   std::unique_ptr<SumoClient> client_;
 };
