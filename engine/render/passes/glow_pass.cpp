@@ -4,22 +4,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
 
 void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                       const TargetFormats& formats) {
-  vulkan::PipelineDescription description;
-  description.vertex_code = shaders::glow_vert();
-  description.fragment_code = shaders::glow_frag();
-  description.vertex_input = vulkan::VertexInput::none;
-  description.color_format = formats.color;
-  description.depth_format = formats.depth;
-  description.samples = formats.samples;
-  description.blend = vulkan::Blend::add;
-  description.depth_write = false;
-  pass.pipeline = create_pipeline(device, layout, description);
+  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::glow_vert(), shaders::glow_frag(), vulkan::Blend::add);
 }
 
 void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
@@ -51,13 +43,7 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
 }
 
 void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count) {
-  if (count == 0) return;
-  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
-  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
-  push_glows(context, records);
-  vkCmdDraw(context.slot.commands, 6, count, 0, 0);
-  ++context.statistics.draws;
-  context.statistics.triangles += 2 * count;
+  draw_billboards(pass.pipeline, context, records, count);
 }
 
 }  // namespace septet::render

@@ -83,11 +83,11 @@ void bind_instances(PassContext& context, const FrameData& records) {
   vkCmdBindVertexBuffers(context.slot.commands, 1, 1, &records.buffer, &records.offset);
 }
 
-void push_glows(PassContext& context, const FrameData& records) {
+void push_records(PassContext& context, const FrameData& records) {
   const VkDescriptorBufferInfo buffer{records.buffer, records.offset, records.size};
-  VkWriteDescriptorSet glows = write(vulkan::binding_glows, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  glows.pBufferInfo = &buffer;
-  push(context, {&glows, 1});
+  VkWriteDescriptorSet storage = write(vulkan::binding_records, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  storage.pBufferInfo = &buffer;
+  push(context, {&storage, 1});
 }
 
 void push_image(PassContext& context, VkImageView view, VkSampler sampler) {

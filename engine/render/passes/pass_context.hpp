@@ -60,7 +60,8 @@ struct ViewBindings {
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);
-void push_glows(PassContext& context, const FrameData& records);
+/// What the vertex shader of a pass without vertices reads.
+void push_records(PassContext& context, const FrameData& records);
 /// What is drawn many times: InstanceRecords for the pipelines that take them.
 void bind_instances(PassContext& context, const FrameData& records);
 void push_image(PassContext& context, VkImageView view, VkSampler sampler);

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
@@ -64,16 +65,7 @@ glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& l
 
 void create_smoke_pass(SmokePass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                        const TargetFormats& formats) {
-  vulkan::PipelineDescription description;
-  description.vertex_code = shaders::smoke_vert();
-  description.fragment_code = shaders::smoke_frag();
-  description.vertex_input = vulkan::VertexInput::none;
-  description.color_format = formats.color;
-  description.depth_format = formats.depth;
-  description.samples = formats.samples;
-  description.blend = vulkan::Blend::over;
-  description.depth_write = false;
-  pass.pipeline = create_pipeline(device, layout, description);
+  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::smoke_vert(), shaders::smoke_frag(), vulkan::Blend::over);
 }
 
 void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device) {
@@ -178,13 +170,7 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
 }
 
 void draw_smoke(const SmokePass& pass, PassContext& context, const FrameData& records, std::uint32_t count) {
-  if (count == 0) return;
-  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
-  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
-  push_glows(context, records);
-  vkCmdDraw(context.slot.commands, 6, count, 0, 0);
-  ++context.statistics.draws;
-  context.statistics.triangles += 2 * count;
+  draw_billboards(pass.pipeline, context, records, count);
 }
 
 }  // namespace septet::render

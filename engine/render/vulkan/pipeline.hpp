@@ -12,7 +12,7 @@ namespace septet::render::vulkan {
 /// Bindings of the one descriptor set, pushed while recording.
 enum Binding : std::uint32_t {
   binding_view = 0,       ///< Uniforms of the view.
-  binding_glows = 1,      ///< Storage: the lamps that glow.
+  binding_records = 1,    ///< Storage: the lamps that glow, the puffs of smoke.
   binding_sky = 2,
   binding_shadow = 3,
   binding_noise = 4,
