@@ -79,13 +79,8 @@ void place_instances(DeviceScene& scene, const ResolvedScene& source, const std:
   for (const scene::Instance& instance : source.instances) {
     if (instance.mesh >= source.meshes.size()) continue;
     const SurfaceMesh& mesh = source.meshes[instance.mesh];
-    if (!still[instance.mesh]) {
-      PlacedMesh placed = place(instance.mesh, scene.summaries[instance.mesh].bounds, instance.world_from_object, instance.scale);
-      placed.visible_from_m = instance.visible_from_m;
-      placed.visible_to_m = instance.visible_to_m;
-      placed.casts_shadow = instance.casts_shadow;
-      scene.placed.push_back(placed);
-    }
+    if (!still[instance.mesh])
+      scene.placed.push_back(place(instance, scene.summaries[instance.mesh].bounds, instance.world_from_object));
     float least = 1.0f;
     for (const scene::MeshPart& part : mesh.parts)
       if (part.material < source.materials.size()) least = std::min(least, source.materials[part.material].share_of_sky);

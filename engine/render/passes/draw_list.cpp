@@ -21,6 +21,20 @@ PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransf
   return placed;
 }
 
+PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object) {
+  PlacedMesh placed = place(instance.mesh, bounds, world_from_object, instance.scale);
+  placed.visible_from_m = instance.visible_from_m;
+  placed.visible_to_m = instance.visible_to_m;
+  placed.casts_shadow = instance.casts_shadow;
+  return placed;
+}
+
+InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m) {
+  const glm::mat3& m = placed.world_from_object;
+  return {glm::vec4(m[0].x, m[1].x, m[2].x, origin_m.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin_m.y),
+          glm::vec4(m[0].z, m[1].z, m[2].z, origin_m.z), placed.tint, glm::vec4(placed.share_of_sky, 0.0f, 0.0f, 0.0f)};
+}
+
 ViewVolume view_volume(const FrameView& view) {
   const OffAxisView& projection = view.projection;
   const auto inward = [&](const Vec3& axis, double slope, double sign) {
@@ -53,10 +67,7 @@ void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Ve
       close();
       batch = {mesh.mesh, static_cast<std::uint32_t>(list.records.size()), 0, 1e30f};
     }
-    const glm::mat3& m = mesh.world_from_object;
-    list.records.push_back({glm::vec4(m[0].x, m[1].x, m[2].x, origin.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin.y),
-                            glm::vec4(m[0].z, m[1].z, m[2].z, origin.z), mesh.tint,
-                            glm::vec4(mesh.share_of_sky, 0.0f, 0.0f, 0.0f)});
+    list.records.push_back(record_of(mesh, origin));
     ++batch.count;
     batch.nearest_m = std::min(batch.nearest_m, glm::length(centre));
   }

@@ -48,6 +48,12 @@ struct MeshBounds {
 PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
                  const glm::vec3& scale);
 
+/// The same with the instance's scale, and seen and throwing shadows as the instance says.
+PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object);
+
+/// What the vertex shader takes for a mesh whose origin lies at `origin_m` from the eye.
+InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m);
+
 /// Records of one mesh that lie together.
 struct Batch {
   std::uint32_t mesh = 0;

@@ -58,13 +58,7 @@ void append_dynamic(const DynamicSurfaces& dynamic, const Vec3& eye_m, const Kee
     draw.instance_count = 1;
     draw.material = group;
     list.push_back(draw);
-    InstanceRecord record;
-    record.row0 = {1, 0, 0, at.x};
-    record.row1 = {0, 1, 0, at.y};
-    record.row2 = {0, 0, 1, at.z};
-    record.tint = surface.placed.tint;
-    record.light = glm::vec4(surface.placed.share_of_sky);
-    records.push_back(record);
+    records.push_back(record_of(surface.placed, at));
   }
 }
 

@@ -95,12 +95,9 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       if (part.mesh >= meshes.size() || distance_m - margin_m >= part.visible_to_m) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
-      PlacedMesh placed = place(part.mesh, mesh.bounds, participant.world_from_vehicle * in_vehicle, part.scale);
+      PlacedMesh placed = place(part, mesh.bounds, participant.world_from_vehicle * in_vehicle);
       const Vec3 middle_m = in_vehicle * Vec3(0.5f * (mesh.bounds.min_m + mesh.bounds.max_m) * part.scale);
       const bool lit = shines(part.role, participant.lamps, simulated_time_s, middle_m.y);
-      placed.visible_from_m = part.visible_from_m;
-      placed.visible_to_m = part.visible_to_m;
-      placed.casts_shadow = part.casts_shadow;
       placed.seen = whole;
       placed.share_of_sky = sky;
       placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);

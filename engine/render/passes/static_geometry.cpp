@@ -35,10 +35,7 @@ bool holds(const SurfaceMesh& mesh, const scene::MeshPart& part) {
 void add_piece(StaticGeometry& geometry, std::uint32_t block_index, const scene::Instance& instance, const SurfaceMesh& mesh) {
   StaticBlock& block = geometry.blocks[block_index];
   StaticPiece piece;
-  piece.placed = place(instance.mesh, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object, instance.scale);
-  piece.placed.visible_from_m = instance.visible_from_m;
-  piece.placed.visible_to_m = instance.visible_to_m;
-  piece.placed.casts_shadow = instance.casts_shadow;
+  piece.placed = place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object);
   piece.block = block_index;
   piece.first_part = static_cast<std::uint32_t>(geometry.parts.size());
   const auto first_vertex = static_cast<std::uint32_t>(block.vertices.size());
