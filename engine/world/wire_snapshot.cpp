@@ -287,7 +287,8 @@ void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Byt
   writer.put_varint(rest.diagnostics.input_stale_ticks);
 
   put_participants(writer, expected_participants(baseline, rest.simulated_time_s), wire.participants);
-  put_effects(writer, baseline ? baseline->rest.effects : std::vector<EffectKeyframe>{}, rest.effects, rest.tick);
+  static const std::vector<EffectKeyframe> no_effects;
+  put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
 }
 
 Expected<SnapshotHeader> read_snapshot_header(std::span<const std::byte> bytes) {
