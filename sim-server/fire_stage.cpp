@@ -6,14 +6,13 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/tunnel_shape.hpp"
 #include "sim-server/effect_surroundings.hpp"
 
 namespace septet::server {
 namespace {
 
 constexpr double cell_m = 1.0, upwind_m = 110.0, downwind_m = 110.0;
-// A tube as the scenery builds it (engine/scenery/tunnels.cpp).
-constexpr double wall_clear_m = 0.5, middle_wall_m = 0.35, ceiling_m = 6.6, haunch_m = 5.0, haunch_width_m = 1.9;
 /// All smoke together, beside what debris may take: net::max_tick_bytes holds both.
 constexpr std::size_t most_keyframe_bytes = 140 * 1024;
 
@@ -27,6 +26,7 @@ const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
 
 /// Height of the tube's inside over the road at t; none outside of it. `left`: the tube with positive t.
 double clear_height_m(const road::Road& road, double s_m, double t_m, bool left) {
+  using namespace scenery::tunnel_shape;
   const road::RoadExtent extent = road::road_extent(road, s_m);
   const double from_middle = left ? t_m : -t_m;
   const double to_wall = (left ? extent.left_t_m : -extent.right_t_m) + wall_clear_m - from_middle;

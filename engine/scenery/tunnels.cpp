@@ -5,6 +5,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/tunnel_shape.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -13,9 +14,7 @@ namespace {
 
 using geometry::MeshBuilder;
 
-constexpr double wall_clear_m = 0.5;    ///< From the asphalt's edge to the wall.
-constexpr double middle_wall_m = 0.35;  ///< Half its thickness.
-constexpr double ceiling_m = 6.6, haunch_m = 5.0;
+using namespace tunnel_shape;
 constexpr double portal_out_m =
     46.0;  ///< How far the portal's wing walls reach beyond the asphalt.
 
@@ -31,7 +30,7 @@ std::array<TubePoint, 7> tube_section(double edge_t) {
   return {{{wall, -0.2, Ground::tiles_tunnel},
            {wall, 3.2, Ground::concrete_tunnel},
            {wall, haunch_m, Ground::concrete_tunnel},
-           {wall - side * 1.9, ceiling_m, Ground::concrete_tunnel},
+           {wall - side * haunch_width_m, ceiling_m, Ground::concrete_tunnel},
            {middle, ceiling_m, Ground::concrete_tunnel},
            {middle, 3.2, Ground::tiles_tunnel},
            {middle, -0.2, Ground::tiles_tunnel}}};
@@ -103,8 +102,8 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   std::vector<double> columns;
   for (double t = extent.left_t_m + portal_out_m; t > left_wall + 4.0; t -= 6.0)
     columns.push_back(t);
-  columns.insert(columns.end(), {left_wall, left_wall - 1.9, middle_wall_m, -middle_wall_m,
-                                 right_wall + 1.9, right_wall});
+  columns.insert(columns.end(), {left_wall, left_wall - haunch_width_m, middle_wall_m, -middle_wall_m,
+                                 right_wall + haunch_width_m, right_wall});
   for (double t = right_wall - 6.0; t > extent.right_t_m - portal_out_m; t -= 6.0)
     columns.push_back(t);
   const auto ground = [&](double s, double t) {
