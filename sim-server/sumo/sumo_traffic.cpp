@@ -91,19 +91,15 @@ void SumoTraffic::leave(Member& member) {
 }
 
 /// As Septet's own swarm: out of the radius on one side, in again on the other; slower ones come in ahead.
-void SumoTraffic::recycle(Member& member, std::span<const ForeignVehicle> foreign) {
-  if (foreign.empty()) return;
+void SumoTraffic::recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps) {
   const auto& corridor = corridors_[member.corridor];
   if (corridor.corridor.closed) return;
-  const Vec3& at = foreign.front().world_from_vehicle.position_m;
-  const auto middle = road::locate(roads_, {at.x, at.y});
-  if (!middle) return;
   const auto x_of = [&](const road::RoadPosition& place) -> std::optional<double> {
     for (const auto& piece : corridor.corridor.pieces)
       if (piece.road == place.road) return traffic::x_of(roads_, corridor.corridor, place, piece.side);
     return std::nullopt;
   };
-  const auto middle_x = x_of(middle->position);
+  const auto middle_x = x_of(middle);
   if (!middle_x) return;
   if (member.stay == Member::Stay::on_road) {
     const auto x = member.place ? x_of(*member.place) : std::nullopt;
@@ -114,7 +110,7 @@ void SumoTraffic::recycle(Member& member, std::span<const ForeignVehicle> foreig
     if (++member.steps_waiting < patient_steps) return;
     leave(member);
   }
-  const bool ahead = member.desired_speed_mps < glm::length(foreign.front().velocity_mps);
+  const bool ahead = member.desired_speed_mps < middle_speed_mps;
   const bool this_side = random_.below(4) != 0;
   const double x = *middle_x + (ahead == this_side ? 1.0 : -1.0) * (parameters_.radius_m - random_.uniform(0.0, 40.0));
   if (x < rim_m || x > corridor.corridor.length_m - rim_m) return;
@@ -148,6 +144,8 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
   }
   before_ = std::move(after_);
   after_.clear();
+  std::optional<road::Location> middle;  // Of the swarm: the first foreign vehicle.
+  if (!foreign.empty()) middle = road::locate(roads_, Vec2(foreign.front().world_from_vehicle.position_m));
   auto seen = vehicles->begin();
   for (Member& member : members_) {
     while (seen != vehicles->end() && seen->id < member.id) ++seen;
@@ -158,7 +156,7 @@ void SumoTraffic::step(std::span<const ForeignVehicle> foreign) {
     } else if (member.stay == Member::Stay::on_road) {
       member.stay = Member::Stay::outside;  // It reached the end of its route.
     }
-    recycle(member, foreign);
+    if (middle) recycle(member, middle->position, glm::length(foreign.front().velocity_mps));
     if (!running_) return;
   }
 }

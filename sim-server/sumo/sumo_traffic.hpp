@@ -48,7 +48,7 @@ class SumoTraffic final : public traffic::TrafficEngine {
   bool ok(const Expected<void>& outcome);
   void enter(Member& member, int lane, double x_m);
   void leave(Member& member);
-  void recycle(Member& member, std::span<const traffic::ForeignVehicle> foreign);
+  void recycle(Member& member, const road::RoadPosition& middle, double middle_speed_mps);
   void place_foreign(std::span<const traffic::ForeignVehicle> foreign, double ahead_s);
   void step(std::span<const traffic::ForeignVehicle> foreign);
   std::optional<Participant> participant_of(Member& member, const SumoVehicle& vehicle, bool is_new) const;
