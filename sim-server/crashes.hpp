@@ -17,7 +17,7 @@ namespace septet::server {
 using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 
 struct CrashMemory {
-  std::vector<ParticipantId> struck_by_driver;  ///< Of this tick, ascending: for the next step of the effects.
+  std::vector<ParticipantId> struck_by_driver;  ///< Since the effects' last step, as they were met: for the next one.
   MountedParts parts;
   double barrier_contact_s = 0.0;  ///< For how long the driver's car has been free of barriers; 0 while it touches one.
   bool at_barrier = false;

@@ -1,7 +1,6 @@
 #include "sim-server/effect_surroundings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 

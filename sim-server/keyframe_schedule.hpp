@@ -36,7 +36,7 @@ struct PublishedEffects {
 };
 
 struct KeyframeLimits {
-  /// New bytes per call. Two calls in 1/60 s and a tick repeated until it is acknowledged: see PROTOCOL.md.
+  /// New bytes per call, of which there is one every 1/60 s. They travel in each tick until the screens have acknowledged one.
   std::size_t fresh_bytes = 24 * 1024;
   /// Of all keyframes together, so that whoever has no baseline gets them, and the smoke, in one tick (net::max_tick_bytes).
   std::size_t total_bytes = 88 * 1024;

@@ -1,6 +1,5 @@
 /// `septet`: the command people type.
 
-#include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +29,6 @@ int run(int argc, char** argv) {
   CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
   app.set_version_flag("--version", std::string(version));
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::help);
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
     return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
   });

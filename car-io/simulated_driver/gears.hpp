@@ -13,7 +13,7 @@
 namespace septet::car_io {
 
 enum class GearPhase : std::uint8_t {
-  holding,    ///< Clutch down, first gear in, standing.
+  holding,    ///< Clutch down: standing, or rolling with the gear for the speed in.
   biting,     ///< Driving off with a slipping clutch.
   driving,    ///< Clutch up.
   pressing,   ///< Clutch on its way down.
@@ -23,7 +23,7 @@ enum class GearPhase : std::uint8_t {
 
 struct GearState {
   GearPhase phase = GearPhase::holding;
-  int lever = 1;        ///< 0 while it moves.
+  int lever = 1;        ///< The gear it is in; 0 on its way through neutral.
   int target = 1;       ///< Gear that the lever goes to.
   double clutch = 1.0;  ///< 1 down.
   double phase_s = 0.0;
