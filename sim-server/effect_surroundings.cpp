@@ -147,8 +147,8 @@ std::vector<debris::Box> barrier_boxes(const road::RoadNetwork& roads, const std
     for (const long k : {stretch - 1, stretch, stretch + 1}) append_walls(roads.roads[at->position.road], at->position, k, walls);
   }
   std::ranges::sort(walls, {}, &Wall::key);
-  const auto repeated = std::ranges::unique(walls, {}, &Wall::key);
-  walls.erase(repeated.begin(), repeated.end());
+  const auto repeated = std::unique(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.key() == b.key(); });
+  walls.erase(repeated, walls.end());
   std::vector<debris::Box> boxes;
   for (const Wall& wall : walls) boxes.push_back(box_of(roads, wall));
   return boxes;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <ranges>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -198,8 +197,9 @@ FractureResult fracture(const Piece& piece, const Blow& blow) {
            (!body.step_stress_pa.empty() &&
             blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
   };
-  const int element_count = static_cast<int>(body.elements.size());
-  if (std::ranges::none_of(std::views::iota(0, element_count), strained)) return result;
+  bool any_strained = false;
+  for (int e = 0; e < static_cast<int>(body.elements.size()); ++e) any_strained = any_strained || strained(e);
+  if (!any_strained) return result;
   const auto faces = inner_faces(body);
   const std::size_t count = body.elements.size();
   DisjointSets islands(count), corners(4 * count);

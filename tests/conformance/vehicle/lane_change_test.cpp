@@ -36,13 +36,15 @@ TEST_CASE("the double lane change peaks where the published model peaks") {
 TEST_CASE("stopping distances match those of the published tyre within two percent") {
   // Anchored distances for 100 km/h at longitudinal friction 1.0, 0.3 and 0.1, the same for all
   // three cars.
-  constexpr std::pair<double, double> anchors[] = {{1.0, 40.0}, {0.3, 131.8}, {0.1, 394.0}};
-  for (const auto& [friction, distance_m] : anchors) {
-    CAPTURE(friction);
+  struct Stop {
+    double friction, distance_m;
+  };
+  for (const Stop& anchor : {Stop{1.0, 40.0}, Stop{0.3, 131.8}, Stop{0.1, 394.0}}) {
+    CAPTURE(anchor.friction);
     ManoeuvreOptions options;
-    options.friction = friction;
+    options.friction = anchor.friction;
     const VehicleParameters car = read_car("commonroad-escort");
     CHECK(stop(car, options).figure("stopping distance") ==
-          doctest::Approx(distance_m).epsilon(0.02));
+          doctest::Approx(anchor.distance_m).epsilon(0.02));
   }
 }

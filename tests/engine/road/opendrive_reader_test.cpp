@@ -74,8 +74,8 @@ TEST_CASE("every kind of broken road is refused") {
        "contactPoint=\"start\"/></junction>"},
   };
   for (const auto& [from, to] : faults) {
-    CAPTURE(std::string(to));
     std::string xml = replaced(good, from, to);
+    CAPTURE(xml);
     if (std::string(to) == "<section>") xml = replaced(xml, "</laneSection>", "</section>");
     only_error(xml);
   }

@@ -42,9 +42,10 @@ TEST_CASE(
     int count;
     double speed_mps;
   } expected[] = {{20, 32.174}, {40, 28.469}, {80, 16.955}};
-  for (const auto& [count, speed] : expected) {
-    CAPTURE(count);
-    TrafficState state = equal_cars(network, count, driver, 0.0);
+  for (const auto& ring : expected) {
+    CAPTURE(ring.count);
+    const double speed = ring.speed_mps;
+    TrafficState state = equal_cars(network, ring.count, driver, 0.0);
     TrafficParameters parameters;
     Random random(1);
     // At 80 cars the law itself is string-unstable (f_v²/2 + f_Δv f_v < f_s), so they start evenly.
@@ -52,7 +53,7 @@ TEST_CASE(
     const auto& speeds = state.corridors[0].speed_mps;
     CHECK(*std::ranges::min_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
     CHECK(*std::ranges::max_element(speeds) == doctest::Approx(speed).epsilon(0.001 / speed));
-    CHECK(idm_equilibrium_speed(driver.following, 2011.3 / count - 5.0) ==
+    CHECK(idm_equilibrium_speed(driver.following, 2011.3 / ring.count - 5.0) ==
           doctest::Approx(speed).epsilon(0.001 / speed));
   }
 }
