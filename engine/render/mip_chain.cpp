@@ -30,26 +30,35 @@ struct Transfer {
   }
 };
 
+const Transfer& transfer_of(bool srgb) {
+  static const Transfer of_srgb(true), of_linear(false);  // Constants that take thousands of powers.
+  return srgb ? of_srgb : of_linear;
+}
+
 MipLevel half(const MipLevel& from, const Transfer& transfer) {
   MipLevel to{std::max(1u, from.width / 2), std::max(1u, from.height / 2), {}};
   to.rgba.resize(std::size_t{4} * to.width * to.height);
   for (std::uint32_t y = 0; y < to.height; ++y)
     for (std::uint32_t x = 0; x < to.width; ++x) {
-      std::array<float, 3> color{}, plain{};
-      float alpha = 0.0f;
+      std::array<const std::uint8_t*, 4> from_pixels;
       for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const std::uint32_t sx = std::min(2 * x + (corner & 1), from.width - 1);
         const std::uint32_t sy = std::min(2 * y + (corner >> 1), from.height - 1);
-        const std::uint8_t* pixel = &from.rgba[(std::size_t{sy} * from.width + sx) * 4];
-        for (std::size_t c = 0; c < 3; ++c) {
-          color[c] += transfer.linear[pixel[c]] * pixel[3];
-          plain[c] += transfer.linear[pixel[c]];
-        }
-        alpha += pixel[3];
+        from_pixels[corner] = &from.rgba[(std::size_t{sy} * from.width + sx) * 4];
       }
+      int alpha = 0;
+      for (const std::uint8_t* pixel : from_pixels) alpha += pixel[3];
       std::uint8_t* pixel = &to.rgba[(std::size_t{y} * to.width + x) * 4];
-      for (std::size_t c = 0; c < 3; ++c) pixel[c] = transfer.encode(alpha > 0.0f ? color[c] / alpha : plain[c] / 4.0f);
-      pixel[3] = static_cast<std::uint8_t>(alpha / 4.0f + 0.5f);
+      for (std::size_t c = 0; c < 3; ++c) {
+        float sum = 0.0f, weight = 0.0f;
+        for (const std::uint8_t* part : from_pixels) {
+          const float share = alpha > 0 ? part[3] : 1.0f;
+          sum += transfer.linear[part[c]] * share;
+          weight += share;
+        }
+        pixel[c] = transfer.encode(sum / weight);
+      }
+      pixel[3] = static_cast<std::uint8_t>((alpha + 2) / 4);
     }
   return to;
 }
@@ -83,7 +92,7 @@ bool has_holes(std::span<const std::uint8_t> rgba) {
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
   SEPTET_CHECK(width > 0 && height > 0 && rgba.size() == std::size_t{4} * width * height, "{} × {} pixels in {} bytes",
                width, height, rgba.size());
-  const Transfer transfer(srgb);
+  const Transfer& transfer = transfer_of(srgb);
   const bool holes = has_holes(rgba);
   const double coverage = holes ? share_passing(rgba, 1.0) : 1.0;
   std::vector<MipLevel> levels{{width, height, {rgba.begin(), rgba.end()}}};

@@ -96,7 +96,9 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   table.format = VK_FORMAT_R16G16B16A16_SFLOAT;
   table.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   sky_table = create_image(memory, table);
-  noise = create_texture(device, memory, noise_side, noise_side, cloud_noise(), false);
+  vulkan::Upload upload(device, memory);
+  noise = create_texture(upload, texture_levels(noise_side, noise_side, cloud_noise(), false));
+  upload.finish();
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);

@@ -38,6 +38,19 @@ std::uint8_t pixel(PixelType type, const std::uint8_t* tile, std::uint32_t i) {
   return 0;
 }
 
+void fill_channel(TextureImage& image, std::size_t channel, const BitmapLayer& layer) {
+  const std::size_t columns = tile_columns(image.width);
+  const PixelType type = layer.type;
+  for (std::uint32_t y = 0; y < image.height; ++y)
+    for (std::uint32_t left = 0; left < image.width; left += tile_side) {
+      const std::size_t tile = (y / tile_side) * columns + left / tile_side;
+      const std::uint8_t* pixels = &layer.tiles[tile * tile_bytes(type)];
+      std::uint8_t* target = &image.rgba[(std::size_t{y} * image.width + left) * 4 + channel];
+      const std::uint32_t count = std::min<std::uint32_t>(tile_side, image.width - left);
+      for (std::uint32_t x = 0; x < count; ++x) target[4 * x] = pixel(type, pixels, y % tile_side * tile_side + x);
+    }
+}
+
 }  // namespace
 
 TextureImage image_of_bitmap(const Node& node) {
@@ -53,22 +66,10 @@ TextureImage image_of_bitmap(const Node& node) {
   image.width = bitmap->width;
   image.height = bitmap->height;
   image.rgba.assign(std::size_t{image.width} * image.height * 4, 0);
-  const std::size_t columns = tile_columns(image.width);
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (!channels[c] && c < 3) continue;
-    for (std::uint32_t y = 0; y < image.height; ++y)
-      for (std::uint32_t x = 0; x < image.width; ++x) {
-        std::uint8_t& target = image.rgba[(std::size_t{y} * image.width + x) * 4 + c];
-        if (!channels[c]) {
-          target = 255;
-          continue;
-        }
-        const std::size_t tile = (y / tile_side) * columns + x / tile_side;
-        const PixelType type = channels[c]->type;
-        target = pixel(type, &channels[c]->tiles[tile * tile_bytes(type)],
-                       y % tile_side * tile_side + x % tile_side);
-      }
-  }
+  if (!channels[3])
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  for (std::size_t c = 0; c < 4; ++c)
+    if (channels[c]) fill_channel(image, c, *channels[c]);
   return image;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/parallel_for.hpp"
 #include "engine/scene/bitmap_image.hpp"
 #include "engine/scene/material_evaluation.hpp"
 #include "engine/scene/part_role.hpp"
@@ -242,28 +243,37 @@ struct Resolver::State {
   std::uint32_t material_slot(NodeId id) { return material_slots.of(id, scene.materials); }
 
   void make_meshes(const Store& store, std::size_t budget) {
+    struct Task {
+      std::uint32_t index;
+      const Node* node;  ///< Null: its geometry is not there.
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> materials;  ///< Slots by face material index.
+    };
     pending = 0;
+    std::vector<Task> tasks;
     for (std::uint32_t index = 0; index < meshes.size(); ++index) {
       MeshSlot& slot = meshes[index];
       if (slot.last_used == 0) continue;
       const Node* node = store.find(slot.key.first);
       const std::uint64_t revision = node ? node->revision : 0;
       if (slot.made_from == revision) continue;
-      if (budget == 0) {
+      if (tasks.size() == budget) {
         ++pending;
         continue;
       }
-      --budget;
-      const auto& links = slot.key.second;
-      const auto material_of = [&](std::uint32_t face_material) -> std::uint32_t {
-        for (const auto& [face, material] : links)
-          if (face == face_material) return material_slot(material);
-        return links.empty() || links.front().first != 0 ? 0 : material_slot(links.front().second);
-      };
-      scene.meshes[index] = node ? surface_of_geometry(*node, material_of) : SurfaceMesh{};
-      scene.meshes[index].revision = next_revision();
       slot.made_from = revision;
+      Task& task = tasks.emplace_back(Task{index, node, {}});
+      for (const auto& [face, material] : slot.key.second) task.materials.emplace_back(face, material_slot(material));
     }
+    parallel_for(tasks.size(), [&](std::size_t i) {
+      const Task& task = tasks[i];
+      const auto material_of = [&](std::uint32_t face_material) -> std::uint32_t {
+        for (const auto& [face, material] : task.materials)
+          if (face == face_material) return material;
+        return task.materials.empty() || task.materials.front().first != 0 ? 0 : task.materials.front().second;
+      };
+      scene.meshes[task.index] = task.node ? surface_of_geometry(*task.node, material_of) : SurfaceMesh{};
+    });
+    for (const Task& task : tasks) scene.meshes[task.index].revision = next_revision();
   }
 
   // ---- materials and images
@@ -292,15 +302,20 @@ struct Resolver::State {
   }
 
   void make_images(const Store& store) {
+    std::vector<std::pair<std::uint32_t, const Node*>> tasks;
     for (const auto& [id, slot] : image_slots.all()) {
       const Node* node = store.find(id);
       const std::uint64_t revision = node ? node->revision : 0;
       const auto [made, added] = image_made_from.try_emplace(id, 0);
       if (!added && made->second == revision) continue;
-      scene.images[slot] = node ? image_of_bitmap(*node) : TextureImage{};
-      scene.images[slot].revision = next_revision();
       made->second = revision;
+      tasks.emplace_back(slot, node);
     }
+    parallel_for(tasks.size(), [&](std::size_t i) {
+      const auto [slot, node] = tasks[i];
+      scene.images[slot] = node ? image_of_bitmap(*node) : TextureImage{};
+    });
+    for (const auto& task : tasks) scene.images[task.first].revision = next_revision();
   }
 
   bool update(const Store& store, std::size_t mesh_budget) {

@@ -153,12 +153,12 @@ std::vector<glm::vec3> group_normals(const PolygonMesh& mesh, const SmoothGroups
     const PolygonCorners& corners = mesh.polygons[p];
     const std::uint32_t count = corner_count(corners);
     const glm::vec3 normal = polygon_normal(mesh, corners);
+    std::array<glm::vec3, 4> ahead;
+    for (std::uint32_t k = 0; k < count; ++k)
+      ahead[k] = unit_or(mesh.vertices_m[corners[(k + 1) % count]] - mesh.vertices_m[corners[k]], normal);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const glm::vec3 at = mesh.vertices_m[corners[k]];
-      const glm::vec3 ahead = unit_or(mesh.vertices_m[corners[(k + 1) % count]] - at, normal);
-      const glm::vec3 back =
-          unit_or(mesh.vertices_m[corners[(k + count - 1) % count]] - at, normal);
-      sums[groups.of(p, k)] += normal * std::acos(std::clamp(glm::dot(ahead, back), -1.0f, 1.0f));
+      const float cosine = -glm::dot(ahead[k], ahead[(k + count - 1) % count]);
+      sums[groups.of(p, k)] += normal * std::acos(std::clamp(cosine, -1.0f, 1.0f));
     }
   }
   for (glm::vec3& sum : sums) sum = unit_or(sum, {0.0f, 0.0f, 1.0f});

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 #include "engine/core/hash.hpp"
-#include "engine/render/mip_chain.hpp"
-#include "engine/render/vulkan/commands.hpp"
+#include "engine/core/parallel_for.hpp"
 
 namespace septet::render {
 namespace {
@@ -17,42 +17,38 @@ using scene::SurfaceMaterial;
 using scene::SurfaceMesh;
 using vulkan::Buffer;
 
-/// A staging buffer that goes when the upload is done, also after a failure.
-struct Staging {
-  vulkan::MemoryPool& memory;
-  Buffer buffer;
-  Staging(vulkan::MemoryPool& pool, std::uint64_t size)
-      : memory(pool), buffer(create_buffer(pool, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, vulkan::MemoryUse::written_by_host)) {}
-  ~Staging() { destroy_buffer(memory, buffer); }
-};
+/// A buffer on the device for these bytes, one after another.
+Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage, std::initializer_list<std::span<const std::byte>> contents) {
+  std::uint64_t size = 0;
+  for (const auto& bytes : contents) size += bytes.size();
+  Buffer target = create_buffer(upload.memory(), size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::device_only);
+  const vulkan::FrameArena::Slice staged = upload.stage(size);
+  std::byte* at = staged.data;
+  for (const auto& bytes : contents) at = std::copy(bytes.begin(), bytes.end(), at);
+  upload.add([staged, size, buffer = target.buffer](VkCommandBuffer commands) {
+    const VkBufferCopy region{staged.offset, 0, size};
+    vkCmdCopyBuffer(commands, staged.buffer, buffer, 1, &region);
+  });
+  return target;
+}
 
 bool indices_hold(const SurfaceMesh& mesh) {
   return std::all_of(mesh.indices.begin(), mesh.indices.end(),
                      [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
-void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, const vulkan::Device& device, vulkan::MemoryPool& memory) {
-  destroy_buffer(memory, target.buffer);
+void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, vulkan::Upload& upload) {
+  destroy_buffer(upload.memory(), target.buffer);
   target = {mesh.revision, true, {}, 0, {}};
   if (mesh.indices.empty() || !indices_hold(mesh)) return;
   for (const scene::MeshPart& part : mesh.parts)
     if (part.index_count > 0 && part.first_index <= mesh.indices.size() &&
         part.index_count <= mesh.indices.size() - part.first_index)
       target.parts.push_back(part);
-  const std::uint64_t vertex_bytes = mesh.vertices.size() * sizeof(scene::SurfaceVertex);
-  const std::uint64_t index_bytes = mesh.indices.size() * sizeof(std::uint32_t);
-  target.indices_at = vertex_bytes;
-  target.buffer = create_buffer(memory, vertex_bytes + index_bytes,
-                                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-                                    VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                vulkan::MemoryUse::device_only);
-  const Staging staging(memory, vertex_bytes + index_bytes);
-  std::memcpy(staging.buffer.mapped, mesh.vertices.data(), vertex_bytes);
-  std::memcpy(staging.buffer.mapped + vertex_bytes, mesh.indices.data(), index_bytes);
-  run_once(device, [&](VkCommandBuffer commands) {
-    const VkBufferCopy region{0, 0, vertex_bytes + index_bytes};
-    vkCmdCopyBuffer(commands, staging.buffer.buffer, target.buffer.buffer, 1, &region);
-  });
+  const auto vertices = std::as_bytes(std::span(mesh.vertices));
+  target.indices_at = vertices.size();
+  target.buffer = create_filled_buffer(upload, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                       {vertices, std::as_bytes(std::span(mesh.indices))});
 }
 
 DeviceMaterial device_material(const SurfaceMaterial& material, const std::vector<DeviceTexture>& textures) {
@@ -112,25 +108,17 @@ std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>
   return hash.value();
 }
 
-void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still,
-                  const vulkan::Device& device, vulkan::MemoryPool& memory) {
+void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still, vulkan::Upload& upload) {
   const std::uint64_t hash = hash_of_still(source, still);
   if (hash == scene.still_hash) return;
-  for (Buffer& vertices : scene.still_vertices) destroy_buffer(memory, vertices);
+  for (Buffer& vertices : scene.still_vertices) destroy_buffer(upload.memory(), vertices);
   scene.still_vertices.clear();
   scene.still = static_geometry(source, still);
   for (StaticBlock& block : scene.still.blocks) {
     scene.still_vertices.emplace_back();
     if (block.vertices.empty()) continue;
-    const std::uint64_t bytes = block.vertices.size() * sizeof(scene::SurfaceVertex);
-    scene.still_vertices.back() = create_buffer(memory, bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                vulkan::MemoryUse::device_only);
-    const Staging staging(memory, bytes);
-    std::memcpy(staging.buffer.mapped, block.vertices.data(), bytes);
-    run_once(device, [&](VkCommandBuffer commands) {
-      const VkBufferCopy region{0, 0, bytes};
-      vkCmdCopyBuffer(commands, staging.buffer.buffer, scene.still_vertices.back().buffer, 1, &region);
-    });
+    scene.still_vertices.back() =
+        create_filled_buffer(upload, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, {std::as_bytes(std::span(block.vertices))});
     block.vertices = {};
   }
   scene.still_hash = hash;
@@ -147,10 +135,6 @@ MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMateria
   return summary;
 }
 
-}  // namespace
-
-namespace {
-
 /// From 8-bit codes to the square root of linear light: a square in the shader decodes it, where decoding sRGB texels costs
 /// a software rasteriser more than all other shading.
 std::array<std::uint8_t, 256> square_root_code(bool srgb) {
@@ -163,68 +147,80 @@ std::array<std::uint8_t, 256> square_root_code(bool srgb) {
   return code;
 }
 
+void upload_textures(DeviceScene& scene, const ResolvedScene& source, vulkan::Upload& upload) {
+  const std::uint32_t largest = upload.device().properties.limits.maxImageDimension2D;
+  while (scene.textures.size() > source.images.size()) {
+    destroy_image(upload.memory(), scene.textures.back().image);
+    scene.textures.pop_back();
+  }
+  scene.textures.resize(source.images.size());
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < source.images.size(); ++i)
+    if (!scene.textures[i].image.image || scene.textures[i].revision != source.images[i].revision) changed.push_back(i);
+  std::vector<std::vector<MipLevel>> levels(changed.size());
+  parallel_for(changed.size(), [&](std::size_t i) {
+    const scene::TextureImage& image = source.images[changed[i]];
+    const bool holds = image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
+                       image.rgba.size() == std::size_t{4} * image.width * image.height;
+    if (holds) levels[i] = texture_levels(image.width, image.height, image.rgba, image.srgb);
+  });
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    DeviceTexture& texture = scene.textures[changed[i]];
+    destroy_image(upload.memory(), texture.image);
+    texture = {source.images[changed[i]].revision, false, {}};
+    if (levels[i].empty()) continue;
+    texture.holes = has_holes(source.images[changed[i]].rgba);
+    texture.image = create_texture(upload, levels[i]);
+  }
+}
+
 }  // namespace
 
-vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
-                                   std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
-  const std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
+std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
+  std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
+  const std::array<std::uint8_t, 256> code = square_root_code(srgb);
+  for (MipLevel& level : levels)
+    for (std::size_t i = 0; i < level.rgba.size(); i += 4)
+      for (std::size_t c = i; c < i + 3; ++c) level.rgba[c] = code[level.rgba[c]];
+  return levels;
+}
+
+vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels) {
   std::uint64_t bytes = 0;
   for (const MipLevel& level : levels) bytes += level.rgba.size();
-  const Staging staging(memory, bytes);
+  const vulkan::FrameArena::Slice staged = upload.stage(bytes);
   std::vector<VkBufferImageCopy> regions;
   std::uint64_t at = 0;
-  const std::array<std::uint8_t, 256> code = square_root_code(srgb);
   for (const MipLevel& level : levels) {
-    for (std::size_t i = 0; i < level.rgba.size(); ++i)
-      staging.buffer.mapped[at + i] = std::byte{i % 4 == 3 ? level.rgba[i] : code[level.rgba[i]]};
+    std::memcpy(staged.data + at, level.rgba.data(), level.rgba.size());
     VkBufferImageCopy region{};
-    region.bufferOffset = at;
+    region.bufferOffset = staged.offset + at;
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, static_cast<std::uint32_t>(regions.size()), 0, 1};
     region.imageExtent = {level.width, level.height, 1};
     regions.push_back(region);
     at += level.rgba.size();
   }
   vulkan::ImageDescription description;
-  description.width = width;
-  description.height = height;
+  description.width = levels.front().width;
+  description.height = levels.front().height;
   description.format = VK_FORMAT_R8G8B8A8_UNORM;
   description.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   description.mip_levels = static_cast<std::uint32_t>(levels.size());
-  vulkan::DeviceImage image = create_image(memory, description);
-  try {
-    run_once(device, [&](VkCommandBuffer commands) {
-      vulkan::ImageBarrier barrier{&image, VK_NULL_HANDLE, Access::none, Access::transfer_destination, true};
-      vulkan::record_barriers(commands, {&barrier, 1});
-      vkCmdCopyBufferToImage(commands, staging.buffer.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                             static_cast<std::uint32_t>(regions.size()), regions.data());
-      barrier = {&image, VK_NULL_HANDLE, Access::transfer_destination, Access::sampled, false};
-      vulkan::record_barriers(commands, {&barrier, 1});
-    });
-  } catch (const vulkan::Failure&) {
-    destroy_image(memory, image);
-    throw;
-  }
+  vulkan::DeviceImage image = create_image(upload.memory(), description);
+  upload.add([image, source = staged.buffer, regions = std::move(regions)](VkCommandBuffer commands) {
+    vulkan::ImageBarrier barrier{&image, VK_NULL_HANDLE, Access::none, Access::transfer_destination, true};
+    vulkan::record_barriers(commands, {&barrier, 1});
+    vkCmdCopyBufferToImage(commands, source, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                           static_cast<std::uint32_t>(regions.size()), regions.data());
+    barrier = {&image, VK_NULL_HANDLE, Access::transfer_destination, Access::sampled, false};
+    vulkan::record_barriers(commands, {&barrier, 1});
+  });
   return image;
 }
 
 void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device, vulkan::MemoryPool& memory) {
-  while (scene.textures.size() > source.images.size()) {
-    destroy_image(memory, scene.textures.back().image);
-    scene.textures.pop_back();
-  }
-  scene.textures.resize(source.images.size());
-  for (std::size_t i = 0; i < source.images.size(); ++i) {
-    const scene::TextureImage& image = source.images[i];
-    DeviceTexture& texture = scene.textures[i];
-    if (texture.image.image && texture.revision == image.revision) continue;
-    destroy_image(memory, texture.image);
-    const std::uint32_t largest = device.properties.limits.maxImageDimension2D;
-    const bool holds = image.width > 0 && image.height > 0 && image.width <= largest && image.height <= largest &&
-                       image.rgba.size() == std::size_t{4} * image.width * image.height;
-    texture.revision = image.revision;
-    texture.holes = holds && has_holes(image.rgba);
-    if (holds) texture.image = create_texture(device, memory, image.width, image.height, image.rgba, image.srgb);
-  }
+  vulkan::Upload upload(device, memory);
+  upload_textures(scene, source, upload);
   scene.materials.clear();
   for (const SurfaceMaterial& material : source.materials)
     scene.materials.push_back(device_material(material, scene.textures));
@@ -241,12 +237,13 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
       destroy_buffer(memory, scene.meshes[i].buffer);
       scene.meshes[i] = {};
     } else if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision) {
-      upload_mesh(scene.meshes[i], mesh, device, memory);
+      upload_mesh(scene.meshes[i], mesh, upload);
     }
     scene.summaries.push_back(summary_of(mesh, source.materials));
   }
   place_instances(scene, source, still);
-  upload_still(scene, source, still, device, memory);
+  upload_still(scene, source, still, upload);
+  upload.finish();
   scene.prototypes = source.prototypes;
   scene.revision = source.revision;
 }

@@ -6,10 +6,11 @@
 
 #include <glm/vec4.hpp>
 
+#include "engine/render/mip_chain.hpp"
 #include "engine/render/passes/draw_list.hpp"
 #include "engine/render/passes/participants.hpp"
 #include "engine/render/passes/static_geometry.hpp"
-#include "engine/render/vulkan/memory.hpp"
+#include "engine/render/vulkan/commands.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render {
@@ -72,8 +73,10 @@ void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
 /// Share of the sky at a place: less than 1 under a roof.
 float share_of_sky(const DeviceScene& scene, const Vec3& position_m);
 
-/// Copies all mip levels into a new sampled image, as the square root of linear light.
-vulkan::DeviceImage create_texture(const vulkan::Device& device, vulkan::MemoryPool& memory, std::uint32_t width,
-                                   std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+/// All levels of a texture as the device keeps them: the square root of linear light.
+std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+
+/// A new sampled image that the upload fills with these levels.
+vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);
 
 }  // namespace septet::render

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 
 #include "engine/render/passes/shaders.hpp"
@@ -18,14 +19,32 @@ float lattice(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   return static_cast<float>((h ^ (h >> 15)) >> 8) / 16777216.0f;
 }
 
-float value_noise(float x, float y, std::uint32_t period, std::uint32_t octave) {
-  const auto x0 = static_cast<std::uint32_t>(x), y0 = static_cast<std::uint32_t>(y);
+/// Adds value noise with `period` cells along each side of the tile.
+void add_octave(std::vector<float>& sum, std::uint32_t period, std::uint32_t octave, float weight) {
+  std::vector<float> corners(std::size_t{period} * period);
+  for (std::uint32_t y = 0; y < period; ++y)
+    for (std::uint32_t x = 0; x < period; ++x) corners[y * period + x] = weight * lattice(x, y, octave);
   const auto ease = [](float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); };
-  const float u = ease(x - static_cast<float>(x0)), v = ease(y - static_cast<float>(y0));
-  const std::uint32_t x1 = (x0 + 1) % period, y1 = (y0 + 1) % period;
-  const float top = std::lerp(lattice(x0, y0, octave), lattice(x1, y0, octave), u);
-  const float bottom = std::lerp(lattice(x0, y1, octave), lattice(x1, y1, octave), u);
-  return std::lerp(top, bottom, v);
+  struct Column {
+    std::uint32_t left, right;
+    float share;
+  };
+  std::vector<Column> columns(noise_side);
+  for (std::uint32_t x = 0; x < noise_side; ++x) {
+    const float at = static_cast<float>(x * period) / noise_side;
+    const auto left = static_cast<std::uint32_t>(at);
+    columns[x] = {left, (left + 1) % period, ease(at - static_cast<float>(left))};
+  }
+  for (std::uint32_t y = 0; y < noise_side; ++y) {
+    const Column& row = columns[y];  // The tile is square: rows lie as columns do.
+    const float *top = &corners[row.left * period], *bottom = &corners[row.right * period];
+    for (std::uint32_t x = 0; x < noise_side; ++x) {
+      const Column& column = columns[x];
+      const float above = glm::mix(top[column.left], top[column.right], column.share);
+      const float below = glm::mix(bottom[column.left], bottom[column.right], column.share);
+      sum[y * noise_side + x] += glm::mix(above, below, row.share);
+    }
+  }
 }
 
 }  // namespace
@@ -68,11 +87,7 @@ std::vector<std::uint8_t> cloud_noise() {
   std::vector<float> sum(noise_side * noise_side, 0.0f);
   std::uint32_t period = 4;
   float weight = 0.5f;
-  for (std::uint32_t octave = 0; octave < 6; ++octave, period *= 2, weight *= 0.55f)
-    for (std::uint32_t y = 0; y < noise_side; ++y)
-      for (std::uint32_t x = 0; x < noise_side; ++x)
-        sum[y * noise_side + x] += weight * value_noise(static_cast<float>(x * period) / noise_side,
-                                                        static_cast<float>(y * period) / noise_side, period, octave);
+  for (std::uint32_t octave = 0; octave < 6; ++octave, period *= 2, weight *= 0.55f) add_octave(sum, period, octave, weight);
   // Each value becomes its rank, so that a share c of the tile lies above 1 − c.
   const auto [low, high] = std::minmax_element(sum.begin(), sum.end());
   constexpr std::size_t bins = 4096;

@@ -51,8 +51,9 @@ void add_piece(StaticGeometry& geometry, std::uint32_t block_index, const scene:
   const glm::mat3& turn = piece.placed.world_from_object;
   // Normals turn by R·S⁻¹ = M·S⁻², as in shaders/instances.glsl.
   const glm::vec3 squares(glm::dot(turn[0], turn[0]), glm::dot(turn[1], turn[1]), glm::dot(turn[2], turn[2]));
+  const glm::mat3 normal_turn(turn[0] / squares.x, turn[1] / squares.y, turn[2] / squares.z);
   for (const SurfaceVertex& vertex : mesh.vertices)
-    block.vertices.push_back({origin + turn * vertex.position_m, turn * (vertex.normal / squares), vertex.uv});
+    block.vertices.push_back({origin + turn * vertex.position_m, normal_turn * vertex.normal, vertex.uv});
   geometry.pieces.push_back(piece);
 }
 
@@ -73,11 +74,23 @@ std::vector<bool> placed_once(const scene::ResolvedScene& scene) {
 StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vector<bool>& chosen) {
   StaticGeometry geometry;
   std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> known;
+  struct Chosen {
+    const scene::Instance* instance;
+    std::uint32_t block;
+  };
+  std::vector<Chosen> all;
+  std::vector<std::size_t> vertices;  // By block.
+  std::size_t indices = 0;
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
-    add_piece(geometry, block_of(geometry, known, instance.world_from_object.position_m), instance,
-              scene.meshes[instance.mesh]);
+    all.push_back({&instance, block_of(geometry, known, instance.world_from_object.position_m)});
+    vertices.resize(geometry.blocks.size(), 0);
+    vertices[all.back().block] += scene.meshes[instance.mesh].vertices.size();
+    indices += scene.meshes[instance.mesh].indices.size();
   }
+  for (std::size_t block = 0; block < vertices.size(); ++block) geometry.blocks[block].vertices.reserve(vertices[block]);
+  geometry.indices.reserve(indices);
+  for (const Chosen& piece : all) add_piece(geometry, piece.block, *piece.instance, scene.meshes[piece.instance->mesh]);
   return geometry;
 }
 

@@ -150,6 +150,18 @@ FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t si
   return slice;
 }
 
+void destroy_arena(FrameArena& arena, MemoryPool& pool) {
+  for (Buffer& chunk : arena.chunks) destroy_buffer(pool, chunk);
+  arena = {};
+}
+
+void Upload::finish() {
+  run_once(device_, [this](VkCommandBuffer commands) {
+    for (const auto& copy : copies_) copy(commands);
+  });
+  copies_.clear();
+}
+
 void create_frame_ring(FrameRing& ring, const Device& device) {
   ring.timeline = create_semaphore(device, VK_SEMAPHORE_TYPE_TIMELINE);
   for (FrameSlot& slot : ring.slots) {
@@ -161,7 +173,7 @@ void create_frame_ring(FrameRing& ring, const Device& device) {
 
 void destroy_frame_ring(FrameRing& ring, const Device& device, MemoryPool& pool) {
   for (FrameSlot& slot : ring.slots) {
-    for (Buffer& chunk : slot.arena.chunks) destroy_buffer(pool, chunk);
+    destroy_arena(slot.arena, pool);
     if (slot.image_acquired) vkDestroySemaphore(device.device, slot.image_acquired, nullptr);
     if (slot.pool) vkDestroyCommandPool(device.device, slot.pool, nullptr);
   }

@@ -24,7 +24,7 @@ void record_barriers(VkCommandBuffer commands, std::span<const ImageBarrier> bar
 /// Records, submits and waits: for uploads and reading back.
 void run_once(const Device& device, const std::function<void(VkCommandBuffer)>& record);
 
-/// Host-written memory that lives for one frame: uniforms, instance records, texts.
+/// Host-written memory that lives for one frame (uniforms, instance records, texts) or one upload.
 struct FrameArena {
   struct Slice {
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -37,6 +37,30 @@ struct FrameArena {
 };
 
 FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t size);
+void destroy_arena(FrameArena& arena, MemoryPool& pool);
+
+/// Copies to the device that are noted one by one and go in one submission, for each costs a wait.
+class Upload {
+ public:
+  Upload(const Device& device, MemoryPool& memory) : device_(device), memory_(memory) {}
+  ~Upload() { destroy_arena(staging_, memory_); }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+
+  const Device& device() const { return device_; }
+  MemoryPool& memory() const { return memory_; }
+  /// Memory that the host fills before `finish` and `copy` is to copy from.
+  FrameArena::Slice stage(std::uint64_t size) { return allocate(memory_, staging_, size); }
+  void add(std::function<void(VkCommandBuffer)> copy) { copies_.push_back(std::move(copy)); }
+  /// Submits what was added and waits for it. What is not finished never happens.
+  void finish();
+
+ private:
+  const Device& device_;
+  MemoryPool& memory_;
+  FrameArena staging_;
+  std::vector<std::function<void(VkCommandBuffer)>> copies_;
+};
 
 /// What one frame in flight owns.
 struct FrameSlot {

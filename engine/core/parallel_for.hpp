@@ -1,0 +1,26 @@
+#pragma once
+/// A loop whose turns do not touch each other, over the machine's cores.
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace septet {
+
+/// Calls `body(i)` once for each i below `count`, on the calling thread and on up to one more for each further core, and
+/// returns when all are done. `body` must be safe to call on several threads at once and must not throw.
+template <class Body>
+void parallel_for(std::size_t count, const Body& body) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) body(i);
+  };
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::jthread> others;
+  for (std::size_t i = 1; i < std::min(cores, count); ++i) others.emplace_back(work);
+  work();
+}
+
+}  // namespace septet
