@@ -171,12 +171,11 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   if (!loaded) return tl::unexpected(loaded.error());
   drive.loaded = std::move(*loaded);
   for (const auto& warning : drive.loaded.warnings) progress.message("not used: " + warning);
-  if (!options.no_screens) {
-    scene::SceneBuilder builder(drive.store);
-    scenery::build_vehicles(builder);
-    scenery::build_debris_looks(builder);
-    scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
-  }
+  // Also where nobody looks on: the log keeps the scene, so that the drive can be shown later.
+  scene::SceneBuilder builder(drive.store);
+  scenery::build_vehicles(builder);
+  scenery::build_debris_looks(builder);
+  scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
   auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
   if (!seat) return tl::unexpected(seat.error());
   drive.seat = std::move(*seat);

@@ -2,6 +2,9 @@
 
 #include <sqlite3.h>
 
+#include "engine/scene/command_codec.hpp"
+#include "engine/scene/resolve.hpp"
+#include "logging/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {
@@ -95,6 +98,24 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   const Ended refused = run("septet", {"replay", "--verify", session.string()}, folder / "refused.err");
   CHECK(refused.code == 1);
   CHECK(refused.error.find("tick 100 gives state hash") != std::string::npos);
+}
+
+TEST_CASE("a drive without screens keeps the world that it was in") {
+  const TemporaryFolder folder;
+  const Ended driven = run("septet", {"drive", "--no-screens", "--seconds", "0.1", "--out", (folder / "out").string()}, folder / "err");
+  INFO(driven.error);
+  REQUIRE(driven.code == 0);
+  const auto session = logging::SessionReader::open(folder / "out" / "session.sqlite");
+  REQUIRE(session.has_value());
+  const auto edits = session->scene_edits();
+  REQUIRE(edits.has_value());
+  scene::Store store;
+  for (const auto& edit : *edits) {
+    const auto command = scene::decode(edit.command);
+    REQUIRE(command.has_value());
+    REQUIRE(store.apply(*command).has_value());
+  }
+  CHECK(scene::resolve(store).instances.size() > 1000);  // Ten kilometres of motorway.
 }
 
 }  // namespace septet::pipeline
