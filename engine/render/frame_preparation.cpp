@@ -14,7 +14,7 @@
 namespace septet::render {
 namespace {
 
-/// The eye adapts to a roofed place ahead of and around the car, in the same way on every screen.
+/// The eye adapts to a lit, roofed place ahead of and around the car, in the same way on every screen: by day up, by night down.
 float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const FrameView& view) {
   constexpr float roofed_exposure = 2.6f;
   constexpr int samples = 9;
@@ -23,7 +23,7 @@ float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const Fr
     const Vec3 ahead = view.world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2);
     roofed += (1.0f - share_of_sky(scene, ahead)) / samples;
   }
-  return light.exposure * std::pow(std::max(1.0f, roofed_exposure / light.exposure), roofed);
+  return light.exposure * std::pow(roofed_exposure / light.exposure, roofed);
 }
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,

@@ -126,7 +126,7 @@ Difference difference(const image::Image& a, const image::Image& b) {
 
 }  // namespace
 
-TEST_CASE("the motorway looks as its golden pictures by day and in the tunnel and behind and on a rainy night") {
+TEST_CASE("the motorway looks as its golden pictures by day and in the tunnel at noon and at night and behind and on a rainy night") {
   namespace fs = std::filesystem;
   const fs::path golden = fs::path(SEPTET_SOURCE_DIR) / "tests/images/golden", made = fs::path(SEPTET_BINARY_DIR) / "images";
   fs::create_directories(made);
@@ -136,7 +136,7 @@ TEST_CASE("the motorway looks as its golden pictures by day and in the tunnel an
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(motorway.scene()).has_value());
   for (const Instant& instant : {Instant{"day-ahead", 800.0, 0.0, false, false}, Instant{"tunnel", 3350.0, 0.0, false, false},
-                                 Instant{"rear", 800.0, 165.0, false, false}, Instant{"night-rain", 2400.0, 0.0, true, true}}) {
+                                 Instant{"tunnel-night", 3350.0, 0.0, true, false}, Instant{"rear", 800.0, 165.0, false, false}, Instant{"night-rain", 2400.0, 0.0, true, true}}) {
     CAPTURE(instant.name);
     REQUIRE(renderer->draw(motorway.frame(instant)).has_value());
     CHECK(renderer->statistics().triangles < 100'000);
