@@ -35,11 +35,23 @@ Vec2 small_turn(double phi) {
 /// From a knot `step_m` along a clothoid that has `curvature` at the knot; the heading turns by
 /// less than 1/4 rad.
 ClothoidKnot walk_clothoid(const ClothoidKnot& knot, double curvature, double rate, double step_m) {
-  const auto turn_at = [&](double u) { return small_turn(u * (curvature + 0.5 * rate * u)); };
-  Vec2 moved(0.0);
-  for (int i = 0; i < 4; ++i) moved += gauss_weight[i] * turn_at(gauss_node[i] * step_m);
+  Vec2 moved(0.0), turn(1.0, 0.0);
+  if (rate == 0.0) {
+    // An arc: chord and turn from (sin φ)/φ and (1 − cos φ)/φ, as precise as small_turn.
+    const double phi = curvature * step_m, q = phi * phi;
+    const double sine = 1.0 - q * (1.0 / 6 - q * (1.0 / 120 - q / 5040));
+    const double versine = phi * (1.0 / 2 - q * (1.0 / 24 - q * (1.0 / 720 - q / 40320)));
+    moved = {sine, versine};
+    turn = {1.0 - phi * versine, phi * sine};
+  } else {
+    // The last node is the end itself: no part of the sum.
+    for (int i = 0; i < 5; ++i) {
+      const double u = i < 4 ? gauss_node[i] * step_m : step_m;
+      turn = small_turn(u * (curvature + 0.5 * rate * u));
+      if (i < 4) moved += gauss_weight[i] * turn;
+    }
+  }
   moved *= step_m;
-  const Vec2 turn = turn_at(step_m);
   const Vec2 left = left_of(knot.direction);
   return {knot.position_m + moved.x * knot.direction + moved.y * left,
           turn.x * knot.direction + turn.y * left};

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/road/cross_section.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/traffic/traffic_parts.hpp"
 
@@ -18,41 +17,10 @@ double indicated_side(const CorridorTraffic& traffic, std::size_t i, double acro
   return std::abs(away) > 0.15 ? away : 0.0;
 }
 
-/// (cos, sin) of half the angle that has this cosine and sine.
-Vec2 half_turn(double cosine, double sine) {
-  const double c = std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine)));
-  const double s = std::copysign(std::sqrt(std::max(0.0, 0.5 * (1.0 - cosine))), sine);
-  return {c, s};
-}
-
-/// The road's line at a station and t: what a pose needs, without angles.
-struct Line {
-  Vec3 position_m, forward, left;  ///< Towards increasing s.
-  Quat world_from_line;
-  double curvature_per_m = 0.0;
-};
-
-Line line_at(const road::Road& road, double s_m, double t_m) {
-  const road::CrossSection section = road::cross_section_at(road, s_m);
-  const Vec2 direction = section.plan.direction, across = section.left();
-  Line line;
-  line.position_m = section.place(t_m, road::surface_offset_m(road, s_m, t_m));
-  line.forward = {direction * section.cos_pitch, -section.sin_pitch};
-  const Vec2 flat = direction * (section.sin_pitch * section.sin_roll) + across * section.cos_roll;
-  line.left = {flat, section.cos_pitch * section.sin_roll};
-  const Vec2 heading = half_turn(direction.x, direction.y);
-  line.world_from_line = Quat(heading.x, 0.0, 0.0, heading.y);
-  if (section.grade != 0.0) {
-    const Vec2 pitch = half_turn(section.cos_pitch, section.sin_pitch);
-    line.world_from_line = line.world_from_line * Quat(pitch.x, 0.0, pitch.y, 0.0);
-  }
-  if (section.roll_rad != 0.0) {
-    const Vec2 roll = half_turn(section.cos_roll, section.sin_roll);
-    line.world_from_line = line.world_from_line * Quat(roll.x, roll.y, 0.0, 0.0);
-  }
-  const double curvature = section.plan.curvature_per_m;
-  line.curvature_per_m = curvature / (1.0 - curvature * t_m);
-  return line;
+/// q turned further about its own z axis, by twice the angle of (cos, sin).
+Quat turned_about_up(const Quat& q, const Vec2& half) {
+  return {q.w * half.x - q.z * half.y, q.x * half.x + q.y * half.y, q.y * half.x - q.x * half.y,
+          q.z * half.x + q.w * half.y};
 }
 
 void fill_participant(const CorridorTraffic& traffic, std::size_t i,
@@ -60,9 +28,7 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
   const VehicleModel& model = vehicle_models()[traffic.model[i]];
   // The vehicle frame's origin is below the rear axle.
   const double x = wrap_x(traffic.corridor, traffic.x_m[i] - model.front_m());
-  const CorridorPiece& piece = piece_at(traffic.corridor, x);
-  const double along = std::clamp(x - piece.x_m, 0.0, piece.length_m);
-  const double s = piece.along_s ? along : piece.length_m - along;
+  const auto [piece, s, line] = line_at(network, traffic.corridor, traffic.line, x);
   const double direction = piece.along_s ? 1.0 : -1.0;
 
   LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
@@ -76,7 +42,12 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
     centre.slope = glm::mix(from.slope, centre.slope, blend.value);
   }
   const double t = centre.t_m + direction * traffic.aside_m[i];
-  const Line line = line_at(network.roads[piece.road], s, t);
+  const Quat& world_from_line = line.world_from_line.orientation;
+  const glm::dmat3 axes = glm::mat3_cast(world_from_line);
+  const Vec3 &forward = axes[0], &left = axes[1], &up = axes[2];
+  Vec3 position_m = line.world_from_line.position_m + t * left;
+  if (const road::Road& road = network.roads[piece.road]; !road.flat)
+    position_m += road::surface_offset_m(road, s, t) * up;
   const double v = traffic.speed_mps[i];
   // Sideways speed in the frame of travel, positive to the left.
   const double lateral_mps =
@@ -88,15 +59,15 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
-  participant.world_from_vehicle = {line.position_m,
-                                    line.world_from_line * Quat(turned.x, 0.0, 0.0, turned.y)};
-  const double yaw_rate = direction * line.curvature_per_m * v;
-  participant.velocity_mps = direction * (line.forward * v + line.left * lateral_mps);
+  participant.world_from_vehicle = {position_m, turned_about_up(world_from_line, turned)};
+  const double curvature_per_m = line.curvature_per_m / (1.0 - line.curvature_per_m * t);
+  const double yaw_rate = direction * curvature_per_m * v;
+  participant.velocity_mps = direction * (forward * v + left * lateral_mps);
   participant.acceleration_mps2 =
-      direction * (line.forward * traffic.acceleration_mps2[i] +
-                   line.left * (v * yaw_rate + direction * across * blend.acceleration));
+      direction * (forward * traffic.acceleration_mps2[i] +
+                   left * (v * yaw_rate + direction * across * blend.acceleration));
   participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
-  const double bend = model.wheelbase_m * direction * line.curvature_per_m;
+  const double bend = model.wheelbase_m * direction * curvature_per_m;
   participant.front_steer_rad = bend == 0.0 ? 0.0 : std::atan(bend);
   // Rolling along the corridor is all that turns the wheels.
   constexpr double turn_rad = 2.0 * std::numbers::pi;

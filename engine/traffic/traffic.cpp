@@ -13,6 +13,7 @@ CorridorTraffic empty_corridor(const road::RoadNetwork& network,
   CorridorTraffic traffic;
   traffic.corridor = build_corridor(network, through);
   traffic.table = make_lane_table(network, traffic.corridor);
+  traffic.line = make_line_table(network, traffic.corridor);
   traffic.order.lanes.resize(traffic.table.open.size());
   traffic.order.has_straddlers.resize(traffic.table.open.size());
   return traffic;

@@ -24,6 +24,7 @@
 #include "engine/traffic/driver.hpp"
 #include "engine/traffic/lane_order.hpp"
 #include "engine/traffic/lane_table.hpp"
+#include "engine/traffic/line_table.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::traffic {
@@ -67,6 +68,7 @@ enum class MakingWay : std::uint8_t { no, hold_lane, leave_lane };
 struct CorridorTraffic {
   Corridor corridor;
   LaneTable table;
+  LineTable line;
 
   std::vector<ParticipantId> id;
   std::vector<ModelIndex> model;

@@ -1,6 +1,7 @@
 #include "engine/world/participant_quantisation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -20,6 +21,9 @@ constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 
 /// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over.
 std::int64_t rounded(double value) { return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value)); }
+
+/// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last bits.
+constexpr double unit_steps = 0x1.8p52;
 
 constexpr std::int64_t limit(double value) { return static_cast<std::int64_t>(value); }
 
@@ -45,51 +49,62 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
 }
 constexpr auto limits_of_field = make_limits();
 
-double component(const Quat& q, std::size_t index) {
-  return index == 0 ? q.w : index == 1 ? q.x : index == 2 ? q.y : q.z;
+/// The limits as doubles, for whole vectors of fields; what pads is zero.
+constexpr std::size_t padded_field_count = (participant_field_count + 3) / 4 * 4;
+constexpr std::array<double, padded_field_count> make_bounds(std::int64_t FieldLimits::*bound) {
+  std::array<double, padded_field_count> bounds{};
+  for (std::size_t f = 0; f < participant_field_count; ++f) bounds[f] = static_cast<double>(limits_of_field[f].*bound);
+  return bounds;
 }
+constexpr auto lowest_of_field = make_bounds(&FieldLimits::low), highest_of_field = make_bounds(&FieldLimits::high);
 
 }  // namespace
 
 const FieldLimits& participant_field_limits(std::size_t field) { return limits_of_field[field]; }
 
 WireParticipant quantise(const Participant& participant) {
-  WireParticipant wire;
-  wire.id = participant.id;
-  // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
-  const auto put = [&](std::size_t field, double scaled) {
-    const auto [low, high] = limits_of_field[field];
-    wire.fields[field] = std::isfinite(scaled)
-                             ? rounded(std::clamp(scaled, static_cast<double>(low), static_cast<double>(high)))
-                             : 0;
-  };
+  std::array<double, padded_field_count> scaled{};
   const auto put3 = [&](std::size_t field, const Vec3& v, double scale) {
-    for (int i = 0; i < 3; ++i) put(field + static_cast<std::size_t>(i), v[i] * scale);
+    for (int i = 0; i < 3; ++i) scaled[field + static_cast<std::size_t>(i)] = v[i] * scale;
   };
-  put(field_model, participant.model);
-  put(field_paint, participant.paint);
-  put(field_lamps, participant.lamps.bits);
+  scaled[field_model] = participant.model;
+  scaled[field_paint] = participant.paint;
+  scaled[field_lamps] = participant.lamps.bits;
   put3(field_position_x, participant.world_from_vehicle.position_m, position_per_m);
   put3(field_velocity_x, participant.velocity_mps, velocity_per_mps);
   put3(field_acceleration_x, participant.acceleration_mps2, acceleration_per_mps2);
   put3(field_angular_velocity_x, participant.angular_velocity_radps, angular_velocity_per_radps);
-  put(field_front_steer, participant.front_steer_rad * angle_per_rad);
-  put(field_wheel_spin_rate, participant.wheel_spin_radps * spin_rate_per_radps);
-  for (std::size_t i = 0; i < 4; ++i) put(field_lift_front_left + i, participant.wheel_lift_m[i] * position_per_m);
+  scaled[field_front_steer] = participant.front_steer_rad * angle_per_rad;
+  scaled[field_wheel_spin_rate] = participant.wheel_spin_radps * spin_rate_per_radps;
+  for (std::size_t i = 0; i < 4; ++i) scaled[field_lift_front_left + i] = participant.wheel_lift_m[i] * position_per_m;
   const double turns = participant.wheel_spin_rad / (2.0 * glm::pi<double>());
   const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
-  put(field_wheel_spin, steps < spin_steps ? steps : 0.0);  // A hair below a whole turn rounds to one.
+  scaled[field_wheel_spin] = steps < spin_steps ? steps : 0.0;  // A hair below a whole turn rounds to one.
 
   // Smallest three: the largest component follows from the unit length and is made positive.
-  const Quat& q = participant.world_from_vehicle.orientation;
+  const Quat& orientation = participant.world_from_vehicle.orientation;
+  const std::array<double, 4> q{orientation.w, orientation.x, orientation.y, orientation.z};
   std::size_t largest = 0;
   for (std::size_t i = 1; i < 4; ++i)
-    if (std::abs(component(q, i)) > std::abs(component(q, largest))) largest = i;
-  const double sign = component(q, largest) < 0.0 ? -1.0 : 1.0;
-  wire.fields[field_largest] = static_cast<std::int64_t>(largest);
+    if (std::abs(q[i]) > std::abs(q[largest])) largest = i;
+  const double scale = (q[largest] < 0.0 ? -1.0 : 1.0) * glm::root_two<double>() * orientation_steps;
+  scaled[field_largest] = static_cast<double>(largest);
   std::size_t field = field_orientation_a;
   for (std::size_t i = 0; i < 4; ++i)
-    if (i != largest) put(field++, sign * component(q, i) * glm::root_two<double>() * orientation_steps);
+    if (i != largest) scaled[field++] = scale * q[i];
+
+  // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
+  // Without a branch and for a padded number of fields, so that the compiler takes several at a time.
+  std::array<std::int64_t, padded_field_count> whole;
+  for (std::size_t f = 0; f < padded_field_count; ++f) {
+    const double finite = scaled[f] - scaled[f] == 0.0 ? scaled[f] : 0.0;
+    const double above = finite > lowest_of_field[f] ? finite : lowest_of_field[f];
+    const double bounded = above < highest_of_field[f] ? above : highest_of_field[f];
+    whole[f] = std::bit_cast<std::int64_t>(bounded + unit_steps) - std::bit_cast<std::int64_t>(unit_steps);
+  }
+  WireParticipant wire;
+  wire.id = participant.id;
+  std::copy_n(whole.begin(), participant_field_count, wire.fields.begin());
   return wire;
 }
 

@@ -15,9 +15,13 @@ inline std::pair<double, double> sine_cosine(double x_rad) {
   const double h = 0.5 * x_rad;
   const double q = h * h;
   const double s =
-      h * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156))))));
+      h * (1 - q * (1. / 6 - q * (1. / 120 - q * (1. / 5040 - q * (1. / 362880 -
+                                                                   q * (1. / 39916800 -
+                                                                        q * (1. / 6227020800)))))));
   const double c =
-      1 - q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
+      1 - q * (1. / 2 -
+               q * (1. / 24 -
+                    q * (1. / 720 - q * (1. / 40320 - q * (1. / 3628800 - q * (1. / 479001600))))));
   return {2 * s * c, c * c - s * s};
 }
 
