@@ -122,9 +122,11 @@ DriverCar driver_car(const SimulationModel& model, const SimulationState& state,
 bool overlap(const Participant& a, const Participant& b) {
   const VehicleModel &model_a = vehicle_models()[a.model], &model_b = vehicle_models()[b.model];
   const auto centre = [](const Participant& p, const VehicleModel& m) { return Vec2(p.world_from_vehicle * Vec3(m.centre_x_m(), 0.0, 0.0)); };
+  // No part of a vehicle is farther than this from its origin: most pairs need no more than that.
+  const double reach = model_a.length_m + model_b.length_m + model_a.width_m + model_b.width_m;
+  const Vec2 apart = b.world_from_vehicle.position_m - a.world_from_vehicle.position_m;
+  if (glm::dot(apart, apart) > reach * reach) return false;
   const Vec2 between = centre(b, model_b) - centre(a, model_a);
-  const double reach = 0.5 * (model_a.length_m + model_b.length_m + model_a.width_m + model_b.width_m);
-  if (glm::dot(between, between) > reach * reach) return false;
   const double angle_a = heading_rad(a.world_from_vehicle.orientation), angle_b = heading_rad(b.world_from_vehicle.orientation);
   const Vec2 axes[] = {{std::cos(angle_a), std::sin(angle_a)}, {-std::sin(angle_a), std::cos(angle_a)},
                        {std::cos(angle_b), std::sin(angle_b)}, {-std::sin(angle_b), std::cos(angle_b)}};

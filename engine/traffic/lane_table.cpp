@@ -126,7 +126,7 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
 LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
                        const CorridorPiece& piece, double x_m, int lane) {
   const auto& knots = table.centres[static_cast<std::size_t>(lane)].knots;
-  const double at = x_m / LaneTable::knot_step_m;
+  const double at = x_m * (1.0 / LaneTable::knot_step_m);
   const auto k = static_cast<std::size_t>(at);
   if (k + 1 >= knots.size() || !knots[k].smooth) return exact_centre(network, piece, x_m, lane);
   const LaneCentre centre = between(knots[k], knots[k + 1], at - static_cast<double>(k));

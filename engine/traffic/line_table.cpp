@@ -97,7 +97,7 @@ LineTable make_line_table(const road::RoadNetwork& network, const Corridor& corr
 
 LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const LineTable& table,
                double x_m) {
-  const double at = x_m / LineTable::step_m;
+  const double at = x_m * (1.0 / LineTable::step_m);
   const auto k = static_cast<std::size_t>(at);
   if (k >= table.stretches.size() || !table.stretches[k].smooth) {
     const CorridorPiece& piece = piece_at(corridor, x_m);
@@ -107,7 +107,8 @@ LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const
   const LineTable::Stretch& stretch = table.stretches[k];
   const CorridorPiece& piece = corridor.pieces[stretch.piece];
   const Numbers n = evaluate(stretch, at - static_cast<double>(k));
-  const double scale = 1.0 / std::sqrt(n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6]);
+  // As long as one to the tolerance: one step of Newton's method for 1/√ is exact to its square.
+  const double scale = 1.5 - 0.5 * (n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6]);
   return {piece,
           station(piece, x_m),
           {{{n[0], n[1], n[2]}, {scale * n[3], scale * n[4], scale * n[5], scale * n[6]}}, n[7]}};

@@ -17,6 +17,13 @@ double indicated_side(const CorridorTraffic& traffic, std::size_t i, double acro
   return std::abs(away) > 0.15 ? away : 0.0;
 }
 
+/// The angle of this tangent: by its series where that is good to 1e-12, as on all but tight bends.
+double small_angle_rad(double tangent) {
+  const double q = tangent * tangent;
+  if (q > 2e-4) return std::atan(tangent);
+  return tangent * (1.0 - q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7))));
+}
+
 /// q turned further about its own z axis, by twice the angle of (cos, sin).
 Quat turned_about_up(const Quat& q, const Vec2& half) {
   return {q.w * half.x - q.z * half.y, q.x * half.x + q.y * half.y, q.y * half.x - q.x * half.y,
@@ -53,8 +60,12 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
   const double lateral_mps =
       direction * across * blend.rate + centre.slope * v + traffic.aside_mps[i];
   // The vehicle points where it goes; against s it is turned by half a turn as well.
-  const double ahead = std::max(v, 1.0), way = std::sqrt(ahead * ahead + lateral_mps * lateral_mps);
-  const Vec2 turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
+  Vec2 turned = direction > 0.0 ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
+  if (lateral_mps != 0.0) {
+    const double ahead = std::max(v, 1.0);
+    const double way = std::sqrt(ahead * ahead + lateral_mps * lateral_mps);
+    turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
+  }
 
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
@@ -68,12 +79,13 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
                    left * (v * yaw_rate + direction * across * blend.acceleration));
   participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
   const double bend = model.wheelbase_m * direction * curvature_per_m;
-  participant.front_steer_rad = bend == 0.0 ? 0.0 : std::atan(bend);
+  participant.front_steer_rad = small_angle_rad(bend);
   // Rolling along the corridor is all that turns the wheels.
   constexpr double turn_rad = 2.0 * std::numbers::pi;
-  const double turns = std::max(traffic.x_m[i], 0.0) / (model.wheel_radius_m * turn_rad);
+  const double radps_per_mps = 1.0 / model.wheel_radius_m;
+  const double turns = std::max(traffic.x_m[i], 0.0) * radps_per_mps * (1.0 / turn_rad);
   participant.wheel_spin_rad = (turns - std::floor(turns)) * turn_rad;
-  participant.wheel_spin_radps = v / model.wheel_radius_m;
+  participant.wheel_spin_radps = v * radps_per_mps;
   participant.lamps.set(Lamp::low_beam, true);
   participant.lamps.set(Lamp::brake, traffic.acceleration_mps2[i] < -0.7);
   participant.lamps.set(Lamp::beacon, traffic.emergency[i] != 0);

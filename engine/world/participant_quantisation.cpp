@@ -77,21 +77,18 @@ WireParticipant quantise(const Participant& participant) {
   scaled[field_front_steer] = participant.front_steer_rad * angle_per_rad;
   scaled[field_wheel_spin_rate] = participant.wheel_spin_radps * spin_rate_per_radps;
   for (std::size_t i = 0; i < 4; ++i) scaled[field_lift_front_left + i] = participant.wheel_lift_m[i] * position_per_m;
-  const double turns = participant.wheel_spin_rad / (2.0 * glm::pi<double>());
+  const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
   const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
   scaled[field_wheel_spin] = steps < spin_steps ? steps : 0.0;  // A hair below a whole turn rounds to one.
 
   // Smallest three: the largest component follows from the unit length and is made positive.
   const Quat& orientation = participant.world_from_vehicle.orientation;
   const std::array<double, 4> q{orientation.w, orientation.x, orientation.y, orientation.z};
-  std::size_t largest = 0;
-  for (std::size_t i = 1; i < 4; ++i)
-    if (std::abs(q[i]) > std::abs(q[largest])) largest = i;
-  const double scale = (q[largest] < 0.0 ? -1.0 : 1.0) * glm::root_two<double>() * orientation_steps;
+  const std::size_t first = std::abs(q[1]) > std::abs(q[0]) ? 1 : 0, second = std::abs(q[3]) > std::abs(q[2]) ? 3 : 2;
+  const std::size_t largest = std::abs(q[second]) > std::abs(q[first]) ? second : first;
+  const double scale = std::copysign(glm::root_two<double>() * orientation_steps, q[largest]);
   scaled[field_largest] = static_cast<double>(largest);
-  std::size_t field = field_orientation_a;
-  for (std::size_t i = 0; i < 4; ++i)
-    if (i != largest) scaled[field++] = scale * q[i];
+  for (std::size_t i = 0; i < 3; ++i) scaled[field_orientation_a + i] = scale * q[i + (i >= largest ? 1 : 0)];
 
   // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
   // Without a branch and for a padded number of fields, so that the compiler takes several at a time.
