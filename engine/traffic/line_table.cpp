@@ -35,8 +35,8 @@ Numbers numbers_of(const RoadLine& line, const Quat& near) {
   return {p.x, p.y, p.z, q.w, q.x, q.y, q.z, line.curvature_per_m};
 }
 
-Numbers evaluate(const LineTable::Stretch& stretch, double u) {
-  const auto& [c0, c1, c2, c3] = stretch.coefficients;
+Numbers evaluate(const LineTable::Cubics& cubics, double u) {
+  const auto& [c0, c1, c2, c3] = cubics;
   Numbers value;
   for (std::size_t i = 0; i < value.size(); ++i)
     value[i] = c0[i] + u * (c1[i] + u * (c2[i] + u * c3[i]));
@@ -52,28 +52,29 @@ double largest_error(const Numbers& a, const Numbers& b) {
   return largest;
 }
 
-LineTable::Stretch make_stretch(const road::RoadNetwork& network, const Corridor& corridor,
-                                double begin_m, double end_m) {
+void add_step(const road::RoadNetwork& network, const Corridor& corridor, double begin_m,
+              double end_m, LineTable& table) {
   const CorridorPiece& piece = piece_at(corridor, begin_m);
   const road::Road& road = network.roads[piece.road];
   const Quat near = exact_line(road, station(piece, begin_m)).world_from_line.orientation;
   const auto at = [&](double u) {
     return numbers_of(exact_line(road, station(piece, glm::mix(begin_m, end_m, u))), near);
   };
-  LineTable::Stretch stretch;
-  stretch.piece = static_cast<std::uint32_t>(&piece - corridor.pieces.data());
   // Through u = 0, 1/3, 2/3 and 1 (Lagrange).
+  LineTable::Cubics cubics;
   const Numbers f0 = at(0.0), f1 = at(1.0 / 3.0), f2 = at(2.0 / 3.0), f3 = at(1.0);
   for (std::size_t i = 0; i < f0.size(); ++i) {
-    stretch.coefficients[0][i] = f0[i];
-    stretch.coefficients[1][i] = -5.5 * f0[i] + 9.0 * f1[i] - 4.5 * f2[i] + f3[i];
-    stretch.coefficients[2][i] = 9.0 * f0[i] - 22.5 * f1[i] + 18.0 * f2[i] - 4.5 * f3[i];
-    stretch.coefficients[3][i] = -4.5 * f0[i] + 13.5 * f1[i] - 13.5 * f2[i] + 4.5 * f3[i];
+    cubics[0][i] = f0[i];
+    cubics[1][i] = -5.5 * f0[i] + 9.0 * f1[i] - 4.5 * f2[i] + f3[i];
+    cubics[2][i] = 9.0 * f0[i] - 22.5 * f1[i] + 18.0 * f2[i] - 4.5 * f3[i];
+    cubics[3][i] = -4.5 * f0[i] + 13.5 * f1[i] - 13.5 * f2[i] + 4.5 * f3[i];
   }
-  stretch.smooth = &piece == &piece_at(corridor, end_m);
+  bool smooth = &piece == &piece_at(corridor, end_m);
   for (const double u : {0.1, 0.5, 0.9})
-    stretch.smooth = stretch.smooth && largest_error(evaluate(stretch, u), at(u)) < tolerance;
-  return stretch;
+    smooth = smooth && largest_error(evaluate(cubics, u), at(u)) < tolerance;
+  table.cubics.push_back(cubics);
+  table.pieces.push_back(smooth ? static_cast<std::uint32_t>(&piece - corridor.pieces.data())
+                                : LineTable::no_piece);
 }
 
 }  // namespace
@@ -87,10 +88,9 @@ Vec2 half_turn(double cosine, double sine) {
 LineTable make_line_table(const road::RoadNetwork& network, const Corridor& corridor) {
   LineTable table;
   const auto count = static_cast<std::size_t>(corridor.length_m / LineTable::step_m);
-  table.stretches.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const double begin = LineTable::step_m * static_cast<double>(k);
-    table.stretches.push_back(make_stretch(network, corridor, begin, begin + LineTable::step_m));
+    add_step(network, corridor, begin, begin + LineTable::step_m, table);
   }
   return table;
 }
@@ -99,14 +99,13 @@ LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const
                double x_m) {
   const double at = x_m * (1.0 / LineTable::step_m);
   const auto k = static_cast<std::size_t>(at);
-  if (k >= table.stretches.size() || !table.stretches[k].smooth) {
+  if (k >= table.pieces.size() || table.pieces[k] == LineTable::no_piece) {
     const CorridorPiece& piece = piece_at(corridor, x_m);
     const double s = station(piece, x_m);
     return {piece, s, exact_line(network.roads[piece.road], s)};
   }
-  const LineTable::Stretch& stretch = table.stretches[k];
-  const CorridorPiece& piece = corridor.pieces[stretch.piece];
-  const Numbers n = evaluate(stretch, at - static_cast<double>(k));
+  const CorridorPiece& piece = corridor.pieces[table.pieces[k]];
+  const Numbers n = evaluate(table.cubics[k], at - static_cast<double>(k));
   // As long as one to the tolerance: one step of Newton's method for 1/√ is exact to its square.
   const double scale = 1.5 - 0.5 * (n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6]);
   return {piece,

@@ -24,13 +24,12 @@ struct RoadLine {
 struct LineTable {
   static constexpr double step_m = 10.0;
 
-  struct Stretch {
-    /// [power][number]: position x, y, z; orientation w, x, y, z; curvature.
-    std::array<std::array<double, 8>, 4> coefficients;
-    std::uint32_t piece = 0;  ///< Of the corridor.
-    bool smooth = false;
-  };
-  std::vector<Stretch> stretches;
+  /// [power][number]: position x, y, z; orientation w, x, y, z; curvature.
+  using Cubics = std::array<std::array<double, 8>, 4>;
+  static constexpr std::uint32_t no_piece = 0xffffffff;
+
+  std::vector<std::uint32_t> pieces;  ///< Of the corridor, per step; no_piece: the road is asked.
+  std::vector<Cubics> cubics;         ///< Per step.
 };
 
 LineTable make_line_table(const road::RoadNetwork& network, const Corridor& corridor);

@@ -30,8 +30,8 @@ Quat turned_about_up(const Quat& q, const Vec2& half) {
           q.z * half.x + q.w * half.y};
 }
 
-void fill_participant(const CorridorTraffic& traffic, std::size_t i,
-                      const road::RoadNetwork& network, double time_s, Participant& participant) {
+Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
+                           const road::RoadNetwork& network, double time_s) {
   const VehicleModel& model = vehicle_models()[traffic.model[i]];
   // The vehicle frame's origin is below the rear axle.
   const double x = wrap_x(traffic.corridor, traffic.x_m[i] - model.front_m());
@@ -67,6 +67,7 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
     turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
   }
 
+  Participant participant;
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
@@ -93,6 +94,7 @@ void fill_participant(const CorridorTraffic& traffic, std::size_t i,
   const double side = indicated_side(traffic, i, direction * across);
   if (side != 0.0 && std::fmod(time_s + 0.13 * static_cast<double>(traffic.id[i] % 7), 0.7) < 0.37)
     participant.lamps.set(side > 0.0 ? Lamp::indicator_left : Lamp::indicator_right, true);
+  return participant;
 }
 
 }  // namespace
@@ -106,7 +108,7 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       if (!traffic.corridor.closed &&
           (rear_axle_x < 0.0 || traffic.x_m[i] > traffic.corridor.length_m))
         continue;
-      fill_participant(traffic, i, network, state.time_s, participants.emplace_back());
+      participants.push_back(participant_of(traffic, i, network, state.time_s));
     }
 }
 
