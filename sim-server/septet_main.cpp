@@ -10,6 +10,7 @@
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/command/road_command.hpp"
+#include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/version.hpp"
@@ -88,6 +89,15 @@ int run(int argc, char** argv) {
     track.vehicle = *file;
     status = run_vehicle_test(track);
   });
+
+  auto* traffic_command = app.add_subcommand("traffic", "Septet's traffic on the test track");
+  traffic_command->require_subcommand(1);
+  TrafficDiagramOptions diagram;
+  auto* traffic_diagram = traffic_command->add_subcommand("diagram", "The fundamental diagram: figures, a table and a plot");
+  traffic_diagram->add_option("--lanes", diagram.lanes, "Of the ring")->check(CLI::Range(1, 8))->capture_default_str();
+  traffic_diagram->add_option("--seed", diagram.seed, "Of vehicles and drivers")->capture_default_str();
+  traffic_diagram->add_option("--out", diagram.out, "Folder for the files; without it the figures are only printed");
+  traffic_diagram->callback([&] { status = run_traffic_diagram(diagram); });
 
   std::vector<std::string> files;
   auto* check_command = app.add_subcommand("check", "Say what is wrong with road, scenario and rig files");

@@ -54,4 +54,16 @@ double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m) {
   return 0.5 * (low + high);
 }
 
+double idm_stability_margin(const FollowingParameters& driver, double gap_m) {
+  const double v = idm_equilibrium_speed(driver, gap_m), a = driver.acceleration_mps2;
+  const double v0 = driver.desired_speed_mps;
+  const double wanted_over_gap = (driver.standstill_gap_m + v * driver.time_gap_s) / gap_m;
+  const double by_gap = 2.0 * a * wanted_over_gap * wanted_over_gap / gap_m;
+  const double by_speed = -a * (4.0 * v * v * v / (v0 * v0 * v0 * v0) +
+                                2.0 * wanted_over_gap * driver.time_gap_s / gap_m);
+  const double by_approach =
+      -wanted_over_gap * v / gap_m * std::sqrt(a / driver.comfortable_braking_mps2);
+  return (0.5 * by_speed + by_approach) * by_speed - by_gap;
+}
+
 }  // namespace septet::traffic

@@ -51,6 +51,12 @@ double idm_acceleration(const FollowingParameters& driver, double speed_mps,
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
 
+/// String stability of equal drivers who follow each other at this gap, in 1/s²: positive where a
+/// disturbance fades from vehicle to vehicle, negative where it grows into stop-and-go waves.
+/// (½ f_v + f_Δv) f_v − f_s of the law f(s, v, Δv) in equilibrium (Treiber and Kesting, "Traffic
+/// Flow Dynamics", 2013, section 15.4).
+double idm_stability_margin(const FollowingParameters& driver, double gap_m);
+
 /// The same law with its constants worked out once, for the loop over all vehicles.
 struct FollowingLaw {
   double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;

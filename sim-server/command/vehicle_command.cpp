@@ -9,6 +9,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
+#include "sim-server/command/text_files.hpp"
 
 namespace septet::server {
 namespace {
@@ -24,26 +25,13 @@ Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
   return vehicle::read_vehicle(text.str(), path.filename().string());
 }
 
-Expected<void> write_file(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) return failure("cannot be written", path.string(), "choose another --out folder");
-  return {};
-}
-
 Expected<void> write_report(const VehicleTestOptions& options,
                             const vehicle::ManoeuvreReport& report) {
-  std::error_code error;
-  fs::create_directories(options.out, error);
-  if (error) return failure(error.message(), options.out.string(), "choose another --out folder");
   const std::string car = options.vehicle.stem().string();
-  const auto path = [&](const char* extension) {
-    return options.out / fmt::format("{}-{}{}", car, report.manoeuvre, extension);
-  };
-  return write_file(path(".json"), figures_json(car, report))
-      .and_then([&] { return write_file(path(".csv"), series_csv(report)); })
-      .and_then([&] { return write_file(path(".svg"), manoeuvre_svg(car, report)); });
+  const std::string name = fmt::format("{}-{}", car, report.manoeuvre);
+  return write_text_files(options.out, {{name + ".json", figures_json(car, report)},
+                                        {name + ".csv", series_csv(report)},
+                                        {name + ".svg", manoeuvre_svg(car, report)}});
 }
 
 Expected<void> test_vehicle(const VehicleTestOptions& options) {

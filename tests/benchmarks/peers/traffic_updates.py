@@ -49,14 +49,15 @@ def factor(timid, aggressive, u):
     return timid ** (1 - 2 * u) if u < 0.5 else aggressive ** (2 * u - 1)
 
 
-def driver_type(name, kind, u):
+def driver_type(name, kind, u, extra):
     length, width, v0, gap, a, b, s0 = kind
     return (f'<vType id="{name}" carFollowModel="IDM" length="{length}" width="{width}" speedFactor="1" speedDev="0" '
             f'maxSpeed="{v0 * factor(0.90, 1.15, u):.3f}" tau="{gap * factor(1.35, 0.62, u):.3f}" '
-            f'accel="{a * factor(0.65, 1.40, u):.3f}" decel="{b * factor(0.65, 1.25, u):.3f}" minGap="{s0 * factor(1.40, 0.75, u):.3f}"/>')
+            f'accel="{a * factor(0.65, 1.40, u):.3f}" decel="{b * factor(0.65, 1.25, u):.3f}" minGap="{s0 * factor(1.40, 0.75, u):.3f}" {extra}/>')
 
 
-def demand(folder, parts, length, vehicles, seed):
+def demand(folder, parts, length, vehicles, seed, extra, ambulance=None):
+    """Writes r.xml: vehicles spread evenly; `ambulance`, the XML of a type of that name, takes the place of one on the left."""
     rng = random.Random(seed)
     spacing = length * LANES / vehicles
     with open(f"{folder}/r.xml", "w") as routes:
@@ -69,13 +70,14 @@ def demand(folder, parts, length, vehicles, seed):
             lane = i % LANES  # SUMO counts from the right.
             heavy = lane < 2 and rng.randrange(3) == 0
             u = (rng.random() + rng.random() + rng.random()) / 3
-            routes.write(driver_type(f"t{i}", LORRY if heavy else CAR, u))
+            is_ambulance = ambulance and i == LANES - 1
+            routes.write(ambulance if is_ambulance else driver_type(f"t{i}", LORRY if heavy else CAR, u, extra))
             x = ((i // LANES) * spacing + rng.uniform(0, 0.1) * spacing + lane * 3) % length
-            order.append((i, lane, x))
+            order.append(("ambulance", "ambulance", lane, x) if is_ambulance else (f"v{i}", f"t{i}", lane, x))
         part = length / parts
-        for i, lane, x in order:
+        for name, kind, lane, x in order:
             k = int(x / part)
-            routes.write(f'<vehicle id="v{i}" type="t{i}" route="r{k}" depart="0" departLane="{lane}" departPos="{x - k * part:.2f}" '
+            routes.write(f'<vehicle id="{name}" type="{kind}" route="r{k}" depart="0" departLane="{lane}" departPos="{x - k * part:.2f}" '
                          f'departSpeed="desired" insertionChecks="none"/>')
         routes.write("</routes>")
 
@@ -84,7 +86,7 @@ def sumo_updates(steps):
     """CPU seconds of SUMO's own program for so many steps of 1,000 vehicles."""
     with tempfile.TemporaryDirectory() as folder:
         parts = ring_network(folder, 10000.0)
-        demand(folder, parts, 10000.0, 1000, 1)
+        demand(folder, parts, 10000.0, 1000, 1, "")
 
         def cpu(count):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -3,16 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/traffic/fundamental_diagram.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::traffic {
 namespace {
-
-double mean_speed_mps(const CorridorTraffic& traffic) {
-  double sum = 0.0;
-  for (const double speed : traffic.speed_mps) sum += speed;
-  return sum / static_cast<double>(traffic.size());
-}
 
 /// Equal cars on a ring of one lane, about 2 km round.
 TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver,
@@ -72,20 +67,54 @@ TEST_CASE("an unstable density grows stop-and-go waves out of a small disturbanc
   CHECK(overlapping_bodies(state.corridors[0]) == 0);
 }
 
-TEST_CASE("flow rises with density until capacity and falls beyond") {
-  const auto network = ring_road(4000.0, 3);
-  const TrafficParameters parameters = motorway_traffic(0, 1e6);
-  double before = 0.0, most = 0.0, last = 0.0;
-  bool falls = false;
-  for (const int per_km_lane : {5, 15, 25, 45, 80}) {
-    TrafficState state = dense_ring(network, 3, static_cast<std::uint32_t>(per_km_lane * 4 * 3), 3);
+TEST_CASE(
+    "a disturbance fades where theory calls equal drivers string-stable and grows where not") {
+  const auto network = ring_road(2011.0, 1);
+  constexpr int count = 80;
+  const auto largest_difference = [&](double acceleration_mps2, double seconds) {
+    const Driver driver{{33.33, 1.5, acceleration_mps2, 2.0, 2.0}, {}, 1.0};
+    TrafficState state = equal_cars(network, count, driver, 0.0);
+    CorridorTraffic& traffic = state.corridors[0];
+    const double speed = idm_equilibrium_speed(driver.following, 2011.0 / count - 5.0);
+    for (double& each : traffic.speed_mps) each = speed;
+    traffic.speed_mps[0] -= 1.0;
+    TrafficParameters parameters;
     Random random(1);
-    for (int step = 0; step < 1500; ++step) advance(parameters, network, {}, 0.2, random, state);
-    last = mean_speed_mps(state.corridors[0]) * per_km_lane * 3.6;
-    MESSAGE(per_km_lane << " vehicles/km/lane: " << last << " vehicles/h/lane");
-    most = std::max(most, last);
-    falls = falls || last < before;
-    before = last;
+    for (double time = 0.0; time < seconds; time += 0.1)
+      advance(parameters, network, {}, 0.1, random, state);
+    const auto [least, most] = std::ranges::minmax_element(traffic.speed_mps);
+    return *most - *least;
+  };
+  const auto margin = [&](double acceleration_mps2) {
+    return idm_stability_margin({33.33, 1.5, acceleration_mps2, 2.0, 2.0}, 2011.0 / count - 5.0);
+  };
+  for (const double acceleration : {2.0, 2.6}) {
+    CAPTURE(acceleration);
+    CHECK(margin(acceleration) > 0.01);
+    CHECK(largest_difference(acceleration, 600.0) < 0.01);
+  }
+  for (const double acceleration : {0.5, 1.0}) {
+    CAPTURE(acceleration);
+    CHECK(margin(acceleration) < -0.01);
+    const double early = largest_difference(acceleration, 120.0);
+    const double late = largest_difference(acceleration, 1800.0);
+    MESSAGE("acceleration " << acceleration << ": " << early << " m/s, then " << late << " m/s");
+    CHECK(late > 3.0 * early);
+    CHECK(late > 3.0);
+  }
+}
+
+TEST_CASE("flow rises with density until capacity and falls beyond") {
+  double before = 0.0, most = 0.0;
+  bool falls = false;
+  const RingOptions ring{.settling_s = 300.0, .measuring_s = 30.0};
+  for (const FlowPoint& point :
+       fundamental_diagram(ring, std::vector{5.0, 15.0, 25.0, 45.0, 80.0})) {
+    MESSAGE(point.density_per_km << " vehicles/km/lane: " << point.flow_per_h
+                                 << " vehicles/h/lane");
+    most = std::max(most, point.flow_per_h);
+    falls = falls || point.flow_per_h < before;
+    before = point.flow_per_h;
   }
   CHECK(falls);
   // What motorways carry: about 1,500 to 2,400 vehicles an hour and lane.
