@@ -17,7 +17,7 @@ Quat slerp_quadratic(const Quat& from, const Quat& to, double sigma, double t) {
   const double sin_theta = glm::length(across);
   if (sin_theta < 1e-12) return from;
   const double theta = std::atan2(sin_theta, std::abs(dot));
-  const double angle = theta * (sigma * t * t + (1.0 - sigma) * t);
+  const double angle = theta * varied_share(sigma, t);
   return glm::normalize(from * std::cos(angle) + across * (std::sin(angle) / sin_theta));
 }
 

@@ -9,8 +9,11 @@
 
 namespace septet {
 
+/// Share of a turn done at `t` in [0, 1] where the angle varies quadratically (eqs. 7–11): σt² + (1−σ)t.
+constexpr double varied_share(double sigma, double t) { return (sigma * t + 1.0 - sigma) * t; }
+
 /// The orientation at `t` in [0, 1] of a turn from `from` to `to` whose angle varies quadratically:
-/// angle(t) = θ·(σt² + (1−σ)t). σ = 0 turns at constant rate, σ > 0 speeds up, σ < 0 slows down; |σ| ≤ 1 (checked).
+/// angle(t) = θ·varied_share(σ, t). σ = 0 turns at constant rate, σ > 0 speeds up, σ < 0 slows down; |σ| ≤ 1 (checked).
 /// The shorter way round is taken; equal orientations are answered exactly.
 Quat slerp_quadratic(const Quat& from, const Quat& to, double sigma, double t);
 

@@ -50,7 +50,8 @@ Participant interpolate(const Participant& before, const Participant& after, dou
   const double expected = 0.5 * (before.wheel_spin_radps + after.wheel_spin_radps) * seconds;
   const double difference = after.wheel_spin_rad - before.wheel_spin_rad;
   const double rolled = difference + turn * std::round((expected - difference) / turn);
-  const double angle = before.wheel_spin_rad + rolled * t;
+  const double angle = before.wheel_spin_rad +
+                       rolled * varied_share(sigma_from_rates(before.wheel_spin_radps, after.wheel_spin_radps), t);
   result.wheel_spin_rad = angle - turn * std::floor(angle / turn);
   return result;
 }

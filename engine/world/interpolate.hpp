@@ -3,8 +3,9 @@
 ///
 /// Positions follow the quintic that meets position, velocity and acceleration of both snapshots; orientations turn by the
 /// spherical interpolation whose angle varies quadratically (spherical_interpolation.hpp), with σ from the two angular
-/// velocities; wheels roll on by their spin rate. A participant in only one of the two snapshots is shown where that one has
-/// it; one that was moved by more than its motion explains (a teleport) is not smeared across the gap. Pure functions.
+/// velocities, and wheels by the same law with σ from their two spin rates. A participant in only one of the two snapshots is
+/// shown where that one has it; one that was moved by more than its motion explains (a teleport) is not smeared across the
+/// gap. Pure functions.
 
 #include "engine/world/snapshot.hpp"
 

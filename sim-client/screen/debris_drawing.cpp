@@ -19,60 +19,77 @@ bool same_triangles(const debris::Keyframe& a, const debris::Keyframe& b) {
   return std::equal(a.triangles.begin(), a.triangles.begin() + static_cast<std::ptrdiff_t>(both), b.triangles.begin());
 }
 
-DebrisShape shape_of(const debris::Keyframe& keyframe) {
-  return {keyframe.part, keyframe.material, keyframe.shards, keyframe.vertices_m, keyframe.triangles};
+/// Vertices that both have go from one place to the other; what one of them lacks stands still.
+std::vector<Vec3> places_of(const debris::Keyframe& keyframe, const debris::Keyframe& other) {
+  std::vector<Vec3> places = keyframe.vertices_m;
+  for (std::size_t i = places.size(); i < other.vertices_m.size(); ++i) places.push_back(other.vertices_m[i]);
+  return places;
 }
 
-/// Moves the vertices that both have from `from` to `to`; beyond 1 it goes on in a straight line.
-void move_between(std::vector<Vec3>& vertices, const std::vector<Vec3>& from, const std::vector<Vec3>& to, double share) {
-  const std::size_t both = std::min({vertices.size(), from.size(), to.size()});
-  for (std::size_t i = 0; i < both; ++i) vertices[i] = from[i] + share * (to[i] - from[i]);
-}
-
-glm::vec3 unit_or_up(const glm::vec3& v) {
-  const float square = glm::dot(v, v);
-  return square > 0.0f ? v / std::sqrt(square) : glm::vec3(0.0f, 0.0f, 1.0f);
+/// Relative to a corner of each face at its own instant: a normal needs the edges alone, and so loses no digits far out.
+std::vector<MovingFace> faces_of(std::span<const Vec3> from, std::span<const Vec3> to,
+                                 std::span<const std::array<std::uint16_t, 3>> triangles) {
+  std::vector<MovingFace> faces(triangles.size());
+  for (std::size_t n = 0; n < faces.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      faces[n].from[c] = glm::vec3(from[triangles[n][c]] - from[triangles[n][0]]);
+      faces[n].to[c] = glm::vec3(to[triangles[n][c]] - to[triangles[n][0]]);
+    }
+  return faces;
 }
 
 }  // namespace
 
-std::optional<DebrisShape> debris_at(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after, double tick) {
+std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after,
+                                            double tick) {
   if (!before.keyframe && !after.keyframe) return std::nullopt;
-  if (!before.keyframe) return shape_of(*after.keyframe);
-  if (!after.keyframe) return shape_of(*before.keyframe);
+  if (!before.keyframe) return DebrisInstant{after, after, 0.0};
+  if (!after.keyframe) return DebrisInstant{before, before, 0.0};
   if (same_triangles(*before.keyframe, *after.keyframe)) {
     const double span = before.keyframe->asleep ? resting_span_ticks : longest_span_ticks;
     const double end = static_cast<double>(after.tick), begin = std::max(static_cast<double>(before.tick), end - span);
-    DebrisShape shape = shape_of(*after.keyframe);
-    const double share = end > begin ? std::clamp((tick - begin) / (end - begin), 0.0, 1.0) : 1.0;
-    move_between(shape.vertices_m, before.keyframe->vertices_m, after.keyframe->vertices_m, share);
-    return shape;
+    return DebrisInstant{before, after, end > begin ? std::clamp((tick - begin) / (end - begin), 0.0, 1.0) : 1.0};
   }
-  DebrisShape shape = shape_of(*before.keyframe);
   if (earlier.keyframe && earlier.tick < before.tick && same_triangles(*earlier.keyframe, *before.keyframe)) {
     const double share = (tick - static_cast<double>(earlier.tick)) / static_cast<double>(before.tick - earlier.tick);
-    move_between(shape.vertices_m, earlier.keyframe->vertices_m, before.keyframe->vertices_m, std::clamp(share, 1.0, 3.0));
+    return DebrisInstant{earlier, before, std::clamp(share, 1.0, 3.0)};
   }
-  return shape;
+  return DebrisInstant{before, before, 0.0};
 }
 
-render::DynamicMesh debris_mesh(const DebrisShape& shape) {
+DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
+    : part_(to.part),
+      material_(to.material),
+      both_sides_(to.shards),
+      from_m_(places_of(from, to)),
+      step_m_(places_of(to, from)),
+      triangles_(to.triangles),
+      normals_(NormalMethod::t_variant, faces_of(from_m_, step_m_, triangles_)) {
+  for (std::size_t i = 0; i < step_m_.size(); ++i) step_m_[i] -= from_m_[i];
+}
+
+render::DynamicMesh DebrisWay::at(double share) const {
   render::DynamicMesh mesh;
-  if (shape.vertices_m.empty()) return mesh;
-  Vec3 low = shape.vertices_m.front(), high = low;
-  for (const Vec3& v : shape.vertices_m) low = glm::min(low, v), high = glm::max(high, v);
+  if (triangles_.empty()) return mesh;
+  std::vector<Vec3> places(from_m_.size());
+  Vec3 low(INFINITY), high(-INFINITY);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    places[i] = from_m_[i] + share * step_m_[i];
+    low = glm::min(low, places[i]), high = glm::max(high, places[i]);
+  }
   mesh.origin_m = 0.5 * (low + high);
   mesh.radius_m = static_cast<float>(0.5 * glm::length(high - low));
-  std::vector<glm::vec3> vertices;
-  vertices.reserve(shape.vertices_m.size());
-  for (const Vec3& v : shape.vertices_m) vertices.emplace_back(v - mesh.origin_m);
-  mesh.vertices.reserve(shape.triangles.size() * (shape.both_sides ? 6 : 3));
-  for (const auto& [a, b, c] : shape.triangles) {
-    const glm::vec3 &p = vertices[a], &q = vertices[b], &r = vertices[c];
-    const glm::vec3 normal = unit_or_up(glm::cross(q - p, r - p));
-    for (const glm::vec3& corner : {p, q, r}) mesh.vertices.push_back({corner, normal, {}});
-    if (shape.both_sides)
-      for (const glm::vec3& corner : {p, r, q}) mesh.vertices.push_back({corner, -normal, {}});
+  FaceNormals normals;
+  normals_.at(static_cast<float>(share), normals);
+  mesh.vertices.reserve(triangles_.size() * (both_sides_ ? 6 : 3));
+  for (std::size_t n = 0; n < triangles_.size(); ++n) {
+    std::array<glm::vec3, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) corners[c] = glm::vec3(places[triangles_[n][c]] - mesh.origin_m);
+    glm::vec3 normal(normals.x[n], normals.y[n], normals.z[n]);
+    if (normal == glm::vec3(0.0f)) normal.z = 1.0f;  // Without area it is not seen, but its light must be a number.
+    for (const glm::vec3& corner : corners) mesh.vertices.push_back({corner, normal, {}});
+    if (both_sides_)
+      for (const glm::vec3& corner : {corners[0], corners[2], corners[1]}) mesh.vertices.push_back({corner, -normal, {}});
   }
   return mesh;
 }
@@ -107,17 +124,27 @@ std::vector<render::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMomen
                                                      const scene::ResolvedScene& scene) {
   std::vector<render::DynamicMesh> meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;
+  for (auto& [key, entry] : ways_) entry.used = false;
   for (const EffectMoment& moment : moments) {
     const EffectKeyframe* any = moment.before ? moment.before : moment.after;
     if (!any || any->kind != debris::keyframe_kind) continue;
-    const auto shape = debris_at(decoded(moment.earlier), decoded(moment.before), decoded(moment.after), tick);
-    if (!shape) continue;
-    const auto look = std::ranges::find(scene.prototypes, debris_look(shape->part, shape->material), &scene::Prototype::name);
+    const auto instant = debris_instant(decoded(moment.earlier), decoded(moment.before), decoded(moment.after), tick);
+    if (!instant) continue;
+    const WayKey key{any->id, instant->from.tick, instant->to.tick};
+    auto found = ways_.find(key);
+    if (found == ways_.end()) {
+      found = ways_.emplace(key, Prepared{DebrisWay(*instant->from.keyframe, *instant->to.keyframe)}).first;
+      ++prepared_;
+    }
+    found->second.used = true;
+    const DebrisWay& way = found->second.way;
+    const auto look = std::ranges::find(scene.prototypes, debris_look(way.part(), way.material()), &scene::Prototype::name);
     if (look == scene.prototypes.end()) continue;
-    meshes.push_back(debris_mesh(*shape));
+    meshes.push_back(way.at(instant->share));
     meshes.back().prototype = static_cast<std::uint32_t>(look - scene.prototypes.begin());
   }
   std::erase_if(decoded_, [](const auto& entry) { return !entry.second.used; });
+  std::erase_if(ways_, [](const auto& entry) { return !entry.second.used; });
   return meshes;
 }
 

@@ -1,28 +1,22 @@
 #pragma once
-/// Debris between two keyframes: vertices interpolated, faces with the normals that their triangles have there.
+/// Debris between two keyframes: vertices interpolated, faces with the exact normals that their triangles have there.
 ///
 /// Two keyframes with the same triangles: every vertex goes straight from one to the other, and each face's normal is the
-/// cross product of its interpolated edges, which is the exact normal at that instant and not a blend of two. Where the
-/// triangles differ the piece has broken: until the later one's instant the earlier one flies on as it flew. One thread.
+/// t-variant cross product (engine/geometry/temporal_normals.hpp), whose coefficients are worked out once for the two; a
+/// frame only evaluates them. Where the triangles differ the piece has broken: until the later one's instant the earlier one
+/// flies on as it flew. One thread.
 
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/geometry/temporal_normals.hpp"
 #include "engine/render/frame_input.hpp"
 #include "sim-client/screen/effect_playout.hpp"
 
 namespace septet::screen {
-
-/// A piece as it stands at one instant.
-struct DebrisShape {
-  debris::Part part = debris::Part::bumper;
-  debris::Material material = debris::Material::bumper_plastic;
-  bool both_sides = false;
-  std::vector<Vec3> vertices_m;  ///< World.
-  std::vector<std::array<std::uint16_t, 3>> triangles;
-};
 
 /// A keyframe with the tick that it shows.
 struct TimedDebris {
@@ -30,11 +24,34 @@ struct TimedDebris {
   Tick tick = 0;
 };
 
-/// What is seen at `tick` (a fraction lies between two ticks); nothing where there is no keyframe at all.
-std::optional<DebrisShape> debris_at(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after, double tick);
+/// Between which keyframes a piece is seen, and how far on its way: 0 at `from`, 1 at `to`, more where it flies on.
+struct DebrisInstant {
+  TimedDebris from, to;
+  double share = 0.0;
+};
 
-/// Triangles with their face normals, relative to their middle; a shape without area has none.
-render::DynamicMesh debris_mesh(const DebrisShape& shape);
+/// What is seen at `tick` (a fraction lies between two ticks); nothing where there is no keyframe at all.
+std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after,
+                                            double tick);
+
+/// The way of a piece between two keyframes with the same triangles: all that does not depend on the instant.
+class DebrisWay {
+ public:
+  DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to);
+
+  /// Triangles with their face normals, relative to their middle; a shape without triangles has no vertices.
+  render::DynamicMesh at(double share) const;
+  debris::Part part() const { return part_; }
+  debris::Material material() const { return material_; }
+
+ private:
+  debris::Part part_;
+  debris::Material material_;
+  bool both_sides_;
+  std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and the way to its next.
+  std::vector<std::array<std::uint16_t, 3>> triangles_;
+  TemporalNormals normals_;
+};
 
 /// Name of the prototype whose material a piece wears: "debris/ice".
 std::string_view debris_look(debris::Part part, debris::Material material);
@@ -45,6 +62,8 @@ class DebrisDrawing {
   std::vector<render::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
+  /// Pairs of keyframes whose normals were worked out so far.
+  std::uint32_t prepared() const { return prepared_; }
 
  private:
   using Key = std::pair<std::uint32_t, Tick>;
@@ -52,10 +71,16 @@ class DebrisDrawing {
     std::optional<debris::Keyframe> keyframe;
     bool used = false;
   };
+  using WayKey = std::tuple<std::uint32_t, Tick, Tick>;
+  struct Prepared {
+    DebrisWay way;
+    bool used = false;
+  };
   TimedDebris decoded(const EffectKeyframe* effect);
 
-  std::map<Key, Decoded> decoded_;  ///< Each keyframe is read once.
-  std::uint32_t refused_ = 0;
+  std::map<Key, Decoded> decoded_;     ///< Each keyframe is read once.
+  std::map<WayKey, Prepared> ways_;    ///< Each pair is worked out once.
+  std::uint32_t refused_ = 0, prepared_ = 0;
 };
 
 }  // namespace septet::screen

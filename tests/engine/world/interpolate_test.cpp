@@ -1,8 +1,10 @@
 #include "engine/world/interpolate.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <doctest/doctest.h>
+#include <glm/gtc/constants.hpp>
 
 namespace septet {
 namespace {
@@ -45,6 +47,21 @@ TEST_CASE("an angular acceleration is followed quadratically") {
   after.world_from_vehicle.orientation = orientation_from_angles(end, 0.0, 0.0);
   const Participant shown = interpolate(before, after, h, 0.5);
   CHECK(heading_rad(shown.world_from_vehicle.orientation) == doctest::Approx(0.25 * end));
+}
+
+TEST_CASE("wheels that speed up or brake turn as they would") {
+  const double h = 1.0 / 30.0;
+  for (const auto& [from, to] : {std::pair{10.0, 40.0}, std::pair{40.0, 10.0}, std::pair{-20.0, -5.0}, std::pair{0.0, 30.0}}) {
+    Participant before = on_circle(0.0), after = on_circle(h);
+    before.wheel_spin_radps = from;
+    after.wheel_spin_radps = to;
+    const auto angle = [&](double t) { return 1.0 + from * t + 0.5 * (to - from) / h * t * t; };
+    const auto turned = [](double rad) { return rad - 2.0 * glm::pi<double>() * std::floor(rad / (2.0 * glm::pi<double>())); };
+    before.wheel_spin_rad = turned(angle(0.0));
+    after.wheel_spin_rad = turned(angle(h));
+    for (const double t : {0.25, 0.5, 0.75})
+      CHECK(interpolate(before, after, h, t).wheel_spin_rad == doctest::Approx(turned(angle(t * h))));
+  }
 }
 
 TEST_CASE("a teleported vehicle is not smeared across the gap") {
