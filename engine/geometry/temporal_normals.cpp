@@ -1,6 +1,5 @@
 #include "engine/geometry/temporal_normals.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -17,11 +16,14 @@ glm::vec3 unit_or_zero(const glm::vec3& v) {
   return length > 0.0f ? v / length : glm::vec3(0.0f);
 }
 
+/// What is kept of a face; as many as its method needs.
+using FaceVectors = std::array<glm::vec3, 4>;
+
 /// Coefficients of the polynomial through normals at equal distances of t, lowest first.
-std::vector<glm::vec3> lagrange(const MovingFace& face, int degree) {
-  std::vector<glm::vec3> n;
+FaceVectors lagrange(const MovingFace& face, int degree) {
+  FaceVectors n{};
   for (int i = 0; i <= degree; ++i)
-    n.push_back(face_normal(face, static_cast<float>(i) / static_cast<float>(degree)));
+    n[static_cast<std::size_t>(i)] = face_normal(face, static_cast<float>(i) / static_cast<float>(degree));
   if (degree == 1) return {n[0], n[1] - n[0]};
   if (degree == 2)
     return {n[0], -3.0f * n[0] + 4.0f * n[1] - n[2], 2.0f * n[0] - 4.0f * n[1] + 2.0f * n[2]};
@@ -31,7 +33,7 @@ std::vector<glm::vec3> lagrange(const MovingFace& face, int degree) {
 }
 
 /// Eq. 2, multiplied out.
-std::vector<glm::vec3> t_variant(const MovingFace& face) {
+FaceVectors t_variant(const MovingFace& face) {
   const glm::vec3 u = face.from[1] - face.from[0], v = face.from[2] - face.from[0];
   const glm::vec3 du = face.to[1] - face.to[0] - u, dv = face.to[2] - face.to[0] - v;
   return {glm::cross(u, v), glm::cross(u, dv) + glm::cross(du, v), glm::cross(du, dv)};
@@ -67,12 +69,6 @@ Frames frames_of(const MovingFace& face) {
   return {from, glm::dot(from, to) < 0.0f ? -to : to};
 }
 
-void add_vectors(std::vector<std::vector<float>>& planes, std::size_t face,
-                 std::span<const glm::vec3> vectors) {
-  for (std::size_t n = 0; n < vectors.size(); ++n)
-    for (int c = 0; c < 3; ++c) planes[3 * n + static_cast<std::size_t>(c)][face] = vectors[n][c];
-}
-
 }  // namespace
 
 std::string_view name_of(NormalMethod method) {
@@ -103,27 +99,33 @@ glm::vec3 face_normal(const MovingFace& face, float t) {
 TemporalNormals::TemporalNormals(NormalMethod method, std::span<const MovingFace> faces)
     : method_(method), count_(faces.size()) {
   constexpr std::array<std::size_t, normal_method_count> plane_count{9, 6, 9, 12, 6, 12, 8};
-  planes_.assign(plane_count[static_cast<std::size_t>(method)], std::vector<float>(count_));
+  const std::size_t planes = plane_count[static_cast<std::size_t>(method)];
+  // Planes a multiple of 4 KiB apart would fight for the same places of the cache.
+  constexpr std::size_t page = 1024, apart = 80;
+  stride_ = (count_ + page - 1) / page * page + apart;
+  planes_.resize(planes * stride_);
+  const auto keep = [&](std::size_t face, const FaceVectors& vectors) {
+    for (std::size_t n = 0; n < planes / 3; ++n)
+      for (std::size_t c = 0; c < 3; ++c)
+        planes_[(3 * n + c) * stride_ + face] = vectors[n][static_cast<glm::length_t>(c)];
+  };
   for (std::size_t n = 0; n < count_; ++n) {
     const MovingFace& face = faces[n];
     switch (method) {
-      case NormalMethod::t_variant: add_vectors(planes_, n, t_variant(face)); break;
-      case NormalMethod::linear: add_vectors(planes_, n, lagrange(face, 1)); break;
-      case NormalMethod::quadratic: add_vectors(planes_, n, lagrange(face, 2)); break;
-      case NormalMethod::cubic: add_vectors(planes_, n, lagrange(face, 3)); break;
-      case NormalMethod::vector_slerp:
-        add_vectors(planes_, n, std::array{face_normal(face, 0.0f), face_normal(face, 1.0f)});
-        break;
+      case NormalMethod::t_variant: keep(n, t_variant(face)); break;
+      case NormalMethod::linear: keep(n, lagrange(face, 1)); break;
+      case NormalMethod::quadratic: keep(n, lagrange(face, 2)); break;
+      case NormalMethod::cubic: keep(n, lagrange(face, 3)); break;
+      case NormalMethod::vector_slerp: keep(n, {face_normal(face, 0.0f), face_normal(face, 1.0f)}); break;
       case NormalMethod::spherical_de_casteljau:
-        add_vectors(planes_, n,
-                    std::array{face_normal(face, 0.0f), face_normal(face, 1.0f / 3.0f),
-                               face_normal(face, 2.0f / 3.0f), face_normal(face, 1.0f)});
+        keep(n, {face_normal(face, 0.0f), face_normal(face, 1.0f / 3.0f), face_normal(face, 2.0f / 3.0f),
+                 face_normal(face, 1.0f)});
         break;
       case NormalMethod::quaternion_slerp: {
         const Frames frames = frames_of(face);
-        for (int c = 0; c < 4; ++c) {
-          planes_[static_cast<std::size_t>(c)][n] = frames.from[c];
-          planes_[static_cast<std::size_t>(c) + 4][n] = frames.to[c];
+        for (std::size_t c = 0; c < 4; ++c) {
+          planes_[c * stride_ + n] = frames.from[static_cast<glm::length_t>(c)];
+          planes_[(c + 4) * stride_ + n] = frames.to[static_cast<glm::length_t>(c)];
         }
         break;
       }
@@ -135,7 +137,7 @@ void TemporalNormals::at(float t, FaceNormals& normals) const {
   for (auto* values : {&normals.x, &normals.y, &normals.z}) values->resize(count_);
   float* const out[3] = {normals.x.data(), normals.y.data(), normals.z.data()};
   std::array<const float*, 12> planes{};
-  std::ranges::transform(planes_, planes.begin(), [](const auto& plane) { return plane.data(); });
+  for (std::size_t n = 0; n * stride_ < planes_.size(); ++n) planes[n] = planes_.data() + n * stride_;
   const auto vector = [&](std::size_t which, std::size_t face) {
     return glm::vec3(planes[3 * which][face], planes[3 * which + 1][face],
                      planes[3 * which + 2][face]);

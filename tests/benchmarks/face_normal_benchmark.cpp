@@ -25,6 +25,22 @@ void face_normals(benchmark::State& run, NormalMethod method) {
   run.SetItemsProcessed(run.iterations() * static_cast<std::int64_t>(normals.size()));
 }
 
+/// What a screen does with a pair of keyframes: 4 ticks at 120 a second are two frames.
+void two_frames(benchmark::State& run, NormalMethod method) {
+  const auto faces = morphs::sphere_faces(morphs::blob, morphs::other_blob);
+  FaceNormals at;
+  for (auto _ : run) {
+    const TemporalNormals normals(method, faces);
+    for (const float t : {0.25f, 0.75f}) {
+      normals.at(t, at);
+      benchmark::DoNotOptimize(at.x.data());
+      benchmark::ClobberMemory();
+    }
+  }
+}
+BENCHMARK_CAPTURE(two_frames, t_variant, NormalMethod::t_variant)->Name("face_normals_two_frames/15300")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(two_frames, linear, NormalMethod::linear)->Name("face_normals_two_frames/15300/linear")->Unit(benchmark::kMicrosecond);
+
 const bool registered = [] {
   for (int method = 0; method < normal_method_count; ++method) {
     const auto which = static_cast<NormalMethod>(method);
