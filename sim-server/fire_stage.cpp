@@ -16,6 +16,9 @@ constexpr double cell_m = 1.0, upwind_m = 110.0, downwind_m = 110.0;
 /// All smoke together, beside what debris may take: net::max_tick_bytes holds both.
 constexpr std::size_t most_keyframe_bytes = 140 * 1024;
 
+/// Soot grows over minutes: once a second is often enough.
+constexpr std::uint64_t soot_interval_steps = 60;
+
 /// The tunnel that holds this place of a road, if any.
 const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
   const auto found = std::ranges::find_if(road.structures, [&](const road::RoadStructure& structure) {
@@ -162,6 +165,10 @@ void advance_fires(const std::vector<Participant>& participants, const Environme
     bytes -= keyframes.back().data.size();
     keyframes.pop_back();
   }
+  if (state.smoke->tick % soot_interval_steps == 0)
+    if (Bytes soot = smoke::encode_soot(*state.smoke); !soot.empty() && soot != state.soot.data)
+      state.soot = {smoke::soot_effect_id, smoke::soot_kind, std::move(soot), tick};
+  if (!state.soot.data.empty()) keyframes.insert(keyframes.begin(), state.soot);
   state.keyframes = std::move(keyframes);
 }
 

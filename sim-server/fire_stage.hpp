@@ -10,6 +10,7 @@
 
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/effects/smoke/smoke_state.hpp"
+#include "engine/effects/smoke/soot_keyframe.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -25,6 +26,7 @@ struct Fire {
 struct FireState {
   std::optional<smoke::State> smoke;  ///< Nothing before the first fire.
   smoke::KeyframeTrack track;
+  EffectKeyframe soot;  ///< On the walls; no bytes before there is any.
   std::vector<Fire> fires;
   std::vector<EffectKeyframe> keyframes;  ///< Ascending id, as the snapshot carries them.
 };

@@ -69,6 +69,14 @@ struct SmokePuff {
   std::uint32_t seed = 0;           ///< Which way its pattern is turned.
 };
 
+/// What soot hides of the surfaces in a box of cells, between which it is interpolated. Nothing outside.
+struct SootField {
+  RigidTransform world_from_field;   ///< Origin at the lower corner.
+  double cell_m = 1.0;
+  int nx = 0, ny = 0, nz = 0;
+  std::vector<std::uint8_t> cover;   ///< Share of the light that is lost, in 1/255; x runs fastest.
+};
+
 /// A line of text over the picture.
 struct OverlayText {
   std::string text;  ///< UTF-8.
@@ -86,6 +94,7 @@ struct FrameInput {
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
   std::vector<SmokePuff> smoke;
+  SootField soot;
   std::vector<OverlayText> overlay;
 };
 

@@ -136,6 +136,7 @@ void Renderer::Parts::destroy() {
 
 void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input) {
   const Environment& environment = input.environment;
+  const FrameData soot = store(context, std::span<const std::uint8_t>(input.soot.cover));
   begin_view_rendering(context, targets);
   for (const PreparedView& prepared : views) {
     if (prepared.view != views.front().view) clear_inset(context, targets, prepared.view->viewport);
@@ -144,7 +145,9 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
                       prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
     push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
     bind_instances(context, prepared.draws.records);
-    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0};
+    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0,
+                                     !input.soot.cover.empty()};
+    push_records(context, soot);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
     draw_sky(sky_pass, context, environment.cloud_cover > 0.0, light.night > 0.0f);

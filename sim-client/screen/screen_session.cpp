@@ -18,6 +18,7 @@
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
 #include "sim-client/screen/smoke_drawing.hpp"
+#include "sim-client/screen/soot_drawing.hpp"
 
 namespace septet::screen {
 namespace {
@@ -77,6 +78,7 @@ class Session {
   std::optional<Snapshot> last_shown_;
   DebrisDrawing debris_;
   SmokeDrawing smoke_;
+  SootDrawing soot_;
   std::vector<render::DynamicMesh> meshes_;  ///< Of the last instant shown.
   std::vector<render::SmokePuff> puffs_;     ///< Likewise.
   double lost_drawn_s_ = 0.0;
@@ -124,6 +126,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   auto frame = client_frame(snapshot, views_, resolver_.scene());
   frame.meshes = meshes_;
   frame.smoke = puffs_;
+  frame.soot = soot_.draw(snapshot.effects);
   if (message) frame.overlay.push_back(banner(std::move(*message), *screen_));
   if (auto drawn = display_->renderer().draw(frame); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));

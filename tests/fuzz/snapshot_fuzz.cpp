@@ -5,6 +5,7 @@
 
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
+#include "engine/effects/smoke/soot_keyframe.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
 namespace {
@@ -46,14 +47,22 @@ void feed_smoke(std::span<const std::byte> bytes) {
   smoke::add_puffs(*keyframe, keyframe->time_s + 0.1, puffs);
 }
 
+void feed_soot(std::span<const std::byte> bytes) {
+  const auto keyframe = smoke::decode_soot(bytes);
+  if (!keyframe) return;
+  require(keyframe->level.size() == static_cast<std::size_t>(keyframe->nx) * keyframe->ny * keyframe->nz);
+  for (const std::uint8_t level : keyframe->level) require(level < smoke::soot_levels);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ByteReader input(std::as_bytes(std::span(data, size)));
-  switch (input.get<std::uint8_t>() % 3) {
+  switch (input.get<std::uint8_t>() % 4) {
     case 0: feed_snapshots(input); break;
     case 1: feed_debris(input.take(input.remaining())); break;
-    default: feed_smoke(input.take(input.remaining())); break;
+    case 2: feed_smoke(input.take(input.remaining())); break;
+    default: feed_soot(input.take(input.remaining())); break;
   }
   return 0;
 }

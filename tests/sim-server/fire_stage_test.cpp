@@ -1,5 +1,7 @@
 #include "sim-server/fire_stage.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "engine/effects/smoke/visibility.hpp"
@@ -49,6 +51,25 @@ TEST_CASE("in a tunnel smoke has the tube of the driver's side as its room along
     CHECK(is_wall(grid, over_road(s, -10.0, 7.6)));  // Above the ceiling.
     CHECK(is_wall(grid, over_road(s, -10.0, -1.0)));
   }
+}
+
+TEST_CASE("soot of a fire in a tunnel is sent and lies over the fire") {
+  const FireState state = burn(3330.0, 1500, 1);
+  REQUIRE(!state.keyframes.empty());
+  const EffectKeyframe& first = state.keyframes.front();
+  REQUIRE(first.kind == smoke::soot_kind);
+  CHECK(first.tick % 120 == 0);
+  CHECK(std::ranges::is_sorted(state.keyframes, {}, &EffectKeyframe::id));
+  const auto soot = smoke::decode_soot(first.data);
+  REQUIRE(soot);
+  MESSAGE("soot after 25 s: " << first.data.size() << " bytes, " << soot->level.size() << " cells, level "
+                              << int(*std::ranges::max_element(soot->level)));
+  const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(soot->level) - soot->level.begin());
+  const Vec3 place = soot->world_from_box * (Vec3(most % soot->nx + 0.5, most / soot->nx % soot->ny + 0.5, most / (soot->nx * soot->ny) + 0.5) *
+                                             static_cast<double>(soot->cell_m));
+  const Vec3 fire = van_at(3330.0).world_from_vehicle.position_m;
+  CHECK(place.z - fire.z > 3.0);
+  CHECK(glm::length(Vec2(place - fire)) < 25.0);
 }
 
 TEST_CASE("a van that burns in a tunnel fills it from above and hides what lies behind") {

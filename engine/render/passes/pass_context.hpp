@@ -60,7 +60,7 @@ struct ViewBindings {
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);
-/// What the vertex shader of a pass without vertices reads.
+/// What the shaders that follow read as binding_records.
 void push_records(PassContext& context, const FrameData& records);
 /// What is drawn many times: InstanceRecords for the pipelines that take them.
 void bind_instances(PassContext& context, const FrameData& records);

@@ -20,6 +20,7 @@ struct SurfaceLight {
   bool wet = false;   ///< Wettable materials mirror.
   bool dark = false;  ///< Headlights light what they reach.
   bool snowy = false;
+  bool sooty = false;  ///< FrameInput::soot is bound.
 };
 
 /// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).

@@ -29,6 +29,16 @@ void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const H
   uniforms.wind.z = static_cast<float>(nearest.size());
 }
 
+/// Rows from what is relative to the eye to the field's cells, where a cell's value stands at its middle.
+void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) {
+  const RigidTransform field_from_world = inverse(soot.world_from_field);
+  const Vec3 eye = (field_from_world * eye_m) / soot.cell_m - 0.5;
+  const glm::dmat3 turn = glm::mat3_cast(field_from_world.orientation) / soot.cell_m;
+  glm::vec4* const rows[] = {&uniforms.soot_x, &uniforms.soot_y, &uniforms.soot_z};
+  for (int c = 0; c < 3; ++c) *rows[c] = glm::vec4(turn[0][c], turn[1][c], turn[2][c], eye[c]);
+  uniforms.soot_size = glm::vec4(soot.nx, soot.ny, soot.nz, 0.0f);
+}
+
 }  // namespace
 
 Vec3 world_eye(const FrameView& view) { return view.world_from_car * view.projection.eye_m; }
@@ -81,6 +91,7 @@ ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const
   uniforms.wind = glm::vec4(-drift_m * std::cos(environment.wind_direction_rad),
                             -drift_m * std::sin(environment.wind_direction_rad), 0.0, 0.0);
   set_headlights(uniforms, eye_m, headlights, exposure > 1.0f);
+  if (!input.soot.cover.empty()) set_soot(uniforms, eye_m, input.soot);
   return uniforms;
 }
 

@@ -26,8 +26,9 @@ struct ViewUniforms {
   glm::vec4 weather, wind;
   glm::vec4 fog_middle, fog_slope, fog_bend;
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
+  glm::vec4 soot_x, soot_y, soot_z, soot_size;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8 + 4) * 16);
 
 /// Eye of a view in the world.
 Vec3 world_eye(const FrameView& view);

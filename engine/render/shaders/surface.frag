@@ -10,6 +10,7 @@ layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky.
 layout(constant_id = 3) const uint blended = 0;
 layout(constant_id = 4) const uint dark = 0;      // Headlights light it.
 layout(constant_id = 5) const uint snowy = 0;
+layout(constant_id = 6) const uint sooty = 0;
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -17,6 +18,29 @@ layout(location = 2) in vec2 uv;
 layout(location = 3) flat in vec4 color;
 layout(location = 4) flat in vec4 emission;
 layout(location = 0) out vec4 result;
+
+layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
+
+float soot_in(ivec3 cell, ivec3 size) {
+  int at = (cell.z * size.y + cell.y) * size.x + cell.x;
+  return float((soot[at >> 2] >> ((at & 3) * 8)) & 255u) / 255.0;
+}
+
+// Share of a surface's light that the soot on it takes, between the eight cells around.
+float soot_cover() {
+  vec4 place = vec4(relative, 1.0);
+  vec3 at = vec3(dot(view.soot_x, place), dot(view.soot_y, place), dot(view.soot_z, place));
+  ivec3 size = ivec3(view.soot_size.xyz), low = ivec3(floor(at));
+  if (any(lessThan(low, ivec3(0))) || any(greaterThanEqual(low, size - 1))) return 0.0;
+  vec3 share = at - vec3(low);
+  float sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    ivec3 step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    vec3 weight = mix(1.0 - share, share, vec3(step));
+    sum += weight.x * weight.y * weight.z * soot_in(low + step, size);
+  }
+  return sum;
+}
 
 // Share of the sun's light that arrives: one of two cascades, four texels compared and blended by the sampler.
 float sunlit(vec3 n, float facing) {
@@ -118,6 +142,7 @@ void main() {
   }
   // A lamp seen by an eye that has adapted to the dark glares less than its radiance says.
   radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) / max(1.0, 0.35 * view.light_irradiance.w);
+  if (sooty != 0) radiance *= 1.0 - soot_cover();
 
   float fog = 1.0 - exp2(-distance_m * view.sky_irradiance.w);
   float azimuth = -dot(to_eye.xy, view.sun_level.xy) * inversesqrt(dot(to_eye.xy, to_eye.xy) + 1e-6);

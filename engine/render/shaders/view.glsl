@@ -19,6 +19,8 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 fog_middle, fog_slope, fog_bend;  // Horizon light: middle + slope·c + bend·c², c the cosine to the sun's azimuth.
   vec4 headlight_position[4];   // xyz relative. w: intensity.
   vec4 headlight_direction[4];  // xyz unit.
+  vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
+  vec4 soot_size;               // xyz: cells.
 } view;
 
 layout(set = 0, binding = 2) uniform sampler2D sky_table;

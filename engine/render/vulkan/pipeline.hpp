@@ -12,7 +12,7 @@ namespace septet::render::vulkan {
 /// Bindings of the one descriptor set, pushed while recording.
 enum Binding : std::uint32_t {
   binding_view = 0,       ///< Uniforms of the view.
-  binding_records = 1,    ///< Storage: the lamps that glow, the puffs of smoke.
+  binding_records = 1,    ///< Storage: soot for surfaces, then puffs of smoke, then lamps that glow.
   binding_sky = 2,
   binding_shadow = 3,
   binding_noise = 4,
@@ -49,7 +49,7 @@ struct PipelineDescription {
   bool alpha_to_coverage = false;
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 6> constants{};  ///< Specialization constants 0 to 5 of both stages.
+  std::array<std::uint32_t, 7> constants{};  ///< Specialization constants 0 to 6 of both stages.
 };
 
 /// Viewport, scissor, cull mode and front face are dynamic.

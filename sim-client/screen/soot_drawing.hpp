@@ -1,0 +1,27 @@
+#pragma once
+/// Soot as a screen draws it: how much of what a surface reflects is covered, cell by cell. One thread.
+
+#include <span>
+
+#include "engine/effects/smoke/soot_keyframe.hpp"
+#include "engine/render/frame_input.hpp"
+
+namespace septet::screen {
+
+/// A surface lies up to a cell beside the cells whose soot it carries, so each cell shows the most of its neighbourhood.
+render::SootField soot_field(const smoke::SootKeyframe& keyframe);
+
+class SootDrawing {
+ public:
+  /// The soot of a snapshot; an empty field where there is none.
+  const render::SootField& draw(std::span<const EffectKeyframe> effects);
+  /// Keyframes that could not be read.
+  std::uint32_t refused() const { return refused_; }
+
+ private:
+  Tick tick_ = 0;
+  render::SootField field_;  ///< Of the keyframe of that tick: each is read once.
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace septet::screen

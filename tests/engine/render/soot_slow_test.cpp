@@ -1,0 +1,95 @@
+/// Soot on a wall, read back from its pixels: what it covers is dark, and only there.
+
+#include <cmath>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "engine/render/renderer.hpp"
+#include "tests/engine/render/reference_scene.hpp"
+
+namespace septet::render {
+namespace {
+
+constexpr std::uint32_t width = 320, height = 240;
+const Vec3 car_m(3e3, -2e3, 12.0);
+
+/// A white wall 8 m ahead of the car, 40 m wide and 20 m high, seen square on.
+scene::ResolvedScene wall_scene() {
+  scene::ResolvedScene scene;
+  scene.revision = 1;
+  scene::SurfaceMaterial white;
+  white.revision = 1;
+  white.base_color = glm::vec3(0.8f);
+  scene.materials = {white};
+  scene::SurfaceMesh wall;
+  wall.revision = 1;
+  for (const glm::vec3& corner : {glm::vec3(0, 20, -10), glm::vec3(0, -20, -10), glm::vec3(0, -20, 10), glm::vec3(0, 20, 10)})
+    wall.vertices.push_back({corner, {-1, 0, 0}, {}});
+  wall.indices = {0, 1, 2, 0, 2, 3};
+  wall.parts = {{0, 6, 0}};
+  wall.bounds_min_m = {0, -20, -10};
+  wall.bounds_max_m = {0, 20, 10};
+  scene.meshes = {wall};
+  scene::Instance instance;
+  instance.world_from_object = {car_m + Vec3(8, 0, 0), {1, 0, 0, 0}};
+  scene.instances = {instance};
+  return scene;
+}
+
+/// 4 m of soot on the wall's left half beside the middle, turned with a tunnel.
+SootField soot_field(std::uint8_t cover) {
+  SootField soot;
+  soot.nx = 8, soot.ny = 6, soot.nz = 6;
+  soot.cover.assign(8 * 6 * 6, 0);
+  for (int k = 1; k < 5; ++k)
+    for (int j = 1; j < 5; ++j)
+      for (int i = 1; i < 7; ++i) soot.cover[static_cast<std::size_t>((k * 6 + j) * 8 + i)] = cover;
+  const Quat turn = orientation_from_angles(0.3, 0.0, 0.0);
+  soot.world_from_field = {car_m + Vec3(8, 3, 1.2) - turn * Vec3(4, 3, 3), turn};
+  return soot;
+}
+
+/// Mean of a square of pixels whose middle lies at y and z of the wall.
+double light_at(const image::Image& picture, double y_m, double z_m) {
+  const double pixels_per_m = 0.5 * width / (8.0 * std::tan(0.5));
+  const auto x = static_cast<std::uint32_t>(0.5 * width - y_m * pixels_per_m);
+  const auto y = static_cast<std::uint32_t>(0.5 * height - (z_m - 1.2) * pixels_per_m);
+  double sum = 0.0;
+  for (std::uint32_t dy = 0; dy < 5; ++dy)
+    for (std::uint32_t dx = 0; dx < 5; ++dx) sum += picture.at(x + dx - 2, y + dy - 2).green;
+  return sum / 25.0;
+}
+
+}  // namespace
+
+TEST_CASE("soot darkens the wall where it lies and nowhere else") {
+  Expected<Renderer> renderer = Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
+  REQUIRE(renderer.has_value());
+  REQUIRE(renderer->upload(wall_scene()).has_value());
+  FrameInput input;
+  input.environment = reference_day();
+  FrameView view;
+  view.projection = symmetric_view({0, 0, 1.2}, 0.0, 0.0, 1.0, 2.0 * std::atan(std::tan(0.5) * height / width));
+  view.world_from_car.position_m = car_m;
+  view.viewport = {0, 0, width, height};
+  input.views = {view};
+  const auto drawn = [&] {
+    REQUIRE(renderer->draw(input).has_value());
+    return *renderer->read_back();
+  };
+  const image::Image clean = drawn();
+  input.soot = soot_field(128);
+  const image::Image half = drawn();
+  input.soot = soot_field(250);
+  const image::Image full = drawn();
+  CHECK(light_at(clean, 3.0, 1.2) > 100.0);
+  CHECK(light_at(half, 3.0, 1.2) < 0.9 * light_at(clean, 3.0, 1.2));
+  CHECK(light_at(full, 3.0, 1.2) < 0.4 * light_at(clean, 3.0, 1.2));
+  CHECK(light_at(full, 3.0, 0.2) < 0.4 * light_at(clean, 3.0, 0.2));
+  for (const auto& [y, z] : {std::pair{-2.5, 1.2}, std::pair{3.0, 4.3}, std::pair{-3.5, -1.0}})
+    CHECK(light_at(full, y, z) == doctest::Approx(light_at(clean, y, z)));
+  CHECK_MESSAGE(renderer->statistics().validation_messages == 0, renderer->statistics().first_validation_message);
+}
+
+}  // namespace septet::render
