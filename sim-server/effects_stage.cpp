@@ -119,7 +119,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   report.impulse_on_driver_ns = report.crashes.impulse_on_driver_ns;
   if (driver_box >= 0) report.impulse_on_driver_ns += contacts.boxes[static_cast<std::size_t>(driver_box)].impulse_ns;
 
-  advance_fires(world.participants, world.environment, world.tick, step_s, state.fires);
+  advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s, step_s, state.fires);
 
   StateHash hash;
   hash.add(state.hash);

@@ -127,12 +127,9 @@ smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& wo
   return grid;
 }
 
-void ignite(const road::RoadNetwork& roads, const Participant& vehicle, double time_s, std::uint64_t seed, FireState& state) {
+void ignite(const road::RoadNetwork& roads, const Participant& vehicle, std::uint64_t seed, FireState& state) {
   if (std::ranges::find(state.fires, vehicle.id, &Fire::vehicle) != state.fires.end()) return;
-  if (!state.smoke) {
-    state.smoke = smoke::make_smoke(grid_around(roads, vehicle.world_from_vehicle), {}, seed);
-    state.smoke->time_s = time_s;
-  }
+  if (!state.smoke) state.smoke = smoke::make_smoke(grid_around(roads, vehicle.world_from_vehicle), {}, seed);
   add_fire(vehicle, state);
 }
 
@@ -141,9 +138,10 @@ void extinguish(ParticipantId vehicle, FireState& state) {
     if (fire.vehicle == vehicle) fire.burning = false;
 }
 
-void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double step_s,
-                   FireState& state) {
+void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double time_s,
+                   double step_s, FireState& state) {
   if (!state.smoke) return;
+  state.smoke->time_s = time_s - step_s;
   feed(participants, step_s, state);
   const Vec3 wind = environment.wind_speed_mps * Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
   const smoke::Grid& grid = state.smoke->grid;

@@ -35,11 +35,11 @@ struct FireState {
 smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& world_from_vehicle);
 
 /// Sets a vehicle on fire; nothing happens where it burns already.
-void ignite(const road::RoadNetwork& roads, const Participant& vehicle, double time_s, std::uint64_t seed, FireState& state);
+void ignite(const road::RoadNetwork& roads, const Participant& vehicle, std::uint64_t seed, FireState& state);
 void extinguish(ParticipantId vehicle, FireState& state);
 
-/// One step to the instant `time_s` of `tick`. `participants` ascending by id.
-void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double step_s,
-                   FireState& state);
+/// One step to the instant `time_s`, which is that of `tick`. `participants` ascending by id.
+void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double time_s,
+                   double step_s, FireState& state);
 
 }  // namespace septet::server

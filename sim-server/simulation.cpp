@@ -203,7 +203,7 @@ void apply_effects(const SimulationModel& model, const scenario::StepResult& ste
     if (action.kind != Kind::ignite) continue;
     const auto participants = participants_now(model, state, car);
     if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
-      ignite(model.roads, *burning, state.time_s(), model.seed, state.effects.fires);
+      ignite(model.roads, *burning, model.seed, state.effects.fires);
   }
 }
 

@@ -34,8 +34,8 @@ bool is_wall(const smoke::Grid& grid, const Vec3& world_m) {
 FireState burn(double s_m, int steps, std::uint64_t seed) {
   const std::vector<Participant> participants{van_at(s_m)};
   FireState state;
-  ignite(motorway(), participants.front(), 0.0, seed, state);
-  for (int i = 1; i <= steps; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), 1.0 / 60.0, state);
+  ignite(motorway(), participants.front(), seed, state);
+  for (int i = 1; i <= steps; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
   return state;
 }
 
@@ -50,6 +50,23 @@ TEST_CASE("in a tunnel smoke has the tube of the driver's side as its room along
     CHECK(is_wall(grid, over_road(s, 3.0, 2.0)));    // The other tube.
     CHECK(is_wall(grid, over_road(s, -10.0, 7.6)));  // Above the ceiling.
     CHECK(is_wall(grid, over_road(s, -10.0, -1.0)));
+  }
+}
+
+TEST_CASE("a smoke keyframe names the tick from whose instant on it is shown") {
+  // The fire begins at some later tick of the drive.
+  const std::vector<Participant> participants{van_at(3330.0)};
+  FireState state;
+  ignite(motorway(), participants.front(), 1, state);
+  for (Tick tick = 7200; tick <= 7500; tick += 2)
+    advance_fires(participants, {}, tick, static_cast<double>(tick) / 120.0, 1.0 / 60.0, state);
+  REQUIRE(!state.keyframes.empty());
+  for (const EffectKeyframe& effect : state.keyframes) {
+    if (effect.kind != smoke::keyframe_kind) continue;
+    const auto keyframe = smoke::decode(effect.data);
+    REQUIRE(keyframe);
+    CHECK(keyframe->time_s == doctest::Approx(static_cast<double>(effect.tick) / 120.0));
+    CHECK(effect.tick + 2 * smoke::keyframe_ticks > 7500);
   }
 }
 
@@ -93,7 +110,8 @@ TEST_CASE("smoke keyframes are ascending and name their tick and stay within the
   for (std::size_t i = 0; i < state.keyframes.size(); ++i) {
     bytes += state.keyframes[i].data.size();
     CHECK(state.keyframes[i].tick > 600 - 2 * smoke::keyframe_ticks - 2);
-    CHECK(smoke::decode(state.keyframes[i].data).has_value());
+    const auto& [id, kind, data, tick] = state.keyframes[i];
+    CHECK((kind == smoke::soot_kind ? smoke::decode_soot(data).has_value() : smoke::decode(data).has_value()));
     if (i > 0) CHECK(state.keyframes[i - 1].id < state.keyframes[i].id);
   }
   CHECK(bytes < 140 * 1024);
@@ -110,6 +128,6 @@ TEST_CASE("a fire that is put out gives off no more smoke") {
   extinguish(5, state);
   const std::size_t before = state.smoke->particles.size();
   const std::vector<Participant> participants{van_at(600.0)};
-  for (int i = 61; i <= 120; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), 1.0 / 60.0, state);
+  for (int i = 61; i <= 120; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
   CHECK(state.smoke->particles.size() < before);
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double gravity_mps2 = 9.81;
 constexpr double door_strength_n = 11e3;        // UN R11 5.2, FMVSS 206 S4: 11 kN along the car.
-constexpr double clips_hold_g = 30.0;           // Derived, see the header.
+constexpr double clips_hold_g = 30.0;           // Chosen, see the header.
 constexpr double windscreen_strength_n = 40e3;  // 4 m of bead, 10 mm wide, at 1 MPa of shear.
 
 double clip_strength_n(Part part) {

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
@@ -150,6 +152,32 @@ TEST_CASE("a part that rests falls asleep and a moving box wakes it") {
   CHECK_FALSE(state.pieces[0].asleep);
   CHECK(elastic::momentum_ns(state.pieces[0].body).x() > 10.0);
   CHECK(impulse < -10.0);  // The car feels the cone.
+}
+
+TEST_CASE("what has broken slides until friction stops it and sleeps a second after it stands") {
+  State state;
+  Random random(1);
+  spawn_part(state, Part::ice_slab, {{0, 0, 1.2}, glm::angleAxis(0.2, Vec3(0, 1, 0))}, Vec3(4, 0, 0), Vec3(0), random);
+  ContactWorld world = level_road();
+  std::map<std::uint32_t, int> last_moved, fell_asleep;
+  for (int k = 0; k < 600; ++k) {
+    advance_debris(state, world, 1.0 / 60.0);
+    for (const Piece& p : state.pieces) {
+      const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(p.body) / elastic::total_mass_kg(p.body));
+      if (speed > 0.03) last_moved[p.id] = k;
+      if (p.asleep) fell_asleep.try_emplace(p.id, k);
+    }
+  }
+  REQUIRE(state.pieces.size() > 3);
+  for (const Piece& p : state.pieces) {
+    INFO("piece " << p.id);
+    REQUIRE(p.asleep);
+    CHECK(fell_asleep[p.id] - last_moved[p.id] <= 61);
+    CHECK(last_moved[p.id] > 60);  // Friction of 0.1 takes 4 s for 4 m/s; the break makes some slower.
+  }
+  const auto keyframes = effect_keyframes(state);
+  for (int k = 0; k < 120; ++k) CHECK(advance_debris(state, world, 1.0 / 60.0).awake == 0);
+  CHECK(effect_keyframes(state) == keyframes);
 }
 
 TEST_CASE("two parts that collide keep their momentum together") {
