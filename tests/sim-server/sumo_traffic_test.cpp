@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/road/opendrive_reader.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::server {
