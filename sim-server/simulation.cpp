@@ -8,6 +8,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/effects/smoke/visibility.hpp"
 #include "engine/road/lane_links.hpp"
+#include "sim-server/effect_surroundings.hpp"
 #include "sim-server/wheel_ground.hpp"
 
 namespace septet::server {
@@ -118,33 +119,19 @@ DriverCar driver_car(const SimulationModel& model, const SimulationState& state,
   return car;
 }
 
-/// Vehicles as rectangles on the ground: do two of them overlap (separating axes)?
-bool overlap(const Participant& a, const Participant& b) {
+bool touch(const Participant& a, const Participant& b) {
   const VehicleModel &model_a = vehicle_models()[a.model], &model_b = vehicle_models()[b.model];
-  const auto centre = [](const Participant& p, const VehicleModel& m) { return Vec2(p.world_from_vehicle * Vec3(m.centre_x_m(), 0.0, 0.0)); };
   // No part of a vehicle is farther than this from its origin: most pairs need no more than that.
   const double reach = model_a.length_m + model_b.length_m + model_a.width_m + model_b.width_m;
   const Vec2 apart = b.world_from_vehicle.position_m - a.world_from_vehicle.position_m;
-  if (glm::dot(apart, apart) > reach * reach) return false;
-  const Vec2 between = centre(b, model_b) - centre(a, model_a);
-  const double angle_a = heading_rad(a.world_from_vehicle.orientation), angle_b = heading_rad(b.world_from_vehicle.orientation);
-  const Vec2 axes[] = {{std::cos(angle_a), std::sin(angle_a)}, {-std::sin(angle_a), std::cos(angle_a)},
-                       {std::cos(angle_b), std::sin(angle_b)}, {-std::sin(angle_b), std::cos(angle_b)}};
-  for (const Vec2& axis : axes) {
-    const auto half = [&](const Vec2& forward, const VehicleModel& m) {
-      const Vec2 left(-forward.y, forward.x);
-      return 0.5 * (m.length_m * std::abs(glm::dot(forward, axis)) + m.width_m * std::abs(glm::dot(left, axis)));
-    };
-    if (std::abs(glm::dot(between, axis)) > half(axes[0], model_a) + half(axes[2], model_b)) return false;
-  }
-  return true;
+  return glm::dot(apart, apart) <= reach * reach && contact_of(body_box(a), body_box(b)).has_value();
 }
 
 void notice_collisions(Snapshot& snapshot, SimulationState& state, std::vector<SimulationEvent>& events) {
   const Participant* car = find_participant(snapshot, driver_participant);
   std::vector<ParticipantId> touching;
   for (const Participant& other : snapshot.participants) {
-    if (other.id == driver_participant || !car || !overlap(*car, other)) continue;
+    if (other.id == driver_participant || !car || !touch(*car, other)) continue;
     touching.push_back(other.id);
     if (std::ranges::binary_search(state.touching, other.id)) continue;
     ++state.diagnostics.collisions;

@@ -25,8 +25,13 @@ TEST_CASE("a vehicle that the driver's car touches is one collision for as long 
     return p.id == car->id ? INFINITY : glm::length(p.world_from_vehicle.position_m - car->world_from_vehicle.position_m);
   };
   const Participant other = *std::ranges::min_element(before.participants, {}, distance_m);
-  state->car.world_from_body.position_m += other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
+  // On a bridge above the other one nothing touches.
+  const Vec3 there_m = state->car.world_from_body.position_m + other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
+  state->car.world_from_body.position_m = there_m + Vec3(0.0, 0.0, 6.0);
   state->car.velocity_mps = other.velocity_mps;
+  CHECK(server_step(*drive.model, {}, *state, events).diagnostics.collisions == 0);
+
+  state->car.world_from_body.position_m = there_m;
   for (int tick = 0; tick < 10; ++tick) {
     const Snapshot now = server_step(*drive.model, {}, *state, events);
     CHECK(now.diagnostics.collisions == 1);
