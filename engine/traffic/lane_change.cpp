@@ -11,6 +11,8 @@ constexpr double look_ahead_lane_end_m = 250.0;
 constexpr double smallest_gap_m = 2.0;
 /// What making room for an emergency vehicle outweighs.
 constexpr double leave_lane_bias_mps2 = 3.0;
+/// What reaching one's exit outweighs.
+constexpr double exit_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
 /// Acceleration of somebody in the order behind a gap; foreign ones are taken to drive as the one
@@ -61,12 +63,16 @@ struct Decision {
   }
 };
 
-void decide(CorridorTraffic& traffic, std::size_t i, double time_s, double interval_s) {
-  traffic.next_decision_s[i] = time_s + interval_s;
+void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::size_t i,
+            double time_s) {
+  traffic.next_decision_s[i] = time_s + parameters.decision_interval_s;
   const MakingWay way = traffic.making_way[i];
   if (way == MakingWay::hold_lane) return;
   const LaneChangeParameters& change = traffic.driver[i].lane_change;
   const int lane = traffic.lane[i];
+  const RampMouth* exit =
+      traffic.exits.empty() ? nullptr : exit_ahead(traffic, i, parameters.exit_share);
+  if (exit != nullptr && lane == exit->lane) return;
   Decision decision{traffic, i, traffic.x_m[i], traffic.speed_mps[i], traffic.acceleration_mps2[i]};
   const double x = decision.x;
   auto& hints = traffic.neighbour_hints[i];
@@ -81,11 +87,15 @@ void decide(CorridorTraffic& traffic, std::size_t i, double time_s, double inter
   double best_gain = change.threshold_mps2;
   for (const int step : {-1, 1}) {
     const int target = lane + step;
-    const double end = lane_end_m(traffic.table, target, x);
+    if (exit != nullptr && step < 0) continue;
+    const bool leaves = exit != nullptr && target == exit->lane;
+    double end = lane_end_m(traffic.table, target, x);
+    if (leaves && end > x) end = no_leader;
     // Into a lane that ends soon goes only who would be worse off in this one.
     if (end < x || end - x < std::min(look_ahead_lane_end_m, traffic.lane_end_m[i] - x)) continue;
     double gain = decision.gain(target, end, hints[static_cast<std::size_t>(1 + step)]);
     gain += step * change.keep_right_mps2;
+    if (exit != nullptr) gain += exit_bias_mps2;
     if (way == MakingWay::leave_lane) gain += leave_lane_bias_mps2;
     if (gain > best_gain) {
       best = target;
@@ -96,7 +106,8 @@ void decide(CorridorTraffic& traffic, std::size_t i, double time_s, double inter
   traffic.from_lane[i] = static_cast<std::int16_t>(lane);
   traffic.lane[i] = static_cast<std::int16_t>(best);
   traffic.change_s[i] = 0.0;
-  traffic.lane_end_m[i] = lane_end_m(traffic.table, best, x);
+  const bool leaves = exit != nullptr && best == exit->lane;
+  traffic.lane_end_m[i] = leaves ? no_leader : lane_end_m(traffic.table, best, x);
   // Whoever decides next sees it.
   insert_entry(traffic.order.lanes[static_cast<std::size_t>(best)], entry_of(traffic, i));
 }
@@ -113,7 +124,7 @@ void change_lanes(const TrafficParameters& parameters, double time_s, double dt_
       traffic.from_lane[i] = traffic.lane[i];
       traffic.next_decision_s[i] = time_s + rest_after_change_s;
     } else if (time_s >= traffic.next_decision_s[i]) {
-      decide(traffic, i, time_s, parameters.decision_interval_s);
+      decide(parameters, traffic, i, time_s);
     }
   }
 }

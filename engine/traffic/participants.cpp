@@ -106,7 +106,7 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       if (traffic.lane[i] == 0) continue;
       const double rear_axle_x = traffic.x_m[i] - vehicle_models()[traffic.model[i]].front_m();
       if (!traffic.corridor.closed &&
-          (rear_axle_x < 0.0 || traffic.x_m[i] > traffic.corridor.length_m))
+          (rear_axle_x < 0.0 || rear_axle_x > traffic.corridor.length_m))
         continue;
       participants.push_back(participant_of(traffic, i, network, state.time_s));
     }

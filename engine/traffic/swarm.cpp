@@ -143,13 +143,13 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
   if (const auto opposite = opposite_lane(network, through)) {
     state.corridors.push_back(empty_corridor(network, *opposite));
   }
+  const std::size_t directions = state.corridors.size();
+  add_ramps(network, state);
   const auto placed_foreign = place_foreign(network, foreign, state);
   ParticipantId next_id = parameters.first_id;
   const auto opposite_count =
-      state.corridors.size() < 2
-          ? 0
-          : static_cast<std::uint32_t>(parameters.opposite_share * parameters.count);
-  for (std::size_t c = 0; c < state.corridors.size(); ++c) {
+      directions < 2 ? 0 : static_cast<std::uint32_t>(parameters.opposite_share * parameters.count);
+  for (std::size_t c = 0; c < directions; ++c) {
     CorridorTraffic& traffic = state.corridors[c];
     refresh_order(traffic, placed_foreign[c]);
     const std::uint32_t wanted = c == 0 ? parameters.count - opposite_count : opposite_count;
@@ -191,7 +191,9 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
              std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
              TrafficState& state) {
   state.time_s += dt_s;
-  const auto placed_foreign = place_foreign(network, foreign, state);
+  auto placed_foreign = place_foreign(network, foreign, state);
+  show_across_mouths(state, placed_foreign);
+  const std::size_t directions = state.corridors.size() - state.ramps.size();
   const double middle_speed_mps = foreign.empty() ? 0.0 : glm::length(foreign.front().velocity_mps);
   for (std::size_t c = 0; c < state.corridors.size(); ++c) {
     CorridorTraffic& traffic = state.corridors[c];
@@ -200,8 +202,10 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
     change_lanes(parameters, state.time_s, dt_s, traffic);
     move(traffic, dt_s);
+    if (c >= directions) continue;
     recycle(parameters, middle_x(network, traffic, state), middle_speed_mps, random, traffic);
   }
+  take_ramps(state);
 }
 
 }  // namespace septet::traffic

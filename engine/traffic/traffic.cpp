@@ -10,8 +10,12 @@ namespace septet::traffic {
 
 CorridorTraffic empty_corridor(const road::RoadNetwork& network,
                                const road::LanePosition& through) {
+  return empty_corridor(network, build_corridor(network, through));
+}
+
+CorridorTraffic empty_corridor(const road::RoadNetwork& network, const Corridor& corridor) {
   CorridorTraffic traffic;
-  traffic.corridor = build_corridor(network, through);
+  traffic.corridor = corridor;
   traffic.table = make_lane_table(network, traffic.corridor);
   traffic.line = make_line_table(network, traffic.corridor);
   traffic.order.lanes.resize(traffic.table.open.size());

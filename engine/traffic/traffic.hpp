@@ -44,6 +44,7 @@ struct TrafficParameters {
   double radius_m =
       1500.0;  ///< Around the driver's car; who falls out of it comes in again at its other rim.
   double opposite_share = 0.4;  ///< Of the vehicles that drive the other way.
+  double exit_share = 0.1;      ///< Of those who come past an exit: they take it.
   double decision_interval_s =
       0.5;  ///< A driver thinks about changing lanes this often; drivers take turns.
   ParticipantId first_id = 1000;
@@ -63,6 +64,12 @@ struct ForeignVehicle {
 
 /// What an emergency vehicle asks of a driver.
 enum class MakingWay : std::uint8_t { no, hold_lane, leave_lane };
+
+/// Where a ramp leaves or meets a corridor.
+struct RampMouth {
+  double x_m = 0.0;
+  int lane = 0;
+};
 
 /// One corridor's vehicles, one entry per vehicle in every array. x is that of the front bumper.
 struct CorridorTraffic {
@@ -93,12 +100,22 @@ struct CorridorTraffic {
   bool any_aside = false;  ///< Some vehicle is off its lane's middle.
 
   LaneOrder order;
+  std::vector<RampMouth> exits;  ///< Of ramps that lead back to the corridor.
 
   std::size_t size() const { return id.size(); }
 };
 
+/// A way round: out by an exit lane, in again by an entry lane. Who is on it drives in a corridor
+/// of its own.
+struct Ramp {
+  std::size_t main = 0, way = 0;  ///< Of TrafficState::corridors.
+  RampMouth exit, entry;          ///< On the main corridor.
+  int lane = 1;                   ///< On the way.
+};
+
 struct TrafficState {
-  std::vector<CorridorTraffic> corridors;
+  std::vector<CorridorTraffic> corridors;  ///< The directions of travel, then the ramps' ways.
+  std::vector<Ramp> ramps;
   double time_s = 0.0;
   std::vector<std::optional<road::RoadPosition>>
       foreign_places;  ///< Hints, one per foreign vehicle.
@@ -116,6 +133,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
              TrafficState& state);
 
 /// A corridor without vehicles, for one's own arrangements.
+CorridorTraffic empty_corridor(const road::RoadNetwork& network, const Corridor& corridor);
 CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
 /// Adds a vehicle; the caller answers for its place being free.
 void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver,

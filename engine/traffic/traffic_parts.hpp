@@ -65,6 +65,15 @@ void move(CorridorTraffic& traffic, double dt_s);
 void recycle(const TrafficParameters& parameters, double middle_x_m, double middle_speed_mps,
              Random& random, CorridorTraffic& traffic);
 
+/// Ramps of the corridors that there are so far, each with a corridor of its own.
+void add_ramps(const road::RoadNetwork& network, TrafficState& state);
+/// The exit that this vehicle is about to take; null for most.
+const RampMouth* exit_ahead(const CorridorTraffic& traffic, std::size_t vehicle, double exit_share);
+/// Who drives towards a mouth sees the last one beyond it.
+void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& seen);
+/// Stage 6: who has driven through a mouth goes on in the other corridor.
+void take_ramps(TrafficState& state);
+
 /// Part of the way of a lane change, 0 to 1, with its first two derivatives by time: the quintic
 /// without jerk at its ends.
 struct LateralBlend {

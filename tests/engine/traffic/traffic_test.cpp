@@ -1,7 +1,9 @@
 #include "engine/traffic/traffic.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -45,6 +47,10 @@ double smallest_gap_m(const TrafficState& state) {
   return smallest;
 }
 
+double distance(const Participant& a, const Participant& b) {
+  return glm::distance(a.world_from_vehicle.position_m, b.world_from_vehicle.position_m);
+}
+
 }  // namespace
 
 TEST_CASE("the equilibrium gap of the intelligent driver model gives no acceleration") {
@@ -79,7 +85,7 @@ TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a m
   Random random(7, 1);
   double s_m = 2500.0;
   TrafficState state = populate(parameters, network, std::vector{driver_at(network, s_m)}, random);
-  REQUIRE(state.corridors.size() == 2);
+  REQUIRE(state.corridors.size() == 2 + state.ramps.size());
   double smallest = smallest_gap_m(state);
   int changes = 0;
   for (int tick = 0; tick < 60 * 60; ++tick) {
@@ -96,6 +102,64 @@ TEST_CASE("two hundred vehicles on the motorway keep clear of each other for a m
   std::vector<Participant> participants;
   append_participants(state, network, participants);
   CHECK(participants.size() > 150);
+}
+
+TEST_CASE("vehicles leave by the exit and merge from the entry before its lane ends") {
+  const auto network = motorway();
+  TrafficParameters parameters = motorway_traffic(120, 1500.0);
+  parameters.exit_share = 0.4;
+  Random random(5, 1);
+  const std::vector driver{driver_at(network, 6500.0)};
+  TrafficState state = populate(parameters, network, driver, random);
+  REQUIRE(state.ramps.size() == 1);
+  const Ramp& ramp = state.ramps.front();
+  CorridorTraffic &main = state.corridors[ramp.main], &way = state.corridors[ramp.way];
+  CHECK(way.corridor.length_m == doctest::Approx(800.7).epsilon(0.001));
+  const std::size_t all = main.size();
+  const double entry_ends_m = lane_end_m(main.table, ramp.entry.lane, ramp.entry.x_m + 1.0);
+  REQUIRE(entry_ends_m < ramp.entry.x_m + 400.0);
+  std::size_t left = 0, merged = 0, most_stopped = 0;
+  double smallest = 1e9, longest_jump = 0.0, nearest = 1e9;
+  std::vector<Participant> before, after;
+  std::set<ParticipantId> on_way, in_entry;
+  for (int tick = 0; tick < 300 * 60; ++tick) {
+    advance(parameters, network, driver, 1.0 / 60.0, random, state);
+    REQUIRE(main.size() + way.size() == all);
+    std::set<ParticipantId> now_on_way(way.id.begin(), way.id.end()), now_in_entry;
+    std::size_t stopped = 0;
+    for (std::size_t i = 0; i < main.size(); ++i) {
+      if (main.lane[i] != ramp.entry.lane || main.x_m[i] < ramp.entry.x_m) continue;
+      now_in_entry.insert(main.id[i]);
+      stopped += main.speed_mps[i] < 1.0;
+      CHECK(main.x_m[i] < entry_ends_m);
+    }
+    most_stopped = std::max(most_stopped, stopped);
+    for (const auto id : now_on_way) left += on_way.count(id) == 0;
+    for (const auto id : in_entry) merged += now_in_entry.count(id) == 0;
+    on_way = now_on_way;
+    in_entry = now_in_entry;
+    if (tick % 10 == 0) smallest = std::min(smallest, smallest_gap_m(state));
+    before = std::exchange(after, {});
+    append_participants(state, network, after);
+    for (const Participant& a : after) {
+      const auto b = std::ranges::find(before, a.id, &Participant::id);
+      if (b == before.end()) continue;
+      const double moved =
+          glm::length(a.world_from_vehicle.position_m - b->world_from_vehicle.position_m);
+      if (!on_way.contains(a.id) && !in_entry.contains(a.id)) continue;
+      longest_jump = std::max(longest_jump, moved);
+      for (const Participant& other : after)
+        if (other.id != a.id) nearest = std::min(nearest, distance(a, other));
+    }
+  }
+  MESSAGE(left << " left, " << merged << " merged, smallest gap " << smallest << " m, at most "
+               << most_stopped << " standing in the entry, longest step " << longest_jump << " m");
+  CHECK(left > 10);
+  CHECK(merged > 5);
+  CHECK(smallest > 0.3);
+  CHECK(longest_jump < 0.8);
+  // Beside each other in two lanes; behind each other they are farther apart.
+  CHECK(nearest > 2.5);
 }
 
 TEST_CASE("the same seed gives the same traffic") {
