@@ -160,6 +160,9 @@ void apply_swarms(const SimulationModel& model, const scenario::StepResult& step
     parameters.first_id = first_traffic_participant;
     if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
       parameters.opposite_share = swarm.opposite_direction_weight / both;
+    std::vector<traffic::KindShare> mix;
+    for (const auto& entry : swarm.categories) mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
+    traffic::set_mix(parameters, mix);
     state.traffic->start(parameters, foreign_vehicles(model, state, car));
   }
   if (!step.stopped_traffic.empty()) state.traffic->stop();

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/world/vehicle_model.hpp"
@@ -54,6 +55,9 @@ struct Entity {
   std::map<std::string, std::string> properties;
   ModelIndex model = 0;  ///< What it is drawn as; chosen by match_vehicle_model.
 };
+
+/// What a vehicle of this category (OpenSCENARIO's word) is drawn and driven as; a car for the rest.
+ParticipantKind kind_of_category(std::string_view category);
 
 /// The model of the same name as the entity's type; else, among those of its kind (category and
 /// role), the one nearest in length, width and height; else the nearest of any kind.

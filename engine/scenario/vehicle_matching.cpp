@@ -10,13 +10,7 @@ ParticipantKind kind_of(const Entity& entity) {
   if (entity.kind == EntityKind::pedestrian) return ParticipantKind::pedestrian;
   if (entity.kind == EntityKind::misc_object) return ParticipantKind::object;
   if (entity.role == "ambulance") return ParticipantKind::ambulance;
-  if (entity.category == "van") return ParticipantKind::van;
-  if (entity.category == "bus") return ParticipantKind::bus;
-  if (entity.category == "motorbike") return ParticipantKind::motorcycle;
-  if (entity.category == "bicycle") return ParticipantKind::bicycle;
-  const bool heavy = entity.category == "truck" || entity.category == "semitrailer" ||
-                     entity.category == "trailer";
-  return heavy ? ParticipantKind::lorry : ParticipantKind::car;
+  return kind_of_category(entity.category);
 }
 
 double difference_m(const VehicleModel& model, const BoundingBox& box) {
@@ -25,6 +19,15 @@ double difference_m(const VehicleModel& model, const BoundingBox& box) {
 }
 
 }  // namespace
+
+ParticipantKind kind_of_category(std::string_view category) {
+  if (category == "van") return ParticipantKind::van;
+  if (category == "bus") return ParticipantKind::bus;
+  if (category == "motorbike") return ParticipantKind::motorcycle;
+  if (category == "bicycle") return ParticipantKind::bicycle;
+  const bool heavy = category == "truck" || category == "semitrailer" || category == "trailer";
+  return heavy ? ParticipantKind::lorry : ParticipantKind::car;
+}
 
 ModelIndex match_vehicle_model(const Entity& entity) {
   if (const auto same_name = find_vehicle_model(entity.type_name)) return *same_name;

@@ -127,6 +127,22 @@ TrafficParameters motorway_traffic(std::uint32_t count, double radius_m) {
   return parameters;
 }
 
+void set_mix(TrafficParameters& parameters, std::span<const KindShare> mix) {
+  const auto kind_of = [](const VehicleClass& c) { return vehicle_models()[c.model].kind; };
+  std::vector<double> shares;
+  double all = 0.0;
+  for (const VehicleClass& entry : parameters.classes) {
+    double wanted = 0.0, before = 0.0;
+    for (const KindShare& kind : mix) wanted += kind.kind == kind_of(entry) ? kind.share : 0.0;
+    for (const VehicleClass& other : parameters.classes)
+      before += kind_of(other) == kind_of(entry) ? other.share : 0.0;
+    shares.push_back(before > 0.0 ? wanted * entry.share / before : 0.0);
+    all += shares.back();
+  }
+  if (!(all > 0.0)) return;
+  for (std::size_t i = 0; i < shares.size(); ++i) parameters.classes[i].share = shares[i] / all;
+}
+
 TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwork& network,
                       std::span<const ForeignVehicle> foreign, Random& random) {
   TrafficState state;

@@ -53,6 +53,15 @@ struct TrafficParameters {
 /// The plain mix of a motorway: hatchbacks, saloons, estates, SUVs, motorcycles, vans and lorries.
 TrafficParameters motorway_traffic(std::uint32_t count, double radius_m);
 
+/// Gives each kind of vehicle this share of the traffic, split among its classes as before. Kinds
+/// that are not named get none, kinds without a class are left out; no share at all changes
+/// nothing.
+struct KindShare {
+  ParticipantKind kind = ParticipantKind::car;
+  double share = 0.0;
+};
+void set_mix(TrafficParameters& parameters, std::span<const KindShare> mix);
+
 /// A vehicle that someone else moves. With beacon or siren on, traffic makes way for it.
 struct ForeignVehicle {
   ParticipantId id = 0;

@@ -162,6 +162,27 @@ TEST_CASE("vehicles leave by the exit and merge from the entry before its lane e
   CHECK(nearest > 2.5);
 }
 
+TEST_CASE("a mix gives each kind its share and splits it among the classes as before") {
+  TrafficParameters parameters = motorway_traffic(100, 1500.0);
+  const TrafficParameters before = parameters;
+  const auto share_of = [](const TrafficParameters& traffic, ParticipantKind kind) {
+    double sum = 0.0;
+    for (const VehicleClass& entry : traffic.classes)
+      if (vehicle_models()[entry.model].kind == kind) sum += entry.share;
+    return sum;
+  };
+  set_mix(parameters, {});
+  CHECK(share_of(parameters, ParticipantKind::car) == share_of(before, ParticipantKind::car));
+  const KindShare mix[] = {
+      {ParticipantKind::car, 3.0}, {ParticipantKind::lorry, 1.0}, {ParticipantKind::bicycle, 5.0}};
+  set_mix(parameters, mix);
+  CHECK(share_of(parameters, ParticipantKind::car) == doctest::Approx(0.75));
+  CHECK(share_of(parameters, ParticipantKind::lorry) == doctest::Approx(0.25));
+  CHECK(share_of(parameters, ParticipantKind::van) == 0.0);
+  CHECK(parameters.classes[0].share / parameters.classes[1].share ==
+        doctest::Approx(before.classes[0].share / before.classes[1].share));
+}
+
 TEST_CASE("the same seed gives the same traffic") {
   const auto network = motorway();
   const TrafficParameters parameters = motorway_traffic(60, 1000.0);
