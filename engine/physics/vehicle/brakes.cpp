@@ -33,6 +33,11 @@ void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity
     double& release = state.brakes.release[i];
     release = std::clamp(release + dt_s * rate, 0.0, 0.98);
   }
+  // Select low: both rear wheels brake as the one that grips less, which keeps the rear axle's grip
+  // sideways where friction is split.
+  double& rear_left = state.brakes.release[2];
+  double& rear_right = state.brakes.release[3];
+  rear_left = rear_right = std::max(rear_left, rear_right);
 }
 
 /// Share of the engine's torque to take away: what the fastest driven wheel turns too fast.

@@ -100,7 +100,10 @@ TEST_CASE(
   const double with = heading_after(true), without = heading_after(false);
   CAPTURE(with);
   CAPTURE(without);
-  CHECK(with < 0.9 * without);
+  // With the rear wheels braked alike (select low) the rear axle keeps its grip sideways: 0.43 of
+  // the locked wheels' turn. With each rear wheel at its own peak the grip of one side turned the
+  // car and the other had none left to hold it: 0.80.
+  CHECK(with < 0.6 * without);
 }
 
 TEST_CASE("a number that is not finite is undone and counted and the car stands still") {
