@@ -22,7 +22,7 @@ std::vector<Vec3> moving_places(const debris::State& debris);
 /// of eight metres.
 std::vector<debris::Box> barrier_boxes(const road::RoadNetwork& roads, const std::vector<Vec3>& places, const road::RoadPosition* hint);
 
-/// A vehicle's body as a box, from its ground clearance to its roof.
+/// A vehicle's body as a box, from its ground clearance to its roof; bonnet and windscreen of cars and vans are one slope.
 debris::Box body_box(const Participant& participant);
 
 }  // namespace septet::server

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "sim-server/effect_surroundings.hpp"
@@ -89,6 +90,20 @@ std::vector<Participant> lorry_and_driver() {
 }
 
 }  // namespace
+
+TEST_CASE("the air over a bonnet is free while a lorry is a box up to its front") {
+  const auto gap = [](const char* model, double behind_front_m, double height_share) {
+    Participant vehicle;
+    vehicle.model = *find_vehicle_model(model);
+    const VehicleModel& shape = vehicle_models()[vehicle.model];
+    return debris::gap_to_box(body_box(vehicle), {shape.front_m() - behind_front_m, 0.0, height_share * shape.height_m}).gap_m;
+  };
+  CHECK(gap("saloon", 0.3, 0.9) > 0.2);
+  CHECK(gap("saloon", 0.3, 0.5) < 0.0);
+  CHECK(gap("saloon", 2.5, 0.95) < 0.0);
+  CHECK(gap("van", 0.3, 0.9) > 0.4);
+  CHECK(gap("lorry", 0.3, 0.9) < 0.0);
+}
 
 TEST_CASE("a slab of ice slides off a lorry and breaks on the road and lies there") {
   EffectsState state = slab_from_a_lorry(3);

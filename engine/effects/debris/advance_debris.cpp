@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -85,6 +86,30 @@ void bound_energy(Piece& piece, double allowed_j) {
     body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
+/// Two surfaces that close on a piece ask of it what no velocity can do, and the step answers with more than either gives.
+/// Where that made it faster than `allowed_j` lets it be, the step's change of velocity, and with it the surfaces' impulses,
+/// is taken only as far as that. `position_m` and `velocity_mps` are those before the step.
+void bound_blow(Piece& piece, double allowed_j, double step_s, std::span<const Eigen::Vector3d> position_m,
+                std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
+  auto& body = piece.body;
+  if (elastic::kinetic_energy_j(body) <= allowed_j) return;
+  // K(s) = K₀ + bs + as² of v₀ + s Δv.
+  double a = 0.0, b = 0.0, k0 = 0.0;
+  for (int i = 0; i < body.node_count(); ++i) {
+    const Eigen::Vector3d change = body.velocity_mps[i] - velocity_mps[i];
+    a += 0.5 * body.mass_kg[i] * change.squaredNorm();
+    b += body.mass_kg[i] * velocity_mps[i].dot(change);
+    k0 += 0.5 * body.mass_kg[i] * velocity_mps[i].squaredNorm();
+  }
+  const double root = std::sqrt(std::max(0.0, b * b + 4.0 * a * (allowed_j - k0)));
+  const double share = a > 0.0 ? std::clamp((root - b) / (2.0 * a), 0.0, 1.0) : 1.0;
+  for (int i = 0; i < body.node_count(); ++i) {
+    body.velocity_mps[i] = velocity_mps[i] + share * (body.velocity_mps[i] - velocity_mps[i]);
+    body.position_m[i] = position_m[i] + step_s * body.velocity_mps[i];
+  }
+  for (auto& contact : contacts) contact.impulse_ns *= share;
+}
+
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start; adds what the boxes
 /// received, and answers what the contacts did to the piece.
 Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s,
@@ -103,17 +128,29 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   const double mass = elastic::total_mass_kg(piece.body);
   const double before =
       elastic::kinetic_energy_j(piece.body) + elastic::elastic_energy_j(piece.body);
+  const auto position_m = piece.body.position_m, velocity_mps = piece.body.velocity_mps;
   report.bad_numbers += elastic::step_elastic(piece.body, settings, contacts).bad_numbers;
-  // What weight and the surfaces' own motion may have added, generously.
-  double added = mass * 9.81 * step_s * (std::sqrt(2.0 * before / mass) + 0.2);
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    added += contacts[i].impulse_ns.norm() *
-             (surface_velocity_mps[i].norm() + std::clamp(-contacts[i].gap_m / step_s, 0.0, 2.0));
-  bound_energy(piece, before + added);
+  // What weight and the surfaces' own motion may have added, generously; but between two surfaces that close on it, as in a
+  // crash, a piece gets no faster than a blow of the faster one makes it: V + e(V + v).
+  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * 9.81 * step_s * (speed + 0.2);
+  double work_j = 0.0, fastest = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double impulse = contacts[i].impulse_ns.norm();
+    if (impulse == 0.0) continue;
+    const double surface = surface_velocity_mps[i].norm() + std::clamp(-contacts[i].gap_m / step_s, 0.0, 2.0);
+    work_j += impulse * surface;
+    fastest = std::max(fastest, surface);
+  }
+  const double struck = fastest + piece.material.restitution * (fastest + speed);
+  const double allowed_j = weight_j + std::min(before + work_j, std::max(before, 0.5 * mass * struck * struck));
+  bound_blow(piece, allowed_j, step_s, position_m, velocity_mps, contacts);
+  bound_energy(piece, allowed_j);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].box >= 0)
       world.boxes[found[i].box].impulse_ns -= from_eigen(contacts[i].impulse_ns);
-  return blow_of(piece, contacts, closing_mps, step_s);
+  Blow blow = blow_of(piece, contacts, closing_mps, step_s);
+  blow.lost_j = std::min(blow.lost_j, allowed_j);
+  return blow;
 }
 
 /// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of

@@ -94,17 +94,23 @@ BoxGap gap_to_box(const Box& box, const Vec3& point_m) {
   const Vec3 local = inverse(box.world_from_box) * point_m;
   const Vec3 nearest = glm::clamp(local, -box.half_size_m, box.half_size_m);
   const Vec3 outside = local - nearest;
-  const double distance = glm::length(outside);
-  if (distance > 0.0)
-    return {distance, box.world_from_box.orientation * (outside / distance)};
-  int axis = 0;
-  double gap = -INFINITY;
-  for (int c = 0; c < 3; ++c) {
-    const double g = std::abs(local[c]) - box.half_size_m[c];
-    if (g > gap) gap = g, axis = c;
-  }
+  double gap = glm::length(outside);
   Vec3 normal(0.0);
-  normal[axis] = local[axis] < 0.0 ? -1.0 : 1.0;
+  if (gap > 0.0) {
+    normal = outside / gap;
+  } else {
+    int axis = 0;
+    gap = -INFINITY;
+    for (int c = 0; c < 3; ++c) {
+      const double g = std::abs(local[c]) - box.half_size_m[c];
+      if (g > gap) gap = g, axis = c;
+    }
+    normal[axis] = local[axis] < 0.0 ? -1.0 : 1.0;
+  }
+  for (const HullPlane& cut : box.cuts) {
+    const double beyond = glm::dot(cut.normal, local) - cut.offset_m;
+    if (beyond > gap) gap = beyond, normal = cut.normal;
+  }
   return {gap, box.world_from_box.orientation * normal};
 }
 

@@ -25,7 +25,8 @@ bool box_near(const Piece& piece, const ContactWorld& world, double step_s);
 /// and opposite, so that momentum stays. Wakes a sleeper that is hit.
 void exchange_impulses(std::vector<Piece>& pieces, double step_s);
 
-/// A point against a box: the gap and the outward normal, world frame.
+/// A point against a box and its cuts: the gap and the outward normal, world frame. Beyond an edge between a cut and a face
+/// the gap is that to the further of their planes, which is never more than the distance.
 struct BoxGap {
   double gap_m;
   Vec3 normal;

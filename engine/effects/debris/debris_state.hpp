@@ -49,10 +49,17 @@ struct GroundPoint {
   double friction_factor = 1.0;  ///< Multiplies the material's friction; 0.15 on ice.
 };
 
-/// A vehicle, a barrier's segment or any other box that debris cannot move.
+/// A plane of a hull, in its box's frame: what lies beyond it along the normal is outside.
+struct HullPlane {
+  Vec3 normal{0.0, 0.0, 1.0};  ///< Unit length.
+  double offset_m = 0.0;       ///< From the box's centre.
+};
+
+/// A vehicle, a barrier's segment or any other box that debris cannot move; `cuts` make a convex hull of it.
 struct Box {
   RigidTransform world_from_box;  ///< Origin at the centre.
   Vec3 half_size_m{1.0};
+  std::vector<HullPlane> cuts;
   Vec3 velocity_mps{0.0};         ///< Of the centre.
   Vec3 angular_velocity_radps{0.0};
   double friction = 0.4;

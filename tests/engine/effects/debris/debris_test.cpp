@@ -180,6 +180,72 @@ TEST_CASE("what has broken slides until friction stops it and sleeps a second af
   CHECK(effect_keyframes(state) == keyframes);
 }
 
+TEST_CASE("a box with a cut is a hull whose slope is met where it is") {
+  Box car;
+  car.half_size_m = {2.0, 0.9, 0.6};
+  const Vec3 normal = glm::normalize(Vec3(0.6, 0.0, 1.6));
+  car.cuts = {{normal, glm::dot(normal, Vec3(0.4, 0.0, 0.6))}};
+  car.world_from_box = {{10, 5, 0.8}, glm::angleAxis(1.0, Vec3(0, 0, 1))};
+  const auto gap = [&](const Vec3& local) { return gap_to_box(car, car.world_from_box * local); };
+  CHECK(gap({1.9, 0.0, 0.5}).gap_m > 0.3);   // Over the bonnet, within the box.
+  CHECK(gap({1.9, 0.0, -0.3}).gap_m < -0.05);
+  const BoxGap on = gap(Vec3(1.2, 0.3, 0.3) + 0.02 * normal);
+  CHECK(on.gap_m == doctest::Approx(0.02));
+  CHECK(glm::length(on.normal - car.world_from_box.orientation * normal) < 1e-9);
+  CHECK(gap({-1.0, 0.0, 0.7}).gap_m == doctest::Approx(0.1));  // The roof is as it was.
+  CHECK(gap({-1.0, 0.0, 0.55}).gap_m == doctest::Approx(-0.05));
+}
+
+TEST_CASE("a bumper that falls on a sloping bonnet slides down it") {
+  State state;
+  Random random(1);
+  Box car;
+  car.half_size_m = {2.3, 0.9, 0.6};
+  car.friction = 0.05;
+  car.world_from_box.position_m = {0, 0, 0.8};
+  const Vec3 normal = glm::normalize(Vec3(0.9, 0.0, 1.6));
+  car.cuts = {{normal, glm::dot(normal, Vec3(0.4, 0.0, 0.6))}};
+  spawn_part(state, Part::bumper, {{1.2, 0.0, 1.4}, {1, 0, 0, 0}}, Vec3(0), Vec3(0), random);
+  ContactWorld world = level_road();
+  world.boxes = {car};
+  for (int k = 0; k < 120; ++k) advance_debris(state, world, 1.0 / 60.0);
+  for (const Piece& p : state.pieces) {
+    const Eigen::Vector3d centre = elastic::centre_of_mass_m(p.body);
+    CHECK(centre.x() > 2.0);
+    CHECK(centre.z() < 0.9);
+  }
+}
+
+TEST_CASE("a part between two hulls that close on it is thrown and does not blow up") {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    State state;
+    Random random(seed);
+    spawn_part(state, Part::bumper, {{0.1, 0.0, 0.9}, glm::angleAxis(0.5, Vec3(0, 0.6, 0.8))}, Vec3(10, 0, 0), Vec3(0), random);
+    ContactWorld world = level_road();
+    Box behind, ahead;
+    behind.half_size_m = ahead.half_size_m = {2.3, 0.9, 0.6};
+    behind.cuts = {{glm::normalize(Vec3(0.6, 0.0, 1.9)), glm::dot(glm::normalize(Vec3(0.6, 0.0, 1.9)), Vec3(0.4, 0.0, 0.6))}};
+    behind.velocity_mps = {22, 0, 0};
+    behind.world_from_box.position_m = {-2.2, 0, 0.8};
+    ahead.world_from_box.position_m = {2.3, 0.3, 0.8};
+    world.boxes = {behind, ahead};
+    double fastest = 0.0, largest_ns = 0.0;
+    for (int k = 0; k < 30; ++k) {
+      advance_debris(state, world, 1.0 / 60.0);
+      world.boxes[0].world_from_box.position_m.x += world.boxes[0].velocity_mps.x / 60.0;
+      world.boxes[0].velocity_mps.x *= 0.7;
+      double energy_j = 0.0;
+      for (const Piece& p : state.pieces) energy_j += elastic::kinetic_energy_j(p.body);
+      fastest = std::max(fastest, std::sqrt(2.0 * energy_j / mass_of(state)));
+      for (const Box& box : world.boxes) largest_ns = std::max(largest_ns, glm::length(box.impulse_ns));
+    }
+    INFO("seed " << seed << ", fastest " << fastest << " m/s, impulse on a box " << largest_ns << " Ns");
+    CHECK(fastest > 5.0);
+    CHECK(fastest < 250.0);             // Without a bound: more than 10^25.
+    CHECK(largest_ns < 3e4);            // Less than a car has; it weighs a four-hundredth of one.
+  }
+}
+
 TEST_CASE("two parts that collide keep their momentum together") {
   State state;
   Random random(1);
