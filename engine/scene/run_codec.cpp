@@ -1,6 +1,8 @@
 #include "engine/scene/run_codec.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace septet::scene {
@@ -11,13 +13,23 @@ constexpr int finest_grid = 20;
 constexpr std::int64_t largest_multiple = 1 << 24;  ///< Floats hold every integer up to here.
 constexpr std::size_t most_zeros = 255;
 
+/// The smallest k ≥ 0 for which the value is a multiple of 2^-k; beyond `finest_grid` it may be any larger number.
+int grid_of(float value) {
+  if (value == 0.0f) return 0;
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const int exponent = static_cast<int>(bits >> 23 & 0xFF);
+  if (exponent == 0 || exponent == 0xFF) return finest_grid + 1;  // Denormal, infinite, not a number.
+  // The value is mantissa · 2^(exponent − 150).
+  return std::max(0, 150 - exponent - std::countr_zero((bits & 0x7FFFFFu) | 0x800000u));
+}
+
 /// The smallest k for which every value is a multiple of 2^-k, or plain_form.
 std::uint8_t grid_of(std::span<const float> values) {
   int k = 0;
   float largest = 0.0f;
   for (const float value : values) {
-    while (k <= finest_grid && std::ldexp(value, k) != std::nearbyint(std::ldexp(value, k))) ++k;
-    if (k > finest_grid || !std::isfinite(value)) return plain_form;
+    k = std::max(k, grid_of(value));
+    if (k > finest_grid) return plain_form;
     largest = std::max(largest, std::abs(value));
   }
   return std::ldexp(largest, k) <= static_cast<float>(largest_multiple)

@@ -130,9 +130,9 @@ class SmoothGroups {
   std::vector<std::uint32_t> group_;
 };
 
-glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
-  const float length = glm::length(v);
-  return length > 1e-20f && std::isfinite(length) ? v / length : otherwise;
+inline glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& otherwise) {
+  const float square = glm::dot(v, v);
+  return square > 1e-38f && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
 }
 
 /// Newell's normal: right for quads that are not flat, too.

@@ -103,8 +103,17 @@ Expected<void> Session::take_welcome() {
   uploaded_revision_ = 0;
   // A server that was started again brings the same rig as a rule: its content is new, the picture's place is not.
   if (display_ && display_->renderer().width() == screen_->width_px && display_->renderer().height() == screen_->height_px) return {};
+  // It takes a tenth of a second, in which the scene arrives.
+  std::jthread receiving([this](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      link_.pump(monotonic_s());
+      wait(0.001);
+    }
+  });
   auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen, options_.monitor,
                                 options_.validation, "Septet " + screen_->name});
+  receiving.request_stop();
+  receiving.join();
   if (!display) return tl::unexpected(display.error());
   display_ = std::move(*display);
   return {};

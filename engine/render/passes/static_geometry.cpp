@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/core/parallel_for.hpp"
+
 namespace septet::render {
 namespace {
 
@@ -32,13 +34,13 @@ bool holds(const SurfaceMesh& mesh, const scene::MeshPart& part) {
   return std::all_of(first, first + part.index_count, [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
-void add_piece(StaticGeometry& geometry, std::uint32_t block_index, const scene::Instance& instance, const SurfaceMesh& mesh) {
-  StaticBlock& block = geometry.blocks[block_index];
+/// Adds the instance's piece with its parts and indices, for vertices from `first_vertex` on; false if nothing of it is drawn.
+bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t first_vertex, const scene::Instance& instance,
+               const SurfaceMesh& mesh) {
   StaticPiece piece;
   piece.placed = place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object);
-  piece.block = block_index;
+  piece.block = block;
   piece.first_part = static_cast<std::uint32_t>(geometry.parts.size());
-  const auto first_vertex = static_cast<std::uint32_t>(block.vertices.size());
   for (const scene::MeshPart& part : mesh.parts) {
     if (part.index_count == 0 || !holds(mesh, part)) continue;
     geometry.parts.push_back({part.material, static_cast<std::uint32_t>(geometry.indices.size()), part.index_count});
@@ -46,15 +48,20 @@ void add_piece(StaticGeometry& geometry, std::uint32_t block_index, const scene:
       geometry.indices.push_back(first_vertex + mesh.indices[part.first_index + i]);
   }
   piece.part_count = static_cast<std::uint32_t>(geometry.parts.size()) - piece.first_part;
-  if (piece.part_count == 0) return;
-  const glm::vec3 origin(instance.world_from_object.position_m - block.origin_m);
-  const glm::mat3& turn = piece.placed.world_from_object;
+  if (piece.part_count == 0) return false;
+  geometry.pieces.push_back(piece);
+  return true;
+}
+
+/// Writes an instance's vertices where they stand in its block.
+void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& position_m, const glm::mat3& turn, const SurfaceMesh& mesh) {
+  const glm::vec3 origin(position_m - block.origin_m);
   // Normals turn by R·S⁻¹ = M·S⁻², as in shaders/instances.glsl.
   const glm::vec3 squares(glm::dot(turn[0], turn[0]), glm::dot(turn[1], turn[1]), glm::dot(turn[2], turn[2]));
   const glm::mat3 normal_turn(turn[0] / squares.x, turn[1] / squares.y, turn[2] / squares.z);
+  SurfaceVertex* target = block.vertices.data() + first_vertex;
   for (const SurfaceVertex& vertex : mesh.vertices)
-    block.vertices.push_back({origin + turn * vertex.position_m, normal_turn * vertex.normal, vertex.uv});
-  geometry.pieces.push_back(piece);
+    *target++ = {origin + turn * vertex.position_m, normal_turn * vertex.normal, vertex.uv};
 }
 
 }  // namespace
@@ -74,23 +81,28 @@ std::vector<bool> placed_once(const scene::ResolvedScene& scene) {
 StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vector<bool>& chosen) {
   StaticGeometry geometry;
   std::map<std::pair<std::int64_t, std::int64_t>, std::uint32_t> known;
-  struct Chosen {
+  struct Filling {
     const scene::Instance* instance;
-    std::uint32_t block;
+    std::uint32_t first_vertex;
   };
-  std::vector<Chosen> all;
-  std::vector<std::size_t> vertices;  // By block.
-  std::size_t indices = 0;
+  std::vector<Filling> fillings;  // One a piece.
+  std::vector<std::uint32_t> vertices;  // By block.
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
-    all.push_back({&instance, block_of(geometry, known, instance.world_from_object.position_m)});
+    const SurfaceMesh& mesh = scene.meshes[instance.mesh];
+    const std::uint32_t block = block_of(geometry, known, instance.world_from_object.position_m);
     vertices.resize(geometry.blocks.size(), 0);
-    vertices[all.back().block] += scene.meshes[instance.mesh].vertices.size();
-    indices += scene.meshes[instance.mesh].indices.size();
+    if (!add_piece(geometry, block, vertices[block], instance, mesh)) continue;
+    fillings.push_back({&instance, vertices[block]});
+    vertices[block] += static_cast<std::uint32_t>(mesh.vertices.size());
   }
-  for (std::size_t block = 0; block < vertices.size(); ++block) geometry.blocks[block].vertices.reserve(vertices[block]);
-  geometry.indices.reserve(indices);
-  for (const Chosen& piece : all) add_piece(geometry, piece.block, *piece.instance, scene.meshes[piece.instance->mesh]);
+  for (std::size_t block = 0; block < vertices.size(); ++block) geometry.blocks[block].vertices.resize(vertices[block]);
+  parallel_for(fillings.size(), [&](std::size_t i) {
+    const auto& [instance, first_vertex] = fillings[i];
+    const StaticPiece& piece = geometry.pieces[i];
+    fill_vertices(geometry.blocks[piece.block], first_vertex, instance->world_from_object.position_m, piece.placed.world_from_object,
+                  scene.meshes[instance->mesh]);
+  });
   return geometry;
 }
 
