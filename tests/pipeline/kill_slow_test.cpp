@@ -95,7 +95,7 @@ TEST_CASE("a killed screen costs the others no frame and is back by itself") {
   CHECK(noticed);
   CHECK(back);
   MESSAGE("the killed screen presented again " << back_s << " s after it was started again");
-  CHECK(back_s < 10.0);  // The aim is one second; a software rasteriser on two busy cores gets a wide bound.
+  CHECK(back_s < 3.0);  // The aim is one second; the other screens, drawn by the same processors, may take more of them.
   REQUIRE(exit_code(drive, 120s) == 0);
   const std::string summary = text_of(out / "summary.json");
   CHECK(frames_of(summary, "a") == 120);

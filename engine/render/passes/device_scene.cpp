@@ -22,9 +22,10 @@ Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage, st
   std::uint64_t size = 0;
   for (const auto& bytes : contents) size += bytes.size();
   Buffer target = create_buffer(upload.memory(), size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::device_only);
-  const vulkan::FrameArena::Slice staged = upload.stage(size);
-  std::byte* at = staged.data;
+  const vulkan::FrameArena::Slice staged = target.mapped ? vulkan::FrameArena::Slice{} : upload.stage(size);
+  std::byte* at = target.mapped ? target.mapped : staged.data;
   for (const auto& bytes : contents) at = std::copy(bytes.begin(), bytes.end(), at);
+  if (target.mapped) return target;
   upload.add([staged, size, buffer = target.buffer](VkCommandBuffer commands) {
     const VkBufferCopy region{staged.offset, 0, size};
     vkCmdCopyBuffer(commands, staged.buffer, buffer, 1, &region);

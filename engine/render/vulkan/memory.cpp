@@ -27,7 +27,7 @@ std::unique_ptr<MemoryBlock> create_block(const Device& device, std::uint32_t ty
   info.allocationSize = size;
   info.memoryTypeIndex = type;
   require(vkAllocateMemory(device.device, &info, nullptr, &block->memory), "vkAllocateMemory");
-  if (device.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
+  if (device.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) {
     void* mapped = nullptr;
     if (const VkResult result = vkMapMemory(device.device, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         result != VK_SUCCESS) {
@@ -98,7 +98,7 @@ Buffer create_buffer(MemoryPool& pool, std::uint64_t size, VkBufferUsageFlags us
     destroy_buffer(pool, result);
     throw;
   }
-  if (memory != MemoryUse::device_only) result.mapped = result.allocation.block->mapped + result.allocation.offset;
+  if (result.allocation.block->mapped) result.mapped = result.allocation.block->mapped + result.allocation.offset;
   return result;
 }
 

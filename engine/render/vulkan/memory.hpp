@@ -2,7 +2,7 @@
 /// Buffers and images in blocks of device memory.
 ///
 /// Memory comes in blocks of 32 MiB for each memory type, buffers and images apart (so bufferImageGranularity never
-/// matters); what needs more than half a block gets one of its own. Host-visible blocks stay mapped.
+/// matters); what needs more than half a block gets one of its own. Host-coherent blocks stay mapped.
 
 #include <cstddef>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct Buffer {
   VkBuffer buffer = VK_NULL_HANDLE;
   Allocation allocation;
   std::uint64_t size = 0;
-  std::byte* mapped = nullptr;  ///< Null for device_only.
+  std::byte* mapped = nullptr;  ///< Null for device_only, unless host and device share that memory.
 };
 
 Buffer create_buffer(MemoryPool& pool, std::uint64_t size, VkBufferUsageFlags usage, MemoryUse memory);
