@@ -51,7 +51,8 @@ TEST_CASE("an angular acceleration is followed quadratically") {
 
 TEST_CASE("wheels that speed up or brake turn as they would") {
   const double h = 1.0 / 30.0;
-  for (const auto& [from, to] : {std::pair{10.0, 40.0}, std::pair{40.0, 10.0}, std::pair{-20.0, -5.0}, std::pair{0.0, 30.0}}) {
+  for (const auto& rates : {std::pair{10.0, 40.0}, std::pair{40.0, 10.0}, std::pair{-20.0, -5.0}, std::pair{0.0, 30.0}}) {
+    const double from = rates.first, to = rates.second;
     Participant before = on_circle(0.0), after = on_circle(h);
     before.wheel_spin_radps = from;
     after.wheel_spin_radps = to;
