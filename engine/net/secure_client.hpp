@@ -53,7 +53,8 @@ class SecureClient {
   void close();
 
   ClientState state() const;
-  /// For how long the server has not been heard on this connection; 0 without one.
+  /// For how long the server has owed an answer on this connection; 0 without one. Time in which nobody pumped does not
+  /// count: whoever draws for seconds has not asked.
   double silence_s() const;
   /// Of the running connection; what the tick lane is to follow.
   const SessionId& session() const;

@@ -50,6 +50,7 @@ TEST_CASE("a drive leaves its pictures and log and report and summary and does t
     CAPTURE(file);
     CHECK(fs::file_size(folder / "first" / file) > 100);
   }
+  CHECK_FALSE(fs::exists(folder / "first" / "screens" / "a" / "server-lost.png"));
   const std::string summary = text_of(folder / "first" / "summary.json");
   for (const char* key : {"scenario", "rig", "seed", "ticks", "simulated_s", "wall_s", "state_hash", "lateral_position_m", "mean", "sd",
                           "lane_changes", "screens", "name", "frames", "frames_off_tick", "datagrams_lost", "datagrams_repaired",

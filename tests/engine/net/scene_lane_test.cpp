@@ -200,6 +200,22 @@ TEST_CASE("a hung client costs the others nothing and is dropped") {
   CHECK(site.server->clients().size() == 7);
 }
 
+TEST_CASE("a client that was busy does not take the server for silent but one that asks in vain does") {
+  Site site(1, {});
+  site.run(3.0);
+  site.hung[0] = true;
+  site.run(1.5);
+  site.hung[0] = false;
+  for (int step = 0; step < 300; ++step) {
+    site.run(0.001);
+    CHECK(site.clients[0]->silence_s() < 0.05);
+  }
+  site.server.reset();
+  site.run(1.5);
+  CHECK(site.clients[0]->silence_s() > 1.2);
+  CHECK(site.clients[0]->silence_s() <= 1.5);
+}
+
 TEST_CASE("a client whose queue is full is dropped so that memory is bounded") {
   ChannelLimits limits;
   limits.max_queue_bytes = 100'000;
