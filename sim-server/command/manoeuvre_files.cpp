@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "sim-server/command/figure_text.hpp"
 #include "sim-server/command/line_chart.hpp"
 
 namespace septet::server {
@@ -61,17 +62,10 @@ std::vector<Panel> panels_of(const std::string& manoeuvre) {
 }  // namespace
 
 std::string figures_json(const std::string& vehicle, const ManoeuvreReport& report) {
-  std::string text = fmt::format(
-      "{{\n  \"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\",\n  "
-      "\"figures\": [",
-      vehicle, report.manoeuvre, report.standard);
-  const char* separator = "\n";
-  for (const auto& figure : report.figures) {
-    text += fmt::format("{}    {{\"name\": \"{}\", \"value\": {:.9g}, \"unit\": \"{}\"}}",
-                        separator, figure.name, figure.value, figure.unit);
-    separator = ",\n";
-  }
-  return text + "\n  ]\n}\n";
+  return figures_json(
+      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\"", vehicle,
+                  report.manoeuvre, report.standard),
+      report.figures);
 }
 
 std::string series_csv(const ManoeuvreReport& report) {
@@ -98,11 +92,8 @@ std::string manoeuvre_svg(const std::string& vehicle, const ManoeuvreReport& rep
       chart.points.push_back({panel.x.of(sample), panel.y.of(sample)});
     charts.push_back(std::move(chart));
   }
-  std::vector<std::string> notes;
-  for (const auto& figure : report.figures)
-    notes.push_back(fmt::format("{}: {:.4g} {}", figure.name, figure.value, figure.unit));
   return chart_page_svg(fmt::format("{}: {}", vehicle, report.manoeuvre), report.standard, charts,
-                        notes);
+                        figure_notes(report.figures));
 }
 
 }  // namespace septet::server

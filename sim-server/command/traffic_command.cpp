@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "engine/traffic/fundamental_diagram.hpp"
+#include "sim-server/command/figure_text.hpp"
 #include "sim-server/command/line_chart.hpp"
 #include "sim-server/command/text_files.hpp"
 
@@ -24,12 +25,6 @@ constexpr double densities_per_km[] = {2,  5,  8,  10, 12, 14, 16, 18, 20, 22,
 /// The plain car of the motorway's mix, for the theory beside the measurement.
 const traffic::FollowingParameters plain_driver{32.0, 1.3, 1.5, 2.5, 2.0};
 constexpr double plain_length_m = 4.6;
-
-struct Figure {
-  std::string name;
-  double value = 0.0;
-  std::string unit;
-};
 
 struct Diagram {
   std::vector<FlowPoint> measured, equilibrium;
@@ -79,16 +74,9 @@ Diagram measure(const TrafficDiagramOptions& options) {
   return diagram;
 }
 
-std::string figures_json(const TrafficDiagramOptions& options, const Diagram& diagram) {
-  std::string text = fmt::format("{{\n  \"seed\": {},\n  \"lanes\": {},\n  \"figures\": [",
-                                 options.seed, options.lanes);
-  const char* separator = "\n";
-  for (const Figure& figure : diagram.figures) {
-    text += fmt::format("{}    {{\"name\": \"{}\", \"value\": {:.9g}, \"unit\": \"{}\"}}",
-                        separator, figure.name, figure.value, figure.unit);
-    separator = ",\n";
-  }
-  return text + "\n  ]\n}\n";
+std::string diagram_json(const TrafficDiagramOptions& options, const Diagram& diagram) {
+  return figures_json(
+      fmt::format("\"seed\": {},\n  \"lanes\": {}", options.seed, options.lanes), diagram.figures);
 }
 
 std::string points_csv(const std::vector<FlowPoint>& points) {
@@ -107,9 +95,6 @@ std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& dia
       line.points.push_back({point.density_per_km, point.*value});
     return line;
   };
-  std::vector<std::string> notes;
-  for (const Figure& figure : diagram.figures)
-    notes.push_back(fmt::format("{}: {:.4g} {}", figure.name, figure.value, figure.unit));
   return chart_page_svg(
       "Traffic: fundamental diagram",
       fmt::format("Motorway mix on a ring of 4 km, {} lanes, seed {}", options.lanes, options.seed),
@@ -117,7 +102,7 @@ std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& dia
        chart(diagram.equilibrium, "flow of equal cars in equilibrium", &FlowPoint::flow_per_h),
        chart(diagram.measured, "speed, m/s", &FlowPoint::speed_mps),
        chart(diagram.measured, "deviation of speed, m/s", &FlowPoint::deviation_mps)},
-      notes);
+      figure_notes(diagram.figures));
 }
 
 }  // namespace
@@ -133,7 +118,7 @@ int run_traffic_diagram(const TrafficDiagramOptions& options) {
     fmt::print("  {:<38} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
   if (options.out.empty()) return 0;
   const auto written =
-      write_text_files(options.out, {{"traffic-diagram.json", figures_json(options, diagram)},
+      write_text_files(options.out, {{"traffic-diagram.json", diagram_json(options, diagram)},
                                      {"traffic-diagram.csv", points_csv(diagram.measured)},
                                      {"traffic-diagram.svg", diagram_svg(options, diagram)}});
   if (written) return 0;

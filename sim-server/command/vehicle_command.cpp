@@ -44,7 +44,7 @@ Expected<void> test_vehicle(const VehicleTestOptions& options) {
     if (!report) return tl::unexpected<Error>(report.error());
     fmt::print("{} {} ({})\n", options.vehicle.stem().string(), report->manoeuvre,
                report->standard);
-    for (const vehicle::Figure& figure : report->figures)
+    for (const Figure& figure : report->figures)
       fmt::print("  {:<36} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
     if (options.out.empty()) continue;
     if (const auto written = write_report(options, *report); !written) return written;

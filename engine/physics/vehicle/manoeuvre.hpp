@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "engine/core/figure.hpp"
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 
 namespace septet::vehicle {
@@ -28,12 +29,6 @@ struct ManoeuvreSample {
   double sideslip_rad = 0.0, roll_rad = 0.0;
   double steering_torque_nm = 0.0;
   double least_wheel_load_n = 0.0;
-};
-
-struct Figure {
-  std::string name;
-  double value = 0.0;
-  std::string unit;
 };
 
 struct ManoeuvreReport {
