@@ -15,10 +15,7 @@ struct Transfer {
   std::array<std::uint8_t, 4097> encoded{};
 
   explicit Transfer(bool srgb) {
-    for (std::size_t i = 0; i < 256; ++i) {
-      const double v = double(i) / 255.0;
-      linear[i] = static_cast<float>(!srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-    }
+    for (std::size_t i = 0; i < 256; ++i) linear[i] = static_cast<float>(linear_of_code(i, srgb));
     for (std::size_t i = 0; i < encoded.size(); ++i) {
       const double v = double(i) / 4096.0;
       const double code = !srgb ? v : v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
@@ -82,6 +79,11 @@ void keep_coverage(std::vector<std::uint8_t>& rgba, double wanted) {
 }
 
 }  // namespace
+
+double linear_of_code(std::size_t code, bool srgb) {
+  const double v = double(code) / 255.0;
+  return !srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
 
 bool has_holes(std::span<const std::uint8_t> rgba) {
   for (std::size_t i = 3; i < rgba.size(); i += 4)

@@ -4,6 +4,7 @@
 /// Where alpha cuts holes (leaves, fences), each level's alpha is scaled until as much of it passes the cut as in the full
 /// image, so that trees do not thin out with distance (Castaño, "Computing Alpha Mipmaps", 2010).
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,6 +15,9 @@ struct MipLevel {
   std::uint32_t width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
 };
+
+/// Linear light of an 8-bit code (IEC 61966-2-1, or the code itself over 255).
+double linear_of_code(std::size_t code, bool srgb);
 
 /// All levels, the full image first, down to 1 × 1.
 std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);

@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <stop_token>
+#include <thread>
 
 #include <fmt/core.h>
 

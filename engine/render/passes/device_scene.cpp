@@ -22,14 +22,16 @@ Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage, st
   std::uint64_t size = 0;
   for (const auto& bytes : contents) size += bytes.size();
   Buffer target = create_buffer(upload.memory(), size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::device_only);
-  const vulkan::FrameArena::Slice staged = target.mapped ? vulkan::FrameArena::Slice{} : upload.stage(size);
-  std::byte* at = target.mapped ? target.mapped : staged.data;
+  std::byte* at = target.mapped;
+  if (!at) {
+    const vulkan::HostArena::Slice staged = upload.stage(size);
+    at = staged.data;
+    upload.add([staged, size, buffer = target.buffer](VkCommandBuffer commands) {
+      const VkBufferCopy region{staged.offset, 0, size};
+      vkCmdCopyBuffer(commands, staged.buffer, buffer, 1, &region);
+    });
+  }
   for (const auto& bytes : contents) at = std::copy(bytes.begin(), bytes.end(), at);
-  if (target.mapped) return target;
-  upload.add([staged, size, buffer = target.buffer](VkCommandBuffer commands) {
-    const VkBufferCopy region{staged.offset, 0, size};
-    vkCmdCopyBuffer(commands, staged.buffer, buffer, 1, &region);
-  });
   return target;
 }
 
@@ -140,11 +142,8 @@ MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMateria
 /// a software rasteriser more than all other shading.
 std::array<std::uint8_t, 256> square_root_code(bool srgb) {
   std::array<std::uint8_t, 256> code;
-  for (std::size_t i = 0; i < code.size(); ++i) {
-    const double v = double(i) / 255.0;
-    const double linear = !srgb ? v : v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    code[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(linear)));
-  }
+  for (std::size_t i = 0; i < code.size(); ++i)
+    code[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(linear_of_code(i, srgb))));
   return code;
 }
 
@@ -189,7 +188,7 @@ std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, 
 vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels) {
   std::uint64_t bytes = 0;
   for (const MipLevel& level : levels) bytes += level.rgba.size();
-  const vulkan::FrameArena::Slice staged = upload.stage(bytes);
+  const vulkan::HostArena::Slice staged = upload.stage(bytes);
   std::vector<VkBufferImageCopy> regions;
   std::uint64_t at = 0;
   for (const MipLevel& level : levels) {

@@ -55,7 +55,7 @@ void destroy_samplers(Samplers& samplers, const vulkan::Device& device) {
 
 FrameData store(PassContext& context, std::span<const std::byte> bytes) {
   const std::uint64_t size = std::max<std::uint64_t>(bytes.size(), 256);
-  const vulkan::FrameArena::Slice slice = allocate(context.memory, context.slot.arena, size);
+  const vulkan::HostArena::Slice slice = allocate(context.memory, context.slot.arena, size);
   if (!bytes.empty()) std::memcpy(slice.data, bytes.data(), bytes.size());
   return {slice.buffer, slice.offset, size};
 }

@@ -131,7 +131,7 @@ void run_once(const Device& device, const std::function<void(VkCommandBuffer)>& 
   require(vkWaitForFences(device.device, 1, &owned.fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
 }
 
-FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t size) {
+HostArena::Slice allocate(MemoryPool& pool, HostArena& arena, std::uint64_t size) {
   constexpr std::uint64_t chunk_bytes = std::uint64_t{1} << 20;
   constexpr std::uint64_t alignment = 256;  // The largest that Vulkan lets a device ask of offsets.
   if (arena.chunk < arena.chunks.size() && arena.used + size > arena.chunks[arena.chunk].size) {
@@ -145,17 +145,18 @@ FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t si
                                              VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                          MemoryUse::written_by_host));
   const Buffer& buffer = arena.chunks[arena.chunk];
-  const FrameArena::Slice slice{buffer.buffer, arena.used, buffer.mapped + arena.used};
+  const HostArena::Slice slice{buffer.buffer, arena.used, buffer.mapped + arena.used};
   arena.used = (arena.used + size + alignment - 1) / alignment * alignment;
   return slice;
 }
 
-void destroy_arena(FrameArena& arena, MemoryPool& pool) {
+void destroy_arena(HostArena& arena, MemoryPool& pool) {
   for (Buffer& chunk : arena.chunks) destroy_buffer(pool, chunk);
   arena = {};
 }
 
 void Upload::finish() {
+  if (copies_.empty()) return;
   run_once(device_, [this](VkCommandBuffer commands) {
     for (const auto& copy : copies_) copy(commands);
   });

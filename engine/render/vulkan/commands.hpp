@@ -25,7 +25,7 @@ void record_barriers(VkCommandBuffer commands, std::span<const ImageBarrier> bar
 void run_once(const Device& device, const std::function<void(VkCommandBuffer)>& record);
 
 /// Host-written memory that lives for one frame (uniforms, instance records, texts) or one upload.
-struct FrameArena {
+struct HostArena {
   struct Slice {
     VkBuffer buffer = VK_NULL_HANDLE;
     std::uint64_t offset = 0;
@@ -36,8 +36,8 @@ struct FrameArena {
   std::uint64_t used = 0;
 };
 
-FrameArena::Slice allocate(MemoryPool& pool, FrameArena& arena, std::uint64_t size);
-void destroy_arena(FrameArena& arena, MemoryPool& pool);
+HostArena::Slice allocate(MemoryPool& pool, HostArena& arena, std::uint64_t size);
+void destroy_arena(HostArena& arena, MemoryPool& pool);
 
 /// Copies to the device that are noted one by one and go in one submission, for each costs a wait.
 class Upload {
@@ -49,8 +49,8 @@ class Upload {
 
   const Device& device() const { return device_; }
   MemoryPool& memory() const { return memory_; }
-  /// Memory that the host fills before `finish` and `copy` is to copy from.
-  FrameArena::Slice stage(std::uint64_t size) { return allocate(memory_, staging_, size); }
+  /// Memory that the host fills before `finish`, for a copy to read.
+  HostArena::Slice stage(std::uint64_t size) { return allocate(memory_, staging_, size); }
   void add(std::function<void(VkCommandBuffer)> copy) { copies_.push_back(std::move(copy)); }
   /// Submits what was added and waits for it. What is not finished never happens.
   void finish();
@@ -58,7 +58,7 @@ class Upload {
  private:
   const Device& device_;
   MemoryPool& memory_;
-  FrameArena staging_;
+  HostArena staging_;
   std::vector<std::function<void(VkCommandBuffer)>> copies_;
 };
 
@@ -68,7 +68,7 @@ struct FrameSlot {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkSemaphore image_acquired = VK_NULL_HANDLE;
   std::uint64_t finished_value = 0;  ///< Of the timeline, once the device is done with the slot.
-  FrameArena arena;
+  HostArena arena;
 };
 
 inline constexpr std::size_t frames_in_flight = 2;
