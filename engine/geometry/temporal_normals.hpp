@@ -3,7 +3,8 @@
 ///
 /// Source: Parus, Hast and Kolingerová, "Temporal Face Normal Interpolation" (SIGRAD 2006). The t-variant cross product
 /// (eqs. 2 and 3) is exact; it is what Septet draws with. Preparing it costs less than preparing linear interpolation, which
-/// needs normals at both ends; evaluating costs more by its nine coefficients against six. The others are here to be compared. Frame and unit are those of the vertices.
+/// needs normals at both ends; evaluating costs more by its nine coefficients against six. The others are here to be
+/// compared. Frame and unit are those of the vertices.
 
 #include <array>
 #include <cstdint>
@@ -48,7 +49,8 @@ class TemporalNormals {
  public:
   TemporalNormals(NormalMethod method, std::span<const MovingFace> faces);
 
-  /// Unit normals at t in [0, 1]; the t-variant product is exact beyond, too. A face without area has the zero normal (t-variant, linear, quadratic, cubic).
+  /// Unit normals at t in [0, 1]; the t-variant product is exact beyond, too. A face without area has the zero normal
+  /// (t-variant, linear, quadratic, cubic).
   void at(float t, FaceNormals& normals) const;
   std::size_t size() const { return count_; }
 

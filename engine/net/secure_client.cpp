@@ -47,7 +47,7 @@ struct SecureClient::State {
   double next_knock_s = 0.0, retry_s = first_retry_s;
 
   double next_ping_s = 0.0;
-  double asked_s = 0.0;  ///< When the first ping was sent since the server was last heard.
+  double pinged_s = 0.0;  ///< When the first ping was sent since the server was last heard.
   int pings = 0;
   ChannelCounters past;  ///< Of earlier connections, and of what belongs to none.
   mutable ChannelCounters asked;
@@ -72,7 +72,7 @@ std::vector<ClientEvent> SecureClient::pump(double now_s) {
   if (state.channel) {
     if (now_s >= state.next_ping_s) {
       state.channel->ping();
-      if (state.channel->heard_s() > state.asked_s) state.asked_s = now_s;
+      if (state.channel->heard_s() > state.pinged_s) state.pinged_s = now_s;
       state.next_ping_s = now_s + (++state.pings < first_pings ? first_pings_s : later_pings_s);
     }
     state.channel->advance_to(now_s);
@@ -149,7 +149,7 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   retry_s = first_retry_s;
   state = ClientState::connected;
   pings = 0;
-  asked_s = -1.0;
+  pinged_s = -1.0;
   next_ping_s = now_s;  // The first ping also confirms the connection to the server.
   events.push_back({.kind = ClientEvent::Kind::connected});
 }
@@ -202,7 +202,7 @@ void SecureClient::close() {
 ClientState SecureClient::state() const { return state_->state; }
 double SecureClient::silence_s() const {
   const State& state = *state_;
-  return state.channel && state.channel->heard_s() <= state.asked_s ? state.now_s - state.asked_s : 0.0;
+  return state.channel && state.channel->heard_s() <= state.pinged_s ? state.now_s - state.pinged_s : 0.0;
 }
 const SessionId& SecureClient::session() const { return state_->session; }
 const ClockEstimate& SecureClient::clock() const {

@@ -44,12 +44,9 @@ ClothoidKnot walk_clothoid(const ClothoidKnot& knot, double curvature, double ra
     moved = {sine, versine};
     turn = {1.0 - phi * versine, phi * sine};
   } else {
-    // The last node is the end itself: no part of the sum.
-    for (int i = 0; i < 5; ++i) {
-      const double u = i < 4 ? gauss_node[i] * step_m : step_m;
-      turn = small_turn(u * (curvature + 0.5 * rate * u));
-      if (i < 4) moved += gauss_weight[i] * turn;
-    }
+    const auto turn_at = [&](double u) { return small_turn(u * (curvature + 0.5 * rate * u)); };
+    for (int i = 0; i < 4; ++i) moved += gauss_weight[i] * turn_at(gauss_node[i] * step_m);
+    turn = turn_at(step_m);
   }
   moved *= step_m;
   const Vec2 left = left_of(knot.direction);

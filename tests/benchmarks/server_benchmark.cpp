@@ -1,19 +1,16 @@
 // What a tick of the server costs with the driver's car and 200 vehicles, and what its snapshot costs on the wire.
 
-#include <unistd.h>
-
 #include <chrono>
-#include <filesystem>
 #include <optional>
 
 #include <benchmark/benchmark.h>
-#include <fmt/core.h>
 
 #include "engine/core/check.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/driver_seat.hpp"
 #include "sim-server/resources.hpp"
+#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 namespace {
@@ -67,10 +64,9 @@ BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecon
 /// own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes and writes, counts too.
 void server_realtime_factor(benchmark::State& bench) {
   const LoadedDrive loaded = motorway_drive();
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("septet-bench-{}", ::getpid());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  auto log = SessionLog::create(folder / "session.sqlite", loaded, 1, "own", false);
+  const auto folder = TemporaryFolder::make("septet-bench");
+  SEPTET_CHECK(folder.has_value(), "{}", describe(folder.error()));
+  auto log = SessionLog::create(folder->path() / "session.sqlite", loaded, 1, "own", false);
   SEPTET_CHECK(log.has_value(), "{}", describe(log.error()));
   auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded.model);
   auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(*seat), &*log);
@@ -86,7 +82,6 @@ void server_realtime_factor(benchmark::State& bench) {
   bench.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
   bench.counters["by_the_clock"] = simulated_s / clock.count();
   bench.counters["vehicles"] = static_cast<double>((*drive)->newest().participants.size());
-  std::filesystem::remove_all(folder);
 }
 BENCHMARK(server_realtime_factor)->Unit(benchmark::kMicrosecond);
 

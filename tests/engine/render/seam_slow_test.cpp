@@ -6,6 +6,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
+#include "tests/engine/render/lone_mesh.hpp"
 
 namespace septet::render {
 namespace {
@@ -15,21 +16,10 @@ const Vec3 car_m(100e3, -80e3, 35.0);
 
 /// A glowing bar 12 m ahead of the car, 16 m long, that rises to one side.
 scene::ResolvedScene bar_scene() {
-  scene::ResolvedScene scene;
-  scene.revision = 1;
-  scene.materials = {glowing_material()};
   scene::SurfaceMesh bar;
-  bar.revision = 1;
   for (std::uint16_t i = 0; i < bar_corners; ++i) bar.vertices.push_back({glm::vec3(bar_corner_m(i)), {-1, 0, 0}, {}});
   for (const auto& triangle : bar_triangles) bar.indices.insert(bar.indices.end(), triangle.begin(), triangle.end());
-  bar.parts = {{0, static_cast<std::uint32_t>(bar.indices.size()), 0}};
-  bar.bounds_min_m = bar.vertices.front().position_m;
-  bar.bounds_max_m = bar.vertices.back().position_m;
-  scene.meshes = {bar};
-  scene::Instance instance;
-  instance.world_from_object = {car_m + Vec3(12, 0, 2.2), orientation_from_angles(0.0, 0.0, 0.07)};
-  scene.instances = {instance};
-  return scene;
+  return lone_mesh(glowing_material(), bar, {car_m + Vec3(12, 0, 2.2), orientation_from_angles(0.0, 0.0, 0.07)});
 }
 
 }  // namespace

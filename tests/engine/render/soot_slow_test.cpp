@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/render/renderer.hpp"
+#include "tests/engine/render/lone_mesh.hpp"
 #include "tests/engine/render/reference_scene.hpp"
 
 namespace septet::render {
@@ -16,25 +17,13 @@ const Vec3 car_m(3e3, -2e3, 12.0);
 
 /// A white wall 8 m ahead of the car, 40 m wide and 20 m high, seen square on.
 scene::ResolvedScene wall_scene() {
-  scene::ResolvedScene scene;
-  scene.revision = 1;
   scene::SurfaceMaterial white;
-  white.revision = 1;
   white.base_color = glm::vec3(0.8f);
-  scene.materials = {white};
   scene::SurfaceMesh wall;
-  wall.revision = 1;
   for (const glm::vec3& corner : {glm::vec3(0, 20, -10), glm::vec3(0, -20, -10), glm::vec3(0, -20, 10), glm::vec3(0, 20, 10)})
     wall.vertices.push_back({corner, {-1, 0, 0}, {}});
   wall.indices = {0, 1, 2, 0, 2, 3};
-  wall.parts = {{0, 6, 0}};
-  wall.bounds_min_m = {0, -20, -10};
-  wall.bounds_max_m = {0, 20, 10};
-  scene.meshes = {wall};
-  scene::Instance instance;
-  instance.world_from_object = {car_m + Vec3(8, 0, 0), {1, 0, 0, 0}};
-  scene.instances = {instance};
-  return scene;
+  return lone_mesh(white, wall, {car_m + Vec3(8, 0, 0), {1, 0, 0, 0}});
 }
 
 /// 4 m of soot on the wall's left half beside the middle, turned with a tunnel.
