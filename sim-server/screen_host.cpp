@@ -25,6 +25,14 @@ std::uint64_t instance_of(const net::SessionId& session) {
   return number;
 }
 
+/// Does lockstep wait for this screen no more at `tick`?
+bool keeps_up(const HostedScreen& screen, Tick tick) {
+  if (screen.left_behind) return true;
+  if (!screen.live()) return !screen.expected;
+  if (screen.joined_at && tick <= *screen.joined_at) return screen.scene_arrived;
+  return screen.has_presented && screen.presented >= tick;
+}
+
 }  // namespace
 
 ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& tick_socket, const scene::Store& store,
@@ -51,7 +59,11 @@ void ScreenHost::pump(double now_s) {
   for (const net::ServerEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
       case net::ServerEvent::Kind::connected:
-        if (const auto* info = lane_.info(event.client)) scene_.connect(event.client, info->name);
+        if (const auto* info = lane_.info(event.client)) {
+          scene_.connect(event.client, info->name);
+          for (HostedScreen& screen : screens_)
+            if (screen.name == info->name) screen.expected = true;
+        }
         break;
       case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason); break;
       case net::ServerEvent::Kind::message: on_message(event, now_s); break;
@@ -132,6 +144,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
       messages_.push_back(fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s));
     screen->presented = std::max(screen->presented, presented->tick);
     screen->has_presented = true;
+    screen->left_behind = false;
     ++screen->frames;
   } else if (const auto* controls = std::get_if<Controls>(&message)) {
     controls_ = controls->input;
@@ -153,9 +166,10 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
     lane_.disconnect(old, "replaced by a new connection");
   }
   screen->client = client;
-  screen->scene_arrived = screen->has_presented = false;
+  screen->expected = screen->scene_arrived = screen->has_presented = screen->left_behind = false;
   ++screen->joined;
   screen->joined_s = now_s;
+  screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->rest.tick);
   baselines_.join(client, now_s);
   screen->tick_port = hello.tick_port;
   screen->unanswered_since_s.reset();
@@ -221,9 +235,15 @@ bool ScreenHost::all_ready() const {
 }
 
 bool ScreenHost::all_presented(Tick tick) const {
-  return std::ranges::all_of(screens_, [&](const HostedScreen& screen) {
-    return !screen.live() || !screen.scene_arrived || (screen.has_presented && screen.presented >= tick);
-  });
+  return std::ranges::all_of(screens_, [&](const HostedScreen& screen) { return keeps_up(screen, tick); });
+}
+
+void ScreenHost::leave_behind(Tick tick) {
+  for (HostedScreen& screen : screens_) {
+    if (keeps_up(screen, tick)) continue;
+    screen.left_behind = true;
+    messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
+  }
 }
 
 std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }

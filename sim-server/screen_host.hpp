@@ -40,12 +40,15 @@ struct HostedScreen {
   std::string name;
   std::optional<net::ClientId> client;
   std::uint16_t tick_port = 0;  ///< Where it hears ticks by unicast.
+  bool expected = false;  ///< Whoever has the key of this name has connected; the Hello is on its way.
   bool scene_arrived = false;
   Tick presented = 0;
   bool has_presented = false;
   std::uint64_t frames = 0;
   std::uint32_t joined = 0;  ///< How often it has connected.
   double joined_s = 0.0;     ///< When it last did.
+  std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
+  bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
 
@@ -73,8 +76,11 @@ class ScreenHost {
   const std::vector<HostedScreen>& screens() const { return screens_; }
   /// Every screen of the rig is connected and holds the whole scene.
   bool all_ready() const;
-  /// Every screen that is connected and holds the scene has shown this tick; those that have gone do not count.
+  /// Every connected screen has shown this tick, or, if it came later, holds the scene and can show the next. So those
+  /// that come up have the machine to themselves. Screens that have gone or are left behind do not count.
   bool all_presented(Tick tick) const;
+  /// Who has not shown the tick is not waited for again before it shows one.
+  void leave_behind(Tick tick);
   /// The newest controls that a screen with keyboard or gamepad has sent, once.
   std::optional<DriverInput> take_controls();
   void finish(const std::string& reason);

@@ -80,8 +80,9 @@ Expected<void> run_lockstep(Loop& loop) {
     const Tick tick = (*snapshot)->rest.tick;
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(*snapshot, loop.environment.now_s());
-    loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,
-                    [&] { loop.host.repeat_newest(); });
+    const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,
+                                          [&] { loop.host.repeat_newest(); });
+    if (!together && !loop.environment.stop_requested()) loop.host.leave_behind(tick);
     loop.report("driving");
   }
   return {};

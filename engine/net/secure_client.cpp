@@ -29,10 +29,10 @@ struct SecureClient::State {
   void connect(const ClientHandshake::Connected& connected, std::vector<ClientEvent>& events);
   void lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s = 0.0);
   void knock();
+  /// How long a ping has gone unanswered. Not since the server was heard: a client that was busy for seconds asked nothing.
+  double silence_s() const { return channel && channel->heard_s() <= pinged_s ? now_s - pinged_s : 0.0; }
   /// While it does, an answer to a new handshake is no longer wanted.
-  bool hears_server() const {
-    return channel && now_s - channel->heard_s() <= options.knock_after_s;
-  }
+  bool hears_server() const { return channel && silence_s() <= options.knock_after_s; }
 
   DatagramSocket& socket;
   SecureClientOptions options;
@@ -66,7 +66,7 @@ std::vector<ClientEvent> SecureClient::pump(double now_s) {
   if (state.closed) return events;
   state.receive(events);
   const double timeout_s = state.options.limits.timeout_s;
-  if (state.channel && now_s - state.channel->heard_s() > timeout_s)
+  if (state.silence_s() > timeout_s)
     state.lose(fmt::format("the server is not heard for {:.1f} s", timeout_s), events);
   if (!state.hears_server()) state.knock();
   if (state.channel) {
@@ -200,10 +200,7 @@ void SecureClient::close() {
 }
 
 ClientState SecureClient::state() const { return state_->state; }
-double SecureClient::silence_s() const {
-  const State& state = *state_;
-  return state.channel && state.channel->heard_s() <= state.pinged_s ? state.now_s - state.pinged_s : 0.0;
-}
+double SecureClient::silence_s() const { return state_->silence_s(); }
 const SessionId& SecureClient::session() const { return state_->session; }
 const ClockEstimate& SecureClient::clock() const {
   return state_->channel ? state_->channel->clock() : state_->no_clock;

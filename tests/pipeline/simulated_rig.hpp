@@ -25,6 +25,7 @@ struct SimulatedRigOptions {
   double least_playout_delay_s = 2.0 / 120.0;
   std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
   std::set<std::size_t> deaf{};  ///< Screens that the group's datagrams do not reach.
+  bool real_time = true;         ///< A tick is published whenever one is due; false: whoever drives the host publishes.
 };
 
 inline constexpr double rig_tick_s = 1.0 / 120.0;
@@ -121,7 +122,7 @@ class SimulatedRig {
     network_.advance_to(now_s_);
     if (host_) {
       host_->pump(now_s_);
-      while (static_cast<double>(next_tick_) * rig_tick_s <= now_s_) {
+      while (options_.real_time && static_cast<double>(next_tick_) * rig_tick_s <= now_s_) {
         host_->publish(std::make_shared<const WireSnapshot>(to_wire(circling_vehicles(next_tick_, options_.vehicles))), now_s_);
         ++next_tick_;
       }

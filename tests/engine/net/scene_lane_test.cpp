@@ -216,6 +216,20 @@ TEST_CASE("a client that was busy does not take the server for silent but one th
   CHECK(site.clients[0]->silence_s() <= 1.5);
 }
 
+TEST_CASE("a client that is busy for longer than its patience again and again keeps its connection") {
+  Site site(1, {});
+  site.run(0.5);
+  for (int picture = 0; picture < 8; ++picture) {
+    site.hung[0] = true;
+    site.run(1.3);
+    site.hung[0] = false;
+    site.run(0.001);
+  }
+  site.run(0.2);
+  CHECK(site.count(ServerEvent::Kind::connected) == 1);
+  CHECK(site.count(ServerEvent::Kind::disconnected) == 0);
+}
+
 TEST_CASE("a client whose queue is full is dropped so that memory is bounded") {
   ChannelLimits limits;
   limits.max_queue_bytes = 100'000;

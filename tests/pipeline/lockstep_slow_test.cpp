@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "sim-server/serve.hpp"
+#include "tests/pipeline/simulated_rig.hpp"
+
+namespace septet {
+namespace {
+
+constexpr std::uint64_t draw_every_ticks = 8;
+constexpr double patience_s = 1.0;  ///< Less than the lane's own, after which a silent screen is disconnected.
+
+class Circles final : public server::TickSource {
+ public:
+  Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>&) override {
+    return std::make_shared<const WireSnapshot>(to_wire(circling_vehicles(++tick_, 20)));
+  }
+  double tick_rate_hz() const override { return 120.0; }
+
+ private:
+  Tick tick_ = 0;
+};
+
+/// Screens on a simulated clock that answer as those of the product do: each new tick, once they hold the scene.
+class LockstepRig {
+ public:
+  explicit LockstepRig(std::size_t screens) : rig({.screens = screens, .faults = {.latency_s = 0.0003}, .real_time = false}) {
+    rig.run_for(0.5);
+  }
+
+  server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {
+    Circles circles;
+    const server::ServeEnvironment environment{[this] { return rig.now_s(); },
+                                               [&](double) {
+                                                 rig.advance_1ms();
+                                                 each_ms();
+                                                 for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
+                                               },
+                                               [] { return false; }, [](const server::Progress&) {}, [this](const std::string& text) { messages.push_back(text); }};
+    auto served = server::serve(circles, rig.host(), {.lockstep = true, .draw_every_ticks = draw_every_ticks, .ticks = static_cast<std::uint64_t>(120.0 * seconds), .lockstep_patience_s = patience_s}, environment);
+    REQUIRE(served.has_value());
+    return *served;
+  }
+
+  SimulatedRig rig;
+  std::map<std::size_t, std::vector<Tick>> shown;
+  std::vector<std::string> messages;
+
+ private:
+  void answer(std::size_t i) {
+    auto& screen = rig.screen(i);
+    if (!screen.link || screen.hung) return;
+    if (screen.link->finished()) return screen.link->report({});
+    if (!screen.link->scene_arrived() || screen.link->history().empty()) return;
+    const Tick tick = screen.link->history().newest().snapshot.tick;
+    if (!shown[i].empty() && shown[i].back() >= tick) return;
+    shown[i].push_back(tick);
+    screen.link->send(control::Presented{tick, 1.0f}, net::Reliability::reliable);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("in lockstep all screens show every drawn tick") {
+  LockstepRig lockstep(3);
+  lockstep.serve(2.0, [] {});
+  for (std::size_t i = 0; i < 3; ++i) {
+    REQUIRE(lockstep.shown[i].size() == 240 / draw_every_ticks);
+    for (std::size_t n = 0; n < lockstep.shown[i].size(); ++n) CHECK(lockstep.shown[i][n] == draw_every_ticks * (n + 1));
+  }
+}
+
+TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick after it has connected") {
+  LockstepRig lockstep(3);
+  std::optional<double> killed_s;
+  bool started = false;
+  Tick newest_at_start = 0;
+  lockstep.serve(3.0, [&] {
+    const auto& others = lockstep.shown[0];
+    if (!killed_s && others.size() == 10) {
+      killed_s = lockstep.rig.now_s();
+      lockstep.rig.stop_screen(1);
+      lockstep.shown[1].clear();
+    }
+    // It comes back while the others wait for the answer of the one that was killed.
+    if (killed_s && !started && lockstep.rig.now_s() > *killed_s + 0.5 * patience_s) {
+      started = true;
+      newest_at_start = others.back();
+      lockstep.rig.start_screen(1);
+    }
+  });
+  REQUIRE(started);
+  CHECK(newest_at_start == 11 * draw_every_ticks);
+  CHECK(lockstep.shown[0].size() == 360 / draw_every_ticks);
+  REQUIRE_FALSE(lockstep.shown[1].empty());
+  CHECK(lockstep.shown[1].front() == newest_at_start + draw_every_ticks);
+}
+
+TEST_CASE("in lockstep a screen that hangs is waited for once and shows again what comes after") {
+  LockstepRig lockstep(3);
+  const auto served = lockstep.serve(4.0, [&] {
+    lockstep.rig.screen(2).hung = lockstep.shown[0].size() >= 10 && lockstep.shown[0].size() < 30;
+  });
+  CHECK(served.wall_s > patience_s);
+  CHECK(served.wall_s < 2.0 * patience_s);
+  CHECK(std::ranges::count_if(lockstep.messages, [](const std::string& text) { return text.find("go on without it") != std::string::npos; }) == 1);
+  CHECK(lockstep.shown[0].size() == 480 / draw_every_ticks);
+  CHECK(lockstep.shown[2].size() >= 10 + 25);
+  CHECK(lockstep.shown[2].back() == 480);
+}
+
+}  // namespace septet
