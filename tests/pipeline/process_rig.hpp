@@ -48,7 +48,7 @@ inline std::string small_rig(int screens, const std::string& network = "", const
 }
 
 inline server::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log) {
-  auto process = server::ChildProcess::start({.program = std::string(SEPTET_BINARY_DIR) + "/" + program,
+  auto process = server::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
                                               .arguments = std::move(arguments),
                                               .environment = {{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}},
                                               .log = log});
