@@ -129,7 +129,7 @@ TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it
   const auto actuators = encode_actuators({.fan = 0.25}, 1);
   {
     // As the thread that writes does it: a second handle on the same device.
-    const auto writer = open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001});
+    const auto writer = open_hid_device(HidAddress{});
     REQUIRE(writer.has_value());
     REQUIRE((*writer)->write(actuators));
   }
