@@ -47,8 +47,8 @@ seven = "[car]\nsource = \"simulated-driver\"\nvehicle = \"volvo-s80\"\n\n"
 for i, name in enumerate(AHEAD):
     seven += screen(name, 110 - 44 * i, 66 - 44 * i, 30, 640)
 # Behind: 60 degrees around the rear, seen through the rear window and the car's own mirrors.
-seven += screen("behind-left", 210, 180, 30, 448)
-seven += screen("behind-right", 180, 150, 30, 448)
+seven += screen("behind-right", 210, 180, 30, 448)
+seven += screen("behind-left", 180, 150, 30, 448)
 write("seven-screens", "# Seven projection screens around a complete car: 220 x 30 degrees ahead on five, 60 x 30 degrees behind on two.\n"
       "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) Made by make_rigs.py.", seven)
 
@@ -56,6 +56,6 @@ three = "[car]\nsource = \"hid\"\n\n" + "".join(
     screen(name, 90 - 60 * i, 30 - 60 * i, 34, 1920, 0.8, height_px=1080) for i, name in enumerate(("left", "middle", "right")))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 
-mirrors = inset(0.40, 0.02, 0.22, 0.13, 195, 165, 9) + inset(0.01, 0.58, 0.17, 0.17, 190, 172, 13) + inset(0.82, 0.58, 0.17, 0.17, 188, 170, 13)
+mirrors = inset(0.40, 0.02, 0.22, 0.13, 195, 165, 9) + inset(0.01, 0.58, 0.17, 0.17, 184, 158, 15) + inset(0.82, 0.58, 0.17, 0.17, 202, 176, 15)
 write("desktop", "# One window on a desktop, with the three mirrors as insets. Made by make_rigs.py.",
       "[car]\nsource = \"keyboard\"\n\n" + screen("desktop", 37, -37, 38.7, 1280, 0.7, extra="show_interior = true\n" + mirrors))
