@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/core/check.hpp"
 #include "engine/effects/smoke/attraction.hpp"
@@ -10,12 +11,10 @@ namespace {
 
 constexpr std::uint64_t sorting_ticks = 32;
 
-struct Displacement {
-  float dx, dy, dz;
-};
-
-/// Every cell whose centre a box covers is full, and those that it touches on by a quarter of a cell.
-void mark_full(State& state, std::span<const Obstacle> obstacles) {
+/// Every cell whose centre a box covers is full, and those that it touches on by a quarter of a cell. Answers whether any of
+/// them has smoke.
+bool mark_full(State& state, std::span<const Obstacle> obstacles) {
+  bool smoke_within = false;
   const Grid& grid = state.grid;
   std::copy(grid.wall.begin(), grid.wall.end(), state.full.begin());
   const double margin_m = 0.25 * grid.cell_m;
@@ -41,9 +40,47 @@ void mark_full(State& state, std::span<const Obstacle> obstacles) {
       for (int j = low[1]; j <= high[1]; ++j)
         for (int i = low[0]; i <= high[0]; ++i) {
           const Vec3 p = box_from_grid * (Vec3(i + 0.5, j + 0.5, k + 0.5) * grid.cell_m);
-          if (std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z)
-            state.full[grid.index(i, j, k)] = 1;
+          if (!(std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z)) continue;
+          const int cell = grid.index(i, j, k);
+          state.full[cell] = 1;
+          smoke_within = smoke_within || state.density[cell] != 0;
         }
+  }
+  return smoke_within;
+}
+
+/// What a particle in a cell makes in a tick: (rest + bias·above)·scale + drift, and uniform steps in ±jitter for each unit of
+/// its cell's crowding.
+struct Motion {
+  float scale = 0.0f, jitter = 0.0f;
+  glm::vec3 drift{0.0f};
+  std::uint64_t key = 0, counter = 0;  ///< Of the random numbers; a particle adds its own.
+};
+
+/// A cell's velocity is one load, one widening and one conversion of eight numbers.
+void fill_steps(const CellVelocity* cells, const std::uint32_t* numbers, const Motion& motion, Block& block) {
+  using Shorts = std::int16_t __attribute__((vector_size(16)));
+  using Integers = std::int32_t __attribute__((vector_size(32)));
+  using Floats = float __attribute__((vector_size(32)));
+  using Half = float __attribute__((vector_size(16)));
+  const Half drift{motion.drift.x, motion.drift.y, motion.drift.z, 0.0f};
+  for (int n = 0; n < block.count; ++n) {
+    Shorts packed;
+    std::memcpy(&packed, cells + block.cell[static_cast<std::size_t>(n)], sizeof packed);
+    const Floats v = __builtin_convertvector(__builtin_convertvector(packed, Integers), Floats);
+    const Half rest = __builtin_shufflevector(v, v, 0, 1, 2, 3), above = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+    const Half step = (rest + block.bias[static_cast<std::size_t>(n)] * above) * motion.scale + drift;
+    std::memcpy(&block.step[static_cast<std::size_t>(4 * n)], &step, sizeof step);
+  }
+  std::array<std::uint16_t, Block::most> crowded;
+  const auto crowding = [&](std::size_t n) { return cells[block.cell[n]].crowding; };
+  const int count =
+      list_of(block.count, crowded, [&](int n) { return crowding(static_cast<std::size_t>(n)) > 0; });
+  for (int c = 0; c < count; ++c) {
+    const std::size_t n = crowded[static_cast<std::size_t>(c)];
+    const auto u = uniform_of(motion.key, (motion.counter + numbers[block.first + n]) << 1);
+    const float a = motion.jitter * static_cast<float>(crowding(n));
+    for (std::size_t axis = 0; axis < 3; ++axis) block.step[4 * n + axis] += a * (2.0f * u[axis] - 1.0f);
   }
 }
 
@@ -132,38 +169,25 @@ State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t 
 StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles,
                          double step_s) {
   SEPTET_CHECK(step_s > 0.0 && step_s <= 0.1, "step of {} s", step_s);
-  mark_full(state, obstacles);
+  const int pushed = mark_full(state, obstacles) ? push_out_of_full_cells(state) : 0;
   const int born = emit(state, step_s);
   if (state.tick % sorting_ticks == 0) sort_by_cell(state);
   const std::vector<float> table = attraction_table(state.parameters);
   update_velocity_field(state, table, state.field);
-  const glm::vec3 drift(glm::conjugate(state.grid.world_from_grid.orientation) * wind_mps *
-                        (step_s / state.grid.cell_m));
+  Motion motion;
+  motion.scale = static_cast<float>(step_s) * velocity_quantum;
+  motion.drift = glm::vec3(glm::conjugate(state.grid.world_from_grid.orientation) * wind_mps *
+                           (step_s / state.grid.cell_m));
   // Uniform steps in ±a have the deviation a/√3.
-  const auto reach = static_cast<float>(state.parameters.jitter_cells * 2.0 *
-                                        std::sqrt(3.0 * step_s) * velocity_quantum);
-  const auto step = static_cast<float>(step_s) * velocity_quantum;
-  const std::uint32_t* const numbers = state.particles.number.data();
+  motion.jitter = static_cast<float>(state.parameters.jitter_cells * 2.0 * std::sqrt(3.0 * step_s) *
+                                     velocity_quantum);
+  motion.key = mixed(state.seed + 1);
+  motion.counter = state.tick * max_particles;
   const CellVelocity* const cells = state.field.cells.data();
-  const std::uint64_t key = mixed(state.seed + 1), counter = state.tick * max_particles;
-  StepReport report = move_particles(
-      state, step_s, [&](std::size_t n, int cell, int, int, int, float bias) {
-        const CellVelocity& v = cells[cell];
-        const auto along = [&](int axis) {
-          return (static_cast<float>(v.rest[axis]) + bias * static_cast<float>(v.above[axis])) *
-                     step +
-                 drift[axis];
-        };
-        Displacement d{along(0), along(1), along(2)};
-        if (v.crowding > 0) [[unlikely]] {
-          const auto u = uniform_of(key, (counter + numbers[n]) << 1);
-          const float a = reach * static_cast<float>(v.crowding);
-          d.dx += a * (2.0f * u[0] - 1.0f);
-          d.dy += a * (2.0f * u[1] - 1.0f);
-          d.dz += a * (2.0f * u[2] - 1.0f);
-        }
-        return d;
-      });
+  StepReport report = move_particles(state, step_s, [&](Block& block) {
+    fill_steps(cells, state.particles.number.data(), motion, block);
+  });
+  report.pushed = pushed;
   report.born = born;
   if (state.tick % extinction_ticks == 0) count_extinction(state);
   leave_soot(state, step_s);
@@ -182,12 +206,15 @@ StepReport advance_smoke_literally(State& state, double step_s) {
     return copy;
   }();
   const double scale = state.parameters.speed_cells_per_s * step_s;
-  StepReport report = move_particles(
-      state, step_s, [&](std::size_t, int, int i, int j, int k, float bias) {
-        const Vec3 d = scale * mean_sample(before, table, i, j, k, bias);
-        return Displacement{static_cast<float>(d.x), static_cast<float>(d.y),
-                            static_cast<float>(d.z)};
-      });
+  StepReport report = move_particles(state, step_s, [&](Block& block) {
+    for (int n = 0; n < block.count; ++n) {
+      const int cell = block.cell[static_cast<std::size_t>(n)], nx = state.grid.nx, ny = state.grid.ny;
+      const Vec3 d = scale * mean_sample(before, table, cell % nx, cell / nx % ny, cell / (nx * ny),
+                                         block.bias[static_cast<std::size_t>(n)]);
+      for (int axis = 0; axis < 3; ++axis)
+        block.step[static_cast<std::size_t>(4 * n + axis)] = static_cast<float>(d[axis]);
+    }
+  });
   report.born = born;
   if (state.tick % extinction_ticks == 0) count_extinction(state);
   return report;

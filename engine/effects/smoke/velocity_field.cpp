@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "engine/effects/smoke/smoke_state.hpp"
 
@@ -17,8 +18,9 @@ struct Padded {
   std::size_t size() const { return static_cast<std::size_t>(nx) * ny * nz; }
   /// Of the grid's cell (0, j, k).
   std::ptrdiff_t row(int j, int k) const {
-    return (static_cast<std::ptrdiff_t>(k + pad) * ny + (j + pad)) * nx + pad;
+    return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j);
   }
+  std::ptrdiff_t in_layer(int j) const { return static_cast<std::ptrdiff_t>(j + pad) * nx + pad; }
 };
 
 /// What lies outside the grid never changes: written once, when the memory is made.
@@ -29,25 +31,45 @@ void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& at
         attraction[padded.row(j, k) + i] = is_open(grid, i, j, k) ? 1.0f : -1.0f;
 }
 
-void sum_along_rows(const Grid& grid, const Padded& padded, VelocityField& field) {
-  for (int k = -1; k <= grid.nz; ++k)
-    for (int j = -1; j <= grid.ny; ++j) {
-      bool needed = false;
-      for (int b = std::max(k - 1, 0); b <= std::min(k + 1, grid.nz - 1); ++b)
-        for (int a = std::max(j - 1, 0); a <= std::min(j + 1, grid.ny - 1); ++a)
-          needed = needed || field.row_used[b * grid.ny + a];
-      if (!needed) continue;
-      const std::ptrdiff_t row = padded.row(j, k);
-      const float* __restrict f = field.attraction.data() + row;
-      float* __restrict difference = field.difference.data() + row;
-      float* __restrict sum = field.sum.data() + row;
-      float* __restrict magnitude = field.magnitude.data() + row;
-      for (int i = 0; i < grid.nx; ++i) {
-        difference[i] = f[i + 1] - f[i - 1];
-        sum[i] = f[i - 1] + f[i] + f[i + 1];
-        magnitude[i] = std::abs(f[i - 1]) + std::abs(f[i]) + std::abs(f[i + 1]);
-      }
+/// From sums over 3 cells of a row (differences, sums, magnitudes) and of those beside it, `y` numbers apart, to 3 × 3.
+void add_rows(int count, std::ptrdiff_t y, const float* __restrict d, const float* __restrict s, const float* __restrict m,
+              float* __restrict along_x, float* __restrict along_y, float* __restrict sum, float* __restrict magnitude) {
+  for (int i = 0; i < count; ++i) {
+    along_x[i] = d[i - y] + d[i] + d[i + y];
+    along_y[i] = s[i + y] - s[i - y];
+    sum[i] = s[i - y] + s[i] + s[i + y];
+    magnitude[i] = m[i - y] + m[i] + m[i + y];
+  }
+}
+
+/// The sums of layer k, for the rows whose neighbours need them.
+void sum_layer(const Grid& grid, const Padded& padded, int k, VelocityField& field) {
+  const auto used_around = [&](int row, int reach) {
+    for (int b = std::max(k - 1, 0); b <= std::min(k + 1, grid.nz - 1); ++b)
+      for (int a = std::max(row - reach, 0); a <= std::min(row + reach, grid.ny - 1); ++a)
+        if (field.row_used[static_cast<std::size_t>(b * grid.ny + a)]) return true;
+    return false;
+  };
+  for (int j = -1; j <= grid.ny; ++j) {
+    if (!used_around(j, 1)) continue;
+    const float* __restrict f = field.attraction.data() + padded.row(j, k);
+    float* __restrict difference = field.rows.along_x.data() + padded.in_layer(j);
+    float* __restrict sum = field.rows.sum.data() + padded.in_layer(j);
+    float* __restrict magnitude = field.rows.magnitude.data() + padded.in_layer(j);
+    for (int i = 0; i < grid.nx; ++i) {
+      difference[i] = f[i + 1] - f[i - 1];
+      sum[i] = f[i - 1] + f[i] + f[i + 1];
+      magnitude[i] = std::abs(f[i - 1]) + std::abs(f[i]) + std::abs(f[i + 1]);
     }
+  }
+  LayerSums& layer = field.layers[static_cast<std::size_t>((k + 3) % 3)];
+  for (int j = 0; j < grid.ny; ++j) {
+    if (!used_around(j, 0)) continue;
+    const std::ptrdiff_t row = padded.in_layer(j);
+    add_rows(grid.nx, padded.nx, field.rows.along_x.data() + row, field.rows.sum.data() + row,
+             field.rows.magnitude.data() + row, layer.along_x.data() + row, layer.along_y.data() + row,
+             layer.sum.data() + row, layer.magnitude.data() + row);
+  }
 }
 
 /// A part of a row, so short that it stays in the nearest cache until it is packed.
@@ -57,24 +79,34 @@ struct Span {
   alignas(32) float above_x[span_cells], above_y[span_cells], above_z[span_cells];
 };
 
+/// Sums of the layers above, of and below a row of cells, from its first cell on.
+struct Around {
+  const LayerSums &above, &level, &below;
+  std::ptrdiff_t first;
+};
+
 /// The convolution along a span of a row of cells, in multiples of velocity_quantum.
-void convolve(int count, const Padded& padded, const VelocityField& field, std::ptrdiff_t row,
+void convolve(int count, const Padded& padded, const float* attraction, const Around& around,
               float speed, Span& __restrict out) {
   const std::ptrdiff_t y = padded.nx, z = y * padded.ny;
-  const float* __restrict f = field.attraction.data() + row;
-  const float* __restrict d = field.difference.data() + row;
-  const float* __restrict s = field.sum.data() + row;
-  const float* __restrict m = field.magnitude.data() + row;
+  const float* __restrict f = attraction;
+  const auto of = [&](const std::vector<float>& sums) { return sums.data() + around.first; };
+  const float* __restrict x1 = of(around.above.along_x);
+  const float* __restrict y1 = of(around.above.along_y);
+  const float* __restrict s1 = of(around.above.sum);
+  const float* __restrict m1 = of(around.above.magnitude);
+  const float* __restrict x0 = of(around.level.along_x);
+  const float* __restrict y0 = of(around.level.along_y);
+  const float* __restrict m0 = of(around.level.magnitude);
+  const float* __restrict x_ = of(around.below.along_x);
+  const float* __restrict y_ = of(around.below.along_y);
+  const float* __restrict s_ = of(around.below.sum);
+  const float* __restrict m_ = of(around.below.magnitude);
   for (int i = 0; i < count; ++i) {
-    // The 26 neighbours, a layer of three rows at a time.
-    float above_x = d[i - y + z] + d[i + z] + d[i + y + z];
-    float above_y = s[i + y + z] - s[i - y + z];
-    float above_z = s[i - y + z] + s[i + z] + s[i + y + z];
-    float rest_x = d[i - y] + d[i] + d[i + y] + d[i - y - z] + d[i - z] + d[i + y - z];
-    float rest_y = s[i + y] - s[i - y] + s[i + y - z] - s[i - y - z];
-    float rest_z = -(s[i - y - z] + s[i - z] + s[i + y - z]);
-    float magnitude = m[i - y + z] + m[i + z] + m[i + y + z] + m[i - y] + m[i] + m[i + y] +
-                      m[i - y - z] + m[i - z] + m[i + y - z] - std::abs(f[i]);
+    // The 26 neighbours.
+    float above_x = x1[i], above_y = y1[i], above_z = s1[i];
+    float rest_x = x0[i] + x_[i], rest_y = y0[i] + y_[i], rest_z = -s_[i];
+    float magnitude = m1[i] + m0[i] + m_[i] - std::abs(f[i]);
     // The quincunxes two cells away.
     const float* __restrict top = f + 2 * z;
     const float* __restrict low = f - 2 * z;
@@ -109,21 +141,51 @@ void convolve(int count, const Padded& padded, const VelocityField& field, std::
   }
 }
 
-/// To the nearest, without a branch: what is converted is positive.
-std::int16_t packed(float value) {
+/// Two numbers to the nearest, without a branch (what is converted is positive), the first in the lower half.
+std::uint32_t packed(float first, float second) {
   constexpr float most = greatest_velocity / velocity_quantum;
-  const float above_least = value > -most ? value : -most;
-  const float bounded = above_least < most ? above_least : most;
-  return static_cast<std::int16_t>(static_cast<std::int32_t>(bounded + 32768.5f) - 32768);
+  const auto half = [](float value) {
+    const float above_least = value > -most ? value : -most;
+    const float bounded = above_least < most ? above_least : most;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(bounded + 32768.5f) - 32768);
+  };
+  return (half(first) & 0xffffu) | (half(second) << 16);
 }
 
-void pack(int count, const Span& span, const float* __restrict attraction,
-          CellVelocity* __restrict out) {
-  for (int i = 0; i < count; ++i)
-    out[i] = {{packed(span.rest_x[i]), packed(span.rest_y[i]), packed(span.rest_z[i])},
-              packed((attraction[i] < 0.5f ? 0.5f - attraction[i] : 0.0f) / velocity_quantum),
-              {packed(span.above_x[i]), packed(span.above_y[i]), packed(span.above_z[i])},
-              0};
+/// Whole words, because vectors of halves are put between each other one by one.
+void pack(int count, const Span& __restrict span, const float* __restrict attraction, CellVelocity* out) {
+  alignas(32) std::uint32_t words[4 * span_cells];
+  for (int i = 0; i < count; ++i) {
+    const float crowding = (attraction[i] < 0.5f ? 0.5f - attraction[i] : 0.0f) / velocity_quantum;
+    words[4 * i] = packed(span.rest_x[i], span.rest_y[i]);
+    words[4 * i + 1] = packed(span.rest_z[i], crowding);
+    words[4 * i + 2] = packed(span.above_x[i], span.above_y[i]);
+    words[4 * i + 3] = packed(span.above_z[i], 0.0f);
+  }
+  for (int i = 0; i < count; ++i) std::memcpy(out + i, words + 4 * i, sizeof(CellVelocity));
+}
+
+void look_up_row(int count, const std::uint16_t* __restrict density, const std::uint8_t* __restrict full,
+                 const float* __restrict table, int last, float* __restrict attraction) {
+  for (int i = 0; i < count; ++i) {
+    const int counted = density[i] < last ? density[i] : last;
+    attraction[i] = table[full[i] ? last : counted];
+  }
+}
+
+/// The attraction of every cell, and which rows have particles.
+void look_up(const State& state, std::span<const float> table, const Padded& padded, VelocityField& field) {
+  const Grid& grid = state.grid;
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j) {
+      const int first = grid.index(0, j, k);
+      const std::uint16_t* const density = state.density.data() + first;
+      std::uint16_t any = 0;
+      for (int i = 0; i < grid.nx; ++i) any |= density[i];
+      look_up_row(grid.nx, density, state.full.data() + first, table.data(), static_cast<int>(table.size()) - 1,
+                  field.attraction.data() + padded.row(j, k));
+      field.row_used[static_cast<std::size_t>(k * grid.ny + j)] = any != 0;
+    }
 }
 
 }  // namespace
@@ -133,38 +195,31 @@ void update_velocity_field(const State& state, std::span<const float> table,
   const Grid& grid = state.grid;
   const Padded padded(grid);
   if (field.attraction.size() != padded.size()) {
-    for (auto* memory : {&field.attraction, &field.difference, &field.sum, &field.magnitude})
-      memory->assign(padded.size(), 0.0f);
+    field.attraction.assign(padded.size(), 0.0f);
+    const std::size_t layer = padded.size() / static_cast<std::size_t>(padded.nz);
+    for (LayerSums* sums : {&field.rows, &field.layers[0], &field.layers[1], &field.layers[2]})
+      for (auto* memory : {&sums->along_x, &sums->along_y, &sums->sum, &sums->magnitude})
+        memory->assign(layer, 0.0f);
     field.cells.assign(static_cast<std::size_t>(grid.cells()), {});
     field.row_used.assign(static_cast<std::size_t>(grid.ny) * grid.nz, 0);
     fill_outside(grid, padded, field.attraction);
   }
-  const auto last = static_cast<std::uint16_t>(table.size() - 1);
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j) {
-      const int first = grid.index(0, j, k);
-      float* __restrict f = field.attraction.data() + padded.row(j, k);
-      const std::uint16_t* __restrict density = state.density.data() + first;
-      const std::uint8_t* __restrict full = state.full.data() + first;
-      std::uint16_t any = 0;
-      for (int i = 0; i < grid.nx; ++i) {
-        any |= density[i];
-        f[i] = table[full[i] ? last : std::min(density[i], last)];
-      }
-      field.row_used[k * grid.ny + j] = any != 0;
-    }
-  sum_along_rows(grid, padded, field);
+  look_up(state, table, padded, field);
   const auto speed = static_cast<float>(state.parameters.speed_cells_per_s);
   Span span;
-  for (int k = 0; k < grid.nz; ++k)
+  sum_layer(grid, padded, -1, field);
+  sum_layer(grid, padded, 0, field);
+  for (int k = 0; k < grid.nz; ++k) {
+    sum_layer(grid, padded, k + 1, field);
+    const auto layer = [&](int of) -> const LayerSums& { return field.layers[static_cast<std::size_t>((of + 3) % 3)]; };
     for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx && field.row_used[k * grid.ny + j]; i += span_cells) {
+      for (int i = 0; i < grid.nx && field.row_used[static_cast<std::size_t>(k * grid.ny + j)]; i += span_cells) {
         const int count = std::min(span_cells, grid.nx - i);
-        const std::ptrdiff_t first = padded.row(j, k) + i;
-        convolve(count, padded, field, first, speed, span);
-        pack(count, span, field.attraction.data() + first,
-             field.cells.data() + grid.index(i, j, k));
+        const float* const attraction = field.attraction.data() + padded.row(j, k) + i;
+        convolve(count, padded, attraction, {layer(k + 1), layer(k), layer(k - 1), padded.in_layer(j) + i}, speed, span);
+        pack(count, span, attraction, field.cells.data() + grid.index(i, j, k));
       }
+  }
 }
 
 }  // namespace septet::smoke

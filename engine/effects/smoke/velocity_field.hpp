@@ -3,8 +3,9 @@
 ///
 /// All particles of a cell read the same 46 cells, so figure 1 is a convolution of the attraction with the pattern. It is
 /// linear in the bias: the sum over what lies above is kept apart, and a particle adds it times its own bias. The sums
-/// over the 3×3×3 block are made from sums along rows. Equal to `mean_sample` but for rounding.
+/// over the 3×3×3 block are made from sums along rows, then in layers. Equal to `mean_sample` but for rounding.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,10 +27,17 @@ inline constexpr float velocity_quantum = 1.0f / 256.0f;
 /// Of one sum; beyond it is cut off.
 inline constexpr float greatest_velocity = 127.0f;
 
+/// Sums of the attraction over some cells around each of a layer: the differences along x and y, the sum, the sum of magnitudes.
+struct LayerSums {
+  std::vector<float> along_x, along_y, sum, magnitude;
+};
+
 /// Memory of the convolution, kept so that a tick allocates nothing. Holds no state.
 struct VelocityField {
   std::vector<CellVelocity> cells;  ///< Valid where a row of cells along x has a particle.
-  std::vector<float> attraction, difference, sum, magnitude;  ///< Padded by 3; the last three over 3 cells along x.
+  std::vector<float> attraction;    ///< Padded by 3.
+  LayerSums rows;                   ///< Over 3 cells along x; along_y is not used. Of one layer at a time.
+  std::array<LayerSums, 3> layers;  ///< Over 3 × 3 cells; layer k is in place k mod 3.
   std::vector<std::uint8_t> row_used;
 };
 
