@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 #include <Eigen/Geometry>
@@ -46,17 +47,52 @@ int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, 
   return std::clamp(static_cast<int>(std::ceil(std::min(wanted, double{most}))), 1, most);
 }
 
+/// The surfaces that a piece is between, and how much energy they may leave it with, in the frame that moves with their
+/// middle. One surface, whatever its speed, returns less than it took: in its own frame a piece gains nothing. Two that close
+/// on a piece can make it as fast as they are themselves: they are vehicles, whose metal gives way before it does more.
+struct Frame {
+  Eigen::Vector3d velocity_mps{0, 0, 0};
+  double allowed_j = 0.0;
+};
+
+/// Kinetic energy as seen by something that moves with `frame_mps`.
+double kinetic_energy_j(const Piece& piece, const Eigen::Vector3d& frame_mps) {
+  double sum = 0.0;
+  for (int i = 0; i < piece.body.node_count(); ++i)
+    sum += 0.5 * piece.body.mass_kg[i] * (piece.body.velocity_mps[i] - frame_mps).squaredNorm();
+  return sum;
+}
+
+Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double step_s) {
+  Frame frame;
+  Eigen::AlignedBox3d velocities;
+  for (const FoundContact& f : found)
+    if (f.box >= 0) velocities.extend(f.contact.surface_velocity_mps);
+  if (!velocities.isEmpty()) frame.velocity_mps = velocities.center();
+  const double mass = elastic::total_mass_kg(piece.body);
+  const double before = kinetic_energy_j(piece, frame.velocity_mps) + elastic::elastic_energy_j(piece.body);
+  double apart = 0.0;
+  for (const FoundContact& f : found)
+    apart = std::max(apart, (f.contact.surface_velocity_mps - frame.velocity_mps).norm());
+  // And what weight and being pushed out of a surface may add.
+  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * 9.81 * step_s * (speed + 0.2);
+  frame.allowed_j = weight_j + std::max(before, 0.5 * mass * apart * apart);
+  return frame;
+}
+
 /// The elastic step errs where elements turn or shear by much within it. Energy that nothing gave
 /// is taken out of the deformation: of its velocity, and of its shape by going back towards the
 /// rest shape in its best place. Mass, momentum and angular momentum stay.
-void bound_energy(Piece& piece, double allowed_j) {
+void bound_energy(Piece& piece, const Frame& frame) {
   auto& body = piece.body;
   const auto motion = elastic::rigid_motion(body);
   const double elastic_j = elastic::elastic_energy_j(body);
-  const double rigid_j = 0.5 * elastic::total_mass_kg(body) * motion.velocity_mps.squaredNorm() +
-                         0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
-  const double moving_j = std::max(0.0, elastic::kinetic_energy_j(body) - rigid_j);
-  const double budget = std::max(0.0, allowed_j - rigid_j);
+  const double mass = elastic::total_mass_kg(body);
+  const double turning_j = 0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
+  const double moving_j = std::max(
+      0.0, elastic::kinetic_energy_j(body) - 0.5 * mass * motion.velocity_mps.squaredNorm() - turning_j);
+  const double rigid_j = 0.5 * mass * (motion.velocity_mps - frame.velocity_mps).squaredNorm() + turning_j;
+  const double budget = std::max(0.0, frame.allowed_j - rigid_j);
   const double excess = elastic_j + moving_j;
   if (excess <= budget || excess <= 1e-6) return;
   const double keep = std::sqrt(budget / excess);
@@ -87,21 +123,21 @@ void bound_energy(Piece& piece, double allowed_j) {
 }
 
 /// Two surfaces that close on a piece ask of it what no velocity can do, and the step answers with more than either gives.
-/// Where that made it faster than `allowed_j` lets it be, the step's change of velocity, and with it the surfaces' impulses,
-/// is taken only as far as that. `position_m` and `velocity_mps` are those before the step.
-void bound_blow(Piece& piece, double allowed_j, double step_s, std::span<const Eigen::Vector3d> position_m,
+/// Where that made it faster than the frame allows, the step's change of velocity, and with it the surfaces' impulses, is taken
+/// only as far as that. `position_m` and `velocity_mps` are those before the step.
+void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const Eigen::Vector3d> position_m,
                 std::span<const Eigen::Vector3d> velocity_mps, std::vector<elastic::NodeContact>& contacts) {
   auto& body = piece.body;
-  if (elastic::kinetic_energy_j(body) <= allowed_j) return;
+  if (kinetic_energy_j(piece, frame.velocity_mps) <= frame.allowed_j) return;
   // K(s) = K₀ + bs + as² of v₀ + s Δv.
   double a = 0.0, b = 0.0, k0 = 0.0;
   for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Vector3d change = body.velocity_mps[i] - velocity_mps[i];
+    const Eigen::Vector3d change = body.velocity_mps[i] - velocity_mps[i], start = velocity_mps[i] - frame.velocity_mps;
     a += 0.5 * body.mass_kg[i] * change.squaredNorm();
-    b += body.mass_kg[i] * velocity_mps[i].dot(change);
-    k0 += 0.5 * body.mass_kg[i] * velocity_mps[i].squaredNorm();
+    b += body.mass_kg[i] * start.dot(change);
+    k0 += 0.5 * body.mass_kg[i] * start.squaredNorm();
   }
-  const double root = std::sqrt(std::max(0.0, b * b + 4.0 * a * (allowed_j - k0)));
+  const double root = std::sqrt(std::max(0.0, b * b + 4.0 * a * (frame.allowed_j - k0)));
   const double share = a > 0.0 ? std::clamp((root - b) / (2.0 * a), 0.0, 1.0) : 1.0;
   for (int i = 0; i < body.node_count(); ++i) {
     body.velocity_mps[i] = velocity_mps[i] + share * (body.velocity_mps[i] - velocity_mps[i]);
@@ -110,14 +146,36 @@ void bound_blow(Piece& piece, double allowed_j, double step_s, std::span<const E
   for (auto& contact : contacts) contact.impulse_ns *= share;
 }
 
-/// One elastic step with its bound of energy, `ahead_s` after the tick's start; adds what the boxes
+/// Adds what the boxes received. What two of them press on each other through the piece is left out: their own collision has
+/// it already, and between boxes that cannot yield it has no bound.
+void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic::NodeContact> contacts, ContactWorld& world) {
+  std::map<int, Vec3> given_ns;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i].box >= 0) given_ns[found[i].box] -= from_eigen(contacts[i].impulse_ns);
+  for (auto a = given_ns.begin(); a != given_ns.end(); ++a)
+    for (auto b = std::next(a); b != given_ns.end(); ++b) {
+      const Vec3 apart = a->second - b->second;
+      if (!(glm::dot(a->second, b->second) < 0.0)) continue;
+      const Vec3 way = glm::normalize(apart);
+      const double both = std::min(glm::dot(a->second, way), -glm::dot(b->second, way));
+      a->second -= both * way;
+      b->second += both * way;
+    }
+  for (const auto& [box, impulse_ns] : given_ns) world.boxes[static_cast<std::size_t>(box)].impulse_ns += impulse_ns;
+}
+
+/// What is gone of the energy, as the surfaces see it: it pays for flow, cracks and scatter.
+double lost_j(const Piece& piece, const Frame& frame) {
+  return std::max(0.0, frame.allowed_j - kinetic_energy_j(piece, frame.velocity_mps) -
+                           elastic::elastic_energy_j(piece.body));
+}
+
+/// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds what the boxes
 /// received, and answers what the contacts did to the piece.
 Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s,
                      Report& report) {
   auto found = find_contacts(piece, world, step_s, ahead_s);
-  std::vector<Eigen::Vector3d> surface_velocity_mps;
-  for (const FoundContact& f : found)
-    surface_velocity_mps.push_back(f.contact.surface_velocity_mps);
+  const Frame frame = frame_of(piece, found, step_s);
   const auto closing_mps = add_restitution(piece, found, step_s);
   std::vector<elastic::NodeContact> contacts;
   for (const FoundContact& f : found) contacts.push_back(f.contact);
@@ -125,31 +183,16 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   settings.step_s = step_s;
   settings.solver = elastic::Solver::direct;
   settings.keep_stress = true;
-  const double mass = elastic::total_mass_kg(piece.body);
-  const double before =
-      elastic::kinetic_energy_j(piece.body) + elastic::elastic_energy_j(piece.body);
   const auto position_m = piece.body.position_m, velocity_mps = piece.body.velocity_mps;
   report.bad_numbers += elastic::step_elastic(piece.body, settings, contacts).bad_numbers;
-  // What weight and the surfaces' own motion may have added, generously; but between two surfaces that close on it, as in a
-  // crash, a piece gets no faster than a blow of the faster one makes it: V + e(V + v).
-  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * 9.81 * step_s * (speed + 0.2);
-  double work_j = 0.0, fastest = 0.0;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const double impulse = contacts[i].impulse_ns.norm();
-    if (impulse == 0.0) continue;
-    const double surface = surface_velocity_mps[i].norm() + std::clamp(-contacts[i].gap_m / step_s, 0.0, 2.0);
-    work_j += impulse * surface;
-    fastest = std::max(fastest, surface);
-  }
-  const double struck = fastest + piece.material.restitution * (fastest + speed);
-  const double allowed_j = weight_j + std::min(before + work_j, std::max(before, 0.5 * mass * struck * struck));
-  bound_blow(piece, allowed_j, step_s, position_m, velocity_mps, contacts);
-  bound_energy(piece, allowed_j);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (found[i].box >= 0)
-      world.boxes[found[i].box].impulse_ns -= from_eigen(contacts[i].impulse_ns);
+  bound_blow(piece, frame, step_s, position_m, velocity_mps, contacts);
+  bound_energy(piece, frame);
+  give_to_boxes(found, contacts, world);
   Blow blow = blow_of(piece, contacts, closing_mps, step_s);
-  blow.lost_j = std::min(blow.lost_j, allowed_j);
+  blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
+  flow(piece, blow);
+  bound_energy(piece, frame);
+  blow.lost_j = std::min(blow.lost_j, lost_j(piece, frame));
   return blow;
 }
 
@@ -159,7 +202,6 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
                 Report& report, std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
     const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
-    flow(piece, blow);
     FractureResult result = fracture(piece, blow);
     if (result.opened_faces == 0) continue;
     report.fractures += result.opened_faces;
