@@ -26,3 +26,26 @@ TEST_CASE("symplectic Euler explodes on the swinging cube at both steps") {
     CHECK_FALSE(std::ranges::all_of(height, [](double h) { return std::abs(h) < 10.0; }));
   }
 }
+
+TEST_CASE("steppers without geometric stiffness swing in time and rise again as high as they fell from") {
+  struct Row {
+    Stepper stepper;
+    double gamma, at_50_ms, at_5_ms;  ///< Times of the minimum, s.
+  };
+  // The last two are SPOOK with τ = 0 and τ = 2Δt.
+  for (const Row& row : {Row{Stepper::regularised, 2.0, 0.609, 0.630}, Row{Stepper::regularised, 1.0, 0.610, 0.631},
+                         Row{Stepper::spook, 1.0, 0.610, 0.632}, Row{Stepper::spook, 1.0 / 9.0, 0.616, 0.631}}) {
+    INFO("gamma " << row.gamma);
+    for (const double dt : {0.05, 0.005}) {
+      const Swing at = swing(row.stepper, dt, 1.4, row.gamma);
+      CHECK(time_of_minimum_s(at.corner, dt) == doctest::Approx(dt == 0.05 ? row.at_50_ms : row.at_5_ms).epsilon(0.01));
+      CHECK(rebound(at.centre) == doctest::Approx(1.0).epsilon(0.03));
+    }
+  }
+  // The full linearisation comes 112 % late at 50 ms and stays there; at 5 ms it loses a tenth of each swing.
+  const Swing slow = swing(Stepper::implicit_euler, 0.05, 4.0, 1.0), fine = swing(Stepper::implicit_euler, 0.005, 1.4, 1.0);
+  CHECK(time_of_minimum_s(slow.corner, 0.05) == doctest::Approx(1.331).epsilon(0.02));
+  CHECK(time_of_minimum_s(fine.corner, 0.005) == doctest::Approx(0.635).epsilon(0.01));
+  CHECK(rebound(slow.centre) < 0.1);
+  CHECK(rebound(fine.centre) == doctest::Approx(0.91).epsilon(0.03));
+}
