@@ -5,7 +5,8 @@
 /// to its far side and back, τ = 2L/c with c = √(Y/ρ): 50 µs for a slab of ice, 10 to 100 times
 /// less than a step. The step carries the right impulse (1+e)mV, but as if it had been spread over
 /// Δt, and so the stress that its multiplier shows is too small. `stress_factor` Δt c/((1+e)L)
-/// makes a plane blow's stress ρcV, that of the wave.
+/// makes a plane blow's stress ρcV, that of the wave, at the surface that is struck; an element of
+/// length h there has only the share 1 − h/2L of it, by which the factor is divided.
 ///
 /// Of the energy with which contact points closed, e² is returned as rebound (Newton's coefficient
 /// of restitution). What is lost pays for the surfaces of cracks, for plastic flow, and a share of

@@ -20,11 +20,11 @@ const MaterialData& material_data(Material material) {
 
 const PartRecipe& part_recipe(Part part) {
   static const std::array<PartRecipe, part_count> table{{
-      {Material::bumper_plastic, {1, 12, 2}, {0.08, 1.70, 0.30}, 4.5, 16, 1.0, false},
+      {Material::bumper_plastic, {1, 12, 2}, {0.08, 1.70, 0.30}, 4.5, 8, 1.0, false},
       {Material::steel_sheet, {6, 1, 5}, {1.10, 0.06, 0.90}, 18.0, 6, 1.0, false},
       {Material::bumper_plastic, {2, 3, 2}, {0.15, 0.35, 0.18}, 1.2, 10, 1.0, false},
       {Material::glass, {1, 10, 6}, {0.03, 1.40, 0.80}, 12.0, 60, 1.0, true},
-      {Material::rubber, {2, 2, 5}, {0.28, 0.28, 0.50}, 2.5, 1, 0.25, false},
+      {Material::bumper_plastic, {2, 2, 5}, {0.28, 0.28, 0.50}, 2.5, 6, 0.25, false},
       {Material::concrete, {2, 2, 8}, {0.20, 0.20, 1.00}, 96.0, 10, 1.0, false},
       {Material::ice, {8, 5, 1}, {2.00, 1.20, 0.08}, 176.0, 24, 1.0, false},
   }};

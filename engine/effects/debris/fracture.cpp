@@ -78,15 +78,35 @@ struct Overload {
   double blow = 0.0;     ///< Of the blow's peak.
 };
 
-/// Stress jumps from one linear tetrahedron to the next: the greater of a face's two decides.
+/// The step's stress at each node, the mean of the elements around it by their volume: within one cube its tetrahedra differ by
+/// a factor of three, and only their mean is the stress of the cube.
+std::vector<Eigen::Matrix3d> stress_at_nodes_pa(const elastic::ElasticBody& body) {
+  std::vector<Eigen::Matrix3d> stress(static_cast<std::size_t>(body.node_count()), Eigen::Matrix3d::Zero());
+  std::vector<double> volume(stress.size(), 0.0);
+  for (std::size_t e = 0; e < body.step_stress_pa.size(); ++e)
+    for (const int node : body.elements[e].nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      stress[n] += body.elements[e].rest_volume_m3 * body.step_stress_pa[e];
+      volume[n] += body.elements[e].rest_volume_m3;
+    }
+  for (std::size_t n = 0; n < stress.size(); ++n)
+    if (volume[n] > 0.0) stress[n] /= volume[n];
+  return stress;
+}
+
+/// Stress jumps from one linear tetrahedron to the next: the greatest of a face's two and of the mean around it decides.
 Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow,
-                     const Eigen::Vector3d& normal) {
+                     const std::vector<Eigen::Matrix3d>& at_nodes_pa, const Eigen::Vector3d& normal) {
   Overload most;
   const auto& m = piece.material;
   // Pressure splits a brittle material where it bulges by more than its strength allows.
   const double splitting_pa = m.yield_pa > 0.0 ? m.compressive_strength_pa
                                                : std::min(m.compressive_strength_pa,
                                                           m.strength_pa / m.elastic.poisson_ratio);
+  const auto struck = [&](const Eigen::Matrix3d& peak) {
+    most.blow = std::max({most.blow, tensile_overload(peak, m.strength_pa, normal),
+                          splitting_overload(peak, splitting_pa, normal)});
+  };
   for (const int element : {face.first, face.second}) {
     most.lasting = std::max(
         most.lasting,
@@ -94,10 +114,12 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
     if (piece.body.step_stress_pa.empty()) continue;
     const Eigen::Matrix3d& carried = piece.body.step_stress_pa[element];
     most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal));
-    if (blow.lost_j <= 0.0) continue;
-    const Eigen::Matrix3d peak = blow.stress_factor * carried;
-    most.blow = std::max({most.blow, tensile_overload(peak, m.strength_pa, normal),
-                          splitting_overload(peak, splitting_pa, normal)});
+    if (blow.lost_j > 0.0) struck(blow.stress_factor * carried);
+  }
+  if (blow.lost_j > 0.0) {
+    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+    for (const int node : face.nodes) mean += at_nodes_pa[static_cast<std::size_t>(node)] / 3.0;
+    struck(blow.stress_factor * mean);
   }
   return most;
 }
@@ -112,13 +134,14 @@ std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>&
     std::size_t face;
   };
   std::vector<Candidate> candidates;
+  const auto at_nodes_pa = stress_at_nodes_pa(piece.body);
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
     const Eigen::Vector3d normal =
         (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
     const double area = 0.5 * normal.norm();
-    const Overload overload = overload_of(piece, face, blow, normal.normalized());
+    const Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
     opened[k] = overload.lasting >= 1.0;
     if (!opened[k] && overload.blow >= 1.0)
       candidates.push_back({overload.blow, area * piece.material.fracture_energy_jpm2, k});

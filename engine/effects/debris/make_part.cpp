@@ -9,6 +9,8 @@
 
 namespace septet::debris {
 
+constexpr std::size_t tetrahedra_per_cube = 5;  // One after the other in lattice_mesh.
+
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random) {
   const PartRecipe& recipe = part_recipe(part);
@@ -32,10 +34,16 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
     for (int c = 0; c < 3; ++c) seed[c] = recipe.size_m[c] * (random.uniform() - 0.5);
     seeds.push_back(seed);
   }
+  // What is one cube thick along the car falls apart into whole cubes: a crash presses it flat, it splits across, and the inner
+  // faces of a flat cube lie nearly along it.
+  const std::size_t together = recipe.cells.x() == 1 ? tetrahedra_per_cube : 1;
   std::vector<elastic::Tetrahedron> tetrahedra;
-  for (const auto& e : piece.body.elements) {
+  for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
+    const auto& e = piece.body.elements[k];
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-    for (const int node : e.nodes) centre += 0.25 * piece.body.rest_position_m[node];
+    for (std::size_t n = k / together * together, end = n + together; n < end; ++n)
+      for (const int node : piece.body.elements[n].nodes)
+        centre += 0.25 / static_cast<double>(together) * piece.body.rest_position_m[node];
     int nearest = 0;
     for (int i = 1; i < recipe.splinters; ++i)
       if ((seeds[i] - centre).squaredNorm() < (seeds[nearest] - centre).squaredNorm()) nearest = i;
