@@ -157,7 +157,8 @@ def septet_beams(program):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("septet_bench")
-    ours = septet_beams(parser.parse_args().septet_bench)
+    ours = septet_beams(os.path.abspath(parser.parse_args().septet_bench))
+    os.chdir(tempfile.gettempdir())  # MuJoCo writes its warnings into a file where it runs.
     peers = (mujoco_beam, mujoco_converged_beam, pybullet_beam)
     print("| tetrahedra | Septet | MuJoCo | MuJoCo, converged | PyBullet | times Septet's |")
     print("|---|---|---|---|---|---|")
