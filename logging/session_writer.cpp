@@ -3,6 +3,7 @@
 #include <atomic>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -71,16 +72,24 @@ struct SessionWriter::State {
   }
 
   void run() {
+    // Taken in small batches while they are in the processor's cache, committed by the clock.
+    constexpr std::size_t batch_records = 64;
     std::vector<Record> batch;
-    // From take to take, so that the time of a commit is part of the interval.
-    Clock::time_point next_take = Clock::now() + options.commit_interval;
-    while (queue.take_all(batch, next_take, options.queue_records / 2)) {
-      next_take = Clock::now() + options.commit_interval;
-      if (!batch.empty() && !write(batch)) queue.close();
+    // From commit to commit, so that the time of one is part of the interval.
+    Clock::time_point next_commit = Clock::now() + options.commit_interval;
+    while (queue.take_all(batch, next_commit, batch_records)) {
+      if (!batch.empty()) write(batch);
+      const Clock::time_point now = Clock::now();
+      if (now < next_commit) continue;
+      next_commit = now + options.commit_interval;
+      commit();
     }
+    commit();
   }
 
-  bool write(const std::vector<Record>& batch);
+  void write(const std::vector<Record>& batch);
+  void commit();
+  void fail(Error reason);
   Expected<void> write_all(const std::vector<Record>& batch);
   Expected<void> write_snapshot(const std::shared_ptr<const WireSnapshot>& snapshot);
   Expected<void> write_gap();
@@ -97,6 +106,7 @@ struct SessionWriter::State {
   InsertStatements inserts;
   std::shared_ptr<const WireSnapshot> previous;
   double keyframe_time_s = 0.0;
+  std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
   std::uint64_t reported_gap = 0;
   bool has_failed = false;
   bool is_finished = false;
@@ -105,27 +115,35 @@ struct SessionWriter::State {
   std::thread thread;
 };
 
-bool SessionWriter::State::write(const std::vector<Record>& batch) {
+void SessionWriter::State::write(const std::vector<Record>& batch) {
   if (has_failed) {
     dropped.fetch_add(batch.size(), std::memory_order_relaxed);
-    return false;
+    return;
   }
-  auto done = database.execute("BEGIN");
+  auto done = uncommitted == 0 ? database.execute("BEGIN") : Expected<void>{};
+  uncommitted += batch.size();
   if (done) done = write_all(batch);
-  if (done) done = write_gap();
+  if (!done) fail(std::move(done.error()));
+}
+
+void SessionWriter::State::commit() {
+  if (uncommitted == 0) return;
+  auto done = write_gap();
   if (done) done = database.execute("COMMIT");
-  if (done) {
-    if (previous)
-      committed.store(static_cast<std::int64_t>(previous->rest.tick), std::memory_order_release);
-    return true;
-  }
+  if (!done) return fail(std::move(done.error()));
+  uncommitted = 0;
+  if (previous)
+    committed.store(static_cast<std::int64_t>(previous->rest.tick), std::memory_order_release);
+}
+
+void SessionWriter::State::fail(Error reason) {
   // The transaction is undone as a whole; what earlier ones wrote stays.
   if (database.in_transaction()) (void)database.execute("ROLLBACK");
-  dropped.fetch_add(batch.size(), std::memory_order_relaxed);
+  dropped.fetch_add(std::exchange(uncommitted, 0), std::memory_order_relaxed);
   has_failed = true;
+  queue.close();
   const std::lock_guard lock(error_mutex);
-  error = std::move(done.error());
-  return false;
+  error = std::move(reason);
 }
 
 Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch) {

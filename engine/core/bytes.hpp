@@ -19,6 +19,17 @@ namespace septet {
 
 using Bytes = std::vector<std::byte>;
 
+/// Writes a varint at `at`, where there is room for ten bytes, and answers its end: seven bits a byte, least significant first.
+inline std::byte* write_varint(std::byte* at, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
+  *at++ = static_cast<std::byte>(value);
+  return at;
+}
+/// Small magnitudes of either sign as small numbers: 0, −1, 1, −2, …
+constexpr std::uint64_t zigzag(std::int64_t value) {
+  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
+
 class ByteWriter {
  public:
   explicit ByteWriter(Bytes& out) : out_(out) {}
@@ -31,18 +42,12 @@ class ByteWriter {
   }
   void put(float value) { put(std::bit_cast<std::uint32_t>(value)); }
   void put(double value) { put(std::bit_cast<std::uint64_t>(value)); }
-  /// Seven bits a byte, least significant first; at most ten bytes.
   void put_varint(std::uint64_t value) {
-    while (value >= 0x80) {
-      out_.push_back(static_cast<std::byte>(value | 0x80));
-      value >>= 7;
-    }
-    out_.push_back(static_cast<std::byte>(value));
+    std::byte bytes[10];
+    put_bytes({bytes, write_varint(bytes, value)});
   }
-  /// Signed varint: small magnitudes of either sign are short (zigzag).
-  void put_signed_varint(std::int64_t value) {
-    put_varint((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63));
-  }
+  /// Signed varint: small magnitudes of either sign are short.
+  void put_signed_varint(std::int64_t value) { put_varint(zigzag(value)); }
   void put_bytes(std::span<const std::byte> bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
   /// Length as varint, then the bytes.
   void put_string(std::string_view text) {

@@ -22,20 +22,20 @@ constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 /// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over.
 std::int64_t rounded(double value) { return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value)); }
 
-/// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last bits.
+/// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last 32 bits.
 constexpr double unit_steps = 0x1.8p52;
 
-constexpr std::int64_t limit(double value) { return static_cast<std::int64_t>(value); }
+constexpr std::int32_t limit(double value) { return static_cast<std::int32_t>(value); }
 
 constexpr std::array<FieldLimits, participant_field_count> make_limits() {
   std::array<FieldLimits, participant_field_count> limits{};
-  const auto set = [&](std::size_t first, std::size_t last, std::int64_t low, std::int64_t high) {
+  const auto set = [&](std::size_t first, std::size_t last, std::int32_t low, std::int32_t high) {
     for (std::size_t i = first; i <= last; ++i) limits[i] = {low, high};
   };
   set(field_model, field_model, 0, 65535);
   set(field_paint, field_paint, 0, 255);
   set(field_lamps, field_lamps, 0, 65535);
-  set(field_position_x, field_position_z, -limit(524288.0 * position_per_m), limit(524288.0 * position_per_m));
+  set(field_position_x, field_position_z, -limit(524288.0 * position_per_m - 1.0), limit(524288.0 * position_per_m - 1.0));
   set(field_largest, field_largest, 0, 3);
   set(field_orientation_a, field_orientation_c, -limit(orientation_steps), limit(orientation_steps));
   set(field_velocity_x, field_velocity_z, -limit(1024.0 * velocity_per_mps), limit(1024.0 * velocity_per_mps));
@@ -51,7 +51,7 @@ constexpr auto limits_of_field = make_limits();
 
 /// The limits as doubles, for whole vectors of fields; what pads is zero.
 constexpr std::size_t padded_field_count = (participant_field_count + 3) / 4 * 4;
-constexpr std::array<double, padded_field_count> make_bounds(std::int64_t FieldLimits::*bound) {
+constexpr std::array<double, padded_field_count> make_bounds(std::int32_t FieldLimits::*bound) {
   std::array<double, padded_field_count> bounds{};
   for (std::size_t f = 0; f < participant_field_count; ++f) bounds[f] = static_cast<double>(limits_of_field[f].*bound);
   return bounds;
@@ -92,12 +92,12 @@ WireParticipant quantise(const Participant& participant) {
 
   // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
   // Without a branch and for a padded number of fields, so that the compiler takes several at a time.
-  std::array<std::int64_t, padded_field_count> whole;
+  std::array<std::int32_t, padded_field_count> whole;
   for (std::size_t f = 0; f < padded_field_count; ++f) {
     const double finite = scaled[f] - scaled[f] == 0.0 ? scaled[f] : 0.0;
     const double above = finite > lowest_of_field[f] ? finite : lowest_of_field[f];
     const double bounded = above < highest_of_field[f] ? above : highest_of_field[f];
-    whole[f] = std::bit_cast<std::int64_t>(bounded + unit_steps) - std::bit_cast<std::int64_t>(unit_steps);
+    whole[f] = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(bounded + unit_steps));
   }
   WireParticipant wire;
   wire.id = participant.id;
@@ -139,7 +139,7 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
   const double half_square = 0.5 * seconds * seconds;
   const auto advance = [&](std::size_t field, double step) {
     const auto [low, high] = limits_of_field[field];
-    result.fields[field] = std::clamp<std::int64_t>(wire.fields[field] + rounded(step), low, high);
+    result.fields[field] = static_cast<std::int32_t>(std::clamp<std::int64_t>(wire.fields[field] + rounded(step), low, high));
   };
   for (std::size_t i = 0; i < 3; ++i) {
     const auto velocity = static_cast<double>(wire.fields[field_velocity_x + i]);
@@ -150,8 +150,8 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
   }
   const auto spin_rate = static_cast<double>(wire.fields[field_wheel_spin_rate]) / spin_rate_per_radps;
   const auto turned = rounded(spin_rate * seconds / (2.0 * glm::pi<double>()) * spin_steps);
-  const auto steps = static_cast<std::int64_t>(spin_steps);
-  result.fields[field_wheel_spin] = ((wire.fields[field_wheel_spin] + turned) % steps + steps) % steps;
+  // A turn is a power of two: the low bits are the remainder, of negative sums too.
+  result.fields[field_wheel_spin] = static_cast<std::int32_t>((wire.fields[field_wheel_spin] + turned) & (static_cast<std::int64_t>(spin_steps) - 1));
   return result;
 }
 

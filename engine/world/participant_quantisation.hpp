@@ -9,7 +9,7 @@ namespace septet {
 
 /// Closed range of a field; a decoder refuses a value outside it.
 struct FieldLimits {
-  std::int64_t low = 0, high = 0;
+  std::int32_t low = 0, high = 0;
 };
 const FieldLimits& participant_field_limits(std::size_t field);
 

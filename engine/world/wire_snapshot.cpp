@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/check.hpp"
 #include "engine/world/participant_quantisation.hpp"
@@ -34,17 +35,12 @@ double get_finite(ByteReader& reader) {
 }
 
 /// Ascending ids as first id, then gaps.
-class IdWriter {
+class IdGaps {
  public:
-  void put(ByteWriter& writer, std::uint32_t id) {
-    writer.put_varint(first_ ? id : id - previous_ - 1);
-    previous_ = id;
-    first_ = false;
-  }
+  std::uint32_t before(std::uint32_t id) { return id - std::exchange(next_, id + 1); }
 
  private:
-  std::uint32_t previous_ = 0;
-  bool first_ = true;
+  std::uint32_t next_ = 0;
 };
 class IdReader {
  public:
@@ -76,8 +72,8 @@ std::vector<std::uint32_t> removed_ids(const std::vector<Item>& from, const std:
 
 void put_ids(ByteWriter& writer, const std::vector<std::uint32_t>& ids) {
   writer.put_varint(ids.size());
-  IdWriter id_writer;
-  for (const auto id : ids) id_writer.put(writer, id);
+  IdGaps gaps;
+  for (const auto id : ids) writer.put_varint(gaps.before(id));
 }
 
 template <class Item>
@@ -96,45 +92,54 @@ void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit)
   items = std::move(kept);
 }
 
-/// What a receiver expects of `tick` from the baseline alone.
+/// How far a receiver moves the baseline on.
+double seconds_since(const WireSnapshot& baseline, double time_s) { return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0); }
+
+/// What a receiver expects of an instant from the baseline alone.
 std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
   std::vector<WireParticipant> expected;
   if (!baseline) return expected;
   expected.reserve(baseline->participants.size());
-  const double seconds = std::clamp(time_s - baseline->rest.simulated_time_s, 0.0, 1.0);
+  const double seconds = seconds_since(*baseline, time_s);
   for (const auto& participant : baseline->participants) expected.push_back(extrapolate(participant, seconds));
   return expected;
 }
 
-void put_participants(ByteWriter& writer, const std::vector<WireParticipant>& expected,
-                      const std::vector<WireParticipant>& actual) {
-  put_ids(writer, removed_ids(expected, actual));
-  static const WireParticipant nothing{};
-  struct Change {
-    const WireParticipant *participant, *reference;
-    std::uint64_t mask;
-  };
-  std::vector<Change> changes;
-  changes.reserve(actual.size());
-  std::size_t j = 0;
-  for (const auto& participant : actual) {
-    while (j < expected.size() && expected[j].id < participant.id) ++j;
-    const bool known = j < expected.size() && expected[j].id == participant.id;
-    Change change{&participant, known ? &expected[j] : &nothing, 0};
-    for (std::size_t f = 0; f < participant_field_count; ++f)
-      change.mask |= static_cast<std::uint64_t>(participant.fields[f] != change.reference->fields[f]) << f;
-    if (change.mask != 0 || !known) changes.push_back(change);
+/// The mask of fields that differ, then the differences; answers the end of the bytes.
+std::byte* write_change(const WireParticipant& participant, const WireParticipant& reference, std::byte* at) {
+  std::uint64_t mask = 0;
+  for (std::size_t f = 0; f < participant_field_count; ++f)
+    mask |= static_cast<std::uint64_t>(participant.fields[f] != reference.fields[f]) << f;
+  at = write_varint(at, mask);
+  for (; mask != 0; mask &= mask - 1) {
+    const auto f = static_cast<std::size_t>(std::countr_zero(mask));
+    at = write_varint(at, zigzag(std::int64_t{participant.fields[f]} - reference.fields[f]));
   }
-  writer.put_varint(changes.size());
-  IdWriter ids;
-  for (const auto& change : changes) {
-    ids.put(writer, change.participant->id);
-    writer.put_varint(change.mask);
-    for (std::uint64_t left = change.mask; left != 0; left &= left - 1) {
-      const auto f = static_cast<std::size_t>(std::countr_zero(left));
-      writer.put_signed_varint(change.participant->fields[f] - change.reference->fields[f]);
-    }
+  return at;
+}
+
+void put_participants(ByteWriter& writer, const WireSnapshot* baseline, const WireSnapshot& wire) {
+  static const std::vector<WireParticipant> nobody;
+  const auto& before = baseline ? baseline->participants : nobody;
+  const double seconds = baseline ? seconds_since(*baseline, wire.rest.simulated_time_s) : 0.0;
+  put_ids(writer, removed_ids(before, wire.participants));
+  std::size_t count = 0;
+  Bytes changes;
+  changes.reserve(16 * wire.participants.size());
+  IdGaps gaps;
+  auto old = before.begin();
+  for (const auto& participant : wire.participants) {
+    while (old != before.end() && old->id < participant.id) ++old;
+    const bool known = old != before.end() && old->id == participant.id;
+    const WireParticipant reference = known ? extrapolate(*old, seconds) : WireParticipant{};
+    if (known && participant.fields == reference.fields) continue;
+    std::byte bytes[10 * (2 + participant_field_count)];
+    const std::byte* end = write_change(participant, reference, write_varint(bytes, gaps.before(participant.id)));
+    changes.insert(changes.end(), static_cast<const std::byte*>(bytes), end);
+    ++count;
   }
+  writer.put_varint(count);
+  writer.put_bytes(changes);
 }
 
 void read_participants(ByteReader& reader, std::vector<WireParticipant>& participants) {
@@ -155,11 +160,11 @@ void read_participants(ByteReader& reader, std::vector<WireParticipant>& partici
     for (std::size_t f = 0; f < participant_field_count; ++f) {
       if (!(mask & (1ull << f))) continue;
       // Unsigned addition wraps where a hostile difference would overflow; the limits then refuse the sum.
-      const auto sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(target.fields[f]) +
+      const auto sum = static_cast<std::int64_t>(static_cast<std::uint64_t>(std::int64_t{target.fields[f]}) +
                                                  static_cast<std::uint64_t>(reader.get_signed_varint()));
       const auto [low, high] = participant_field_limits(f);
       if (sum < low || sum > high) return reader.fail();
-      target.fields[f] = sum;
+      target.fields[f] = static_cast<std::int32_t>(sum);
     }
     if (static_cast<std::size_t>(target.fields[field_model]) >= vehicle_models().size()) return reader.fail();
     if (!known) added.push_back(fresh);
@@ -179,9 +184,9 @@ void put_effects(ByteWriter& writer, const std::vector<EffectKeyframe>& before, 
     if (old == before.end() || !(*old == effect)) changed.push_back(&effect);
   }
   writer.put_varint(changed.size());
-  IdWriter ids;
+  IdGaps gaps;
   for (const auto* effect : changed) {
-    ids.put(writer, effect->id);
+    writer.put_varint(gaps.before(effect->id));
     writer.put(effect->kind);
     writer.put_varint(tick + max_effect_lead_ticks - effect->tick);
     writer.put_varint(effect->data.size());
@@ -236,11 +241,12 @@ auto refused(std::string what) {
 WireSnapshot to_wire(const Snapshot& snapshot) {
   SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());
   WireSnapshot wire;
-  wire.participants.reserve(snapshot.participants.size());
-  for (const auto& participant : snapshot.participants) {
-    SEPTET_CHECK(wire.participants.empty() || wire.participants.back().id < participant.id,
-                 "participant {} after {}", participant.id, wire.participants.back().id);
-    wire.participants.push_back(quantise(participant));
+  wire.participants.resize(snapshot.participants.size());
+  for (std::size_t i = 0; i < snapshot.participants.size(); ++i) {
+    const Participant& participant = snapshot.participants[i];
+    SEPTET_CHECK(i == 0 || snapshot.participants[i - 1].id < participant.id, "participant {} after {}", participant.id,
+                 snapshot.participants[i - 1].id);
+    wire.participants[i] = quantise(participant);
   }
   wire.rest.tick = snapshot.tick;
   wire.rest.simulated_time_s = snapshot.simulated_time_s;
@@ -286,7 +292,7 @@ void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Byt
   writer.put_varint(rest.diagnostics.collisions);
   writer.put_varint(rest.diagnostics.input_stale_ticks);
 
-  put_participants(writer, expected_participants(baseline, rest.simulated_time_s), wire.participants);
+  put_participants(writer, baseline, wire);
   static const std::vector<EffectKeyframe> no_effects;
   put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
 }

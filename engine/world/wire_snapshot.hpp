@@ -41,7 +41,7 @@ enum ParticipantField : std::size_t {
 
 struct WireParticipant {
   ParticipantId id = 0;
-  std::array<std::int64_t, participant_field_count> fields{};
+  std::array<std::int32_t, participant_field_count> fields{};
   bool operator==(const WireParticipant&) const = default;
 };
 
