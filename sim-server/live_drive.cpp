@@ -50,7 +50,7 @@ Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optiona
   if (seat_.look) seat_.look(newest_);
   logging::InputRecord input = read_input(controls);
   std::vector<SimulationEvent> events;
-  newest_ = server_step(*model_, input.input, state_, events);
+  newest_ = server_step(*model_, input.input, state_, events, std::move(newest_));
   move_actuators();
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));

@@ -168,9 +168,10 @@ void apply_swarms(const SimulationModel& model, const scenario::StepResult& step
   if (!step.stopped_traffic.empty()) state.traffic->stop();
 }
 
-/// Everybody who takes part, ascending id.
-std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state, const vehicle::VehicleOutputs& car) {
-  std::vector<Participant> participants;
+/// Everybody who takes part, ascending id, in the memory of `participants`.
+std::vector<Participant> participants_now(const SimulationModel& model, const SimulationState& state, const vehicle::VehicleOutputs& car,
+                                          std::vector<Participant> participants = {}) {
+  participants.clear();
   participants.reserve(256);
   participants.push_back(car_participant(model, state, car));
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
@@ -259,19 +260,19 @@ Expected<SimulationState> initial_state(const SimulationModel& model, std::uniqu
 }
 
 Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,
-                     std::vector<SimulationEvent>& events) {
+                     std::vector<SimulationEvent>& events, Snapshot old) {
   ++state.tick;
   state.input = input;
   const auto car = advance_car(model, input, state, events);
   advance_storyboard(model, car, state, events);
   state.traffic->advance(foreign_vehicles(model, state, car), tick_s);
   run_effects(model, car, state, events);
-  Snapshot snapshot = capture_snapshot(model, state);
+  Snapshot snapshot = capture_snapshot(model, state, std::move(old));
   notice_collisions(snapshot, state, events);
   return snapshot;
 }
 
-Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state) {
+Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state, Snapshot old) {
   const auto car = vehicle::outputs(model.car, state.car);  // Again: the effects push the car.
   Snapshot snapshot;
   snapshot.tick = state.tick;
@@ -279,7 +280,7 @@ Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& s
   snapshot.state_hash = hash_state(state);
   snapshot.environment = state.scenario.environment;
   snapshot.driver_car = driver_car(model, state, car);
-  snapshot.participants = participants_now(model, state, car);
+  snapshot.participants = participants_now(model, state, car, std::move(old.participants));
   snapshot.effects = effect_keyframes(state.effects);
   snapshot.diagnostics = state.diagnostics;
   return snapshot;

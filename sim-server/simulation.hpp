@@ -61,11 +61,12 @@ struct SimulationEvent {
 /// The state at tick 0, after the scenario's Init actions. Error: a scenario that does not fit its road, or `traffic` fails.
 Expected<SimulationState> initial_state(const SimulationModel& model, std::unique_ptr<traffic::TrafficEngine> traffic);
 
-/// One tick on; answers the snapshot of the new tick. Events are appended.
+/// One tick on; answers the snapshot of the new tick. Events are appended. `old` is a snapshot that nobody needs any more: its
+/// memory, which is still in the processor's cache, is used again.
 Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,
-                     std::vector<SimulationEvent>& events);
+                     std::vector<SimulationEvent>& events, Snapshot old = {});
 
-Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state);
+Snapshot capture_snapshot(const SimulationModel& model, const SimulationState& state, Snapshot old = {});
 
 std::uint64_t hash_state(const SimulationState& state);
 

@@ -21,11 +21,15 @@ struct Offset {
   double ahead_m = 0.0, t_m = 0.0;
 };
 
+/// On a road whose cross-sections are upright.
+Offset offset_from(const PlanPoint& plan, const Vec2& world_m) {
+  const Vec2 d = world_m - plan.position_m;
+  return {glm::dot(d, plan.direction), plan.direction.x * d.y - plan.direction.y * d.x};
+}
+
 Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s,
                    double t_before) {
-  const Vec2 d = world_m - section.plan.position_m;
-  const double along = glm::dot(d, section.plan.direction), across = glm::dot(d, section.left());
-  if (road.flat && section.roll_rad == 0.0) return {along, across};
+  const auto [along, across] = offset_from(section.plan, world_m);
   const double h = surface_offset_m(road, s, t_before);
   const double t = (across + h * section.sin_roll) / section.cos_roll;
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
@@ -39,11 +43,20 @@ Foot foot_on(const Road& road, const Vec2& world_m, double s) {
   foot.s_m = std::clamp(s, 0.0, road.length_m);
   double s_before = 0.0, ahead_before = 0.0;
   for (int iteration = 0; iteration < 24; ++iteration) {
-    const CrossSection section = cross_section_at(road, foot.s_m);
-    const Offset offset = offset_from(road, section, world_m, foot.s_m, foot.t_m);
+    Offset offset;
+    double curvature_per_m = 0.0;
+    if (plane) {
+      const PlanPoint plan = evaluate_plan(road.plan, foot.s_m);
+      offset = offset_from(plan, world_m);
+      curvature_per_m = plan.curvature_per_m;
+    } else {
+      const CrossSection section = cross_section_at(road, foot.s_m);
+      offset = offset_from(road, section, world_m, foot.s_m, foot.t_m);
+      curvature_per_m = section.plan.curvature_per_m;
+    }
     foot.t_m = offset.t_m;
     foot.gap_m = std::abs(offset.ahead_m);
-    double slope = std::max(1.0 - section.plan.curvature_per_m * offset.t_m, 0.1);
+    double slope = std::max(1.0 - curvature_per_m * offset.t_m, 0.1);
     if (!plane && iteration > 0 && foot.s_m != s_before) {
       const double secant = (ahead_before - offset.ahead_m) / (foot.s_m - s_before);
       if (secant > 0.05 && secant < 20.0) slope = secant;
@@ -57,7 +70,7 @@ Foot foot_on(const Road& road, const Vec2& world_m, double s) {
     foot.s_m = next;
     // Newton's error falls with the square of the step, the secant's nearly so: there is nothing
     // left to gain.
-    if (step < (plane ? 1e-6 : 1e-8)) break;
+    if (step < 1e-6) break;
   }
   if (foot.gap_m < 1e-4) foot.gap_m = 0.0;
   return foot;

@@ -100,15 +100,6 @@ std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network
   return std::nullopt;
 }
 
-double wrap_x(const Corridor& corridor, double x_m) {
-  return corridor.closed ? x_m - corridor.length_m * std::floor(x_m / corridor.length_m) : x_m;
-}
-
-double distance_m(const Corridor& corridor, double from_x_m, double to_x_m) {
-  const double d = to_x_m - from_x_m;
-  return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
-}
-
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m) {
   SEPTET_CHECK(!corridor.pieces.empty(), "a corridor without roads at {}", x_m);
   const auto after = std::ranges::upper_bound(corridor.pieces, x_m, {}, &CorridorPiece::x_m);

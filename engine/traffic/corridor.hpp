@@ -7,6 +7,7 @@
 /// left-most in right-hand traffic), which is the magnitude of its OpenDRIVE id. Immutable once
 /// built; pure functions.
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -36,10 +37,15 @@ std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network
                                                 const road::LanePosition& position);
 
 /// x taken into the ring, or as it is on an open corridor.
-double wrap_x(const Corridor& corridor, double x_m);
+inline double wrap_x(const Corridor& corridor, double x_m) {
+  return corridor.closed ? x_m - corridor.length_m * std::floor(x_m / corridor.length_m) : x_m;
+}
 /// from → to along the direction of travel, the shorter way on a ring; negative if `to` lies
 /// behind.
-double distance_m(const Corridor& corridor, double from_x_m, double to_x_m);
+inline double distance_m(const Corridor& corridor, double from_x_m, double to_x_m) {
+  const double d = to_x_m - from_x_m;
+  return corridor.closed ? d - corridor.length_m * std::round(d / corridor.length_m) : d;
+}
 
 const CorridorPiece& piece_at(const Corridor& corridor, double x_m);
 /// The position of lane `lane` at x, whether or not that lane can be driven on.

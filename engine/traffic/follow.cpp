@@ -106,8 +106,8 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
       const bool emergency = traffic.emergency[i] != 0;
       if (traffic.lane[i] != static_cast<int>(l) && traffic.from_lane[i] != static_cast<int>(l))
         continue;
+      if (kept != k) lane[kept] = lane[k];
       LaneEntry& entry = lane[kept++];
-      entry = lane[k];
       entry.x_m = traffic.x_m[i];
       entry.speed_mps = traffic.speed_mps[i];
       if (careful) entry.lateral_m = static_cast<float>(lateral_m(traffic, i));

@@ -61,7 +61,7 @@ LaneCentre between(const CentreLine::Knot& from, const CentreLine::Knot& to, dou
   const double rise = to.t_m - from.t_m, m0 = h * from.slope_by_x, m1 = h * to.slope_by_x;
   const double quadratic = 3.0 * rise - 2.0 * m0 - m1, cubic = m0 + m1 - 2.0 * rise;
   return {from.t_m + u * (m0 + u * (quadratic + u * cubic)),
-          (m0 + u * (2.0 * quadratic + u * 3.0 * cubic)) / h};
+          (m0 + u * (2.0 * quadratic + u * 3.0 * cubic)) * (1.0 / h)};
 }
 
 CentreLine centre_line(const road::RoadNetwork& network, const Corridor& corridor, int lane) {

@@ -17,6 +17,12 @@ double indicated_side(const CorridorTraffic& traffic, std::size_t i, double acro
   return std::abs(away) > 0.15 ? away : 0.0;
 }
 
+/// 86 flashes a minute (UN R48: 90 ± 30).
+bool indicator_is_lit(double time_s) {
+  const double flashes = time_s * (1.0 / 0.7);
+  return flashes - std::floor(flashes) < 0.53;
+}
+
 /// The angle of this tangent: by its series where that is good to 1e-12, as on all but tight bends.
 double small_angle_rad(double tangent) {
   const double q = tangent * tangent;
@@ -30,11 +36,20 @@ Quat turned_about_up(const Quat& q, const Vec2& half) {
           q.z * half.x + q.w * half.y};
 }
 
-Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
-                           const road::RoadNetwork& network, double time_s) {
-  const VehicleModel& model = vehicle_models()[traffic.model[i]];
-  // The vehicle frame's origin is below the rear axle.
-  const double x = wrap_x(traffic.corridor, traffic.x_m[i] - model.front_m());
+/// Begins to fetch what `describe` will read of the road for this vehicle: the tables are larger
+/// than the nearest cache, and vehicles stand in them without an order.
+void prefetch(const CorridorTraffic& traffic, std::size_t i) {
+  static_assert(LineTable::step_m == LaneTable::knot_step_m);
+  const auto k = static_cast<std::size_t>(std::max(traffic.x_m[i], 0.0) / LineTable::step_m);
+  if (k >= traffic.line.cubics.size()) return;
+  __builtin_prefetch(&traffic.line.pieces[k]);
+  for (const auto& power : traffic.line.cubics[k]) __builtin_prefetch(power.data());
+  __builtin_prefetch(&traffic.table.centres[static_cast<std::size_t>(traffic.lane[i])].knots[k]);
+}
+
+/// Fills in a participant that has nothing yet; its origin is at `x`.
+void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel& model, double x,
+              const road::RoadNetwork& network, double time_s, Participant& participant) {
   const auto [piece, s, line] = line_at(network, traffic.corridor, traffic.line, x);
   const double direction = piece.along_s ? 1.0 : -1.0;
 
@@ -67,7 +82,6 @@ Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
     turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
   }
 
-  Participant participant;
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
@@ -92,24 +106,30 @@ Participant participant_of(const CorridorTraffic& traffic, std::size_t i,
   participant.lamps.set(Lamp::beacon, traffic.emergency[i] != 0);
   participant.lamps.set(Lamp::siren, traffic.emergency[i] != 0);
   const double side = indicated_side(traffic, i, direction * across);
-  if (side != 0.0 && std::fmod(time_s + 0.13 * static_cast<double>(traffic.id[i] % 7), 0.7) < 0.37)
+  if (side != 0.0 && indicator_is_lit(time_s + 0.13 * static_cast<double>(traffic.id[i] % 7)))
     participant.lamps.set(side > 0.0 ? Lamp::indicator_left : Lamp::indicator_right, true);
-  return participant;
 }
 
 }  // namespace
 
 void append_participants(const TrafficState& state, const road::RoadNetwork& network,
                          std::vector<Participant>& participants) {
-  for (const auto& traffic : state.corridors)
+  const auto models = vehicle_models();
+  for (const auto& traffic : state.corridors) {
+    std::size_t at = participants.size();
+    participants.resize(at + traffic.size(), Participant{});
     for (std::size_t i = 0; i < traffic.size(); ++i) {
+      prefetch(traffic, std::min(i + 2, traffic.size() - 1));
       if (traffic.lane[i] == 0) continue;
-      const double rear_axle_x = traffic.x_m[i] - vehicle_models()[traffic.model[i]].front_m();
-      if (!traffic.corridor.closed &&
-          (rear_axle_x < 0.0 || rear_axle_x > traffic.corridor.length_m))
-        continue;
-      participants.push_back(participant_of(traffic, i, network, state.time_s));
+      const VehicleModel& model = models[traffic.model[i]];
+      // The vehicle frame's origin is below the rear axle.
+      const double x = traffic.x_m[i] - model.front_m();
+      if (!traffic.corridor.closed && (x < 0.0 || x > traffic.corridor.length_m)) continue;
+      describe(traffic, i, model, wrap_x(traffic.corridor, x), network, state.time_s,
+               participants[at++]);
     }
+    participants.resize(at);
+  }
 }
 
 }  // namespace septet::traffic

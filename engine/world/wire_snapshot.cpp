@@ -105,17 +105,12 @@ std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline,
   return expected;
 }
 
-/// The mask of fields that differ, then the differences; answers the end of the bytes.
-std::byte* write_change(const WireParticipant& participant, const WireParticipant& reference, std::byte* at) {
-  std::uint64_t mask = 0;
+/// Bit f: field f differs.
+std::uint32_t changed_fields(const WireParticipant& now, const WireParticipant& reference) {
+  std::uint32_t mask = 0;
   for (std::size_t f = 0; f < participant_field_count; ++f)
-    mask |= static_cast<std::uint64_t>(participant.fields[f] != reference.fields[f]) << f;
-  at = write_varint(at, mask);
-  for (; mask != 0; mask &= mask - 1) {
-    const auto f = static_cast<std::size_t>(std::countr_zero(mask));
-    at = write_varint(at, zigzag(std::int64_t{participant.fields[f]} - reference.fields[f]));
-  }
-  return at;
+    mask |= static_cast<std::uint32_t>(now.fields[f] != reference.fields[f]) << f;
+  return mask;
 }
 
 void put_participants(ByteWriter& writer, const WireSnapshot* baseline, const WireSnapshot& wire) {
@@ -132,10 +127,15 @@ void put_participants(ByteWriter& writer, const WireSnapshot* baseline, const Wi
     while (old != before.end() && old->id < participant.id) ++old;
     const bool known = old != before.end() && old->id == participant.id;
     const WireParticipant reference = known ? extrapolate(*old, seconds) : WireParticipant{};
-    if (known && participant.fields == reference.fields) continue;
-    std::byte bytes[10 * (2 + participant_field_count)];
-    const std::byte* end = write_change(participant, reference, write_varint(bytes, gaps.before(participant.id)));
-    changes.insert(changes.end(), static_cast<const std::byte*>(bytes), end);
+    const std::uint32_t mask = changed_fields(participant, reference);
+    if (known && mask == 0) continue;
+    std::byte bytes[5 * (2 + participant_field_count)];  // No varint of 33 bits or less is longer.
+    std::byte* end = write_varint(write_varint(bytes, gaps.before(participant.id)), mask);
+    for (std::uint32_t left = mask; left != 0; left &= left - 1) {
+      const auto f = static_cast<std::size_t>(std::countr_zero(left));
+      end = write_varint(end, zigzag(std::int64_t{participant.fields[f]} - reference.fields[f]));
+    }
+    changes.insert(changes.end(), bytes, end);
     ++count;
   }
   writer.put_varint(count);
@@ -241,12 +241,12 @@ auto refused(std::string what) {
 WireSnapshot to_wire(const Snapshot& snapshot) {
   SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());
   WireSnapshot wire;
-  wire.participants.resize(snapshot.participants.size());
+  wire.participants.reserve(snapshot.participants.size());
   for (std::size_t i = 0; i < snapshot.participants.size(); ++i) {
     const Participant& participant = snapshot.participants[i];
     SEPTET_CHECK(i == 0 || snapshot.participants[i - 1].id < participant.id, "participant {} after {}", participant.id,
                  snapshot.participants[i - 1].id);
-    wire.participants[i] = quantise(participant);
+    wire.participants.push_back(quantise(participant));
   }
   wire.rest.tick = snapshot.tick;
   wire.rest.simulated_time_s = snapshot.simulated_time_s;
