@@ -141,6 +141,7 @@ std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state) {
 }
 
 void show_damage(const EffectsState& state, std::vector<Participant>& participants) {
+  if (state.crashes.parts.empty()) return;
   for (Participant& participant : participants) {
     const auto parts = state.crashes.parts.find(participant.id);
     if (parts == state.crashes.parts.end()) continue;

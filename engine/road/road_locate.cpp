@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/check.hpp"
 #include "engine/road/cross_section.hpp"
@@ -35,42 +36,50 @@ Offset offset_from(const Road& road, const CrossSection& section, const Vec2& wo
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
 }
 
-/// Solves ahead(s) = 0 from s on: Newton's method with the slope −(1 − κt) of an unbanked road, the
-/// secant method where banking on a changing grade moves the cross-section along the road.
-Foot foot_on(const Road& road, const Vec2& world_m, double s) {
-  const bool plane = road.flat && road.superelevation.empty();
+/// Moves `foot` by `ahead_m / slope`, within the road; answers by how much.
+double step_foot(const Road& road, double ahead_m, double slope, Foot& foot) {
+  const double target = foot.s_m + std::clamp(ahead_m / slope, -100.0, 100.0);
+  if (!std::isfinite(target)) return 0.0;
+  const double before = std::exchange(foot.s_m, std::clamp(target, 0.0, road.length_m));
+  return std::abs(foot.s_m - before);
+}
+
+/// Solves ahead(s) = 0 in the plan by Newton's method, with the slope −(1 − κt). The error that is
+/// left is the square of the last step.
+Foot foot_on_plan(const Road& road, const Vec2& world_m, double s, double last_step_m) {
   Foot foot;
   foot.s_m = std::clamp(s, 0.0, road.length_m);
-  double s_before = 0.0, ahead_before = 0.0;
   for (int iteration = 0; iteration < 24; ++iteration) {
-    Offset offset;
-    double curvature_per_m = 0.0;
-    if (plane) {
-      const PlanPoint plan = evaluate_plan(road.plan, foot.s_m);
-      offset = offset_from(plan, world_m);
-      curvature_per_m = plan.curvature_per_m;
-    } else {
-      const CrossSection section = cross_section_at(road, foot.s_m);
-      offset = offset_from(road, section, world_m, foot.s_m, foot.t_m);
-      curvature_per_m = section.plan.curvature_per_m;
-    }
+    const PlanPoint plan = evaluate_plan(road.plan, foot.s_m);
+    const Offset offset = offset_from(plan, world_m);
     foot.t_m = offset.t_m;
     foot.gap_m = std::abs(offset.ahead_m);
-    double slope = std::max(1.0 - curvature_per_m * offset.t_m, 0.1);
-    if (!plane && iteration > 0 && foot.s_m != s_before) {
+    const double slope = std::max(1.0 - plan.curvature_per_m * offset.t_m, 0.1);
+    if (step_foot(road, offset.ahead_m, slope, foot) < last_step_m) break;
+  }
+  return foot;
+}
+
+/// Where banking on a changing grade moves the cross-section along the road the secant method goes
+/// on from the foot in the plan.
+Foot foot_on(const Road& road, const Vec2& world_m, double s) {
+  const bool plane = road.flat && road.superelevation.empty();
+  Foot foot = foot_on_plan(road, world_m, s, plane ? 1e-6 : 1e-3);
+  double s_before = foot.s_m, ahead_before = 0.0;
+  for (int iteration = 0; !plane && iteration < 24; ++iteration) {
+    const CrossSection section = cross_section_at(road, foot.s_m);
+    const Offset offset = offset_from(road, section, world_m, foot.s_m, foot.t_m);
+    foot.t_m = offset.t_m;
+    foot.gap_m = std::abs(offset.ahead_m);
+    double slope = std::max(1.0 - section.plan.curvature_per_m * offset.t_m, 0.1);
+    if (iteration > 0 && foot.s_m != s_before) {
       const double secant = (ahead_before - offset.ahead_m) / (foot.s_m - s_before);
       if (secant > 0.05 && secant < 20.0) slope = secant;
     }
-    const double target = foot.s_m + std::clamp(offset.ahead_m / slope, -100.0, 100.0);
-    if (!std::isfinite(target)) break;
-    const double next = std::clamp(target, 0.0, road.length_m);
-    const double step = std::abs(next - foot.s_m);
     s_before = foot.s_m;
     ahead_before = offset.ahead_m;
-    foot.s_m = next;
-    // Newton's error falls with the square of the step, the secant's nearly so: there is nothing
-    // left to gain.
-    if (step < 1e-6) break;
+    // The secant's error falls nearly with the square of the step: there is nothing left to gain.
+    if (step_foot(road, offset.ahead_m, slope, foot) < 1e-6) break;
   }
   if (foot.gap_m < 1e-4) foot.gap_m = 0.0;
   return foot;

@@ -68,13 +68,12 @@ void move_aside(CorridorTraffic& traffic, double dt_s) {
 
 void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s) {
   std::vector<EmergencyVehicle> emergencies = foreign;
-  for (std::size_t i = 0; i < traffic.size(); ++i) {
+  const bool emergency_itself = std::ranges::find(traffic.emergency, 1) != traffic.emergency.end();
+  for (std::size_t i = 0; emergency_itself && i < traffic.size(); ++i) {
     if (traffic.emergency[i] == 0 || traffic.lane[i] == 0) continue;
     emergencies.push_back(
         {traffic.x_m[i], traffic.length_m[i], lateral_m(traffic, i), traffic.half_width_m[i]});
   }
-  const bool emergency_itself = std::any_of(traffic.emergency.begin(), traffic.emergency.end(),
-                                            [](auto e) { return e != 0; });
   if (emergencies.empty() && !traffic.any_aside) return;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     traffic.making_way[i] = MakingWay::no;

@@ -47,7 +47,7 @@ void prefetch(const CorridorTraffic& traffic, std::size_t i) {
   __builtin_prefetch(&traffic.table.centres[static_cast<std::size_t>(traffic.lane[i])].knots[k]);
 }
 
-/// Fills in a participant that has nothing yet; its origin is at `x`.
+/// Fills in a blank participant; its origin is at `x`.
 void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel& model, double x,
               const road::RoadNetwork& network, double time_s, Participant& participant) {
   const auto [piece, s, line] = line_at(network, traffic.corridor, traffic.line, x);
@@ -115,9 +115,8 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
 void append_participants(const TrafficState& state, const road::RoadNetwork& network,
                          std::vector<Participant>& participants) {
   const auto models = vehicle_models();
-  for (const auto& traffic : state.corridors) {
-    std::size_t at = participants.size();
-    participants.resize(at + traffic.size(), Participant{});
+  const Participant blank;
+  for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       prefetch(traffic, std::min(i + 2, traffic.size() - 1));
       if (traffic.lane[i] == 0) continue;
@@ -125,11 +124,10 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       // The vehicle frame's origin is below the rear axle.
       const double x = traffic.x_m[i] - model.front_m();
       if (!traffic.corridor.closed && (x < 0.0 || x > traffic.corridor.length_m)) continue;
+      participants.push_back(blank);
       describe(traffic, i, model, wrap_x(traffic.corridor, x), network, state.time_s,
-               participants[at++]);
+               participants.back());
     }
-    participants.resize(at);
-  }
 }
 
 }  // namespace septet::traffic
