@@ -1,6 +1,7 @@
 #include "engine/traffic/traffic.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/core/check.hpp"
@@ -97,18 +98,20 @@ void move(CorridorTraffic& traffic, double dt_s) {
 
 void hash_state(StateHash& hash, const TrafficState& state) {
   hash.add(state.time_s);
-  for (const auto& traffic : state.corridors) {
+  // A chain for each array: a single one would wait for every product.
+  std::array<StateHash, 5> chains;
+  for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       // Three numbers in one word.
-      hash.add(std::uint64_t{traffic.id[i]} << 32 |
-               static_cast<std::uint16_t>(traffic.lane[i]) << 16 |
-               static_cast<std::uint16_t>(traffic.from_lane[i]));
-      for (const double value :
-           {traffic.x_m[i], traffic.speed_mps[i], traffic.change_s[i], traffic.aside_m[i]}) {
-        hash.add(value);
-      }
+      chains[0].add(std::uint64_t{traffic.id[i]} << 32 |
+                    static_cast<std::uint16_t>(traffic.lane[i]) << 16 |
+                    static_cast<std::uint16_t>(traffic.from_lane[i]));
+      chains[1].add(traffic.x_m[i]);
+      chains[2].add(traffic.speed_mps[i]);
+      chains[3].add(traffic.change_s[i]);
+      chains[4].add(traffic.aside_m[i]);
     }
-  }
+  for (const StateHash& chain : chains) hash.add(chain.value());
 }
 
 }  // namespace septet::traffic

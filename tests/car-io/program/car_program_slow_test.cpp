@@ -6,6 +6,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/temporary_folder.hpp"
 
@@ -20,7 +21,7 @@ struct Ended {
 Ended septet_car(const std::string& arguments) {
   Ended ended;
   FILE* pipe =
-      ::popen((std::string(SEPTET_BINARY_DIR) + "/septet-car " + arguments + " 2>&1").c_str(), "r");
+      ::popen(fmt::format(SEPTET_BINARY_DIR "/septet-car {} 2>&1", arguments).c_str(), "r");
   REQUIRE(pipe != nullptr);
   char buffer[256];
   while (std::fgets(buffer, sizeof buffer, pipe)) ended.output += buffer;

@@ -26,7 +26,7 @@ bool has_finding(const std::vector<Finding>& findings, Severity severity, const 
 }
 
 std::string motorway_folder() {
-  return std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance";
+  return SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
 }
 std::string motorway_text() {
   std::ifstream in(motorway_folder() + "/motorway-ambulance.xosc");

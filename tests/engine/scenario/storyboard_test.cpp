@@ -207,7 +207,7 @@ TEST_CASE("an external entity is where it was put and triggers like any other") 
 }
 
 TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon and siren on") {
-  const std::string folder = std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance";
+  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
   const auto content = [&](const std::string& name) {
     std::ifstream in(folder + "/" + name);
     return std::string{std::istreambuf_iterator<char>(in), {}};

@@ -53,7 +53,7 @@ bool overlap(const Participant& a, const Participant& b) {
 }  // namespace
 
 TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touches anybody") {
-  const std::string folder = std::string(SEPTET_SOURCE_DIR) + "/scenarios/motorway-ambulance";
+  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
   const auto scenario =
       scenario::read_scenario(content(folder + "/motorway-ambulance.xosc"),
                               "motorway-ambulance.xosc", scenario::files_in(folder));

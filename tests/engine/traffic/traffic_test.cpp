@@ -2,23 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <doctest/doctest.h>
 
 #include "engine/road/opendrive_reader.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
 namespace {
 
 road::RoadNetwork motorway() {
-  std::ifstream file(std::string(SEPTET_SOURCE_DIR) +
-                     "/scenarios/motorway-ambulance/motorway.xodr");
-  std::stringstream text;
-  text << file.rdbuf();
-  auto network = road::read_opendrive(text.str(), "motorway.xodr");
+  auto network = road::read_opendrive(
+      shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
   REQUIRE(network);
   return *network;
 }
