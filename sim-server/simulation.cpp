@@ -8,6 +8,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/effects/smoke/visibility.hpp"
 #include "engine/road/lane_links.hpp"
+#include "engine/world/indicator.hpp"
 #include "sim-server/effect_surroundings.hpp"
 #include "sim-server/wheel_ground.hpp"
 
@@ -64,7 +65,7 @@ vehicle::VehicleOutputs advance_car(const SimulationModel& model, const DriverIn
 
 Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s) {
   Lamps lamps;
-  const bool blink = std::fmod(time_s, 0.7) < 0.37;  // UN R48: 90 ± 30 flashes a minute.
+  const bool blink = indicator_is_lit(time_s);
   lamps.set(Lamp::brake, input.brake > 0.02);
   lamps.set(Lamp::reverse, car.gear < 0);
   lamps.set(Lamp::indicator_left, blink && (input.hazard_lights || input.indicator == IndicatorStalk::left));

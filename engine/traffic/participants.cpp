@@ -4,6 +4,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/traffic/traffic_parts.hpp"
+#include "engine/world/indicator.hpp"
 
 namespace septet::traffic {
 namespace {
@@ -15,12 +16,6 @@ double indicated_side(const CorridorTraffic& traffic, std::size_t i, double acro
   if (traffic.lane[i] != traffic.from_lane[i]) return across_m;
   const double away = traffic.aside_target_m[i] - traffic.aside_m[i];
   return std::abs(away) > 0.15 ? away : 0.0;
-}
-
-/// 86 flashes a minute (UN R48: 90 ± 30).
-bool indicator_is_lit(double time_s) {
-  const double flashes = time_s * (1.0 / 0.7);
-  return flashes - std::floor(flashes) < 0.53;
 }
 
 /// The angle of this tangent: by its series where that is good to 1e-12, as on all but tight bends.
@@ -106,7 +101,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   participant.lamps.set(Lamp::beacon, traffic.emergency[i] != 0);
   participant.lamps.set(Lamp::siren, traffic.emergency[i] != 0);
   const double side = indicated_side(traffic, i, direction * across);
-  if (side != 0.0 && indicator_is_lit(time_s + 0.13 * static_cast<double>(traffic.id[i] % 7)))
+  if (side != 0.0 && indicator_is_lit(time_s, traffic.id[i]))
     participant.lamps.set(side > 0.0 ? Lamp::indicator_left : Lamp::indicator_right, true);
 }
 

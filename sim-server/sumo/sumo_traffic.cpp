@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/road/road_locate.hpp"
+#include "engine/world/indicator.hpp"
 #include "engine/world/interpolate.hpp"
 
 namespace septet::server {
@@ -215,7 +216,7 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
 
 Participant SumoTraffic::shown(const Participant& participant) const {
   Participant result = participant;
-  const bool lit = std::fmod(time_s_ + 0.13 * static_cast<double>(participant.id % 7), 0.7) < 0.37;
+  const bool lit = indicator_is_lit(time_s_, participant.id);
   for (const Lamp lamp : {Lamp::indicator_left, Lamp::indicator_right}) result.lamps.set(lamp, lit && participant.lamps.has(lamp));
   return result;
 }
