@@ -134,7 +134,8 @@ std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>&
     std::size_t face;
   };
   std::vector<Candidate> candidates;
-  const auto at_nodes_pa = stress_at_nodes_pa(piece.body);
+  // Only a blow is judged by the mean around a face, and most steps have none.
+  const auto at_nodes_pa = blow.lost_j > 0.0 ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
