@@ -81,13 +81,13 @@ void ScreenLink::receive_ticks(double now_s) {
   while (auto tick = ticks_.next()) {
     TickArrived answer{tick->tick, 0.0f, false};
     switch (history_.add(tick->payload)) {
-      case TickHistory::Outcome::stored:
+      case frame::TickHistory::Outcome::stored:
         if (const auto* held = history_.find(tick->tick))
           if (const auto server_s = server_time_s(now_s))
             answer.lateness_s = static_cast<float>(*server_s - held->header.published_s);
         break;
-      case TickHistory::Outcome::lost_baseline: answer.lost_baseline = true; [[fallthrough]];
-      case TickHistory::Outcome::refused: ++refused_ticks_; break;
+      case frame::TickHistory::Outcome::lost_baseline: answer.lost_baseline = true; [[fallthrough]];
+      case frame::TickHistory::Outcome::refused: ++refused_ticks_; break;
     }
     if (answer.lost_baseline || history_.find(tick->tick)) send(answer, net::Reliability::unreliable);
   }

@@ -14,7 +14,7 @@
 #include "engine/control/control_message.hpp"
 #include "engine/replication/replication_client.hpp"
 #include "engine/scene/store.hpp"
-#include "sim-client/screen/tick_history.hpp"
+#include "sim-client/frame/tick_history.hpp"
 
 namespace septet::screen {
 
@@ -47,7 +47,7 @@ class ScreenLink {
   const std::optional<Error>& refusal() const { return refusal_; }
   bool finished() const { return finished_; }
 
-  const TickHistory& history() const { return history_; }
+  const frame::TickHistory& history() const { return history_; }
   const scene::Store& scene() const { return scene_.store(); }
   /// Changes whenever `scene()` is another store than before.
   std::uint64_t scene_generation() const { return scene_.generation(); }
@@ -78,7 +78,7 @@ class ScreenLink {
   std::unique_ptr<net::DatagramSocket> group_socket_;
   net::SecureClient lane_;
   net::TickReceiver ticks_;
-  TickHistory history_;
+  frame::TickHistory history_;
   replication::ReplicationClient scene_;
   std::optional<control::Welcome> welcome_;
   std::uint32_t welcomes_ = 0;

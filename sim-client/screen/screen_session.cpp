@@ -11,16 +11,16 @@
 #include "engine/net/udp_socket.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
-#include "sim-client/screen/client_frame.hpp"
-#include "sim-client/screen/debris_drawing.hpp"
-#include "sim-client/screen/effect_playout.hpp"
+#include "sim-client/frame/client_frame.hpp"
+#include "sim-client/frame/debris_drawing.hpp"
+#include "sim-client/frame/effect_playout.hpp"
 #include "sim-client/screen/frame_times.hpp"
-#include "sim-client/screen/picture_writer.hpp"
-#include "sim-client/screen/playout.hpp"
+#include "sim-client/frame/picture_writer.hpp"
+#include "sim-client/frame/playout.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
-#include "sim-client/screen/smoke_drawing.hpp"
-#include "sim-client/screen/soot_drawing.hpp"
+#include "sim-client/frame/smoke_drawing.hpp"
+#include "sim-client/frame/soot_drawing.hpp"
 
 namespace septet::screen {
 namespace {
@@ -71,16 +71,16 @@ class Session {
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
   const rig::Screen* screen_ = nullptr;
-  ScreenViews views_;
+  frame::ScreenViews views_;
   std::unique_ptr<Display> display_;
-  PictureWriter pictures_;
+  frame::PictureWriter pictures_;
   FrameTimes frame_times_;
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
-  DebrisDrawing debris_;
-  SmokeDrawing smoke_;
-  SootDrawing soot_;
+  frame::DebrisDrawing debris_;
+  frame::SmokeDrawing smoke_;
+  frame::SootDrawing soot_;
   std::vector<render::DynamicMesh> meshes_;  ///< Of the last instant shown.
   std::vector<render::SmokePuff> puffs_;     ///< Likewise.
   double lost_drawn_s_ = 0.0;
@@ -97,7 +97,7 @@ Expected<void> Session::take_welcome() {
   for (const auto& screen : rig_.screens)
     if (screen.name == options_.name) screen_ = &screen;
   if (!screen_) return failure("the rig has no such screen", options_.name, "start one of the rig's screens");
-  auto views = screen_views(rig_, *screen_);
+  auto views = frame::screen_views(rig_, *screen_);
   if (!views) return tl::unexpected(views.error());
   views_ = std::move(*views);
   drawn_tick_.reset();
@@ -134,12 +134,12 @@ Expected<void> Session::bring_scene_up() {
 
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
   const double begun_s = monotonic_s();
-  auto frame = client_frame(snapshot, views_, resolver_.scene());
-  frame.meshes = meshes_;
-  frame.smoke = puffs_;
-  frame.soot = soot_.draw(snapshot.effects);
-  if (message) frame.overlay.push_back(banner(std::move(*message), *screen_));
-  if (auto drawn = display_->renderer().draw(frame); !drawn) return drawn;
+  auto input = frame::client_frame(snapshot, views_, resolver_.scene());
+  input.meshes = meshes_;
+  input.smoke = puffs_;
+  input.soot = soot_.draw(snapshot.effects);
+  if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
+  if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
   return {};
 }
@@ -147,7 +147,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
 void Session::take_effects(const Snapshot& snapshot) {
   const double simulated_time_s = snapshot.simulated_time_s;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
-  meshes_ = debris_.draw(effects_at(link_.history(), simulated_time_s, tick_s), simulated_time_s / tick_s, resolver_.scene());
+  meshes_ = debris_.draw(frame::effects_at(link_.history(), simulated_time_s, tick_s), simulated_time_s / tick_s, resolver_.scene());
   puffs_ = smoke_.draw(snapshot.effects, simulated_time_s);
 }
 
@@ -161,7 +161,7 @@ Expected<void> Session::keep_picture(Tick tick) {
 
 Expected<void> Session::draw_lockstep() {
   if (!link_.scene_arrived() || link_.history().empty()) return {};
-  const HistoryTick& newest = link_.history().newest();
+  const frame::HistoryTick& newest = link_.history().newest();
   const Tick tick = newest.snapshot.tick;
   if (drawn_tick_ && *drawn_tick_ >= tick) return {};
   if (auto scene = bring_scene_up(); !scene) return scene;
@@ -187,7 +187,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   }
   if (auto scene = bring_scene_up(); !scene) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
-  const auto shown = show(link_.history(), *playout_time_s(link_.history(), frame_number(*server_s)), tick_s);
+  const auto shown = frame::show(link_.history(), *frame::playout_time_s(link_.history(), frame::frame_number(*server_s)), tick_s);
   take_effects(shown.snapshot);
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = shown.snapshot;
@@ -201,7 +201,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   drawn_tick_ = shown.tick;
   if (auto controls = display_->controls(now_s, shown.snapshot.driver_car.speed_mps))
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
-  if (!display_->paces_itself()) wait(1.0 / frame_rate_hz - 1e-3 * last_frame_ms_);
+  if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_frame_ms_);
   return {};
 }
 

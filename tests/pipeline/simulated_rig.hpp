@@ -10,7 +10,7 @@
 
 #include "engine/net/bad_network.hpp"
 #include "engine/scene/builder.hpp"
-#include "sim-client/screen/playout.hpp"
+#include "sim-client/frame/playout.hpp"
 #include "sim-client/screen/screen_link.hpp"
 #include "sim-server/screen_host.hpp"
 
@@ -139,16 +139,16 @@ class SimulatedRig {
     const auto& link = screens_[i].link;
     const auto server_s = link ? link->server_time_s(now_s_) : std::nullopt;
     if (!server_s) return std::nullopt;
-    return screen::frame_number(*server_s);
+    return frame::frame_number(*server_s);
   }
 
   /// What a screen would present now, if it has anything.
-  std::optional<screen::Shown> shown(std::size_t i) const {
+  std::optional<frame::Shown> shown(std::size_t i) const {
     const auto& link = screens_[i].link;
     if (!link || link->history().empty()) return std::nullopt;
     const auto server_s = link->server_time_s(now_s_);
     if (!server_s) return std::nullopt;
-    return screen::show(link->history(), *screen::playout_time_s(link->history(), screen::frame_number(*server_s)), rig_tick_s);
+    return frame::show(link->history(), *frame::playout_time_s(link->history(), frame::frame_number(*server_s)), rig_tick_s);
   }
 
   double now_s() const { return now_s_; }

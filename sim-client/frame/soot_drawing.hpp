@@ -6,7 +6,7 @@
 #include "engine/effects/smoke/soot_keyframe.hpp"
 #include "engine/render/frame_input.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 /// A surface lies up to a cell beside the cells whose soot it carries, so each cell shows the most of its neighbourhood.
 render::SootField soot_field(const smoke::SootKeyframe& keyframe);
@@ -24,4 +24,4 @@ class SootDrawing {
   std::uint32_t refused_ = 0;
 };
 
-}  // namespace septet::screen
+}  // namespace septet::frame

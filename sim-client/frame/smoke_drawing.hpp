@@ -9,7 +9,7 @@
 #include "engine/render/frame_input.hpp"
 #include "engine/world/snapshot.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 class SmokeDrawing {
  public:
@@ -28,4 +28,4 @@ class SmokeDrawing {
   std::uint32_t refused_ = 0;
 };
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -1,9 +1,9 @@
-#include "sim-client/screen/soot_drawing.hpp"
+#include "sim-client/frame/soot_drawing.hpp"
 
 #include <doctest/doctest.h>
 
 using namespace septet;
-using namespace septet::screen;
+using namespace septet::frame;
 
 namespace {
 

@@ -1,8 +1,8 @@
-#include "sim-client/screen/picture_writer.hpp"
+#include "sim-client/frame/picture_writer.hpp"
 
 #include "engine/image/png.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 PictureWriter::PictureWriter() : thread_([this] { run(); }) {}
 
@@ -46,4 +46,4 @@ void PictureWriter::run() {
   }
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

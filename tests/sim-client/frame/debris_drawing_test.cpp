@@ -1,4 +1,4 @@
-#include "sim-client/screen/debris_drawing.hpp"
+#include "sim-client/frame/debris_drawing.hpp"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -7,7 +7,7 @@
 #include "engine/core/random.hpp"
 
 using namespace septet;
-using namespace septet::screen;
+using namespace septet::frame;
 
 namespace {
 

@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "sim-client/screen/tick_history.hpp"
+#include "sim-client/frame/tick_history.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 /// One effect at an instant. The pointers lead into the history.
 struct EffectMoment {
@@ -20,4 +20,4 @@ struct EffectMoment {
 /// The effects that exist at a simulated time, ascending id.
 std::vector<EffectMoment> effects_at(const TickHistory& history, double simulated_time_s, double tick_s);
 
-}  // namespace septet::screen
+}  // namespace septet::frame

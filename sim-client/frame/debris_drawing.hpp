@@ -14,9 +14,9 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/geometry/temporal_normals.hpp"
 #include "engine/render/frame_input.hpp"
-#include "sim-client/screen/effect_playout.hpp"
+#include "sim-client/frame/effect_playout.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 /// A keyframe with the tick that it shows.
 struct TimedDebris {
@@ -83,4 +83,4 @@ class DebrisDrawing {
   std::uint32_t refused_ = 0, prepared_ = 0;
 };
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -11,7 +11,7 @@
 #include "engine/control/control_message.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 struct HistoryTick {
   control::TickHeader header;
@@ -47,4 +47,4 @@ class TickHistory {
   Error error_;
 };
 
-}  // namespace septet::screen
+}  // namespace septet::frame

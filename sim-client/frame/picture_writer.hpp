@@ -11,7 +11,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/image/image.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 class PictureWriter {
  public:
@@ -41,4 +41,4 @@ class PictureWriter {
   std::thread thread_;
 };
 
-}  // namespace septet::screen
+}  // namespace septet::frame

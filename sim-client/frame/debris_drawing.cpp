@@ -1,11 +1,11 @@
-#include "sim-client/screen/debris_drawing.hpp"
+#include "sim-client/frame/debris_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-namespace septet::screen {
+namespace septet::frame {
 namespace {
 
 /// A piece that rested starts to move within its last interval, whenever its keyframe at rest was made.
@@ -148,4 +148,4 @@ std::vector<render::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMomen
   return meshes;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

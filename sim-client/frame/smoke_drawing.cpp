@@ -1,6 +1,6 @@
-#include "sim-client/screen/smoke_drawing.hpp"
+#include "sim-client/frame/smoke_drawing.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 std::vector<render::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyframe> effects, double simulated_time_s) {
   std::vector<smoke::Puff> puffs;
@@ -29,4 +29,4 @@ std::vector<render::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyframe
   return drawn;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -1,4 +1,4 @@
-#include "sim-client/screen/client_frame.hpp"
+#include "sim-client/frame/client_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "engine/world/paint.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 namespace {
 
 std::optional<std::uint32_t> find_prototype(const scene::ResolvedScene& scene, std::string_view name) {
@@ -93,4 +93,4 @@ render::OverlayText banner(std::string text, const rig::Screen& screen) {
   return line;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

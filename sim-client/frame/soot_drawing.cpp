@@ -1,10 +1,10 @@
-#include "sim-client/screen/soot_drawing.hpp"
+#include "sim-client/frame/soot_drawing.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace septet::screen {
+namespace septet::frame {
 namespace {
 
 /// A full layer hides all but a fiftieth of what lies below; half of one a quarter as much less (each grain hides its share).
@@ -55,4 +55,4 @@ const render::SootField& SootDrawing::draw(std::span<const EffectKeyframe> effec
   return field_;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

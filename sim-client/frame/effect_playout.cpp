@@ -1,8 +1,8 @@
-#include "sim-client/screen/effect_playout.hpp"
+#include "sim-client/frame/effect_playout.hpp"
 
 #include <algorithm>
 
-namespace septet::screen {
+namespace septet::frame {
 namespace {
 
 const EffectKeyframe* find(const Snapshot& snapshot, std::uint32_t id) {
@@ -46,4 +46,4 @@ std::vector<EffectMoment> effects_at(const TickHistory& history, double simulate
   return moments;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -1,8 +1,8 @@
-#include "sim-client/screen/tick_history.hpp"
+#include "sim-client/frame/tick_history.hpp"
 
 #include <algorithm>
 
-namespace septet::screen {
+namespace septet::frame {
 
 const HistoryTick* TickHistory::find(Tick tick) const {
   const auto found =
@@ -50,4 +50,4 @@ TickHistory::Neighbours TickHistory::around(double simulated_time_s) const {
   return neighbours;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -11,7 +11,7 @@
 #include "engine/scene/resolved_scene.hpp"
 #include "engine/world/snapshot.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 /// A screen's views with their projections, computed once: the rig does not move.
 struct ScreenViews {
@@ -28,4 +28,4 @@ render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views,
 /// A line across the middle of the picture, for what the driver must know ("server lost").
 render::OverlayText banner(std::string text, const rig::Screen& screen);
 
-}  // namespace septet::screen
+}  // namespace septet::frame

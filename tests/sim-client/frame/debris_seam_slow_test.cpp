@@ -6,12 +6,12 @@
 
 #include "engine/control/control_message.hpp"
 #include "engine/render/renderer.hpp"
-#include "sim-client/screen/client_frame.hpp"
-#include "sim-client/screen/debris_drawing.hpp"
+#include "sim-client/frame/client_frame.hpp"
+#include "sim-client/frame/debris_drawing.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
 #include "tests/shipped_files.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 namespace {
 
 constexpr double tick_s = 1.0 / 120.0;
@@ -100,4 +100,4 @@ TEST_CASE("debris in flight meets within a pixel at the edge of two screens of w
   }
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -8,9 +8,9 @@
 
 #include <optional>
 
-#include "sim-client/screen/tick_history.hpp"
+#include "sim-client/frame/tick_history.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 inline constexpr double frame_rate_hz = 60.0;
 
@@ -29,4 +29,4 @@ struct Shown {
 /// The world at a simulated time, as well as the history allows: between two ticks, or the newest one held.
 Shown show(const TickHistory& history, double simulated_time_s, double tick_s);
 
-}  // namespace septet::screen
+}  // namespace septet::frame

@@ -1,4 +1,4 @@
-#include "sim-client/screen/playout.hpp"
+#include "sim-client/frame/playout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "engine/core/check.hpp"
 #include "engine/world/interpolate.hpp"
 
-namespace septet::screen {
+namespace septet::frame {
 
 std::int64_t frame_number(double server_now_s) { return std::llround(server_now_s * frame_rate_hz); }
 
@@ -36,4 +36,4 @@ Shown show(const TickHistory& history, double simulated_time_s, double tick_s) {
   return shown;
 }
 
-}  // namespace septet::screen
+}  // namespace septet::frame
