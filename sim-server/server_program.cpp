@@ -10,10 +10,10 @@
 
 #include "engine/net/multicast_probe.hpp"
 #include "engine/scene/builder.hpp"
-#include "engine/scene/command_codec.hpp"
 #include "engine/scenery/debris_looks.hpp"
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
+#include "logging/recorded_scene.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/driver_seat.hpp"
 #include "sim-server/live_drive.hpp"
@@ -126,17 +126,6 @@ Expected<Endpoint> open_endpoint(const ServerOptions& options, const rig::Rig& r
   return Endpoint{std::move(*identity), std::move(*allowed), std::move(*sockets)};
 }
 
-Expected<void> fill_from_session(const logging::SessionReader& session, scene::Store& store) {
-  const auto edits = session.scene_edits();
-  if (!edits) return tl::unexpected(edits.error());
-  for (const auto& edit : *edits) {
-    const auto command = scene::decode(edit.command);
-    if (!command) return tl::unexpected(command.error());
-    if (auto applied = store.apply(*command); !applied) return applied;
-  }
-  return {};
-}
-
 /// The source of ticks with what it stands on.
 struct Drive {
   LoadedDrive loaded;
@@ -159,7 +148,7 @@ Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
   if (!rig) return tl::unexpected(rig.error());
   drive.loaded.rig = std::move(*rig);
   drive.loaded.sources.push_back({"rig", options.rig, *rig_text});
-  if (auto filled = fill_from_session(*drive.session, drive.store); !filled) return filled;
+  if (auto restored = logging::restore_scene(*drive.session, drive.store); !restored) return restored;
   auto source = ReplaySource::start(*drive.session, options.replay_from_s);
   if (!source) return tl::unexpected(source.error());
   drive.source = std::move(*source);
