@@ -50,22 +50,20 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
   return result;
 }
 
-render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const scene::ResolvedScene& scene) {
+render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
+                                const scene::ResolvedScene& scene) {
   render::FrameInput frame;
   frame.simulated_time_s = shown.simulated_time_s;
   frame.environment = shown.environment;
   frame.views = views.views;
-  const Participant* car = find_participant(shown, shown.driver_car.participant);
-  if (!car && !shown.participants.empty()) car = &shown.participants.front();
-  for (auto& view : frame.views)
-    if (car) view.world_from_car = car->world_from_vehicle;
+  for (auto& view : frame.views) view.world_from_car = viewpoint.world_from_views;
 
   for (const Participant& participant : shown.participants) {
     const auto prototype = find_prototype(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
     auto drawn = render::drawn_participant(participant, *prototype);
     drawn.paint = body_color(participant.paint);
-    if (&participant == car) {
+    if (participant.id == viewpoint.inside) {
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = render::Shown::shadow_and_light;
       if (const auto inside = find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
@@ -73,7 +71,7 @@ render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views,
         auto interior = drawn;
         interior.prototype = *inside;
         interior.shown = render::Shown::whole;
-        interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
+        if (participant.id == shown.driver_car.participant) interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);
       }
     }

@@ -1,7 +1,7 @@
 #pragma once
-/// From an instant of the world to what one screen draws of it: the last stage before the GPU.
+/// From an instant of the world to what one screen, or a film's camera, draws of it: the last stage before the GPU.
 ///
-/// Pure: the same snapshot, rig and scene give the same frame, for a live screen, a replay and a test alike.
+/// Pure: the same snapshot, views and scene give the same frame, for a live screen, a replay, a film and a test alike.
 
 #include <vector>
 
@@ -10,10 +10,11 @@
 #include "engine/rig/rig.hpp"
 #include "engine/scene/resolved_scene.hpp"
 #include "engine/world/snapshot.hpp"
+#include "sim-client/frame/viewpoint.hpp"
 
 namespace septet::frame {
 
-/// A screen's views with their projections, computed once: the rig does not move.
+/// A screen's views with their projections, computed once: the rig does not move. Or those of a camera.
 struct ScreenViews {
   std::vector<render::FrameView> views;
   bool show_interior = false;
@@ -22,8 +23,9 @@ struct ScreenViews {
 /// Refuses a screen that the eye point does not see from the front.
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen);
 
-/// `shown` is drawn as seen from the driver's car; where the snapshot has none, from the first participant.
-render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const scene::ResolvedScene& scene);
+/// `shown` as seen from a viewpoint, in whose frame the views are given.
+render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
+                                const scene::ResolvedScene& scene);
 
 /// A line across the middle of the picture, for what the driver must know ("server lost").
 render::OverlayText banner(std::string text, const rig::Screen& screen);

@@ -34,11 +34,15 @@ TickHistory::Outcome TickHistory::add(std::span<const std::byte> payload) {
   }
   entry.wire = std::move(*wire);
   entry.snapshot = from_wire(entry.wire);
+  add(std::move(entry));
+  return Outcome::stored;
+}
+
+void TickHistory::add(HistoryTick entry) {
   const auto place = std::ranges::upper_bound(ticks_, entry.snapshot.tick, {},
                                               [](const HistoryTick& old) { return old.snapshot.tick; });
   ticks_.insert(place, std::move(entry));
   if (ticks_.size() > kept) ticks_.pop_front();
-  return Outcome::stored;
 }
 
 TickHistory::Neighbours TickHistory::around(double simulated_time_s) const {

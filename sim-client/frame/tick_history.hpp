@@ -1,5 +1,6 @@
 #pragma once
-/// The ticks that a screen has received and decoded: baselines for the next ones, and what interpolation picks from.
+/// The ticks that a screen has received, or a film has read, decoded: baselines for the next ones, and what interpolation
+/// picks from.
 ///
 /// Free of sockets and clocks, so that tests can feed it from a bad network on simulated time. One thread.
 
@@ -27,6 +28,8 @@ class TickHistory {
   /// One tick's payload as it came over the tick lane; `error()` says why it was refused.
   Outcome add(std::span<const std::byte> payload);
   const Error& error() const { return error_; }
+  /// One tick that is decoded already, such as a session's.
+  void add(HistoryTick entry);
   /// Forgets everything: the server was restarted.
   void clear() { ticks_.clear(); }
 

@@ -134,7 +134,7 @@ Expected<void> Session::bring_scene_up() {
 
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
   const double begun_s = monotonic_s();
-  auto input = frame::client_frame(snapshot, views_, resolver_.scene());
+  auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
   input.meshes = meshes_;
   input.smoke = puffs_;
   input.soot = soot_.draw(snapshot.effects);
