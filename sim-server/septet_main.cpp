@@ -7,6 +7,7 @@
 
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
+#include "sim-server/command/film_command.hpp"
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/command/road_command.hpp"
@@ -53,6 +54,12 @@ int run(int argc, char** argv) {
   replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at");
   replay_command->add_flag("--verify", verify, "Run the recorded input again and compare every tick's state hash");
   replay_command->callback([&] { status = verify ? run_verify(replay.replay) : run_drive(replay); });
+
+  // Its options are those of septet-film, which explains them too.
+  auto* film_command = app.add_subcommand("film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
+  film_command->prefix_command();
+  film_command->set_help_flag();
+  film_command->callback([&] { status = run_film({argv + 2, argv + argc}); });
 
   std::string session;
   std::filesystem::path report_out;

@@ -7,7 +7,7 @@
 ///
 /// Rounding: in double the vectors stay unit length to 10⁻⁹ over 10⁴ steps, and nothing is renormalised, as the paper says.
 /// In float they would leave it by 10⁻² within 10³ steps; there each factor is multiplied by (3 − |Z|²)/2, one step of
-/// Newton's iteration. Here steps must be equal, as a film's frames are; screens show
+/// Newton's iteration. Here steps must be equal, as a film's frames are (sim-client/film/camera_path.hpp); screens show
 /// instants that follow the server's clock, and wheels turn by many angles at once: they evaluate single instants with
 /// slerp_quadratic and varied_share (spherical_interpolation.hpp).
 

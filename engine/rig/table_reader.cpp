@@ -100,10 +100,10 @@ const toml::table* TableReader::get_table(std::string_view key) {
   return node ? node->as_table() : nullptr;
 }
 
-void TableReader::finish() {
+void TableReader::finish(std::string_view documented_in) {
   for (const auto& [key, node] : table_)
     if (!known_.contains(key.str()))
-      report(key.str(), fmt::format("{} has no key \"{}\"", title_, key.str()), "check its spelling against rigs/README.md");
+      report(key.str(), fmt::format("{} has no key \"{}\"", title_, key.str()), fmt::format("check its spelling against {}", documented_in));
 }
 
 }  // namespace septet::rig

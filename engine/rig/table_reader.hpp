@@ -1,6 +1,6 @@
 #pragma once
-/// Reads one TOML table key by key, with ranges, and remembers the first thing that was wrong. Private to engine/rig: it shows
-/// toml++ types, which do not leave this folder's .cpp files.
+/// Reads one TOML table key by key, with ranges, and remembers the first thing that was wrong. For .cpp files that read a TOML
+/// file: toml++ types, which it only names, stay there.
 
 #include <set>
 #include <string>
@@ -35,8 +35,8 @@ class TableReader {
   Vec3 get_point(std::string_view key);
   std::vector<const toml::table*> get_tables(std::string_view key);
   const toml::table* get_table(std::string_view key);
-  /// Reports a key that nobody asked for.
-  void finish();
+  /// Reports a key that nobody asked for; `documented_in` is the file that lists those there are.
+  void finish(std::string_view documented_in = "rigs/README.md");
   /// Reports with the line of `key`, or of the table where the key is absent.
   void report(std::string_view key, std::string what, std::string remedy);
 

@@ -15,11 +15,13 @@ PictureWriter::~PictureWriter() {
   thread_.join();
 }
 
-void PictureWriter::write(std::filesystem::path file, image::Image picture) {
+Expected<void> PictureWriter::write(std::filesystem::path file, image::Image picture) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.size() < 4; });
+  if (error_) return tl::unexpected(*error_);
   jobs_.push_back({std::move(file), std::move(picture)});
   changed_.notify_all();
+  return {};
 }
 
 Expected<void> PictureWriter::finish() {

@@ -20,8 +20,8 @@ class PictureWriter {
   PictureWriter(const PictureWriter&) = delete;
   PictureWriter& operator=(const PictureWriter&) = delete;
 
-  /// Queues one picture; waits while four are queued already.
-  void write(std::filesystem::path file, image::Image picture);
+  /// Queues one picture; waits while four are queued already. Answers the first failure of an earlier one.
+  Expected<void> write(std::filesystem::path file, image::Image picture);
   /// Waits until everything is written; answers the first failure.
   Expected<void> finish();
 

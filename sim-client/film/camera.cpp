@@ -1,0 +1,92 @@
+#include "sim-client/film/camera.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+namespace septet::film {
+namespace {
+
+constexpr double least_height_m = 0.3;  ///< Of a camera over the ground below its participant.
+
+bool is_outside(const Shot& shot) { return shot.distance_m > 0.0; }
+
+const VehicleModel& model_of(const Participant& participant) { return vehicle_models()[participant.model]; }
+
+/// The participant among those that `is_meant` that is nearest to the driver's car, which is not meant.
+template <class Meant>
+const Participant* nearest(const Snapshot& world, const Meant& is_meant) {
+  const Participant* driver = find_participant(world, world.driver_car.participant);
+  const auto distance_m = [&](const Participant& other) {
+    return driver ? glm::length(other.world_from_vehicle.position_m - driver->world_from_vehicle.position_m) : 0.0;
+  };
+  const Participant* found = nullptr;
+  for (const Participant& other : world.participants)
+    if (&other != driver && is_meant(other) && (!found || distance_m(other) < distance_m(*found))) found = &other;
+  return found;
+}
+
+const Participant* find_meant(const std::string& name, const Snapshot& world) {
+  if (name == "driver") return find_participant(world, world.driver_car.participant);
+  if (name == "nearest") return nearest(world, [](const Participant&) { return true; });
+  ParticipantId id = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
+  if (error == std::errc() && end == name.data() + name.size()) return find_participant(world, id);
+  return nearest(world, [&](const Participant& other) { return model_of(other).name == name; });
+}
+
+/// "1 volvo-s80, 2 ambulance, …", a few of them.
+std::string list_of(const Snapshot& world) {
+  std::string list;
+  for (std::size_t n = 0; n < world.participants.size() && n < 12; ++n)
+    list += fmt::format("{}{} {}", n ? ", " : "", world.participants[n].id, model_of(world.participants[n]).name);
+  if (list.empty()) return "nobody; give a place";
+  return list + (world.participants.size() > 12 ? fmt::format(" and {} more", world.participants.size() - 12) : "");
+}
+
+}  // namespace
+
+Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m, const std::vector<Look>& path) {
+  if (shot.place_m) return Pivot{};
+  const Participant* participant = find_meant(shot.participant, world);
+  if (!participant)
+    return failure(fmt::format("there is no participant \"{}\" at {} s", shot.participant, shot.from_s), shot.where,
+                   "choose \"driver\", \"nearest\", or a model or an id of those there are then: " + list_of(world));
+  const VehicleModel& model = model_of(*participant);
+  const bool drives = participant->id == world.driver_car.participant;
+  if (!is_outside(shot)) return Pivot{participant->id, drives ? driver_eye_m : frame::eye_in(model)};
+  const Vec3 middle_m(model.centre_x_m(), 0.0, 0.5 * model.height_m);
+  for (const Look& look : path)
+    if (middle_m.z - shot.distance_m * look.direction().z < least_height_m)
+      return failure(fmt::format("with a pitch of {:.0f}° at a distance of {} m the camera goes below the road",
+                                 look.pitch_rad() * 180.0 / std::numbers::pi, shot.distance_m),
+                     shot.where, "let it look further down, or hang nearer");
+  return Pivot{participant->id, middle_m};
+}
+
+frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world, const frame::Viewpoint& before) {
+  if (shot.place_m) return {{*shot.place_m, Quat(1, 0, 0, 0)}, std::nullopt};
+  const Participant* participant = pivot.participant ? find_participant(world, *pivot.participant) : nullptr;
+  if (!participant) return before;
+  frame::Viewpoint viewpoint{participant->world_from_vehicle, participant->id};
+  if (is_outside(shot)) viewpoint.inside.reset();
+  if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;
+  // A level frame below the same pivot.
+  const double heading = shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;
+  const Quat level = orientation_from_angles(heading, 0.0, 0.0);
+  viewpoint.world_from_views = {participant->world_from_vehicle * pivot.in_views_m - level * pivot.in_views_m, level};
+  return viewpoint;
+}
+
+frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px, std::uint32_t height_px) {
+  const double slope = std::tan(0.5 * shot.field_of_view_rad);
+  render::FrameView view;
+  view.projection = render::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(), look.pitch_rad(),
+                                           shot.field_of_view_rad, 2.0 * std::atan(slope * height_px / width_px));
+  view.viewport = {0, 0, width_px, height_px};
+  return {{view}, shot.interior};
+}
+
+}  // namespace septet::film

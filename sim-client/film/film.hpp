@@ -1,0 +1,50 @@
+#pragma once
+/// A recorded session to the pictures of a film: log → interpolate → scene → frame.
+///
+/// A frame depends on the session, the shot and its number in it, and on no other frame, so that any share of a film can be
+/// drawn anywhere. Pictures are drawn off-screen by the rasteriser.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "sim-client/film/camera_path.hpp"
+
+namespace septet::film {
+
+struct FilmOptions {
+  std::filesystem::path session;
+  std::filesystem::path shots;  ///< Script; empty: the default one.
+  std::filesystem::path out;    ///< Folder for the pictures; made, or empty already.
+  double frames_per_second = 25.0;
+  std::uint32_t width_px = 1280, height_px = 720;
+  bool software = false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  std::optional<double> from_s, to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
+};
+
+/// One frame of a film.
+struct FilmFrame {
+  std::uint64_t number = 0;  ///< From 1, through all shots.
+  std::size_t shot = 0;
+  std::size_t number_in_shot = 0;
+  double instant_s = 0.0;
+};
+
+/// A script with the way of each shot's camera and all frames, in order.
+struct FilmPlan {
+  Script script;
+  std::vector<std::vector<Look>> paths;  ///< By shot.
+  std::vector<FilmFrame> frames;
+};
+
+/// Error: a shot that reaches beyond the session's span, or that has no path.
+Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<double, double> span_s);
+
+struct FilmMade {
+  std::size_t frames = 0, planned = 0;
+};
+
+/// Draws the film. Before each frame `go_on` hears how far it is; where it says no, the film ends there.
+Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on);
+
+}  // namespace septet::film

@@ -1,0 +1,123 @@
+#include "sim-client/film/film_script.hpp"
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include "engine/rig/table_reader.hpp"
+
+namespace septet::film {
+namespace {
+
+constexpr double longest_s = 1e6;
+constexpr double radians = std::numbers::pi / 180.0;
+constexpr const char* documented_in = "sim-client/film/FILM.md";
+
+using rig::TableReader;
+
+double get_angle(TableReader& reader, std::string_view key, double fallback_rad, double most_deg) {
+  return radians * reader.get_double(key, fallback_rad / radians, -most_deg, most_deg);
+}
+
+double get_required(TableReader& reader, const toml::table& table, std::string_view key, double low, double high) {
+  if (!table.contains(key)) reader.report(key, fmt::format("a table lacks the key \"{}\"", key), fmt::format("add {}, a number", key));
+  return reader.get_double(key, low, low, high);
+}
+
+Turn read_turn(const toml::table& table, const Turn& before, double to_s, std::string_view file, Error& error) {
+  TableReader reader(table, file, "shot.turn", error);
+  Turn turn;
+  turn.until_s = reader.get_double("until_s", to_s, 0.0, longest_s);
+  turn.heading_rad = get_angle(reader, "heading_deg", before.heading_rad, 360.0);
+  turn.pitch_rad = get_angle(reader, "pitch_deg", before.pitch_rad, 90.0);
+  turn.sigma = reader.get_double("sigma", 0.0, -1.0, 1.0);
+  if (turn.until_s <= before.until_s)
+    reader.report("until_s", "a turn ends before it begins", "let until_s be later than the shot's from_s and the turn's before it");
+  if (turn.until_s > to_s) reader.report("until_s", "a turn ends after its shot", "let until_s be at most the shot's to_s");
+  reader.finish(documented_in);
+  return turn;
+}
+
+Vec3 read_place(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "shot.place", error);
+  Vec3 place_m;
+  place_m.x = get_required(reader, table, "x_m", -5e5, 5e5);
+  place_m.y = get_required(reader, table, "y_m", -5e5, 5e5);
+  place_m.z = get_required(reader, table, "z_m", -1e4, 1e4);
+  reader.finish(documented_in);
+  return place_m;
+}
+
+Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "shot", error);
+  Shot shot;
+  shot.from_s = get_required(reader, table, "from_s", 0.0, longest_s);
+  shot.to_s = get_required(reader, table, "to_s", 0.0, longest_s);
+  if (shot.to_s <= shot.from_s)
+    reader.report("to_s", fmt::format("the shot lasts from {} to {} s", shot.from_s, shot.to_s), "let to_s be later than from_s");
+  shot.speed = reader.get_double("speed", 1.0, 0.01, 100.0);
+  shot.participant = reader.get_string("participant", shot.participant);
+  if (const toml::table* place = reader.get_table("place")) shot.place_m = read_place(*place, file, error);
+  else if (table.contains("place")) reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
+  shot.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
+  shot.bearings = static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world"}));
+  if (shot.place_m && shot.bearings == Bearings::vehicle)
+    reader.report("bearings", "a place has no heading that others could be counted from", "leave bearings out, or write \"world\"");
+  shot.heading_rad = get_angle(reader, "heading_deg", 0.0, 360.0);
+  shot.pitch_rad = get_angle(reader, "pitch_deg", 0.0, 90.0);
+  shot.field_of_view_rad = radians * reader.get_double("field_of_view_deg", shot.field_of_view_rad / radians, 1.0, 150.0);
+  shot.interior = reader.get_bool("interior", shot.interior);
+  Turn before{shot.from_s, shot.heading_rad, shot.pitch_rad, 0.0};
+  const auto turns = reader.get_tables("turn");
+  if (turns.size() > most_turns) reader.report("turn", fmt::format("a shot has more than {} turns", most_turns), "split it");
+  for (const toml::table* turn : turns) {
+    if (!error.what.empty()) break;
+    shot.turns.push_back(before = read_turn(*turn, before, shot.to_s, file, error));
+  }
+  reader.finish(documented_in);
+  return shot;
+}
+
+}  // namespace
+
+Expected<Script> read_script(std::string_view text, std::string_view name) {
+  toml::table document;
+  try {
+    document = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    return failure(std::string(error.description()), fmt::format("{}:{}", name, error.source().begin.line), "correct the TOML there");
+  }
+  Error error;
+  TableReader reader(document, name, "film", error);
+  Script script;
+  const auto shots = reader.get_tables("shot");
+  if (shots.empty()) reader.report("shot", "the film has no shot", "add a [[shot]]");
+  if (shots.size() > most_shots) reader.report("shot", fmt::format("the film has more than {} shots", most_shots), "split it");
+  for (const toml::table* table : shots) {
+    if (!error.what.empty()) break;
+    script.shots.push_back(read_shot(*table, name, error));
+    script.shots.back().where = fmt::format("{}, shot {}", name, script.shots.size());
+  }
+  reader.finish(documented_in);
+  if (!error.what.empty()) return tl::unexpected(error);
+  return script;
+}
+
+Script default_script(double from_s, double to_s, double frames_per_second) {
+  constexpr double least_frames = 20.0;
+  const double frames = (to_s - from_s) * frames_per_second;
+  // Shots meet at frames, so that time goes on evenly.
+  const auto at = [&](double share) { return from_s + std::round(share * frames) / frames_per_second; };
+  const std::string where = "film without a script";
+  Shot eyes{.from_s = from_s, .to_s = frames < least_frames ? to_s : at(0.3), .where = where};
+  if (frames < least_frames) return {{eyes}};
+  Shot around{.from_s = eyes.to_s, .to_s = at(0.75), .distance_m = 8.0, .where = where};
+  around.heading_rad = 150.0 * radians, around.pitch_rad = -14.0 * radians;
+  // The even part turns by 160° in half of the shot; speeding up to that rate takes 40° in a quarter of it, and so does slowing down.
+  around.turns = {{at(0.4125), 110.0 * radians, -13.0 * radians, 1.0},
+                  {at(0.6375), -50.0 * radians, -9.0 * radians, 0.0},
+                  {at(0.75), -90.0 * radians, -8.0 * radians, -1.0}};
+  Shot nearest{.from_s = around.to_s, .to_s = to_s, .participant = "nearest", .where = where};
+  return {{eyes, around, nearest}};
+}
+
+}  // namespace septet::film

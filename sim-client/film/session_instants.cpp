@@ -1,0 +1,31 @@
+#include "sim-client/film/session_instants.hpp"
+
+#include <algorithm>
+
+namespace septet::film {
+namespace {
+
+// Effects have keyframes every few ticks: with these on both sides an instant lies between two of them.
+constexpr double ticks_ahead = 8.0, ticks_before = 32.0;
+
+}  // namespace
+
+Expected<SessionInstants> SessionInstants::start(const logging::SessionReader& session, double from_s) {
+  const double tick_s = 1.0 / session.info().ticks_per_second;
+  auto cursor = session.snapshots_from(std::max(0.0, from_s - ticks_before * tick_s));
+  if (!cursor) return tl::unexpected(cursor.error());
+  return SessionInstants(std::move(*cursor), tick_s);
+}
+
+Expected<Snapshot> SessionInstants::at(double instant_s) {
+  while (!ended_ && (history_.empty() || history_.newest().snapshot.simulated_time_s < instant_s + ticks_ahead * tick_s_)) {
+    auto next = cursor_.next();
+    if (!next) return tl::unexpected(next.error());
+    ended_ = !next->has_value();
+    if (!ended_) history_.add({.snapshot = std::move(**next)});
+  }
+  if (history_.empty()) return failure("the session ends before it", "film", "choose instants within the session");
+  return frame::show(history_, instant_s, tick_s_).snapshot;
+}
+
+}  // namespace septet::film

@@ -1,0 +1,30 @@
+#pragma once
+/// The world of a session at any instant, whatever its ticks are: what a screen's tick lane is to a drive.
+
+#include "logging/session_reader.hpp"
+#include "sim-client/frame/playout.hpp"
+#include "sim-client/frame/tick_history.hpp"
+
+namespace septet::film {
+
+/// Reads on as instants ascend. One thread; it must not outlive its reader.
+class SessionInstants {
+ public:
+  /// For instants from `from_s` on.
+  static Expected<SessionInstants> start(const logging::SessionReader& session, double from_s);
+
+  /// The world at an instant, between its two ticks; not before the one asked for last. `history()` then holds the ticks around it.
+  Expected<Snapshot> at(double instant_s);
+  const frame::TickHistory& history() const { return history_; }
+  double tick_s() const { return tick_s_; }
+
+ private:
+  SessionInstants(logging::SnapshotCursor cursor, double tick_s) : cursor_(std::move(cursor)), tick_s_(tick_s) {}
+
+  logging::SnapshotCursor cursor_;
+  double tick_s_;
+  frame::TickHistory history_;
+  bool ended_ = false;
+};
+
+}  // namespace septet::film

@@ -1,0 +1,263 @@
+#include "sim-client/film/film.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "engine/math/spherical_interpolation.hpp"
+#include "sim-client/film/camera.hpp"
+#include "sim-client/film/film_script.hpp"
+#include "tests/shipped_files.hpp"
+
+namespace septet::film {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180.0, frames_per_second = 25.0;
+
+/// A car on a slope that leans, and others.
+Snapshot world_with_others() {
+  Snapshot world;
+  const auto add = [&](ParticipantId id, const char* model, const Vec3& place_m) {
+    Participant participant;
+    participant.id = id;
+    participant.model = *find_vehicle_model(model);
+    participant.world_from_vehicle = {place_m, orientation_from_angles(0.7, 0.08, -0.05)};
+    world.participants.push_back(participant);
+  };
+  add(3, "volvo-s80", {3000.0, -2000.0, 35.0});
+  add(5, "ambulance", {3200.0, -2000.0, 35.0});
+  add(8, "lorry", {3000.0, -1970.0, 35.0});
+  add(9, "ambulance", {3100.0, -2000.0, 35.0});
+  world.driver_car.participant = 3;
+  return world;
+}
+
+std::string refusal_of(const std::string& script) {
+  const auto read = read_script(script, "shots.toml");
+  return read ? "" : describe(read.error());
+}
+
+}  // namespace
+
+TEST_CASE("a camera begins and ends as told and its angles follow the quadratic law to a billionth of a radian") {
+  for (const double sigma : {-1.0, -0.4, 0.0, 0.7, 1.0}) {
+    Shot shot{.from_s = 2.0, .to_s = 42.0, .heading_rad = 2.8, .pitch_rad = -0.1};
+    shot.turns = {{42.0, -2.2, 0.6, sigma}};
+    const double way_rad = 2.0 * std::numbers::pi - 5.0;  // The shorter way leads through half a circle.
+    const auto path = camera_path(shot, frames_per_second);
+    REQUIRE(path.has_value());
+    REQUIRE(path->size() == 1000);
+    for (std::size_t n = 0; n < path->size(); ++n) {
+      const Look& look = (*path)[n];
+      const double share = varied_share(sigma, static_cast<double>(n) / 999.0);
+      const double heading_off = std::remainder(look.heading_rad() - (2.8 + way_rad * share), 2.0 * std::numbers::pi);
+      REQUIRE(std::abs(heading_off) < 1e-9);
+      REQUIRE(std::abs(look.pitch_rad() - (-0.1 + 0.7 * share)) < 1e-9);
+      REQUIRE(std::abs(glm::length(look.direction()) - 1.0) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("turns follow each other without a jump and after the last one the camera holds still") {
+  Shot shot{.from_s = 0.0, .to_s = 4.0, .turns = {{1.0, 1.0, 0.0, 1.0}, {3.0, -2.0, -0.3, -1.0}}};
+  const auto path = camera_path(shot, frames_per_second);
+  REQUIRE(path.has_value());
+  REQUIRE(path->size() == 100);
+  CHECK(std::abs((*path)[25].heading_rad() - 1.0) < 1e-9);
+  for (std::size_t n = 75; n < 100; ++n) CHECK(std::abs((*path)[n].heading_rad() + 2.0) < 1e-9);
+  for (std::size_t n = 1; n < 100; ++n) CHECK(std::abs((*path)[n].heading_rad() - (*path)[n - 1].heading_rad()) < 0.13);
+}
+
+TEST_CASE("a path without frames or steps or a shorter way is refused with a message that names the shot") {
+  const auto refusal = [](double to_s, Turn turn) {
+    const auto path = camera_path({.from_s = 1.0, .to_s = to_s, .turns = {turn}, .where = "shot 7"}, frames_per_second);
+    return path ? "" : describe(path.error());
+  };
+  const auto check = [](const std::string& message, const char* word) {
+    CAPTURE(message);
+    CHECK(message.find("shot 7") == 0);
+    CHECK(message.find(word) != std::string::npos);
+  };
+  check(refusal(1.0, {1.0}), "less than a frame");
+  check(refusal(3.0, {1.01}), "less than a frame");
+  check(refusal(3.0, {3.0, std::numbers::pi}), "neither way is the shorter");
+  check(refusal(3.0, {3.0, 1.0, 0.0, 2.0}), "sigma");
+}
+
+TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though the car leans") {
+  const Snapshot world = world_with_others();
+  for (const Bearings bearings : {Bearings::vehicle, Bearings::world}) {
+    Shot shot{.from_s = 0.0, .to_s = 4.0, .distance_m = 8.0, .bearings = bearings, .heading_rad = 3.0, .pitch_rad = -0.2};
+    shot.turns = {{4.0, 0.1, -0.2, 0.0}};
+    const auto path = camera_path(shot, frames_per_second);
+    REQUIRE(path.has_value());
+    const auto pivot = find_pivot(shot, world, Vec3(0.0), *path);
+    REQUIRE(pivot.has_value());
+    const RigidTransform& car = world.participants[0].world_from_vehicle;
+    const auto viewpoint = viewpoint_at(shot, *pivot, world, {});
+    CHECK_FALSE(viewpoint.inside.has_value());  // The car is drawn whole.
+    const double north_rad = bearings == Bearings::world ? 0.0 : heading_rad(car.orientation);
+    for (const Look& look : *path) {
+      const auto view = views_at(shot, *pivot, look, 320, 180).views[0].projection;
+      const Vec3 eye_m = viewpoint.world_from_views * view.eye_m, middle_m = car * pivot->in_views_m;
+      const Vec3 forward = viewpoint.world_from_views.orientation * -view.back;
+      REQUIRE(std::abs(glm::length(eye_m - middle_m) - 8.0) < 1e-9);
+      REQUIRE(glm::length(eye_m + 8.0 * forward - middle_m) < 1e-9);
+      REQUIRE(std::abs(std::asin(forward.z) + 0.2) < 1e-9);
+      REQUIRE(std::abs((viewpoint.world_from_views.orientation * view.right).z) < 1e-12);
+      REQUIRE(std::abs(std::remainder(std::atan2(forward.y, forward.x) - north_rad - look.heading_rad(), 2.0 * std::numbers::pi)) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("with the eyes of the driver a camera sees what a screen in front of them shows") {
+  const Snapshot world = world_with_others();
+  const Vec3 eye_m(1.35, 0.37, 1.17);
+  Shot shot{.from_s = 0.0, .to_s = 1.0};
+  shot.field_of_view_rad = 2.0 * std::atan(0.5);
+  const auto pivot = find_pivot(shot, world, eye_m, {});
+  REQUIRE(pivot.has_value());
+  const auto viewpoint = viewpoint_at(shot, *pivot, world, {}), screen_viewpoint = frame::driver_viewpoint(world);
+  CHECK(viewpoint.inside == screen_viewpoint.inside);
+  CHECK(viewpoint.world_from_views.position_m == screen_viewpoint.world_from_views.position_m);
+  CHECK(viewpoint.world_from_views.orientation == screen_viewpoint.world_from_views.orientation);
+  const auto view = views_at(shot, *pivot, {}, 160, 120).views[0];
+  const auto screen = render::off_axis_view({eye_m + Vec3(0.8, 0.4, -0.3), eye_m + Vec3(0.8, -0.4, -0.3), eye_m + Vec3(0.8, 0.4, 0.3)}, eye_m);
+  REQUIRE(screen.has_value());
+  for (int column = 0; column < 4; ++column)
+    CHECK(glm::length(view.projection.clip_from_eye_relative[column] - screen->clip_from_eye_relative[column]) < 1e-12);
+}
+
+TEST_CASE("a shot means the driver or the nearest or a model or an id and whoever goes is waited for") {
+  Snapshot world = world_with_others();
+  Shot shot{.from_s = 1.5, .to_s = 2.0};
+  const auto found = [&](const char* name) {
+    shot.participant = name;
+    const auto pivot = find_pivot(shot, world, Vec3(1.0), {});
+    return pivot ? *pivot->participant : 0;
+  };
+  CHECK(found("driver") == 3);
+  CHECK(found("nearest") == 8);
+  CHECK(found("ambulance") == 9);
+  CHECK(found("5") == 5);
+  shot.participant = "tram";
+  shot.where = "shots.toml, shot 2";
+  const auto nobody = find_pivot(shot, world, Vec3(0.0), {});
+  REQUIRE_FALSE(nobody.has_value());
+  for (const char* word : {"shots.toml, shot 2", "tram", "1.5 s", "5 ambulance", "8 lorry"}) {
+    CAPTURE(word);
+    CHECK(describe(nobody.error()).find(word) != std::string::npos);
+  }
+  const Pivot pivot{5, Vec3(0.0)};
+  const auto before = viewpoint_at(shot, pivot, world, {});
+  std::erase_if(world.participants, [](const Participant& other) { return other.id == 5; });
+  CHECK(viewpoint_at(shot, pivot, world, before).world_from_views.position_m == before.world_from_views.position_m);
+}
+
+TEST_CASE("a camera that would go below the road is refused") {
+  Shot shot{.from_s = 0.0, .to_s = 1.0, .distance_m = 8.0, .pitch_rad = 4.0 * radians};
+  const auto path = camera_path(shot, frames_per_second);
+  REQUIRE(path.has_value());
+  const auto pivot = find_pivot(shot, world_with_others(), Vec3(0.0), *path);
+  REQUIRE_FALSE(pivot.has_value());
+  CHECK(describe(pivot.error()).find("below the road") != std::string::npos);
+}
+
+TEST_CASE("a script is read with its turns and its places") {
+  const auto script = read_script("[[shot]]\nfrom_s = 1\nto_s = 5.5\nparticipant = \"lorry\"\ndistance_m = 9\nheading_deg = 90\n"
+                                  "field_of_view_deg = 40\ninterior = true\n[[shot.turn]]\nuntil_s = 3\npitch_deg = -10\nsigma = 1\n"
+                                  "[[shot.turn]]\nheading_deg = 180\n\n"
+                                  "[[shot]]\nfrom_s = 0\nto_s = 2\nplace = { x_m = 1.0, y_m = -2, z_m = 3 }\n", "shots.toml");
+  REQUIRE(script.has_value());
+  REQUIRE(script->shots.size() == 2);
+  const Shot& first = script->shots[0];
+  CHECK(first.participant == "lorry");
+  CHECK(first.to_s == 5.5);
+  CHECK(first.distance_m == 9.0);
+  CHECK(first.interior);
+  CHECK(first.field_of_view_rad == doctest::Approx(40.0 * radians));
+  REQUIRE(first.turns.size() == 2);
+  // What a turn does not name stays as it is, and the last one takes the rest of the shot.
+  CHECK(first.turns[0].heading_rad == doctest::Approx(90.0 * radians));
+  CHECK(first.turns[1].pitch_rad == doctest::Approx(-10.0 * radians));
+  CHECK(first.turns[1].until_s == 5.5);
+  CHECK(*script->shots[1].place_m == Vec3(1.0, -2.0, 3.0));
+  CHECK(script->shots[1].bearings == Bearings::world);
+}
+
+TEST_CASE("the example in the description of the format is a script whose cameras have a way") {
+  const std::string text = shipped_text("sim-client/film/FILM.md");
+  const auto begin = text.find("```toml\n") + 8;
+  REQUIRE(begin < text.size());
+  const auto script = read_script(text.substr(begin, text.find("```", begin) - begin), "FILM.md");
+  REQUIRE(script.has_value());
+  const auto plan = plan_film(*script, frames_per_second, {0.0, 9.0});
+  REQUIRE(plan.has_value());
+  CHECK(plan->frames.size() == 325);
+}
+
+TEST_CASE("a wrong script is refused with one message that names the line and the remedy") {
+  const std::string shot = "[[shot]]\nfrom_s = 1\nto_s = 5\n";
+  struct Wrong {
+    std::string text;
+    int line;
+    std::string remedy;
+  };
+  const std::vector<Wrong> wrong = {
+      {"", 1, "add a [[shot]]"},
+      {"shot = 3", 1, "write [[shot]]"},
+      {"[[shot]\n", 1, "correct the TOML"},
+      {"\n[[shot]]\nfrom_s = 1\n", 2, "add to_s"},
+      {"[[shot]]\nfrom_s = 1\nto_s = 1\n", 3, "later than from_s"},
+      {"[[shot]]\nfrom_s = nan\nto_s = 1\n", 2, "give a number from 0"},
+      {"[[shot]]\nfrom_s = 1\nto_s = inf\n", 3, "give a number from 0"},
+      {"[[shot]]\nfrom_s = \"now\"\nto_s = 2\n", 2, "give a number from 0"},
+      {shot + "participant = 7\n", 4, "put it in quotes"},
+      {shot + "colour = \"red\"\n", 4, "FILM.md"},
+      {shot + "distance_m = -1\n", 4, "give a number from 0"},
+      {shot + "pitch_deg = 91\n", 4, "give a number from -90 to 90"},
+      {shot + "field_of_view_deg = 180\n", 4, "give a number from 1 to 150"},
+      {shot + "bearings = \"north\"\n", 4, "choose one of: vehicle, world"},
+      {shot + "place = 3\n", 4, "write { x_m"},
+      {shot + "place = { x_m = 1, y_m = 2 }\n", 4, "add z_m"},
+      {shot + "place = { x_m = 1, y_m = 2, z_m = 3 }\nbearings = \"vehicle\"\n", 5, "leave bearings out"},
+      {shot + "[[shot.turn]]\nsigma = 1.5\n", 5, "give a number from -1 to 1"},
+      {shot + "[[shot.turn]]\nuntil_s = 6\n", 5, "at most the shot's to_s"},
+      {shot + "[[shot.turn]]\n[[shot.turn]]\n", 5, "later than"},
+  };
+  for (const Wrong& script : wrong) {
+    const std::string message = refusal_of(script.text);
+    CAPTURE(script.text);
+    CAPTURE(message);
+    CHECK(message.find(fmt::format("shots.toml:{}: ", script.line)) == 0);
+    CHECK(message.find(script.remedy) != std::string::npos);
+  }
+  std::string many;
+  for (std::size_t n = 0; n <= most_shots; ++n) many += shot;
+  CHECK(refusal_of(many).find("more than 1000 shots") != std::string::npos);
+}
+
+TEST_CASE("a film shows its session at even steps and slow motion at shorter ones and nothing beyond the session") {
+  const auto plan = plan_film(default_script(2.0, 13.01, frames_per_second), frames_per_second, {2.0, 13.01});
+  REQUIRE(plan.has_value());
+  REQUIRE(plan->script.shots.size() == 3);
+  REQUIRE(plan->frames.size() == 275);
+  for (std::size_t n = 0; n < plan->frames.size(); ++n) {
+    CHECK(plan->frames[n].number == n + 1);
+    CHECK(std::abs(plan->frames[n].instant_s - (2.0 + static_cast<double>(n) / frames_per_second)) < 1e-9);
+  }
+  const auto brief = plan_film(default_script(0.0, 0.1, frames_per_second), frames_per_second, {0.0, 0.1});
+  REQUIRE(brief.has_value());
+  CHECK(brief->script.shots.size() == 1);
+  const auto slow = plan_film({{{.from_s = 1.0, .to_s = 2.0, .speed = 0.25, .turns = {{1.5, 1.0}}}}}, frames_per_second, {0.0, 8.0});
+  REQUIRE(slow.has_value());
+  REQUIRE(slow->frames.size() == 100);
+  CHECK(slow->frames[1].instant_s == doctest::Approx(1.01));
+  CHECK(slow->paths[0][25].heading_rad() == doctest::Approx(0.5));
+  CHECK_FALSE(plan_film({{{.from_s = 0.0, .to_s = 8.0, .speed = 0.01}}}, 1e4, {0.0, 8.0}).has_value());
+  const auto beyond = plan_film({{{.from_s = 1.0, .to_s = 9.0, .where = "shot 4"}}}, frames_per_second, {0.0, 8.0});
+  REQUIRE_FALSE(beyond.has_value());
+  CHECK(describe(beyond.error()).find("shot 4: it shows 1 to 9 s, and the session lasts from 0.00 to 8.00 s") == 0);
+}
+
+}  // namespace septet::film
