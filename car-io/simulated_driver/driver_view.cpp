@@ -69,9 +69,14 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
   const Participant* self = find_participant(snapshot, snapshot.driver_car.participant);
   if (!self) return seen;
   const Vec2 here = ground_position(*self);
+  // The search along the road begins where another would be if it ran straight on.
+  const double ahead_along_s = traffic::piece_at(corridor, own.x_m).along_s ? 1.0 : -1.0;
+  const Vec2 forward = ahead_along_s * Vec2(self->world_from_vehicle.orientation * Vec3(1, 0, 0));
   for (const Participant& other : snapshot.participants) {
     if (other.id == self->id || glm::distance(ground_position(other), here) > sight_m) continue;
-    const auto location = road::locate(network, ground_position(other), &own.position);
+    road::RoadPosition hint = own.position;
+    hint.s_m += glm::dot(ground_position(other) - here, forward);
+    const auto location = road::locate(network, ground_position(other), &hint);
     if (!location || location->lanes.lane == 0 || location->lanes.outside_m > 0.0) continue;
     const auto x_m = traffic::x_of(network, corridor, location->position, location->lanes.lane);
     if (!x_m) continue;

@@ -25,10 +25,13 @@ double small_angle_rad(double tangent) {
   return tangent * (1.0 - q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7))));
 }
 
-/// q turned further about its own z axis, by twice the angle of (cos, sin).
-Quat turned_about_up(const Quat& q, const Vec2& half) {
-  return {q.w * half.x - q.z * half.y, q.x * half.x + q.y * half.y, q.y * half.x - q.x * half.y,
-          q.z * half.x + q.w * half.y};
+/// q turned further about its own z axis, by twice the angle of (cos, sin). Number by number into the participant: an
+/// object in between would be written in halves and read whole, for which the processor waits.
+void turn_about_up(const Quat& q, const Vec2& half, Quat& turned) {
+  turned.w = q.w * half.x - q.z * half.y;
+  turned.x = q.x * half.x + q.y * half.y;
+  turned.y = q.y * half.x - q.x * half.y;
+  turned.z = q.z * half.x + q.w * half.y;
 }
 
 /// Begins to fetch what `describe` will read of the road for this vehicle: the tables are larger
@@ -62,9 +65,13 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   const Quat& world_from_line = line.world_from_line.orientation;
   const glm::dmat3 axes = glm::mat3_cast(world_from_line);
   const Vec3 &forward = axes[0], &left = axes[1], &up = axes[2];
-  Vec3 position_m = line.world_from_line.position_m + t * left;
-  if (const road::Road& road = network.roads[piece.road]; !road.flat)
-    position_m += road::surface_offset_m(road, s, t) * up;
+  Vec3& position_m = participant.world_from_vehicle.position_m;
+  const road::Road& road = network.roads[piece.road];
+  const double above = road.flat ? 0.0 : road::surface_offset_m(road, s, t);
+  const Vec3& middle = line.world_from_line.position_m;
+  position_m.x = middle.x + t * left.x + above * up.x;
+  position_m.y = middle.y + t * left.y + above * up.y;
+  position_m.z = middle.z + t * left.z + above * up.z;
   const double v = traffic.speed_mps[i];
   // Sideways speed in the frame of travel, positive to the left.
   const double lateral_mps =
@@ -80,14 +87,19 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
-  participant.world_from_vehicle = {position_m, turned_about_up(world_from_line, turned)};
+  turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
   const double curvature_per_m = line.curvature_per_m / (1.0 - line.curvature_per_m * t);
   const double yaw_rate = direction * curvature_per_m * v;
-  participant.velocity_mps = direction * (forward * v + left * lateral_mps);
-  participant.acceleration_mps2 =
-      direction * (forward * traffic.acceleration_mps2[i] +
-                   left * (v * yaw_rate + direction * across * blend.acceleration));
-  participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
+  const auto along_and_across = [&](double along, double aside, Vec3& out) {
+    out.x = direction * (forward.x * along + left.x * aside);
+    out.y = direction * (forward.y * along + left.y * aside);
+    out.z = direction * (forward.z * along + left.z * aside);
+  };
+  along_and_across(v, lateral_mps, participant.velocity_mps);
+  along_and_across(traffic.acceleration_mps2[i],
+                   v * yaw_rate + direction * across * blend.acceleration,
+                   participant.acceleration_mps2);
+  participant.angular_velocity_radps.z = yaw_rate;
   const double bend = model.wheelbase_m * direction * curvature_per_m;
   participant.front_steer_rad = small_angle_rad(bend);
   // Rolling along the corridor is all that turns the wheels.
@@ -110,7 +122,6 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
 void append_participants(const TrafficState& state, const road::RoadNetwork& network,
                          std::vector<Participant>& participants) {
   const auto models = vehicle_models();
-  const Participant blank;
   for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       prefetch(traffic, std::min(i + 2, traffic.size() - 1));
@@ -119,9 +130,8 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       // The vehicle frame's origin is below the rear axle.
       const double x = traffic.x_m[i] - model.front_m();
       if (!traffic.corridor.closed && (x < 0.0 || x > traffic.corridor.length_m)) continue;
-      participants.push_back(blank);
       describe(traffic, i, model, wrap_x(traffic.corridor, x), network, state.time_s,
-               participants.back());
+               participants.emplace_back());
     }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include <glm/gtc/constants.hpp>
 
@@ -49,60 +51,82 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
 }
 constexpr auto limits_of_field = make_limits();
 
-/// The limits as doubles, for whole vectors of fields; what pads is zero.
-constexpr std::size_t padded_field_count = (participant_field_count + 3) / 4 * 4;
-constexpr std::array<double, padded_field_count> make_bounds(std::int32_t FieldLimits::*bound) {
-  std::array<double, padded_field_count> bounds{};
+/// Steps per unit, and the limits as doubles.
+constexpr std::array<double, participant_field_count> make_steps() {
+  std::array<double, participant_field_count> steps{};
+  const auto set = [&](std::size_t first, std::size_t last, double per_unit) {
+    for (std::size_t i = first; i <= last; ++i) steps[i] = per_unit;
+  };
+  set(field_model, field_lamps, 1.0);
+  set(field_position_x, field_position_z, position_per_m);
+  set(field_largest, field_orientation_c, 1.0);  // Scaled with the sign of the largest.
+  set(field_velocity_x, field_velocity_z, velocity_per_mps);
+  set(field_acceleration_x, field_acceleration_z, acceleration_per_mps2);
+  set(field_angular_velocity_x, field_angular_velocity_z, angular_velocity_per_radps);
+  set(field_front_steer, field_front_steer, angle_per_rad);
+  set(field_wheel_spin, field_wheel_spin, 1.0);  // Counted in steps already.
+  set(field_wheel_spin_rate, field_wheel_spin_rate, spin_rate_per_radps);
+  set(field_lift_front_left, field_lift_rear_right, position_per_m);
+  return steps;
+}
+constexpr std::array<double, participant_field_count> make_bounds(std::int32_t FieldLimits::*bound) {
+  std::array<double, participant_field_count> bounds{};
   for (std::size_t f = 0; f < participant_field_count; ++f) bounds[f] = static_cast<double>(limits_of_field[f].*bound);
   return bounds;
 }
+constexpr auto steps_of_field = make_steps();
 constexpr auto lowest_of_field = make_bounds(&FieldLimits::low), highest_of_field = make_bounds(&FieldLimits::high);
+
+/// `count` fields from `first` on. Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics
+/// counts it at its source. Without a branch, so that the compiler takes several at a time.
+template <std::size_t count>
+inline void put_fields(const double* values, std::size_t first, std::int32_t* fields) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double scaled = values[i] * steps_of_field[first + i];
+    const double finite = scaled - scaled == 0.0 ? scaled : 0.0;
+    const double above = finite > lowest_of_field[first + i] ? finite : lowest_of_field[first + i];
+    const double bounded = above < highest_of_field[first + i] ? above : highest_of_field[first + i];
+    fields[i] = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(bounded + unit_steps));
+  }
+}
+
+/// From the velocity on a participant's numbers lie in memory as their fields do on the wire. They are read where they lie: a
+/// copy made of single numbers and read as vectors would have to wait for the copy.
+constexpr std::size_t motion_fields = participant_field_count - field_velocity_x;
+static_assert(offsetof(Participant, velocity_mps) + motion_fields * sizeof(double) ==
+              offsetof(Participant, wheel_lift_m) + sizeof(Participant::wheel_lift_m));
+static_assert(offsetof(Participant, velocity_mps) + (field_front_steer - field_velocity_x) * sizeof(double) ==
+              offsetof(Participant, front_steer_rad));
 
 }  // namespace
 
 const FieldLimits& participant_field_limits(std::size_t field) { return limits_of_field[field]; }
 
-WireParticipant quantise(const Participant& participant) {
-  std::array<double, padded_field_count> scaled{};
-  const auto put3 = [&](std::size_t field, const Vec3& v, double scale) {
-    for (int i = 0; i < 3; ++i) scaled[field + static_cast<std::size_t>(i)] = v[i] * scale;
-  };
-  scaled[field_model] = participant.model;
-  scaled[field_paint] = participant.paint;
-  scaled[field_lamps] = participant.lamps.bits;
-  put3(field_position_x, participant.world_from_vehicle.position_m, position_per_m);
-  put3(field_velocity_x, participant.velocity_mps, velocity_per_mps);
-  put3(field_acceleration_x, participant.acceleration_mps2, acceleration_per_mps2);
-  put3(field_angular_velocity_x, participant.angular_velocity_radps, angular_velocity_per_radps);
-  scaled[field_front_steer] = participant.front_steer_rad * angle_per_rad;
-  scaled[field_wheel_spin_rate] = participant.wheel_spin_radps * spin_rate_per_radps;
-  for (std::size_t i = 0; i < 4; ++i) scaled[field_lift_front_left + i] = participant.wheel_lift_m[i] * position_per_m;
-  const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
-  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);
-  scaled[field_wheel_spin] = steps < spin_steps ? steps : 0.0;  // A hair below a whole turn rounds to one.
+void quantise(const Participant& participant, WireParticipant& wire) {
+  std::int32_t* fields = wire.fields.data();
+  wire.id = participant.id;
+  fields[field_model] = participant.model;
+  fields[field_paint] = participant.paint;
+  fields[field_lamps] = participant.lamps.bits;
+  // Four are as cheap as three: the fourth is overwritten by what follows.
+  put_fields<4>(&participant.world_from_vehicle.position_m.x, field_position_x, fields + field_position_x);
 
   // Smallest three: the largest component follows from the unit length and is made positive.
   const Quat& orientation = participant.world_from_vehicle.orientation;
-  const std::array<double, 4> q{orientation.w, orientation.x, orientation.y, orientation.z};
-  const std::size_t first = std::abs(q[1]) > std::abs(q[0]) ? 1 : 0, second = std::abs(q[3]) > std::abs(q[2]) ? 3 : 2;
-  const std::size_t largest = std::abs(q[second]) > std::abs(q[first]) ? second : first;
+  const double q[] = {orientation.w, orientation.x, orientation.y, orientation.z};
+  const int first = std::abs(q[1]) > std::abs(q[0]) ? 1 : 0, second = std::abs(q[3]) > std::abs(q[2]) ? 3 : 2;
+  const int largest = std::abs(q[second]) > std::abs(q[first]) ? second : first;
   const double scale = std::copysign(glm::root_two<double>() * orientation_steps, q[largest]);
-  scaled[field_largest] = static_cast<double>(largest);
-  for (std::size_t i = 0; i < 3; ++i) scaled[field_orientation_a + i] = scale * q[i + (i >= largest ? 1 : 0)];
+  fields[field_largest] = largest;
+  const double scaled[] = {scale * q[0], scale * q[1], scale * q[2], scale * q[3]};
+  std::int32_t components[4];
+  put_fields<4>(scaled, field_orientation_a, components);
+  for (int i = 0; i < 3; ++i) fields[field_orientation_a + static_cast<std::size_t>(i)] = components[i + (i >= largest ? 1 : 0)];
 
-  // Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics counts it at its source.
-  // Without a branch and for a padded number of fields, so that the compiler takes several at a time.
-  std::array<std::int32_t, padded_field_count> whole;
-  for (std::size_t f = 0; f < padded_field_count; ++f) {
-    const double finite = scaled[f] - scaled[f] == 0.0 ? scaled[f] : 0.0;
-    const double above = finite > lowest_of_field[f] ? finite : lowest_of_field[f];
-    const double bounded = above < highest_of_field[f] ? above : highest_of_field[f];
-    whole[f] = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(bounded + unit_steps));
-  }
-  WireParticipant wire;
-  wire.id = participant.id;
-  std::copy_n(whole.begin(), participant_field_count, wire.fields.begin());
-  return wire;
+  put_fields<motion_fields>(&participant.velocity_mps.x, field_velocity_x, fields + field_velocity_x);
+  const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
+  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
+  fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;
 }
 
 Participant dequantise(const WireParticipant& wire) {

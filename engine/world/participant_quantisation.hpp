@@ -13,7 +13,7 @@ struct FieldLimits {
 };
 const FieldLimits& participant_field_limits(std::size_t field);
 
-WireParticipant quantise(const Participant& participant);
+void quantise(const Participant& participant, WireParticipant& wire);
 Participant dequantise(const WireParticipant& wire);
 
 /// The baseline moved on by its own velocity, acceleration and wheel speed: what a difference is taken to, because most

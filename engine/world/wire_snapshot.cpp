@@ -246,7 +246,7 @@ WireSnapshot to_wire(const Snapshot& snapshot) {
     const Participant& participant = snapshot.participants[i];
     SEPTET_CHECK(i == 0 || snapshot.participants[i - 1].id < participant.id, "participant {} after {}", participant.id,
                  snapshot.participants[i - 1].id);
-    wire.participants.push_back(quantise(participant));
+    quantise(participant, wire.participants.emplace_back());
   }
   wire.rest.tick = snapshot.tick;
   wire.rest.simulated_time_s = snapshot.simulated_time_s;
