@@ -19,7 +19,7 @@ namespace septet::logging {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Record = std::variant<std::shared_ptr<const WireSnapshot>, InputRecord, SceneEdit, Sample,
+using Record = std::variant<std::shared_ptr<const TakenSnapshot>, InputRecord, SceneEdit, Sample,
                             Event, QuestionnaireRecord>;
 
 Expected<Database> create_database(const std::filesystem::path& path, const SessionInfo& info,
@@ -91,7 +91,7 @@ struct SessionWriter::State {
   void commit();
   void fail(Error reason);
   Expected<void> write_all(const std::vector<Record>& batch);
-  Expected<void> write_snapshot(const std::shared_ptr<const WireSnapshot>& snapshot);
+  Expected<void> write_snapshot(const std::shared_ptr<const TakenSnapshot>& taken);
   Expected<void> write_gap();
 
   const WriterOptions options;
@@ -104,7 +104,7 @@ struct SessionWriter::State {
   // The writer's thread.
   Database database;
   InsertStatements inserts;
-  std::shared_ptr<const WireSnapshot> previous;
+  std::shared_ptr<const TakenSnapshot> previous;
   double keyframe_time_s = 0.0;
   std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
   std::uint64_t reported_gap = 0;
@@ -133,7 +133,7 @@ void SessionWriter::State::commit() {
   if (!done) return fail(std::move(done.error()));
   uncommitted = 0;
   if (previous)
-    committed.store(static_cast<std::int64_t>(previous->rest.tick), std::memory_order_release);
+    committed.store(static_cast<std::int64_t>(previous->snapshot().tick), std::memory_order_release);
 }
 
 void SessionWriter::State::fail(Error reason) {
@@ -149,7 +149,7 @@ void SessionWriter::State::fail(Error reason) {
 Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch) {
   struct Insert {
     State& state;
-    Expected<void> operator()(const std::shared_ptr<const WireSnapshot>& record) {
+    Expected<void> operator()(const std::shared_ptr<const TakenSnapshot>& record) {
       return state.write_snapshot(record);
     }
     Expected<void> operator()(const InputRecord& record) {
@@ -170,31 +170,31 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
 }
 
 Expected<void> SessionWriter::State::write_snapshot(
-    const std::shared_ptr<const WireSnapshot>& snapshot) {
-  const Snapshot& rest = snapshot->rest;
-  SEPTET_CHECK(!previous || rest.tick > previous->rest.tick, "snapshot {} after {}", rest.tick,
-               previous->rest.tick);
+    const std::shared_ptr<const TakenSnapshot>& taken) {
+  const Snapshot& rest = taken->snapshot();
+  SEPTET_CHECK(!previous || rest.tick > previous->snapshot().tick, "snapshot {} after {}", rest.tick,
+               previous->snapshot().tick);
   const bool is_keyframe =
       !previous || rest.simulated_time_s >= keyframe_time_s + options.keyframe_interval_s;
   if (is_keyframe) keyframe_time_s = rest.simulated_time_s;
   encoded.clear();
-  encode_snapshot(*snapshot, is_keyframe ? nullptr : previous.get(), encoded);
+  encode_snapshot(taken->wire(), is_keyframe ? nullptr : &previous->wire(), encoded);
   Statement& statement = inserts.snapshot;
   statement.bind(1, static_cast<std::int64_t>(rest.tick));
   statement.bind(2, rest.simulated_time_s);
   is_keyframe ? statement.bind_null(3)
-              : statement.bind(3, static_cast<std::int64_t>(previous->rest.tick));
+              : statement.bind(3, static_cast<std::int64_t>(previous->snapshot().tick));
   statement.bind(4, static_cast<std::int64_t>(rest.state_hash));
   statement.bind(5, std::span<const std::byte>(encoded));
-  previous = snapshot;
+  previous = taken;
   return statement.run();
 }
 
 Expected<void> SessionWriter::State::write_gap() {
   const std::uint64_t all = dropped.load(std::memory_order_relaxed);
   if (all == reported_gap || !previous) return {};
-  Event gap{.tick = previous->rest.tick,
-            .simulated_time_s = previous->rest.simulated_time_s,
+  Event gap{.tick = previous->snapshot().tick,
+            .simulated_time_s = previous->snapshot().simulated_time_s,
             .kind = "log_gap",
             .participant = std::nullopt,
             .detail = fmt::format("records={}", all - reported_gap)};
@@ -218,7 +218,7 @@ SessionWriter::SessionWriter(SessionWriter&&) noexcept = default;
 SessionWriter& SessionWriter::operator=(SessionWriter&&) noexcept = default;
 SessionWriter::~SessionWriter() = default;
 
-void SessionWriter::record(std::shared_ptr<const WireSnapshot> snapshot) {
+void SessionWriter::record(std::shared_ptr<const TakenSnapshot> snapshot) {
   state_->push(std::move(snapshot));
 }
 void SessionWriter::record(InputRecord input) { state_->push(std::move(input)); }
@@ -254,7 +254,7 @@ Expected<void> SessionWriter::finish() {
   if (done) done = insert_meta(database, "ended", "1");
   if (done && state_->previous)
     done = insert_meta(database, "ended_simulated_time_s",
-                       fmt::format("{}", state_->previous->rest.simulated_time_s));
+                       fmt::format("{}", state_->previous->snapshot().simulated_time_s));
   if (done) done = database.execute("COMMIT");
   if (done) done = database.execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode=DELETE");
   return done;

@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "engine/core/expected.hpp"
-#include "engine/world/wire_snapshot.hpp"
+#include "engine/world/taken_snapshot.hpp"
 #include "logging/records.hpp"
 
 namespace septet::logging {
@@ -48,7 +48,7 @@ class SessionWriter {
 
   /// The first snapshot, and one after each `keyframe_interval_s`, is stored whole, the others as
   /// differences.
-  void record(std::shared_ptr<const WireSnapshot> snapshot);
+  void record(std::shared_ptr<const TakenSnapshot> snapshot);
   void record(InputRecord input);
   void record(SceneEdit edit);
   void record(Sample sample);

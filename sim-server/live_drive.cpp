@@ -13,8 +13,8 @@ Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const Simu
 
 LiveDrive::LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state)
     : model_(std::move(model)), seat_(std::move(seat)), log_(log), state_(std::move(state)) {
-  newest_ = capture_snapshot(*model_, state_);
-  if (log_) log_->record_tick(newest_, std::make_shared<const WireSnapshot>(to_wire(newest_)), {});
+  newest_ = std::make_shared<const TakenSnapshot>(capture_snapshot(*model_, state_));
+  if (log_) log_->record_tick(newest_, {});
 }
 
 logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
@@ -46,24 +46,23 @@ void LiveDrive::move_actuators() {
   if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
 }
 
-Expected<std::shared_ptr<const WireSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
-  if (seat_.look) seat_.look(newest_);
+Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
+  if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
   std::vector<SimulationEvent> events;
-  newest_ = server_step(*model_, input.input, state_, events, std::move(newest_));
+  newest_ = std::make_shared<const TakenSnapshot>(server_step(*model_, input.input, state_, events));
   move_actuators();
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));
     return tl::unexpected(std::move(*error));
   }
-  auto wire = std::make_shared<const WireSnapshot>(to_wire(newest_));
   if (log_) {
     // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
     if (auto error = log_->take_error()) return tl::unexpected(std::move(*error));
     log_->record_input(std::move(input));
-    log_->record_tick(newest_, wire, events);
+    log_->record_tick(newest_, events);
   }
-  return wire;
+  return newest_;
 }
 
 }  // namespace septet::server

@@ -35,10 +35,10 @@ class LiveDrive final : public TickSource {
   static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
                                                     DriverSeat seat, SessionLog* log);
 
-  Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
   double tick_rate_hz() const override { return server::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
-  const Snapshot& newest() const { return newest_; }
+  const Snapshot& newest() const { return newest_->snapshot(); }
 
  private:
   LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state);
@@ -51,7 +51,7 @@ class LiveDrive final : public TickSource {
   SessionLog* log_;
   SimulationState state_;
   DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
-  Snapshot newest_;
+  std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
   std::vector<std::string> messages_;
 };

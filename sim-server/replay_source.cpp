@@ -8,11 +8,11 @@ Expected<std::unique_ptr<ReplaySource>> ReplaySource::start(const logging::Sessi
   return std::unique_ptr<ReplaySource>(new ReplaySource(std::move(*cursor), session.info().ticks_per_second));
 }
 
-Expected<std::shared_ptr<const WireSnapshot>> ReplaySource::next(const std::optional<DriverInput>&) {
+Expected<std::shared_ptr<const TakenSnapshot>> ReplaySource::next(const std::optional<DriverInput>&) {
   auto snapshot = cursor_.next_wire();
   if (!snapshot) return tl::unexpected(snapshot.error());
-  if (!*snapshot) return std::shared_ptr<const WireSnapshot>();
-  return std::make_shared<const WireSnapshot>(std::move(**snapshot));
+  if (!*snapshot) return std::shared_ptr<const TakenSnapshot>();
+  return std::make_shared<const TakenSnapshot>(std::move(**snapshot));
 }
 
 }  // namespace septet::server

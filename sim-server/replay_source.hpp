@@ -11,7 +11,7 @@ class ReplaySource final : public TickSource {
   /// `session` outlives the source. Begins at the tick at or before `from_s`.
   static Expected<std::unique_ptr<ReplaySource>> start(const logging::SessionReader& session, double from_s);
 
-  Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
   double tick_rate_hz() const override { return tick_rate_hz_; }
 
  private:

@@ -169,7 +169,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   screen->expected = screen->scene_arrived = screen->has_presented = screen->left_behind = false;
   ++screen->joined;
   screen->joined_s = now_s;
-  screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->rest.tick);
+  screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->snapshot().tick);
   baselines_.join(client, now_s);
   screen->tick_port = hello.tick_port;
   screen->unanswered_since_s.reset();
@@ -211,22 +211,22 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
   }
 }
 
-void ScreenHost::publish(std::shared_ptr<const WireSnapshot> snapshot, double now_s) {
+void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
   baselines_.advance_to(now_s);
   const WireSnapshot* baseline = nullptr;
   if (const auto tick = baselines_.baseline()) {
-    const auto found = std::ranges::find(sent_, *tick, [](const auto& sent) { return sent->rest.tick; });
-    if (found != sent_.end()) baseline = found->get();
+    const auto found = std::ranges::find(sent_, *tick, [](const auto& sent) { return sent->snapshot().tick; });
+    if (found != sent_.end()) baseline = &(*found)->wire();
   }
   Bytes payload;
   ByteWriter writer(payload);
-  put_tick_header(writer, planner_.header(now_s, snapshot->rest.simulated_time_s));
-  encode_snapshot(*snapshot, baseline, payload);
+  put_tick_header(writer, planner_.header(now_s, taken->snapshot().simulated_time_s));
+  encode_snapshot(taken->wire(), baseline, payload);
   last_tick_bytes_ = payload.size();
-  publisher_.publish(snapshot->rest.tick, payload);
+  publisher_.publish(taken->snapshot().tick, payload);
   for (HostedScreen& screen : screens_)
     if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
-  sent_.push_back(std::move(snapshot));
+  sent_.push_back(std::move(taken));
   if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
 }
 

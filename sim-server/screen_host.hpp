@@ -17,7 +17,7 @@
 #include "engine/control/control_message.hpp"
 #include "engine/replication/replication_server.hpp"
 #include "engine/scene/store.hpp"
-#include "engine/world/wire_snapshot.hpp"
+#include "engine/world/taken_snapshot.hpp"
 #include "sim-server/playout_planner.hpp"
 #include "sim-server/remote_car.hpp"
 
@@ -69,7 +69,7 @@ class ScreenHost {
   void scene_changed(const scene::Command& command) { scene_.applied(command); }
 
   /// Sends one tick to everybody, as a difference to what all live screens hold.
-  void publish(std::shared_ptr<const WireSnapshot> snapshot, double now_s);
+  void publish(std::shared_ptr<const TakenSnapshot> taken, double now_s);
   /// Sends the newest tick once more: in lockstep, where someone has not answered.
   void repeat_newest() { publisher_.repeat_newest(); }
 
@@ -113,7 +113,7 @@ class ScreenHost {
   PlayoutPlanner planner_;
   std::vector<HostedScreen> screens_;
   std::map<net::ClientId, net::Address> unicast_;
-  std::deque<std::shared_ptr<const WireSnapshot>> sent_;  ///< Possible baselines, ascending tick.
+  std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::optional<DriverInput> controls_;
   std::optional<net::ClientId> car_client_;
   std::size_t last_tick_bytes_ = 0;

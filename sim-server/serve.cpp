@@ -44,13 +44,13 @@ struct Loop {
     }
   }
 
-  Expected<std::shared_ptr<const WireSnapshot>> take_tick() {
+  Expected<std::shared_ptr<const TakenSnapshot>> take_tick() {
     auto snapshot = source.next(host.take_controls());
     for (const auto& text : source.take_messages()) environment.message(text);
     if (snapshot && *snapshot) {
       ++result.ticks;
-      result.simulated_s = (*snapshot)->rest.simulated_time_s;
-      result.state_hash = (*snapshot)->rest.state_hash;
+      result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
+      result.state_hash = (*snapshot)->snapshot().state_hash;
     }
     return snapshot;
   }
@@ -77,7 +77,7 @@ Expected<void> run_lockstep(Loop& loop) {
     const auto snapshot = loop.take_tick();
     if (!snapshot) return tl::unexpected(snapshot.error());
     if (!*snapshot) break;
-    const Tick tick = (*snapshot)->rest.tick;
+    const Tick tick = (*snapshot)->snapshot().tick;
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(*snapshot, loop.environment.now_s());
     const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,

@@ -199,8 +199,8 @@ Expected<ServeResult> run_headless(TickSource& source, std::uint64_t ticks, Prog
     if (!snapshot) return tl::unexpected(snapshot.error());
     if (!*snapshot) break;
     ++result.ticks;
-    result.simulated_s = (*snapshot)->rest.simulated_time_s;
-    result.state_hash = (*snapshot)->rest.state_hash;
+    result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
+    result.state_hash = (*snapshot)->snapshot().state_hash;
     result.wall_s = monotonic_s() - begun_s;
     if (result.ticks % 120 == 0) progress.show({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), result.wall_s, "driving"});
   }

@@ -54,7 +54,8 @@ void SessionLog::record_scene(const scene::Store& store) {
   });
 }
 
-void SessionLog::record_tick(const Snapshot& snapshot, std::shared_ptr<const WireSnapshot> wire, const std::vector<SimulationEvent>& events) {
+void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<SimulationEvent>& events) {
+  const Snapshot& snapshot = taken->snapshot();
   tick_ = snapshot.tick;
   simulated_time_s_ = snapshot.simulated_time_s;
   for (const auto& event : events)
@@ -64,7 +65,7 @@ void SessionLog::record_tick(const Snapshot& snapshot, std::shared_ptr<const Wir
   auto observation = logging::observe(observer_, snapshot, leader);
   for (auto& event : observation.events) writer_.record(std::move(event));
   if (observation.sample) writer_.record(std::move(*observation.sample));
-  writer_.record(std::move(wire));
+  writer_.record(std::move(taken));
 }
 
 void SessionLog::record_message(const std::string& kind, const std::string& text) {

@@ -23,7 +23,7 @@ class SessionLog {
   void record_scene(const scene::Store& store);
   void record_input(logging::InputRecord input) { writer_.record(std::move(input)); }
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
-  void record_tick(const Snapshot& snapshot, std::shared_ptr<const WireSnapshot> wire, const std::vector<SimulationEvent>& events);
+  void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<SimulationEvent>& events);
   void record_message(const std::string& kind, const std::string& text);
   std::optional<Error> take_error() { return writer_.take_error(); }
 

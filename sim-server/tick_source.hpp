@@ -8,7 +8,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/world/driver_input.hpp"
-#include "engine/world/wire_snapshot.hpp"
+#include "engine/world/taken_snapshot.hpp"
 
 namespace septet::server {
 
@@ -16,7 +16,7 @@ class TickSource {
  public:
   virtual ~TickSource() = default;
   /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
-  virtual Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
+  virtual Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }

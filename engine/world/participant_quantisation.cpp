@@ -51,49 +51,51 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
 }
 constexpr auto limits_of_field = make_limits();
 
-/// Steps per unit, and the limits as doubles.
-constexpr std::array<double, participant_field_count> make_steps() {
-  std::array<double, participant_field_count> steps{};
-  const auto set = [&](std::size_t first, std::size_t last, double per_unit) {
-    for (std::size_t i = first; i <= last; ++i) steps[i] = per_unit;
-  };
-  set(field_model, field_lamps, 1.0);
-  set(field_position_x, field_position_z, position_per_m);
-  set(field_largest, field_orientation_c, 1.0);  // Scaled with the sign of the largest.
-  set(field_velocity_x, field_velocity_z, velocity_per_mps);
-  set(field_acceleration_x, field_acceleration_z, acceleration_per_mps2);
-  set(field_angular_velocity_x, field_angular_velocity_z, angular_velocity_per_radps);
-  set(field_front_steer, field_front_steer, angle_per_rad);
-  set(field_wheel_spin, field_wheel_spin, 1.0);  // Counted in steps already.
-  set(field_wheel_spin_rate, field_wheel_spin_rate, spin_rate_per_radps);
-  set(field_lift_front_left, field_lift_rear_right, position_per_m);
-  return steps;
-}
-constexpr std::array<double, participant_field_count> make_bounds(std::int32_t FieldLimits::*bound) {
-  std::array<double, participant_field_count> bounds{};
-  for (std::size_t f = 0; f < participant_field_count; ++f) bounds[f] = static_cast<double>(limits_of_field[f].*bound);
-  return bounds;
-}
-constexpr auto steps_of_field = make_steps();
-constexpr auto lowest_of_field = make_bounds(&FieldLimits::low), highest_of_field = make_bounds(&FieldLimits::high);
-
-/// `count` fields from `first` on. Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on, Diagnostics
-/// counts it at its source. Without a branch, so that the compiler takes several at a time.
+/// Some fields in a row: steps per unit, and the limits as doubles.
 template <std::size_t count>
-inline void put_fields(const double* values, std::size_t first, std::int32_t* fields) {
+struct FieldRow {
+  std::array<double, count> steps, lowest, highest;
+};
+template <std::size_t count>
+constexpr FieldRow<count> make_row(std::size_t first, const std::array<double, count>& steps) {
+  FieldRow<count> row{.steps = steps};
   for (std::size_t i = 0; i < count; ++i) {
-    const double scaled = values[i] * steps_of_field[first + i];
+    row.lowest[i] = static_cast<double>(limits_of_field[first + i].low);
+    row.highest[i] = static_cast<double>(limits_of_field[first + i].high);
+  }
+  return row;
+}
+/// Four are as cheap as three: what the fourth leaves is overwritten by the field that follows.
+constexpr auto position_row = make_row<4>(field_position_x, {position_per_m, position_per_m, position_per_m, 0.0});
+/// All four components, of which three travel; scaled with the sign of the largest already.
+constexpr FieldRow<4> orientation_row{.steps = {1.0, 1.0, 1.0, 1.0},
+                                      .lowest = {-orientation_steps, -orientation_steps, -orientation_steps, -orientation_steps},
+                                      .highest = {orientation_steps, orientation_steps, orientation_steps, orientation_steps}};
+/// From the velocity on; the wheels' angle is put on its own.
+constexpr auto motion_row = make_row<participant_field_count - field_velocity_x>(
+    field_velocity_x, {velocity_per_mps, velocity_per_mps, velocity_per_mps,
+                       acceleration_per_mps2, acceleration_per_mps2, acceleration_per_mps2,
+                       angular_velocity_per_radps, angular_velocity_per_radps, angular_velocity_per_radps,
+                       angle_per_rad, 0.0, spin_rate_per_radps, position_per_m, position_per_m, position_per_m, position_per_m});
+
+/// Doubles that lie in a row at `numbers`. Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on,
+/// Diagnostics counts it at its source. Without a branch, so that the compiler takes several at a time.
+template <std::size_t count>
+inline void put_fields(const std::byte* numbers, const FieldRow<count>& row, std::int32_t* fields) {
+  for (std::size_t i = 0; i < count; ++i) {
+    double value;
+    std::memcpy(&value, numbers + i * sizeof value, sizeof value);
+    const double scaled = value * row.steps[i];
     const double finite = scaled - scaled == 0.0 ? scaled : 0.0;
-    const double above = finite > lowest_of_field[first + i] ? finite : lowest_of_field[first + i];
-    const double bounded = above < highest_of_field[first + i] ? above : highest_of_field[first + i];
+    const double above = finite > row.lowest[i] ? finite : row.lowest[i];
+    const double bounded = above < row.highest[i] ? above : row.highest[i];
     fields[i] = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(bounded + unit_steps));
   }
 }
 
-/// From the velocity on a participant's numbers lie in memory as their fields do on the wire. They are read where they lie: a
-/// copy made of single numbers and read as vectors would have to wait for the copy.
-constexpr std::size_t motion_fields = participant_field_count - field_velocity_x;
-static_assert(offsetof(Participant, velocity_mps) + motion_fields * sizeof(double) ==
+// A participant's numbers lie in memory as their fields do on the wire. They are read where they lie: a copy made of single
+// numbers and read as vectors would have to wait for the copy.
+static_assert(offsetof(Participant, velocity_mps) + sizeof motion_row.steps ==
               offsetof(Participant, wheel_lift_m) + sizeof(Participant::wheel_lift_m));
 static_assert(offsetof(Participant, velocity_mps) + (field_front_steer - field_velocity_x) * sizeof(double) ==
               offsetof(Participant, front_steer_rad));
@@ -108,8 +110,8 @@ void quantise(const Participant& participant, WireParticipant& wire) {
   fields[field_model] = participant.model;
   fields[field_paint] = participant.paint;
   fields[field_lamps] = participant.lamps.bits;
-  // Four are as cheap as three: the fourth is overwritten by what follows.
-  put_fields<4>(&participant.world_from_vehicle.position_m.x, field_position_x, fields + field_position_x);
+  const auto* bytes = reinterpret_cast<const std::byte*>(&participant);
+  put_fields(bytes + offsetof(Participant, world_from_vehicle), position_row, fields + field_position_x);
 
   // Smallest three: the largest component follows from the unit length and is made positive.
   const Quat& orientation = participant.world_from_vehicle.orientation;
@@ -120,10 +122,10 @@ void quantise(const Participant& participant, WireParticipant& wire) {
   fields[field_largest] = largest;
   const double scaled[] = {scale * q[0], scale * q[1], scale * q[2], scale * q[3]};
   std::int32_t components[4];
-  put_fields<4>(scaled, field_orientation_a, components);
+  put_fields(reinterpret_cast<const std::byte*>(scaled), orientation_row, components);
   for (int i = 0; i < 3; ++i) fields[field_orientation_a + static_cast<std::size_t>(i)] = components[i + (i >= largest ? 1 : 0)];
 
-  put_fields<motion_fields>(&participant.velocity_mps.x, field_velocity_x, fields + field_velocity_x);
+  put_fields(bytes + offsetof(Participant, velocity_mps), motion_row, fields + field_velocity_x);
   const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
   const double steps = std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
   fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;

@@ -30,7 +30,7 @@ void effects_tick(benchmark::State& bench, const char* name, int seconds_before)
   auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded->model);
   auto drive = LiveDrive::start(loaded->model, traffic::own_traffic(loaded->model->roads, 1), std::move(*seat), nullptr);
   for (int tick = 0; tick < 120 * seconds_before; ++tick) SEPTET_CHECK((*drive)->next(std::nullopt).has_value(), "tick {}", tick);
-  std::deque<std::shared_ptr<const WireSnapshot>> sent;
+  std::deque<std::shared_ptr<const TakenSnapshot>> sent;
   double bytes = 0.0, most = 0.0, keyframe = 0.0, worst_ms = 0.0;
   for (auto _ : bench) {
     const auto begun = std::chrono::steady_clock::now();
@@ -38,15 +38,15 @@ void effects_tick(benchmark::State& bench, const char* name, int seconds_before)
     worst_ms = std::max(worst_ms, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
     bench.PauseTiming();
     Bytes out, whole;
-    encode_snapshot(*snapshot, sent.size() < baseline_age ? nullptr : sent.front().get(), out);
+    encode_snapshot(snapshot->wire(), sent.size() < baseline_age ? nullptr : &sent.front()->wire(), out);
     if (sent.size() >= baseline_age) bytes += static_cast<double>(out.size()), most = std::max(most, static_cast<double>(out.size()));
-    encode_snapshot(*snapshot, nullptr, whole);
+    encode_snapshot(snapshot->wire(), nullptr, whole);
     keyframe = std::max(keyframe, static_cast<double>(whole.size()));
     sent.push_back(std::move(snapshot));
     if (sent.size() > baseline_age) sent.pop_front();
     bench.ResumeTiming();
   }
-  bench.counters["puffs"] = static_cast<double>(smoke::puffs_of(sent.back()->rest.effects, sent.back()->rest.simulated_time_s).size());
+  bench.counters["puffs"] = static_cast<double>(smoke::puffs_of(sent.back()->snapshot().effects, sent.back()->snapshot().simulated_time_s).size());
   bench.counters["bytes_per_s"] = bytes / static_cast<double>(bench.iterations()) * 120.0;
   bench.counters["most_bytes"] = most;
   bench.counters["keyframe_bytes"] = keyframe;

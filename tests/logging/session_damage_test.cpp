@@ -16,11 +16,11 @@ namespace {
 std::size_t record_until_full(SessionWriter& writer, std::vector<Error>& errors) {
   Tick tick = 0;
   while (errors.empty() && tick < 200000) {
-    writer.record(wire_of(drive_snapshot(tick++, 40)));
+    writer.record(taken(drive_snapshot(tick++, 40)));
     if (auto error = writer.take_error()) errors.push_back(*error);
   }
   for (int more = 0; more < 100; ++more) {
-    writer.record(wire_of(drive_snapshot(tick++, 40)));
+    writer.record(taken(drive_snapshot(tick++, 40)));
     if (auto error = writer.take_error()) errors.push_back(*error);
   }
   return writer.committed_tick() ? *writer.committed_tick() + 1 : 0;
@@ -158,7 +158,7 @@ TEST_CASE("a truncated session is refused or read up to the damage and never cra
   const TemporaryFolder folder;
   {
     SessionWriter writer = must_create(folder / "session.sqlite");
-    for (Tick tick = 0; tick < 200; ++tick) writer.record(wire_of(drive_snapshot(tick)));
+    for (Tick tick = 0; tick < 200; ++tick) writer.record(taken(drive_snapshot(tick)));
     REQUIRE(writer.finish());
   }
   const std::string content = read_file(folder / "session.sqlite");
@@ -174,7 +174,7 @@ TEST_CASE("random damage never crashes the reader and a flipped snapshot is name
   const TemporaryFolder folder;
   {
     SessionWriter writer = must_create(folder / "session.sqlite");
-    for (Tick tick = 0; tick < 200; ++tick) writer.record(wire_of(drive_snapshot(tick)));
+    for (Tick tick = 0; tick < 200; ++tick) writer.record(taken(drive_snapshot(tick)));
     for (Tick tick = 0; tick < 20; ++tick)
       writer.record(take_sample(drive_snapshot(tick), std::nullopt));
     REQUIRE(writer.finish());

@@ -38,8 +38,8 @@ inline Snapshot drive_snapshot(Tick tick, int participants = 5) {
   return snapshot;
 }
 
-inline std::shared_ptr<const WireSnapshot> wire_of(const Snapshot& snapshot) {
-  return std::make_shared<const WireSnapshot>(to_wire(snapshot));
+inline std::shared_ptr<const TakenSnapshot> taken(const Snapshot& snapshot) {
+  return std::make_shared<const TakenSnapshot>(snapshot);
 }
 
 inline SessionInfo example_info() {

@@ -24,7 +24,7 @@ struct SharedTimes {
   auto writer = SessionWriter::create(path, example_info(), {.when_full = WhenFull::drop});
   if (!writer) _exit(1);
   for (Tick tick = 0; tick < most_ticks; ++tick) {
-    const auto snapshot = wire_of(drive_snapshot(tick, 50));
+    const auto snapshot = taken(drive_snapshot(tick, 50));
     times.recorded_at[tick] = Clock::now();
     writer->record(snapshot);
     times.ticks.store(tick + 1);

@@ -51,7 +51,7 @@ TEST_CASE("a session reads back as it was recorded") {
                                      .reason = "felt sick"};
   {
     SessionWriter writer = must_create(path);
-    for (Tick tick = 0; tick < 300; ++tick) writer.record(wire_of(drive_snapshot(tick)));
+    for (Tick tick = 0; tick < 300; ++tick) writer.record(taken(drive_snapshot(tick)));
     writer.record(with_report);
     writer.record(from_keyboard);
     writer.record(edit);
@@ -83,7 +83,7 @@ TEST_CASE("a session reads back as it was recorded") {
 TEST_CASE("every snapshot reads back in the bits that the screens were sent") {
   const TemporaryFolder folder;
   SessionWriter writer = must_create(folder / "session.sqlite");
-  for (Tick tick = 5; tick < 400; ++tick) writer.record(wire_of(drive_snapshot(tick)));
+  for (Tick tick = 5; tick < 400; ++tick) writer.record(taken(drive_snapshot(tick)));
   REQUIRE(writer.finish());
   const SessionReader reader = must_open(folder / "session.sqlite");
   auto cursor = reader.snapshots().value();
@@ -102,7 +102,7 @@ TEST_CASE("every snapshot reads back in the bits that the screens were sent") {
 TEST_CASE("a seek stands on the last snapshot at or before the time") {
   const TemporaryFolder folder;
   SessionWriter writer = must_create(folder / "session.sqlite");
-  for (Tick tick = 10; tick < 500; ++tick) writer.record(wire_of(drive_snapshot(tick)));
+  for (Tick tick = 10; tick < 500; ++tick) writer.record(taken(drive_snapshot(tick)));
   REQUIRE(writer.finish());
   const SessionReader reader = must_open(folder / "session.sqlite");
   const auto tick_at = [&](double time_s) {
@@ -120,7 +120,7 @@ TEST_CASE("a session without a clean end opens and says so") {
   const TemporaryFolder folder;
   {
     SessionWriter writer = must_create(folder / "session.sqlite");
-    writer.record(wire_of(drive_snapshot(0)));
+    writer.record(taken(drive_snapshot(0)));
   }
   const SessionReader reader = must_open(folder / "session.sqlite");
   CHECK_FALSE(reader.ended_cleanly());
@@ -131,11 +131,11 @@ TEST_CASE("a session can be read while it is being written") {
   const TemporaryFolder folder;
   SessionWriter writer =
       must_create(folder / "session.sqlite", {.commit_interval = std::chrono::milliseconds(1)});
-  writer.record(wire_of(drive_snapshot(0)));
+  writer.record(taken(drive_snapshot(0)));
   while (!writer.committed_tick()) usleep(1000);
   const SessionReader reader = must_open(folder / "session.sqlite");
   CHECK(all_ticks(reader) == std::vector<Tick>{0});
-  writer.record(wire_of(drive_snapshot(1)));
+  writer.record(taken(drive_snapshot(1)));
   while (writer.committed_tick() != Tick{1}) usleep(1000);
   CHECK(all_ticks(reader) == std::vector<Tick>{0, 1});
 }
@@ -163,11 +163,11 @@ TEST_CASE("a full queue drops and counts in real time and says so in the log") {
                                               .queue_records = 8,
                                               .commit_interval = std::chrono::milliseconds(20)});
   constexpr Tick ticks = 4000;
-  std::vector<std::shared_ptr<const WireSnapshot>> snapshots;
-  for (Tick tick = 0; tick < ticks; ++tick) snapshots.push_back(wire_of(drive_snapshot(tick, 1)));
+  std::vector<std::shared_ptr<const TakenSnapshot>> snapshots;
+  for (Tick tick = 0; tick < ticks; ++tick) snapshots.push_back(taken(drive_snapshot(tick, 1)));
   for (const auto& snapshot : snapshots) writer.record(snapshot);
   while (!writer.committed_tick()) usleep(1000);
-  writer.record(wire_of(drive_snapshot(ticks, 1)));  // One more transaction, behind the gap.
+  writer.record(taken(drive_snapshot(ticks, 1)));  // One more transaction, behind the gap.
   REQUIRE(writer.finish());
   const SessionReader reader = must_open(folder / "session.sqlite");
   const auto dropped = writer.dropped_records();
@@ -185,7 +185,7 @@ TEST_CASE("a full queue drops and counts in real time and says so in the log") {
 TEST_CASE("a full queue makes a lockstep drive wait and loses nothing") {
   const TemporaryFolder folder;
   SessionWriter writer = must_create(folder / "session.sqlite", {.queue_records = 4});
-  for (Tick tick = 0; tick < 200; ++tick) writer.record(wire_of(drive_snapshot(tick, 1)));
+  for (Tick tick = 0; tick < 200; ++tick) writer.record(taken(drive_snapshot(tick, 1)));
   REQUIRE(writer.finish());
   CHECK(writer.dropped_records() == 0);
   CHECK(all_ticks(must_open(folder / "session.sqlite")).size() == 200);

@@ -14,8 +14,8 @@ constexpr double patience_s = 1.0;  ///< Less than the lane's own, after which a
 
 class Circles final : public server::TickSource {
  public:
-  Expected<std::shared_ptr<const WireSnapshot>> next(const std::optional<DriverInput>&) override {
-    return std::make_shared<const WireSnapshot>(to_wire(circling_vehicles(++tick_, 20)));
+  Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>&) override {
+    return std::make_shared<const TakenSnapshot>(circling_vehicles(++tick_, 20));
   }
   double tick_rate_hz() const override { return 120.0; }
 

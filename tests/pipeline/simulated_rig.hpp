@@ -123,7 +123,7 @@ class SimulatedRig {
     if (host_) {
       host_->pump(now_s_);
       while (options_.real_time && static_cast<double>(next_tick_) * rig_tick_s <= now_s_) {
-        host_->publish(std::make_shared<const WireSnapshot>(to_wire(circling_vehicles(next_tick_, options_.vehicles))), now_s_);
+        host_->publish(std::make_shared<const TakenSnapshot>(circling_vehicles(next_tick_, options_.vehicles)), now_s_);
         ++next_tick_;
       }
     }
