@@ -13,7 +13,7 @@ Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const Simu
 
 LiveDrive::LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state)
     : model_(std::move(model)), seat_(std::move(seat)), log_(log), state_(std::move(state)) {
-  newest_ = std::make_shared<const TakenSnapshot>(capture_snapshot(*model_, state_));
+  newest_ = memory_.share(capture_snapshot(*model_, state_));
   if (log_) log_->record_tick(newest_, {});
 }
 
@@ -50,7 +50,7 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
   std::vector<SimulationEvent> events;
-  newest_ = std::make_shared<const TakenSnapshot>(server_step(*model_, input.input, state_, events));
+  newest_ = memory_.share(server_step(*model_, input.input, state_, events, memory_.spare()));
   move_actuators();
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));

@@ -51,6 +51,7 @@ class LiveDrive final : public TickSource {
   SessionLog* log_;
   SimulationState state_;
   DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
+  SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
   std::vector<std::string> messages_;

@@ -238,9 +238,10 @@ auto refused(std::string what) {
 
 }  // namespace
 
-WireSnapshot to_wire(const Snapshot& snapshot) {
+WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old) {
   SEPTET_CHECK(snapshot.participants.size() <= max_wire_participants, "{} participants", snapshot.participants.size());
-  WireSnapshot wire;
+  WireSnapshot wire = std::move(old);
+  wire.participants.clear();
   wire.participants.reserve(snapshot.participants.size());
   for (std::size_t i = 0; i < snapshot.participants.size(); ++i) {
     const Participant& participant = snapshot.participants[i];

@@ -51,7 +51,8 @@ struct WireSnapshot {
   std::vector<WireParticipant> participants;  ///< Ascending id.
 };
 
-WireSnapshot to_wire(const Snapshot& snapshot);
+/// `old` is one that nobody needs any more: its memory is used again.
+WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old = {});
 Snapshot from_wire(const WireSnapshot& wire);
 
 /// Appends the bytes of `wire`, as a difference to `baseline` or, where that is null, as a keyframe.
