@@ -11,8 +11,8 @@ else()
   set(SEPTET_HOT_OPTIONS $<$<CONFIG:Release>:-O3>)
   # Small objects are cleared and copied by plain stores: `rep stos` takes longer to begin than they take.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    list(APPEND SEPTET_HOT_OPTIONS -mmemset-strategy=unrolled_loop:512:noalign,libcall:-1:noalign
-         -mmemcpy-strategy=unrolled_loop:512:noalign,libcall:-1:noalign)
+    list(APPEND SEPTET_HOT_OPTIONS -mmemset-strategy=vector_loop:512:noalign,libcall:-1:noalign
+         -mmemcpy-strategy=vector_loop:512:noalign,libcall:-1:noalign)
   endif()
 endif()
 list(APPEND SEPTET_HOT_OPTIONS -fno-math-errno -fno-trapping-math)

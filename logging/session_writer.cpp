@@ -73,7 +73,7 @@ struct SessionWriter::State {
 
   void run() {
     // Taken in small batches while they are in the processor's cache, committed by the clock.
-    constexpr std::size_t batch_records = 16;
+    constexpr std::size_t batch_records = 32;
     std::vector<Record> batch;
     // From commit to commit, so that the time of one is part of the interval.
     Clock::time_point next_commit = Clock::now() + options.commit_interval;

@@ -78,12 +78,14 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
   if (!self || car.lane == 0) return std::nullopt;
   const double direction = road::runs_along_s(roads, {car.road, car.lane, car.road_s_m, 0.0}) ? 1.0 : -1.0;
   const VehicleModel& own = vehicle_models()[self->model];
+  const Vec3 forward = self->world_from_vehicle.orientation * Vec3(1, 0, 0);
   std::optional<logging::Leader> leader;
   for (const Participant& other : snapshot.participants) {
     if (other.id == self->id) continue;
     const Vec3 away = other.world_from_vehicle.position_m - self->world_from_vehicle.position_m;
-    if (glm::dot(away, away) > 260.0 * 260.0 || glm::dot(away, self->world_from_vehicle.orientation * Vec3(1, 0, 0)) < 0.0) continue;
-    const road::RoadPosition hint{car.road, car.road_s_m, 0.0};
+    const double ahead_m = glm::dot(away, forward);
+    if (glm::dot(away, away) > 260.0 * 260.0 || ahead_m < 0.0) continue;
+    const road::RoadPosition hint{car.road, car.road_s_m + direction * ahead_m, 0.0};
     const auto& position = other.world_from_vehicle.position_m;
     const auto place = road::locate(roads, {position.x, position.y}, &hint);
     if (!place || place->position.road != car.road || place->lanes.lane != car.lane) continue;

@@ -120,19 +120,18 @@ DriverCar driver_car(const SimulationModel& model, const SimulationState& state,
   return car;
 }
 
-bool touch(const Participant& a, const Participant& b) {
-  const VehicleModel &model_a = vehicle_models()[a.model], &model_b = vehicle_models()[b.model];
-  // No part of a vehicle is farther than this from its origin: most pairs need no more than that.
-  const double reach = model_a.length_m + model_b.length_m + model_a.width_m + model_b.width_m;
-  const Vec2 apart = b.world_from_vehicle.position_m - a.world_from_vehicle.position_m;
-  return glm::dot(apart, apart) <= reach * reach && contact_of(body_box(a), body_box(b)).has_value();
-}
+/// No part of a vehicle is farther than this from its origin.
+double reach_m(const VehicleModel& model) { return model.length_m + model.width_m; }
 
 void notice_collisions(Snapshot& snapshot, SimulationState& state, std::vector<SimulationEvent>& events) {
   const Participant* car = find_participant(snapshot, driver_participant);
   std::vector<ParticipantId> touching;
+  double apart_m = 0.0;  // From here on nobody can touch the car: nearly everybody is, and needs no more than that.
+  for (const VehicleModel& model : vehicle_models()) apart_m = std::max(apart_m, 2.0 * reach_m(model));
   for (const Participant& other : snapshot.participants) {
-    if (other.id == driver_participant || !car || !touch(*car, other)) continue;
+    if (other.id == driver_participant || !car) continue;
+    const Vec2 apart = other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
+    if (glm::dot(apart, apart) > apart_m * apart_m || !contact_of(body_box(*car), body_box(other))) continue;
     touching.push_back(other.id);
     if (std::ranges::binary_search(state.touching, other.id)) continue;
     ++state.diagnostics.collisions;
