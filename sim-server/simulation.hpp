@@ -62,7 +62,7 @@ struct SimulationEvent {
 Expected<SimulationState> initial_state(const SimulationModel& model, std::unique_ptr<traffic::TrafficEngine> traffic);
 
 /// One tick on; answers the snapshot of the new tick. Events are appended. `old` is a snapshot that nobody needs any more: its
-/// memory, which is still in the processor's cache, is used again.
+/// memory is used again.
 Snapshot server_step(const SimulationModel& model, const DriverInput& input, SimulationState& state,
                      std::vector<SimulationEvent>& events, Snapshot old = {});
 

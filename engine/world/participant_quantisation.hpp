@@ -13,6 +13,7 @@ struct FieldLimits {
 };
 const FieldLimits& participant_field_limits(std::size_t field);
 
+/// Every field of `wire` is written.
 void quantise(const Participant& participant, WireParticipant& wire);
 Participant dequantise(const WireParticipant& wire);
 
