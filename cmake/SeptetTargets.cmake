@@ -66,14 +66,20 @@ function(septet_library name)
   target_link_libraries(septet_${name} ${scope} ${arg_DEPENDS})
 endfunction()
 
-# septet_program(NAME SOURCE main.cpp [DEPENDS library…] [PRIVATE library…])
+# septet_program(NAME [THIN] SOURCE main.cpp [DEPENDS library…] [PRIVATE library…])
+# THIN: main.cpp only reads options and calls a library. It is not optimised: the option parser's templates take twice as long to
+# compile if they are.
 function(septet_program name)
-  cmake_parse_arguments(arg "" "" "SOURCE;DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "THIN" "" "SOURCE;DEPENDS;PRIVATE" ${ARGN})
   add_executable(${name} ${arg_SOURCE})
   target_compile_options(${name} PRIVATE -Wall -Wextra -Wshadow -Wno-missing-field-initializers)
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE ${arg_DEPENDS} ${arg_PRIVATE})
-  septet_precompile(${name} septet_precompiled)
+  if(arg_THIN)
+    target_compile_options(${name} PRIVATE -O0)
+  else()
+    septet_precompile(${name} septet_precompiled)
+  endif()
 endfunction()
 
 # septet_test(NAME [SERIAL] [DEPENDS library…] [PRIVATE library…])

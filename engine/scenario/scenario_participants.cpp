@@ -1,16 +1,17 @@
 #include <cmath>
 
 #include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/world/indicator.hpp"
+#include "engine/world/paint.hpp"
 
 namespace septet::scenario {
 namespace {
 
-constexpr double blink_period_s = 0.7;
 constexpr double braking_mps2 = -0.7;  ///< Gentler deceleration comes from lifting the accelerator.
 
-Lamps lamps_now(const EntityState& entity, double time_s) {
+Lamps lamps_now(const EntityState& entity, ParticipantId id, double time_s) {
   Lamps lamps = entity.lamps;
-  const bool blink = std::fmod(time_s, blink_period_s) < 0.5 * blink_period_s;
+  const bool blink = indicator_is_lit(time_s, id);
   if (entity.lateral_control.active && entity.lateral_control.lane_change) {
     lamps.set(entity.lateral_control.to_the_left ? Lamp::indicator_left : Lamp::indicator_right,
               true);
@@ -34,12 +35,15 @@ void append_participants(const Scenario& scenario, const ScenarioState& state,
     Participant participant;
     participant.id = first_id + i;
     participant.model = entity.model;
-    participant.lamps = lamps_now(from, state.time_s);
+    const VehicleModel& model = vehicle_models()[entity.model];
+    // The standard's vehicles have no colour: those of private people take turns.
+    if (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van)
+      participant.paint = static_cast<std::uint8_t>(i % body_colors.size());
+    participant.lamps = lamps_now(from, participant.id, state.time_s);
     participant.world_from_vehicle = from.world_from_entity;
     participant.velocity_mps = from.velocity_mps;
     participant.acceleration_mps2 = from.acceleration_vector_mps2;
     participant.angular_velocity_radps = from.angular_velocity_radps;
-    const VehicleModel& model = vehicle_models()[entity.model];
     const Vec3 up = from.world_from_entity.orientation * Vec3(0.0, 0.0, 1.0);
     const double speed = from.speed_mps;
     if (std::abs(speed) > 0.5) {
