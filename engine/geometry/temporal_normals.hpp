@@ -3,7 +3,7 @@
 ///
 /// Source: Parus, Hast and Kolingerová, "Temporal Face Normal Interpolation" (SIGRAD 2006). The t-variant cross product
 /// (eqs. 2 and 3) is exact; it is what Septet draws with. Preparing it costs a sixth of preparing linear interpolation, which
-/// needs normals at both ends; evaluating costs 1.2 to 1.35 times as much, because nine coefficients are read and multiplied where
+/// needs normals at both ends; evaluating costs 1.2 to 1.45 times as much, because nine coefficients are read and multiplied where
 /// linear has six, whatever their layout (DECISIONS.md, 19). For a pair of keyframes shown in two frames it is 5.7 times cheaper.
 /// The others are here to be compared. Frame and unit are those of the vertices.
 
