@@ -138,15 +138,10 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
 }  // namespace
 
 Expected<Rig> read_rig(std::string_view text, std::string_view name) {
-  toml::table document;
-  try {
-    document = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    return failure(std::string(error.description()), fmt::format("{}:{}", name, error.source().begin.line),
-                   "correct the TOML there");
-  }
+  const auto document = parse_toml(text, name);
+  if (!document) return tl::unexpected(document.error());
   Error error;
-  TableReader reader(document, name, "rig", error);
+  TableReader reader(*document, name, "rig", error);
   Rig rig;
   rig.name = reader.get_string("name", "");
   rig.eye_point_m = reader.get_point("eye_point_m");

@@ -11,10 +11,8 @@
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_script.hpp"
 #include "sim-client/film/session_instants.hpp"
-#include "sim-client/frame/debris_drawing.hpp"
+#include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/picture_writer.hpp"
-#include "sim-client/frame/smoke_drawing.hpp"
-#include "sim-client/frame/soot_drawing.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -106,9 +104,7 @@ class Studio {
   std::optional<std::size_t> shot_;
   std::optional<SessionInstants> instants_;
   frame::Viewpoint viewpoint_;
-  frame::DebrisDrawing debris_;
-  frame::SmokeDrawing smoke_;
-  frame::SootDrawing soot_;
+  frame::EffectsDrawing effects_;
   frame::PictureWriter pictures_;
 };
 
@@ -134,10 +130,8 @@ Expected<void> Studio::draw(const FilmPlan& plan, const FilmFrame& film_frame) {
   const Look& look = plan.paths[film_frame.shot][film_frame.number_in_shot];
   const auto views = views_at(shot, pivot, look, options_.width_px, options_.height_px);
   auto input = frame::client_frame(*world, views, viewpoint_, scene_);
-  const double tick_s = instants_->tick_s(), instant_s = world->simulated_time_s;
-  input.meshes = debris_.draw(frame::effects_at(instants_->history(), instant_s, tick_s), instant_s / tick_s, scene_);
-  input.smoke = smoke_.draw(world->effects, instant_s);
-  input.soot = soot_.draw(world->effects);
+  effects_.show(*world, instants_->history(), instants_->tick_s(), scene_);
+  effects_.add_to(input);
   if (auto drawn = renderer_.draw(input); !drawn) return drawn;
   auto picture = renderer_.read_back();
   if (!picture) return tl::unexpected(picture.error());

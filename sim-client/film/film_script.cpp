@@ -80,14 +80,10 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
 }  // namespace
 
 Expected<Script> read_script(std::string_view text, std::string_view name) {
-  toml::table document;
-  try {
-    document = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    return failure(std::string(error.description()), fmt::format("{}:{}", name, error.source().begin.line), "correct the TOML there");
-  }
+  const auto document = rig::parse_toml(text, name);
+  if (!document) return tl::unexpected(document.error());
   Error error;
-  TableReader reader(document, name, "film", error);
+  TableReader reader(*document, name, "film", error);
   Script script;
   const auto shots = reader.get_tables("shot");
   if (shots.empty()) reader.report("shot", "the film has no shot", "add a [[shot]]");

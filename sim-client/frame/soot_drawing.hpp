@@ -15,6 +15,8 @@ class SootDrawing {
  public:
   /// The soot of a snapshot; an empty field where there is none.
   const render::SootField& draw(std::span<const EffectKeyframe> effects);
+  /// What was drawn last.
+  const render::SootField& field() const { return field_; }
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
 

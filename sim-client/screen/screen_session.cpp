@@ -12,15 +12,12 @@
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
 #include "sim-client/frame/client_frame.hpp"
-#include "sim-client/frame/debris_drawing.hpp"
-#include "sim-client/frame/effect_playout.hpp"
-#include "sim-client/screen/frame_times.hpp"
+#include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 #include "sim-client/frame/playout.hpp"
+#include "sim-client/screen/frame_times.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
-#include "sim-client/frame/smoke_drawing.hpp"
-#include "sim-client/frame/soot_drawing.hpp"
 
 namespace septet::screen {
 namespace {
@@ -78,11 +75,7 @@ class Session {
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
-  frame::DebrisDrawing debris_;
-  frame::SmokeDrawing smoke_;
-  frame::SootDrawing soot_;
-  std::vector<render::DynamicMesh> meshes_;  ///< Of the last instant shown.
-  std::vector<render::SmokePuff> puffs_;     ///< Likewise.
+  frame::EffectsDrawing effects_;
   double lost_drawn_s_ = 0.0;
   float last_frame_ms_ = 0.0f;
 };
@@ -135,9 +128,7 @@ Expected<void> Session::bring_scene_up() {
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
   const double begun_s = monotonic_s();
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
-  input.meshes = meshes_;
-  input.smoke = puffs_;
-  input.soot = soot_.draw(snapshot.effects);
+  effects_.add_to(input);
   if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
   if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
@@ -145,10 +136,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
 }
 
 void Session::take_effects(const Snapshot& snapshot) {
-  const double simulated_time_s = snapshot.simulated_time_s;
-  const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
-  meshes_ = debris_.draw(frame::effects_at(link_.history(), simulated_time_s, tick_s), simulated_time_s / tick_s, resolver_.scene());
-  puffs_ = smoke_.draw(snapshot.effects, simulated_time_s);
+  effects_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
 }
 
 Expected<void> Session::keep_picture(Tick tick) {

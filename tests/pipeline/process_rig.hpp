@@ -1,6 +1,7 @@
 #pragma once
 /// Septet's programs as processes, on a small rig in a folder of their own. Every wait is bounded.
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -72,6 +73,18 @@ inline Ended run(const std::string& program, std::vector<std::string> arguments,
   auto process = start(program, std::move(arguments), log);
   const int code = exit_code(process, 120s);
   return {code, text_of(log)};
+}
+
+/// Exit status not 0, one line that names what and where, and nothing at `out`.
+inline void check_refused(const Ended& ended, const std::vector<std::string>& words, const fs::path& out) {
+  INFO(ended.error);
+  CHECK(ended.code > 0);
+  CHECK(std::ranges::count(ended.error, '\n') == 1);
+  for (const auto& word : words) {
+    CAPTURE(word);
+    CHECK(ended.error.find(word) != std::string::npos);
+  }
+  CHECK_FALSE(fs::exists(out));
 }
 
 /// Keys of a server and of screens that it knows.

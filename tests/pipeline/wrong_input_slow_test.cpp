@@ -1,25 +1,8 @@
 #include <sys/mount.h>
 
-#include <algorithm>
-
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {
-namespace {
-
-/// Exit status not 0, one line that names what and where, and nothing at `out`.
-void check_refused(const Ended& ended, const std::vector<std::string>& words, const fs::path& out) {
-  INFO(ended.error);
-  CHECK(ended.code > 0);
-  CHECK(std::ranges::count(ended.error, '\n') == 1);
-  for (const auto& word : words) {
-    CAPTURE(word);
-    CHECK(ended.error.find(word) != std::string::npos);
-  }
-  CHECK_FALSE(fs::exists(out));
-}
-
-}  // namespace
 
 TEST_CASE("wrong input ends with one message that says what and where and what to do and leaves nothing behind") {
   const TemporaryFolder folder;

@@ -1,0 +1,18 @@
+#include "sim-client/frame/effects_drawing.hpp"
+
+namespace septet::frame {
+
+void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene) {
+  const double simulated_time_s = instant.simulated_time_s;
+  meshes_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene);
+  puffs_ = smoke_.draw(instant.effects, simulated_time_s);
+  soot_.draw(instant.effects);
+}
+
+void EffectsDrawing::add_to(render::FrameInput& frame) const {
+  frame.meshes = meshes_;
+  frame.smoke = puffs_;
+  frame.soot = soot_.field();
+}
+
+}  // namespace septet::frame

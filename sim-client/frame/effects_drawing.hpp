@@ -1,0 +1,25 @@
+#pragma once
+/// Debris, smoke and soot of an instant, as a screen or a film draws them. One thread.
+
+#include "sim-client/frame/debris_drawing.hpp"
+#include "sim-client/frame/smoke_drawing.hpp"
+#include "sim-client/frame/soot_drawing.hpp"
+
+namespace septet::frame {
+
+class EffectsDrawing {
+ public:
+  /// What `instant` shows, by the keyframes around it in `history`.
+  void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene);
+  /// What was shown last: also where its ticks have gone with a lost server.
+  void add_to(render::FrameInput& frame) const;
+
+ private:
+  DebrisDrawing debris_;
+  SmokeDrawing smoke_;
+  SootDrawing soot_;
+  std::vector<render::DynamicMesh> meshes_;
+  std::vector<render::SmokePuff> puffs_;
+};
+
+}  // namespace septet::frame
