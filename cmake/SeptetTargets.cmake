@@ -83,14 +83,17 @@ function(septet_program name)
 endfunction()
 
 # septet_test(NAME [SERIAL] [DEPENDS library…] [PRIVATE library…])
-# SERIAL: its slow tests run alone. One doctest program, label fast, of this folder's *_test.cpp files, and one, label slow, of its *_slow_test.cpp files
-# (a slow test starts processes, draws frames or runs for more than a second). Every test case is one CTest test.
+# SERIAL: its slow tests run alone. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files
+# (a slow test starts processes, draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that
+# drive for hours; `./test --long`). Every test case is one CTest test.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
-  list(REMOVE_ITEM fast_sources ${slow_sources} "")
+  file(GLOB long_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_long_test.cpp)
+  list(REMOVE_ITEM fast_sources ${slow_sources} ${long_sources} "")
   septet_test_program(${name}_test fast 60 "${fast_sources}" ${ARGN})
   septet_test_program(${name}_slow_test slow 600 "${slow_sources}" ${ARGN})
+  septet_test_program(${name}_long_test long 14400 "${long_sources}" ${ARGN})
 endfunction()
 
 function(septet_test_program name label timeout_s sources)
