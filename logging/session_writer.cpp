@@ -1,5 +1,7 @@
 #include "logging/session_writer.hpp"
 
+#include <sys/stat.h>
+
 #include <atomic>
 #include <mutex>
 #include <thread>
@@ -21,6 +23,32 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Record = std::variant<std::shared_ptr<const TakenSnapshot>, InputRecord, SceneEdit, Sample,
                             Event, QuestionnaireRecord>;
+
+/// The memory that a record keeps while it is queued, roughly.
+std::size_t bytes_of(const Record& record) {
+  struct Extra {
+    std::size_t operator()(const std::shared_ptr<const TakenSnapshot>& taken) const {
+      const Snapshot& snapshot = taken->snapshot();
+      std::size_t bytes = sizeof(TakenSnapshot) + snapshot.participants.capacity() *
+                                                      (sizeof(Participant) + sizeof(WireParticipant));
+      for (const EffectKeyframe& effect : snapshot.effects) bytes += 2 * (sizeof effect + effect.data.size());
+      return bytes;
+    }
+    std::size_t operator()(const InputRecord&) const { return 0; }
+    std::size_t operator()(const SceneEdit& edit) const { return edit.command.capacity(); }
+    std::size_t operator()(const Sample&) const { return 0; }
+    std::size_t operator()(const Event& event) const { return event.detail.capacity(); }
+    std::size_t operator()(const QuestionnaireRecord&) const { return 0; }
+  };
+  return sizeof record + std::visit(Extra{}, record);
+}
+
+/// Which file a path leads to, or nothing.
+std::optional<std::pair<dev_t, ino_t>> file_at(const std::filesystem::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return std::nullopt;
+  return std::pair(found.st_dev, found.st_ino);
+}
 
 Expected<Database> create_database(const std::filesystem::path& path, const SessionInfo& info,
                                    const WriterOptions& options) {
@@ -53,9 +81,10 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
 struct SessionWriter::State {
   State(Database database_in, InsertStatements inserts_in, const WriterOptions& options_in)
       : options(options_in),
-        queue(options_in.queue_records),
+        queue(options_in.queue_bytes),
         database(std::move(database_in)),
-        inserts(std::move(inserts_in)) {
+        inserts(std::move(inserts_in)),
+        file(file_at(database.where())) {
     thread = std::thread([this] { run(); });
   }
   ~State() { stop(); }
@@ -66,9 +95,11 @@ struct SessionWriter::State {
   }
 
   void push(Record record) {
-    const bool taken =
-        options.when_full == WhenFull::wait ? queue.push(record) : queue.try_push(record);
-    if (!taken) dropped.fetch_add(1, std::memory_order_relaxed);
+    const std::size_t bytes = bytes_of(record);
+    if (queue.try_push(record, bytes)) return;
+    const Clock::time_point begun = Clock::now();
+    if (!queue.push(record, bytes)) lost.fetch_add(1, std::memory_order_relaxed);
+    waited_ns.fetch_add((Clock::now() - begun).count(), std::memory_order_relaxed);
   }
 
   void run() {
@@ -92,11 +123,12 @@ struct SessionWriter::State {
   void fail(Error reason);
   Expected<void> write_all(const std::vector<Record>& batch);
   Expected<void> write_snapshot(const std::shared_ptr<const TakenSnapshot>& taken);
-  Expected<void> write_gap();
+  Expected<void> check_file() const;
 
   const WriterOptions options;
   BoundedQueue<Record> queue;
-  std::atomic<std::uint64_t> dropped{0};
+  std::atomic<std::uint64_t> lost{0};
+  std::atomic<std::int64_t> waited_ns{0};
   std::atomic<std::int64_t> committed{-1};
   std::mutex error_mutex;
   std::optional<Error> error;
@@ -104,10 +136,10 @@ struct SessionWriter::State {
   // The writer's thread.
   Database database;
   InsertStatements inserts;
+  const std::optional<std::pair<dev_t, ino_t>> file;  ///< The one that was made.
   std::shared_ptr<const TakenSnapshot> previous;
   double keyframe_time_s = 0.0;
   std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
-  std::uint64_t reported_gap = 0;
   bool has_failed = false;
   bool is_finished = false;
   Bytes encoded;
@@ -117,7 +149,7 @@ struct SessionWriter::State {
 
 void SessionWriter::State::write(const std::vector<Record>& batch) {
   if (has_failed) {
-    dropped.fetch_add(batch.size(), std::memory_order_relaxed);
+    lost.fetch_add(batch.size(), std::memory_order_relaxed);
     return;
   }
   auto done = uncommitted == 0 ? database.execute("BEGIN") : Expected<void>{};
@@ -128,7 +160,7 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
 
 void SessionWriter::State::commit() {
   if (uncommitted == 0) return;
-  auto done = write_gap();
+  auto done = check_file();
   if (done) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));
   uncommitted = 0;
@@ -139,7 +171,7 @@ void SessionWriter::State::commit() {
 void SessionWriter::State::fail(Error reason) {
   // The transaction is undone as a whole; what earlier ones wrote stays.
   if (database.in_transaction()) (void)database.execute("ROLLBACK");
-  dropped.fetch_add(std::exchange(uncommitted, 0), std::memory_order_relaxed);
+  lost.fetch_add(std::exchange(uncommitted, 0), std::memory_order_relaxed);
   has_failed = true;
   queue.close();
   const std::lock_guard lock(error_mutex);
@@ -190,22 +222,17 @@ Expected<void> SessionWriter::State::write_snapshot(
   return statement.run();
 }
 
-Expected<void> SessionWriter::State::write_gap() {
-  const std::uint64_t all = dropped.load(std::memory_order_relaxed);
-  if (all == reported_gap || !previous) return {};
-  Event gap{.tick = previous->snapshot().tick,
-            .simulated_time_s = previous->snapshot().simulated_time_s,
-            .kind = "log_gap",
-            .participant = std::nullopt,
-            .detail = fmt::format("records={}", all - reported_gap)};
-  reported_gap = all;
-  return insert(inserts.event, gap);
+/// An open file that has been deleted takes what is written without a word, and it is gone in the end.
+Expected<void> SessionWriter::State::check_file() const {
+  if (file_at(database.where()) == file && file_at(database.where() + "-wal")) return {};
+  return failure("the session file was deleted or moved, or its disk has gone, while it was written",
+                 database.where(), "leave the folder alone until the drive is over, and drive again");
 }
 
 Expected<SessionWriter> SessionWriter::create(const std::filesystem::path& path,
                                               const SessionInfo& info,
                                               const WriterOptions& options) {
-  SEPTET_CHECK(options.queue_records > 0, "a queue of {} records", options.queue_records);
+  SEPTET_CHECK(options.queue_bytes > 0, "a queue of {} bytes", options.queue_bytes);
   auto database = create_database(path, info, options);
   if (!database) return tl::unexpected(database.error());
   auto inserts = prepare_inserts(*database);
@@ -232,8 +259,12 @@ std::optional<Error> SessionWriter::take_error() {
   return std::exchange(state_->error, std::nullopt);
 }
 
-std::uint64_t SessionWriter::dropped_records() const {
-  return state_->dropped.load(std::memory_order_relaxed);
+std::uint64_t SessionWriter::lost_records() const {
+  return state_->lost.load(std::memory_order_relaxed);
+}
+
+double SessionWriter::waited_s() const {
+  return 1e-9 * static_cast<double>(state_->waited_ns.load(std::memory_order_relaxed));
 }
 
 std::optional<Tick> SessionWriter::committed_tick() const {

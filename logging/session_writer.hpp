@@ -1,14 +1,15 @@
 #pragma once
 /// Writes a session file (FORMAT.md) without making the simulation wait for the disk.
 ///
-/// Records go into one bounded queue; a thread of the writer's own takes them, encodes the
-/// snapshots and commits them every `commit_interval`. Killing the process loses what is not yet
-/// committed: at most 100 ms of wall time.
+/// Records go into one queue, bounded by the memory that it takes; a thread of the writer's own takes
+/// them, encodes the snapshots and commits them every `commit_interval`. Killing the process loses
+/// what is not yet committed: at most 100 ms of wall time. Nothing is left out because the disk is
+/// slow: once the queue is full, `record` waits, and `waited_s` says for how long.
 ///
 /// Threads: `record` and the queries may be called from any thread. Records of one kind come in
-/// ascending ticks. Errors: `create` answers them. Later ones (a full disk) end the recording, not
-/// the drive: what was committed stays, `take_error` hands the one message over, and further
-/// records are counted and dropped.
+/// ascending ticks. Errors: `create` answers them. Later ones (a full disk, a file that somebody has
+/// deleted) end the recording, not the drive: what was committed stays, `take_error` hands the one
+/// message over, and further records are counted and not written.
 
 #include <chrono>
 #include <cstdint>
@@ -22,15 +23,8 @@
 
 namespace septet::logging {
 
-/// What `record` does while the queue is full.
-enum class WhenFull {
-  wait,  ///< Until there is room: lockstep and headless drives, whose log is complete.
-  drop,  ///< Count it and write a `log_gap` event: real-time driving, which never waits.
-};
-
 struct WriterOptions {
-  WhenFull when_full = WhenFull::wait;
-  std::size_t queue_records = 2048;
+  std::size_t queue_bytes = std::size_t{64} << 20;  ///< About a thousand ticks.
   std::chrono::milliseconds commit_interval{50};
   double keyframe_interval_s = 1.0;             ///< Of simulated time.
   std::optional<std::uint64_t> max_bytes = {};  ///< Of the file; reaching it is like a full disk.
@@ -57,8 +51,10 @@ class SessionWriter {
 
   /// The error that ended the recording, once; afterwards and before, nothing.
   std::optional<Error> take_error();
-  /// Records that were not written, because the queue was full or the recording had ended.
-  std::uint64_t dropped_records() const;
+  /// Records that were not written, because the recording had ended.
+  std::uint64_t lost_records() const;
+  /// For how long `record` has waited for the disk, all calls together.
+  double waited_s() const;
   /// Tick of the newest snapshot that is safely in the file.
   std::optional<Tick> committed_tick() const;
 

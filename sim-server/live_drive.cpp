@@ -61,6 +61,7 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
     if (auto error = log_->take_error()) return tl::unexpected(std::move(*error));
     log_->record_input(std::move(input));
     log_->record_tick(newest_, events);
+    if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));
   }
   return newest_;
 }

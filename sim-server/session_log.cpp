@@ -40,10 +40,11 @@ Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const
   info.other["driver"] = drive.rig.car.driver;
   info.other["traffic"] = traffic;
   logging::WriterOptions options;
-  options.when_full = real_time ? logging::WhenFull::drop : logging::WhenFull::wait;
+  // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
+  if (real_time) options.queue_bytes = std::size_t{256} << 20;
   auto writer = logging::SessionWriter::create(file, info, options);
   if (!writer) return tl::unexpected(writer.error());
-  return SessionLog(std::move(*writer), drive.model);
+  return SessionLog(std::move(*writer), drive.model, real_time);
 }
 
 void SessionLog::record_scene(const scene::Store& store) {
@@ -66,6 +67,14 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   for (auto& event : observation.events) writer_.record(std::move(event));
   if (observation.sample) writer_.record(std::move(*observation.sample));
   writer_.record(std::move(taken));
+}
+
+std::optional<std::string> SessionLog::take_warning() {
+  const double waited_s = writer_.waited_s();
+  if (!real_time_ || waited_s < told_waited_s_ + 0.1) return std::nullopt;
+  told_waited_s_ = waited_s;
+  record_message("log_slow", fmt::format("waited_s={:.2f}", waited_s));
+  return fmt::format("log: the disk is too slow for this drive, which has waited {:.1f} s for it so far; nothing is lost", waited_s);
 }
 
 void SessionLog::record_message(const std::string& kind, const std::string& text) {

@@ -26,16 +26,21 @@ class SessionLog {
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<SimulationEvent>& events);
   void record_message(const std::string& kind, const std::string& text);
   std::optional<Error> take_error() { return writer_.take_error(); }
+  /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
+  std::optional<std::string> take_warning();
+  double waited_s() const { return writer_.waited_s(); }
 
   /// Closes the file.
   Expected<void> finish() { return writer_.finish(); }
 
  private:
-  SessionLog(logging::SessionWriter writer, std::shared_ptr<const SimulationModel> model)
-      : writer_(std::move(writer)), model_(std::move(model)) {}
+  SessionLog(logging::SessionWriter writer, std::shared_ptr<const SimulationModel> model, bool real_time)
+      : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time) {}
 
   logging::SessionWriter writer_;
   std::shared_ptr<const SimulationModel> model_;
+  bool real_time_;
+  double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
   Tick tick_ = 0;
   double simulated_time_s_ = 0.0;

@@ -1,9 +1,9 @@
 #pragma once
 /// The one queue between threads: values go in one by one and come out in batches, in order. Its
-/// bound is what makes a slow reader visible to the writer. Any number of threads may use it at
-/// once.
+/// bound is what makes a slow reader visible to the writer: it is full once the sizes of the values
+/// in it, in whatever unit the writer counts, reach the capacity. Any number of threads may use it
+/// at once.
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -19,15 +19,15 @@ class BoundedQueue {
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
   /// Answers false, with the value untouched, where the queue is full or closed.
-  bool try_push(T& value) {
+  bool try_push(T& value, std::size_t size = 1) {
     const std::lock_guard lock(mutex_);
-    return push_if_open(value);
+    return push_if_open(value, size);
   }
   /// Waits for room. Answers false where the queue is or gets closed.
-  bool push(T& value) {
+  bool push(T& value, std::size_t size = 1) {
     std::unique_lock lock(mutex_);
-    has_room_.wait(lock, [&] { return closed_ || values_.size() < capacity_; });
-    return push_if_open(value);
+    has_room_.wait(lock, [&] { return closed_ || !is_full(); });
+    return push_if_open(value, size);
   }
   /// Takes everything that is there into `batch` (emptied first), after waiting for `enough`
   /// values, the deadline or the close. Answers false once the queue is closed and empty.
@@ -35,9 +35,10 @@ class BoundedQueue {
                 std::size_t enough = 1) {
     batch.clear();
     std::unique_lock lock(mutex_);
-    enough_ = std::min(enough, capacity_);
-    has_enough_.wait_until(lock, deadline, [&] { return closed_ || values_.size() >= enough_; });
+    enough_ = enough;
+    has_enough_.wait_until(lock, deadline, [&] { return closed_ || has_enough(); });
     batch.swap(values_);
+    size_ = 0;
     has_room_.notify_all();
     return !batch.empty() || !closed_;
   }
@@ -50,10 +51,13 @@ class BoundedQueue {
   }
 
  private:
-  bool push_if_open(T& value) {
-    if (closed_ || values_.size() >= capacity_) return false;
+  bool is_full() const { return size_ >= capacity_; }
+  bool has_enough() const { return values_.size() >= enough_ || is_full(); }
+  bool push_if_open(T& value, std::size_t size) {
+    if (closed_ || is_full()) return false;
     values_.push_back(std::move(value));
-    if (values_.size() >= enough_) has_enough_.notify_one();
+    size_ += size;
+    if (has_enough()) has_enough_.notify_one();
     return true;
   }
 
@@ -61,6 +65,7 @@ class BoundedQueue {
   std::mutex mutex_;
   std::condition_variable has_enough_, has_room_;
   std::vector<T> values_;
+  std::size_t size_ = 0;    ///< Of `values_`, in the writer's unit.
   std::size_t enough_ = 1;  ///< What the taker waits for.
   bool closed_ = false;
 };

@@ -70,11 +70,11 @@ TEST_CASE("a file at its largest size ends the recording with one message and ke
   std::size_t committed = 0;
   {
     SessionWriter writer =
-        must_create(folder / "session.sqlite", {.queue_records = 64,
+        must_create(folder / "session.sqlite", {.queue_bytes = 1 << 20,
                                                 .commit_interval = std::chrono::milliseconds(5),
                                                 .max_bytes = 400'000});
     committed = record_until_full(writer, errors);
-    CHECK(writer.dropped_records() >= 100);
+    CHECK(writer.lost_records() >= 100);
     CHECK(writer.finish().has_value());  // The error was taken already.
   }
   REQUIRE(errors.size() == 1);
@@ -96,7 +96,7 @@ TEST_CASE("a full file system ends the recording with one message and keeps what
   {
     SessionWriter writer =
         must_create(disk / "session.sqlite",
-                    {.queue_records = 64, .commit_interval = std::chrono::milliseconds(5)});
+                    {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
     committed = record_until_full(writer, errors);
   }
   CHECK(errors.size() == 1);
@@ -115,7 +115,7 @@ TEST_CASE("a file size limit of the system ends the recording and keeps what it 
     setrlimit(RLIMIT_FSIZE, &limit);
     auto writer = SessionWriter::create(
         folder / "session.sqlite", example_info(),
-        {.queue_records = 64, .commit_interval = std::chrono::milliseconds(5)});
+        {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
     std::vector<Error> errors;
     const std::size_t committed = record_until_full(*writer, errors);
     std::ofstream(folder / "committed") << committed << ' ' << errors.size();

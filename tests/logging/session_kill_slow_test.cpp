@@ -21,7 +21,7 @@ struct SharedTimes {
 };
 
 [[noreturn]] void write_until_killed(const std::filesystem::path& path, SharedTimes& times) {
-  auto writer = SessionWriter::create(path, example_info(), {.when_full = WhenFull::drop});
+  auto writer = SessionWriter::create(path, example_info());
   if (!writer) _exit(1);
   for (Tick tick = 0; tick < most_ticks; ++tick) {
     const auto snapshot = taken(drive_snapshot(tick, 50));

@@ -63,7 +63,7 @@ TEST_CASE("a session reads back as it was recorded") {
     writer.record(drop_out);
     REQUIRE(writer.finish());
     CHECK(writer.committed_tick() == Tick{299});
-    CHECK(writer.dropped_records() == 0);
+    CHECK(writer.lost_records() == 0);
   }
   const SessionReader reader = must_open(path);
   CHECK(reader.ended_cleanly());
@@ -156,39 +156,40 @@ TEST_CASE("a folder that is not there is one clear error") {
   CHECK_FALSE(SessionReader::open("/nonexistent/session.sqlite").has_value());
 }
 
-TEST_CASE("a full queue drops and counts in real time and says so in the log") {
+TEST_CASE("a full queue makes whoever records wait and says for how long and loses nothing") {
   const TemporaryFolder folder;
-  SessionWriter writer =
-      must_create(folder / "session.sqlite", {.when_full = WhenFull::drop,
-                                              .queue_records = 8,
-                                              .commit_interval = std::chrono::milliseconds(20)});
-  constexpr Tick ticks = 4000;
-  std::vector<std::shared_ptr<const TakenSnapshot>> snapshots;
-  for (Tick tick = 0; tick < ticks; ++tick) snapshots.push_back(taken(drive_snapshot(tick, 1)));
-  for (const auto& snapshot : snapshots) writer.record(snapshot);
-  while (!writer.committed_tick()) usleep(1000);
-  writer.record(taken(drive_snapshot(ticks, 1)));  // One more transaction, behind the gap.
-  REQUIRE(writer.finish());
-  const SessionReader reader = must_open(folder / "session.sqlite");
-  const auto dropped = writer.dropped_records();
-  CHECK(dropped > 0);
-  CHECK(all_ticks(reader).size() + dropped == ticks + 1);
-  std::uint64_t reported = 0;
-  const auto events = reader.events().value();
-  for (const Event& event : events) {
-    CHECK(event.kind == "log_gap");
-    reported += std::stoull(event.detail.substr(event.detail.find('=') + 1));
-  }
-  CHECK(reported == dropped);
-}
-
-TEST_CASE("a full queue makes a lockstep drive wait and loses nothing") {
-  const TemporaryFolder folder;
-  SessionWriter writer = must_create(folder / "session.sqlite", {.queue_records = 4});
+  SessionWriter writer = must_create(folder / "session.sqlite", {.queue_bytes = 1});
+  CHECK(writer.waited_s() == 0.0);
+  for (int i = 0; i < 5000; ++i) writer.record(SceneEdit{.tick = 0, .command = Bytes(100)});
   for (Tick tick = 0; tick < 200; ++tick) writer.record(taken(drive_snapshot(tick, 1)));
   REQUIRE(writer.finish());
-  CHECK(writer.dropped_records() == 0);
-  CHECK(all_ticks(must_open(folder / "session.sqlite")).size() == 200);
+  CHECK(writer.waited_s() > 0.0);
+  CHECK(writer.lost_records() == 0);
+  const SessionReader reader = must_open(folder / "session.sqlite");
+  CHECK(reader.scene_edits().value().size() == 5000);
+  CHECK(all_ticks(reader).size() == 200);
+}
+
+TEST_CASE("a file that is deleted or replaced while it is written ends the recording at the next commit") {
+  for (const bool is_replaced : {false, true}) {
+    CAPTURE(is_replaced);
+    const TemporaryFolder folder;
+    const auto path = folder / "session.sqlite";
+    SessionWriter writer = must_create(path, {.commit_interval = std::chrono::milliseconds(1)});
+    writer.record(taken(drive_snapshot(0)));
+    while (!writer.committed_tick()) usleep(1000);
+    std::filesystem::remove(path);
+    if (is_replaced) std::ofstream(path) << "another";
+    std::optional<Error> error;
+    for (Tick tick = 1; tick < 10000 && !error; ++tick) {
+      writer.record(taken(drive_snapshot(tick)));
+      usleep(1000);
+      error = writer.take_error();
+    }
+    REQUIRE(error.has_value());
+    CHECK(error->what.find("deleted") != std::string::npos);
+    CHECK(error->where == path.string());
+  }
 }
 
 }  // namespace septet::logging

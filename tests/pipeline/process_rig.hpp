@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,10 +49,12 @@ inline std::string small_rig(int screens, const std::string& network = "", const
   return rig;
 }
 
-inline server::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log) {
+inline server::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
+                                  std::map<std::string, std::string> environment = {}) {
+  environment.insert({{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}});
   auto process = server::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
                                               .arguments = std::move(arguments),
-                                              .environment = {{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}},
+                                              .environment = std::move(environment),
                                               .log = log});
   REQUIRE(process.has_value());
   return std::move(*process);
@@ -69,8 +72,9 @@ struct Ended {
 };
 
 /// A program from start to end.
-inline Ended run(const std::string& program, std::vector<std::string> arguments, const fs::path& log) {
-  auto process = start(program, std::move(arguments), log);
+inline Ended run(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
+                 std::map<std::string, std::string> environment = {}) {
+  auto process = start(program, std::move(arguments), log, std::move(environment));
   const int code = exit_code(process, 120s);
   return {code, text_of(log)};
 }

@@ -14,6 +14,18 @@ TEST_CASE("a full queue refuses a value and leaves it with the caller") {
   CHECK(second.size() == 2);
 }
 
+TEST_CASE("a queue is full by the sizes of its values whatever their number and wakes the taker then") {
+  BoundedQueue<int> queue(100);
+  int value = 1;
+  CHECK(queue.try_push(value, 60));
+  CHECK(queue.try_push(value, 60));  // Below the bound there is room for a value of any size.
+  CHECK_FALSE(queue.try_push(value, 1));
+  std::vector<int> batch;
+  REQUIRE(queue.take_all(batch, std::chrono::steady_clock::now() + std::chrono::hours(1), 32));
+  CHECK(batch.size() == 2);
+  CHECK(queue.try_push(value, 1));
+}
+
 TEST_CASE("values of several threads all arrive each thread's in order") {
   BoundedQueue<std::pair<int, int>> queue(8);
   std::vector<std::jthread> writers;
