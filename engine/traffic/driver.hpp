@@ -25,7 +25,7 @@ struct LaneChangeParameters {
   double threshold_mps2 = 0.2;        ///< Δa_th
   double keep_right_mps2 = 0.15;      ///< Δa_bias: towards the outer lanes.
   double largest_braking_mps2 = 3.0;  ///< b_safe: that a change may force on the one behind.
-  double duration_s = 4.5;            ///< From lane to lane.
+  double duration_s = 4.5;            ///< From lane to lane, at speed.
 };
 
 struct Driver {

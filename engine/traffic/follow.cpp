@@ -14,8 +14,18 @@ constexpr int most_passed = 40;
 constexpr double passing_excess_mps = 11.0;
 constexpr double passing_look_ahead_m = 40.0;
 
-bool has_room_beside(const LaneEntry& a, const LaneEntry& b) {
-  return std::abs(a.lateral_m - b.lateral_m) > a.half_width_m + b.half_width_m + side_clearance_m;
+bool apart(const Across& a, const Across& b) {
+  return std::abs(a.middle_m - b.middle_m) > a.half_width_m + b.half_width_m + side_clearance_m;
+}
+
+/// Room now and where both are going to: who moves in front of somebody is in the way at once.
+bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const LaneEntry& other) {
+  const auto now = [](const LaneEntry& e) { return Across{e.lateral_m, e.half_width_m}; };
+  const auto then = [&](const LaneEntry& e) {
+    return e.vehicle >= 0 ? across_then(traffic, static_cast<std::size_t>(e.vehicle)) : now(e);
+  };
+  return apart(now(own), now(other)) && apart(then(own), now(other)) &&
+         apart(now(own), then(other));
 }
 
 /// The next one ahead that is really in the way, in a lane where some are not in its middle. What
@@ -34,7 +44,7 @@ const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic,
     }
     const LaneEntry& other = lane[at];
     if (other.vehicle == own.vehicle) continue;
-    const bool passable = (emergency || other.straddles) && has_room_beside(own, other);
+    const bool passable = (emergency || other.straddles) && has_room_beside(traffic, own, other);
     if (!passable) return &other;
     const double ahead = way_ahead_m(traffic.corridor, other.x_m - own.x_m) - other.length_m;
     if (emergency && ahead < passing_look_ahead_m) {
@@ -84,11 +94,12 @@ void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane
 }  // namespace
 
 LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t i) {
+  const Across body = across(traffic, i);
   return {traffic.x_m[i],
           traffic.length_m[i],
           traffic.speed_mps[i],
-          static_cast<float>(lateral_m(traffic, i)),
-          static_cast<float>(traffic.half_width_m[i]),
+          static_cast<float>(body.middle_m),
+          static_cast<float>(body.half_width_m),
           static_cast<std::int32_t>(i),
           traffic.emergency[i] != 0};
 }
@@ -110,7 +121,11 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
       LaneEntry& entry = lane[kept++];
       entry.x_m = traffic.x_m[i];
       entry.speed_mps = traffic.speed_mps[i];
-      if (careful) entry.lateral_m = static_cast<float>(lateral_m(traffic, i));
+      if (careful) {
+        const Across body = across(traffic, i);
+        entry.lateral_m = static_cast<float>(body.middle_m);
+        entry.half_width_m = static_cast<float>(body.half_width_m);
+      }
       straddlers = straddlers || emergency;
     }
     lane.resize(kept);

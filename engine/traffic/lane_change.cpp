@@ -63,8 +63,8 @@ struct Decision {
   }
 };
 
-void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::size_t i,
-            double time_s) {
+void decide(const TrafficParameters& parameters, const road::RoadNetwork& network,
+            CorridorTraffic& traffic, std::size_t i, double time_s) {
   traffic.next_decision_s[i] = time_s + parameters.decision_interval_s;
   const MakingWay way = traffic.making_way[i];
   if (way == MakingWay::hold_lane) return;
@@ -74,7 +74,7 @@ void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::
       traffic.exits.empty() ? nullptr : exit_ahead(traffic, i, parameters.exit_share);
   if (exit != nullptr && lane == exit->lane) return;
   Decision decision{traffic, i, traffic.x_m[i], traffic.speed_mps[i], traffic.acceleration_mps2[i]};
-  const double x = decision.x;
+  const double x = decision.x, rear_x = rear_axle_x_m(traffic, i);
   auto& hints = traffic.neighbour_hints[i];
   const auto old = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hints[1]);
   if (old.behind != nullptr && change.politeness > 0.0) {
@@ -91,6 +91,8 @@ void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::
     const bool leaves = exit != nullptr && target == exit->lane;
     double end = lane_end_m(traffic.table, target, x);
     if (leaves && end > x) end = no_leader;
+    // The lane has begun where the rear axle is, which the table knows to half a step.
+    if (lane_end_m(traffic.table, target, rear_x - 0.5 * LaneTable::knot_step_m) < rear_x) continue;
     // Into a lane that ends soon goes only who would be worse off in this one.
     if (end < x || end - x < std::min(look_ahead_lane_end_m, traffic.lane_end_m[i] - x)) continue;
     double gain = decision.gain(target, end, hints[static_cast<std::size_t>(1 + step)]);
@@ -103,9 +105,13 @@ void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::
     }
   }
   if (best == lane) return;
+  const auto centre = [&](int of) {
+    return lane_centre_along(network, traffic.corridor, traffic.table, rear_x, of);
+  };
+  const LaneCentre here = centre(lane), there = centre(best);
   traffic.from_lane[i] = static_cast<std::int16_t>(lane);
   traffic.lane[i] = static_cast<std::int16_t>(best);
-  traffic.change_s[i] = 0.0;
+  begin_change(traffic, i, here.t_m - there.t_m, here.slope - there.slope);
   const bool leaves = exit != nullptr && best == exit->lane;
   traffic.lane_end_m[i] = leaves ? no_leader : lane_end_m(traffic.table, best, x);
   // Whoever decides next sees it.
@@ -114,18 +120,19 @@ void decide(const TrafficParameters& parameters, CorridorTraffic& traffic, std::
 
 }  // namespace
 
-void change_lanes(const TrafficParameters& parameters, double time_s, double dt_s,
-                  CorridorTraffic& traffic) {
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network,
+                  double time_s, double dt_s, CorridorTraffic& traffic) {
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (traffic.emergency[i] != 0 || traffic.lane[i] == 0) continue;
-    if (traffic.from_lane[i] != traffic.lane[i]) {
-      traffic.change_s[i] += dt_s;
-      if (traffic.change_s[i] < traffic.driver[i].lane_change.duration_s) continue;
-      traffic.from_lane[i] = traffic.lane[i];
-      traffic.next_decision_s[i] = time_s + rest_after_change_s;
-    } else if (time_s >= traffic.next_decision_s[i]) {
-      decide(parameters, traffic, i, time_s);
-    }
+    if (!changes_lane(traffic, i) && time_s >= traffic.next_decision_s[i])
+      decide(parameters, network, traffic, i, time_s);
+    if (!changes_lane(traffic, i)) continue;
+    const double v = traffic.speed_mps[i];
+    traffic.change_part[i] += v * dt_s / change_length_m(traffic, i, v);
+    if (changes_lane(traffic, i)) continue;
+    traffic.change_part[i] = 1.0;
+    traffic.from_lane[i] = traffic.lane[i];
+    traffic.next_decision_s[i] = time_s + rest_after_change_s;
   }
 }
 

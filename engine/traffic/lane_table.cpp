@@ -12,6 +12,8 @@ namespace {
 
 constexpr double narrowest_m = 2.6;
 constexpr double step_m = 10.0;
+/// How far from the lane's middle a corner of it is cut.
+constexpr double largest_cut_m = 0.1;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_open(const road::RoadNetwork& network, const Corridor& corridor, double x_m, int lane) {
@@ -80,7 +82,7 @@ CentreLine centre_line(const road::RoadNetwork& network, const Corridor& corrido
     bool smooth = &piece_at(corridor, x) == &piece_at(corridor, x + h);
     for (const double u : {0.15, 0.4, 0.6, 0.85}) {
       const LaneCentre guess = between(line.knots[k], line.knots[k + 1], u);
-      smooth = smooth && std::abs(guess.t_m - at(x + u * h).t_m) < 1e-6;
+      smooth = smooth && std::abs(guess.t_m - at(x + u * h).t_m) < largest_cut_m;
     }
     line.knots[k].smooth = smooth;
   }
@@ -131,6 +133,15 @@ LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
   if (k + 1 >= knots.size() || !knots[k].smooth) return exact_centre(network, piece, x_m, lane);
   const LaneCentre centre = between(knots[k], knots[k + 1], at - static_cast<double>(k));
   return {centre.t_m, piece.along_s ? centre.slope : -centre.slope};
+}
+
+LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor,
+                             const LaneTable& table, double x_m, int lane) {
+  const double x = std::clamp(wrap_x(corridor, x_m), 0.0, corridor.length_m);
+  const CorridorPiece& piece = piece_at(corridor, x);
+  const LaneCentre centre = lane_centre(network, table, piece, x, lane);
+  // Against s both t and s are turned round.
+  return {piece.along_s ? centre.t_m : -centre.t_m, centre.slope};
 }
 
 double lane_end_m(const LaneTable& table, int lane, double x_m) {

@@ -19,8 +19,9 @@ struct LaneCentre {
   double t_m = 0.0, slope = 0.0;
 };
 
-/// One lane's middle, cubic between knots of which each has its place and slope. Where that would be
-/// off by more than a micrometre (a width record begins, a road ends) the road is asked.
+/// One lane's middle as it is driven: cubic between knots of which each has its place and slope, so
+/// that the corner where a lane begins to narrow is rounded. Where that would be off by more than a
+/// decimetre (a lane begins at full width, a road ends) the road is asked.
 struct CentreLine {
   struct Knot {
     double t_m = 0.0, slope_by_x = 0.0;
@@ -45,6 +46,10 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
 /// lane where the road has no such lane.
 LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
                        const CorridorPiece& piece, double x_m, int lane);
+
+/// The same at any x, seen along travel: to the left of the reference line, and its slope by x.
+LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor,
+                             const LaneTable& table, double x_m, int lane);
 
 /// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the
 /// lane is not open.

@@ -40,7 +40,7 @@ void hear(CorridorTraffic& traffic, std::size_t i, const EmergencyVehicle& emerg
   traffic.any_aside = true;
 }
 
-/// A smooth approach of the target: critically damped.
+/// A smooth approach of the target: critically damped in time, at low speed along the same path.
 void move_aside(CorridorTraffic& traffic, double dt_s) {
   bool any = false;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
@@ -50,9 +50,10 @@ void move_aside(CorridorTraffic& traffic, double dt_s) {
     const double away = y - traffic.aside_target_m[i];
     if (away == 0.0 && rate == 0.0) continue;
     // Exact for any step: y(t) = target + (c + d t) exp(−t/τ).
+    const double t_s = dt_s * std::min(1.0, traffic.speed_mps[i] / slowest_aside_mps);
     const double d = rate + away / aside_time_s;
-    const double fade = std::exp(-dt_s / aside_time_s);
-    const double left = (away + d * dt_s) * fade;
+    const double fade = std::exp(-t_s / aside_time_s);
+    const double left = (away + d * t_s) * fade;
     rate = d * fade - left / aside_time_s;
     y = traffic.aside_target_m[i] + left;
     if (std::abs(left) < 1e-4 && std::abs(rate) < 1e-4) {

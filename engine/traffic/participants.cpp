@@ -13,7 +13,7 @@ namespace {
 /// there.
 double indicated_side(const CorridorTraffic& traffic, std::size_t i, double across_m) {
   if (traffic.emergency[i] != 0) return 0.0;
-  if (traffic.lane[i] != traffic.from_lane[i]) return across_m;
+  if (changes_lane(traffic, i)) return across_m;
   const double away = traffic.aside_target_m[i] - traffic.aside_m[i];
   return std::abs(away) > 0.15 ? away : 0.0;
 }
@@ -51,17 +51,9 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   const auto [piece, s, line] = line_at(network, traffic.corridor, traffic.line, x);
   const double direction = piece.along_s ? 1.0 : -1.0;
 
-  LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
-  double across = 0.0;
-  LateralBlend blend;
-  if (traffic.lane[i] != traffic.from_lane[i]) {
-    const auto from = lane_centre(network, traffic.table, piece, x, traffic.from_lane[i]);
-    blend = lateral_blend(traffic.change_s[i], traffic.driver[i].lane_change.duration_s);
-    across = centre.t_m - from.t_m;
-    centre.t_m = glm::mix(from.t_m, centre.t_m, blend.value);
-    centre.slope = glm::mix(from.slope, centre.slope, blend.value);
-  }
-  const double t = centre.t_m + direction * traffic.aside_m[i];
+  const LaneCentre centre = lane_centre(network, traffic.table, piece, x, traffic.lane[i]);
+  const Lateral aside = lateral(traffic, i);
+  const double t = centre.t_m + direction * aside.offset_m;
   const Quat& world_from_line = line.world_from_line.orientation;
   const glm::dmat3 axes = glm::mat3_cast(world_from_line);
   const Vec3 &forward = axes[0], &left = axes[1], &up = axes[2];
@@ -73,35 +65,31 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   position_m.y = middle.y + t * left.y + above * up.y;
   position_m.z = middle.z + t * left.z + above * up.z;
   const double v = traffic.speed_mps[i];
-  // Sideways speed in the frame of travel, positive to the left.
-  const double lateral_mps =
-      direction * across * blend.rate + centre.slope * v + traffic.aside_mps[i];
-  // The vehicle points where it goes; against s it is turned by half a turn as well.
+  // Of the path to the left of travel. The vehicle points where it goes; against s it is turned by
+  // half a turn as well.
+  const double slope = centre.slope + aside.slope;
   Vec2 turned = direction > 0.0 ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0);
-  if (lateral_mps != 0.0) {
-    const double ahead = std::max(v, 1.0);
-    const double way = std::sqrt(ahead * ahead + lateral_mps * lateral_mps);
-    turned = half_turn(direction * ahead / way, direction * lateral_mps / way);
+  if (slope != 0.0) {
+    const double way = 1.0 / std::sqrt(1.0 + slope * slope);
+    turned = half_turn(direction * way, direction * slope * way);
   }
 
   participant.id = traffic.id[i];
   participant.model = traffic.model[i];
   participant.paint = traffic.paint[i];
   turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
-  const double curvature_per_m = line.curvature_per_m / (1.0 - line.curvature_per_m * t);
-  const double yaw_rate = direction * curvature_per_m * v;
-  const auto along_and_across = [&](double along, double aside, Vec3& out) {
-    out.x = direction * (forward.x * along + left.x * aside);
-    out.y = direction * (forward.y * along + left.y * aside);
-    out.z = direction * (forward.z * along + left.z * aside);
+  const double curvature_per_m =
+      direction * line.curvature_per_m / (1.0 - line.curvature_per_m * t) + aside.curvature_per_m;
+  const double yaw_rate = curvature_per_m * v;
+  const auto along_and_across = [&](double along, double left_of_it, Vec3& out) {
+    out.x = direction * (forward.x * along + left.x * left_of_it);
+    out.y = direction * (forward.y * along + left.y * left_of_it);
+    out.z = direction * (forward.z * along + left.z * left_of_it);
   };
-  along_and_across(v, lateral_mps, participant.velocity_mps);
-  along_and_across(traffic.acceleration_mps2[i],
-                   v * yaw_rate + direction * across * blend.acceleration,
-                   participant.acceleration_mps2);
+  along_and_across(v, v * slope, participant.velocity_mps);
+  along_and_across(traffic.acceleration_mps2[i], v * yaw_rate, participant.acceleration_mps2);
   participant.angular_velocity_radps.z = yaw_rate;
-  const double bend = model.wheelbase_m * direction * curvature_per_m;
-  participant.front_steer_rad = small_angle_rad(bend);
+  participant.front_steer_rad = small_angle_rad(model.wheelbase_m * curvature_per_m);
   // Rolling along the corridor is all that turns the wheels.
   constexpr double turn_rad = 2.0 * std::numbers::pi;
   const double radps_per_mps = 1.0 / model.wheel_radius_m;
@@ -112,7 +100,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   participant.lamps.set(Lamp::brake, traffic.acceleration_mps2[i] < -0.7);
   participant.lamps.set(Lamp::beacon, traffic.emergency[i] != 0);
   participant.lamps.set(Lamp::siren, traffic.emergency[i] != 0);
-  const double side = indicated_side(traffic, i, direction * across);
+  const double side = indicated_side(traffic, i, -traffic.change_offset_m[i]);
   if (side != 0.0 && indicator_is_lit(time_s, traffic.id[i]))
     participant.lamps.set(side > 0.0 ? Lamp::indicator_left : Lamp::indicator_right, true);
 }

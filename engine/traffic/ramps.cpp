@@ -15,6 +15,7 @@ namespace {
 constexpr double ramp_speed_mps = 19.0;
 constexpr double exit_announced_m = 1500.0;
 constexpr double changing_s = 7.0;  ///< Longer than any driver's change of lane.
+constexpr double exit_shown_m = 150.0;  ///< As far as a change of lane goes on into the ramp.
 constexpr std::int32_t nobody_here = -1'000'000;
 
 bool has_road(const Corridor& corridor, road::RoadIndex road) {
@@ -83,7 +84,8 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.driver, b.driver), visit(a.law, b.law);
   visit(a.x_m, b.x_m), visit(a.speed_mps, b.speed_mps);
   visit(a.acceleration_mps2, b.acceleration_mps2);
-  visit(a.lane, b.lane), visit(a.from_lane, b.from_lane), visit(a.change_s, b.change_s);
+  visit(a.lane, b.lane), visit(a.from_lane, b.from_lane), visit(a.change_part, b.change_part);
+  visit(a.change_offset_m, b.change_offset_m), visit(a.change_run_m, b.change_run_m);
   visit(a.next_decision_s, b.next_decision_s), visit(a.lane_end_m, b.lane_end_m);
   visit(a.length_m, b.length_m), visit(a.half_width_m, b.half_width_m);
   visit(a.aside_m, b.aside_m), visit(a.aside_mps, b.aside_mps);
@@ -92,7 +94,7 @@ void for_each_array(CorridorTraffic& a, CorridorTraffic& b, Visit visit) {
   visit(a.neighbour_hints, b.neighbour_hints);
 }
 
-/// From one corridor's arrays to the end of another's, in `lane` at x.
+/// From one corridor's arrays to the end of another's, in `lane` at x. A change of lane goes on.
 void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int lane, double x_m) {
   const auto self = static_cast<std::int32_t>(i), last = static_cast<std::int32_t>(from.size()) - 1;
   for (auto& entries : from.order.lanes) {
@@ -113,10 +115,6 @@ void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int la
   insert_entry(to.order.lanes[static_cast<std::size_t>(lane)], entry_of(to, to.size() - 1));
 }
 
-double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t i) {
-  return traffic.x_m[i] - vehicle_models()[traffic.model[i]].front_m();
-}
-
 /// The entry of the last vehicle in `lane` from x on, as seen `shift_m` away; for the order of
 /// those who drive towards it.
 void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double shift_m,
@@ -128,6 +126,19 @@ void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double
     shown.vehicle = nobody_here;
     seen.entries.push_back({shown_lane, shown});
     return;
+  }
+}
+
+/// Who took the exit before its change of lane was done still stands in the lane beside the exit's.
+void show_unfinished(const CorridorTraffic& way, const Ramp& ramp, double lane_width_m,
+                     ForeignTraffic& seen) {
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    if (!changes_lane(way, i) || way.x_m[i] > exit_shown_m) continue;
+    LaneEntry shown = entry_of(way, i);
+    shown.x_m += ramp.exit.x_m;
+    shown.lateral_m += static_cast<float>((ramp.lane - ramp.exit.lane) * lane_width_m);
+    shown.vehicle = nobody_here;
+    seen.entries.push_back({ramp.exit.lane - 1, shown});
   }
 }
 
@@ -157,6 +168,7 @@ void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& 
     const CorridorTraffic &main = state.corridors[ramp.main], &way = state.corridors[ramp.way];
     const double length = way.corridor.length_m;
     show_last(way, ramp.lane, -1e3, ramp.exit.x_m, ramp.exit.lane, seen[ramp.main]);
+    show_unfinished(way, ramp, main.table.lane_width_m, seen[ramp.main]);
     show_last(main, ramp.entry.lane, ramp.entry.x_m, length - ramp.entry.x_m, ramp.lane,
               seen[ramp.way]);
   }

@@ -76,6 +76,7 @@ bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, Random& rand
       gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
   traffic.acceleration_mps2[i] = 0.0;
   traffic.lane[i] = traffic.from_lane[i] = static_cast<std::int16_t>(lane);
+  traffic.change_part[i] = 1.0;
   traffic.lane_end_m[i] = lane_end_m(traffic.table, lane, x);
   traffic.aside_m[i] = traffic.aside_mps[i] = traffic.aside_target_m[i] = traffic.heard_s[i] = 0.0;
   traffic.making_way[i] = MakingWay::no;
@@ -216,7 +217,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     refresh_order(traffic, placed_foreign[c]);
     follow(traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
-    change_lanes(parameters, state.time_s, dt_s, traffic);
+    change_lanes(parameters, network, state.time_s, dt_s, traffic);
     move(traffic, dt_s);
     if (c >= directions) continue;
     recycle(parameters, middle_x(network, traffic, state), middle_speed_mps, random, traffic);

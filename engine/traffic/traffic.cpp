@@ -38,10 +38,12 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.x_m.push_back(x_m);
   traffic.speed_mps.push_back(speed_mps);
   for (auto* array :
-       {&traffic.acceleration_mps2, &traffic.change_s, &traffic.next_decision_s, &traffic.aside_m,
-        &traffic.aside_mps, &traffic.aside_target_m, &traffic.heard_s}) {
+       {&traffic.acceleration_mps2, &traffic.change_offset_m, &traffic.change_run_m,
+        &traffic.next_decision_s,
+        &traffic.aside_m, &traffic.aside_mps, &traffic.aside_target_m, &traffic.heard_s}) {
     array->push_back(0.0);
   }
+  traffic.change_part.push_back(1.0);
   // Drivers take turns.
   traffic.next_decision_s.back() = 0.1 * static_cast<double>(id % 10);
   traffic.lane.push_back(static_cast<std::int16_t>(lane));
@@ -66,21 +68,10 @@ void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_
   traffic.emergency.back() = 1;
   traffic.aside_m.back() = traffic.aside_target_m.back() = 0.5 * traffic.table.lane_width_m;
   traffic.any_aside = true;
-  // It stands in both lanes of its line, with a lane change that never ends.
+  // It stands in both lanes of its line.
   traffic.from_lane.back() = static_cast<std::int16_t>(lane - 1);
-  traffic.change_s.back() = no_leader;
   auto& left = traffic.order.lanes[static_cast<std::size_t>(lane - 1)];
   insert_entry(left, entry_of(traffic, traffic.size() - 1));
-}
-
-double lateral_m(const CorridorTraffic& traffic, std::size_t i) {
-  double lane = traffic.lane[i];
-  if (traffic.from_lane[i] != traffic.lane[i]) {
-    const double part =
-        lateral_blend(traffic.change_s[i], traffic.driver[i].lane_change.duration_s).value;
-    lane = traffic.from_lane[i] + part * (traffic.lane[i] - traffic.from_lane[i]);
-  }
-  return -lane * traffic.table.lane_width_m + traffic.aside_m[i];
 }
 
 void move(CorridorTraffic& traffic, double dt_s) {
@@ -108,7 +99,7 @@ void hash_state(StateHash& hash, const TrafficState& state) {
                     static_cast<std::uint16_t>(traffic.from_lane[i]));
       chains[1].add(traffic.x_m[i]);
       chains[2].add(traffic.speed_mps[i]);
-      chains[3].add(traffic.change_s[i]);
+      chains[3].add(traffic.change_part[i]);
       chains[4].add(traffic.aside_m[i]);
     }
   for (const StateHash& chain : chains) hash.add(chain.value());

@@ -8,9 +8,10 @@
 ///
 /// Vehicles live in flat arrays; every lane keeps its vehicles in order (lane_order.hpp), so that a
 /// leader is the next entry. Vehicles that others move (the driver's car, the storyboard's) take
-/// part as leaders and followers like any other. Lateral movement is continuous: a lane change is a
-/// smooth blend, making way a smooth shift in the lane. Same parameters, foreign vehicles and
-/// random state: same traffic. No file, clock or GPU. One thread per state.
+/// part as leaders and followers like any other. Lateral movement is a function of the distance
+/// driven (lateral.hpp): who stands does not move sideways, and nobody drives a bend that a car
+/// cannot. Same parameters, foreign vehicles and random state: same traffic. No file, clock or GPU.
+/// One thread per state.
 
 #include <array>
 #include <cstdint>
@@ -93,13 +94,15 @@ struct CorridorTraffic {
   std::vector<FollowingLaw> law;  ///< Of the driver.
   std::vector<double> x_m, speed_mps, acceleration_mps2;
   std::vector<std::int16_t> lane,
-      from_lane;  ///< Equal unless a change is going on. 0: waits outside the simulation.
-  std::vector<double> change_s;  ///< Time into the change.
+      from_lane;  ///< The other lane it stands in; its own unless it changes. 0: waits outside.
+  std::vector<double> change_part;      ///< Of the way of a change of lane; 1: none is going on.
+  std::vector<double> change_offset_m, change_run_m;  ///< Where and how steeply it began
+                                                      ///< (lateral.cpp).
   std::vector<double> next_decision_s;
   std::vector<double> lane_end_m;  ///< x at which the lane ends.
   std::vector<double> length_m, half_width_m;
   std::vector<double> aside_m,
-      aside_mps;  ///< From the middle of the lane, to the left of travel, and its rate.
+      aside_mps;  ///< From the middle of the lane, to the left of travel, and its rate at speed.
   std::vector<double> aside_target_m;
   std::vector<double> heard_s;  ///< How long an emergency vehicle has been near.
   std::vector<MakingWay> making_way;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/traffic/lateral.hpp"
 #include "engine/traffic/traffic.hpp"
 
 namespace septet::traffic {
@@ -46,6 +47,10 @@ Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std:
 inline double way_ahead_m(const Corridor& corridor, double d) {
   return corridor.closed && d < 0.0 ? d + corridor.length_m : d;
 }
+/// Where the vehicle frame's origin is: below the rear axle.
+inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle) {
+  return traffic.x_m[vehicle] - vehicle_models()[traffic.model[vehicle]].front_m();
+}
 /// From a front bumper at x to the rear bumper of the one ahead; infinite if there is none.
 inline double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
   return ahead == nullptr ? no_leader
@@ -57,8 +62,8 @@ void follow(CorridorTraffic& traffic);
 /// Stage 2: who makes way for an emergency vehicle, and how far aside.
 void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
 /// Stage 3: lane changes of those whose turn it is to think.
-void change_lanes(const TrafficParameters& parameters, double time_s, double dt_s,
-                  CorridorTraffic& traffic);
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network,
+                  double time_s, double dt_s, CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
 void move(CorridorTraffic& traffic, double dt_s);
 /// Stage 5: who left the simulation comes in again.
@@ -73,18 +78,5 @@ const RampMouth* exit_ahead(const CorridorTraffic& traffic, std::size_t vehicle,
 void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& seen);
 /// Stage 6: who has driven through a mouth goes on in the other corridor.
 void take_ramps(TrafficState& state);
-
-/// Part of the way of a lane change, 0 to 1, with its first two derivatives by time: the quintic
-/// without jerk at its ends.
-struct LateralBlend {
-  double value = 1.0, rate = 0.0, acceleration = 0.0;
-};
-inline LateralBlend lateral_blend(double elapsed_s, double duration_s) {
-  const double u = elapsed_s / duration_s;
-  if (u >= 1.0) return {};
-  return {u * u * u * (10.0 + u * (-15.0 + 6.0 * u)),
-          30.0 * u * u * (1.0 - u) * (1.0 - u) / duration_s,
-          60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / (duration_s * duration_s)};
-}
 
 }  // namespace septet::traffic

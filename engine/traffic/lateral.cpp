@@ -1,0 +1,60 @@
+#include "engine/traffic/lateral.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace septet::traffic {
+namespace {
+
+/// A lorry's tail sweeps out as it turns in: it takes more of the road's length.
+constexpr double shortest_change_m = 10.0, shortest_change_by_length = 3.0;
+
+}  // namespace
+
+double change_length_m(const CorridorTraffic& traffic, std::size_t i, double speed_mps) {
+  return std::max(shortest_change_m + shortest_change_by_length * traffic.length_m[i],
+                  speed_mps * traffic.driver[i].lane_change.duration_s);
+}
+
+void begin_change(CorridorTraffic& traffic, std::size_t i, double offset_m, double slope) {
+  traffic.change_part[i] = 0.0;
+  traffic.change_offset_m[i] = offset_m;
+  traffic.change_run_m[i] = slope * change_length_m(traffic, i, traffic.speed_mps[i]);
+}
+
+Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
+  Lateral lateral{traffic.aside_m[i]};
+  const double speed = traffic.speed_mps[i];
+  if (traffic.aside_mps[i] != 0.0)
+    lateral.slope = traffic.aside_mps[i] / std::max(speed, slowest_aside_mps);
+  const double u = traffic.change_part[i];
+  if (u >= 1.0) return lateral;
+  // Hermite: from an offset and a run (slope times length) to nothing.
+  const double begun = traffic.change_offset_m[i], run = traffic.change_run_m[i];
+  const double rest = 1.0 - u, cube = rest * rest * rest;
+  const double by_way = 1.0 / change_length_m(traffic, i, speed);
+  lateral.offset_m += cube * (begun * (1.0 + u * (3.0 + 6.0 * u)) + run * u * (1.0 + 3.0 * u));
+  lateral.slope += rest * rest * by_way *
+                   (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
+  lateral.curvature_per_m = rest * u * by_way * by_way *
+                            (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
+  return lateral;
+}
+
+Across across(const CorridorTraffic& traffic, std::size_t i) {
+  const auto [offset, slope, curvature] = lateral(traffic, i);
+  const VehicleModel& model = vehicle_models()[traffic.model[i]];
+  return {-traffic.lane[i] * traffic.table.lane_width_m + offset + slope * model.centre_x_m(),
+          traffic.half_width_m[i] + 0.5 * traffic.length_m[i] * std::abs(slope)};
+}
+
+Across across_then(const CorridorTraffic& traffic, std::size_t i) {
+  return {-traffic.lane[i] * traffic.table.lane_width_m + traffic.aside_target_m[i],
+          traffic.half_width_m[i]};
+}
+
+double lateral_m(const CorridorTraffic& traffic, std::size_t i) {
+  return -traffic.lane[i] * traffic.table.lane_width_m + lateral(traffic, i).offset_m;
+}
+
+}  // namespace septet::traffic

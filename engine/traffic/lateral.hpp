@@ -1,0 +1,41 @@
+#pragma once
+/// Sideways motion: where a vehicle is across its lane, and which way it points there.
+///
+/// All of it goes by the distance driven, as a steered wheel makes it. A change of lane is a
+/// quintic, straight at its ends, along a way that is speed times the driver's duration, and at
+/// walking speed no shorter than the vehicle can steer; making way is a critically damped shift that below
+/// `slowest_aside_mps` follows the same path more slowly. The vehicle points along its path, so
+/// that its rear axle never slips sideways. The tightest bend has a radius of about 10 m (a car
+/// that changes lanes at 6 m/s and brakes as hard as it can), the usual one at walking speed 25 m.
+
+#include "engine/traffic/traffic.hpp"
+
+namespace septet::traffic {
+
+/// Left of the middle of its lane, with the first two derivatives by the distance driven.
+struct Lateral {
+  double offset_m = 0.0, slope = 0.0, curvature_per_m = 0.0;
+};
+
+inline constexpr double slowest_aside_mps = 8.0;
+
+/// The way that a whole change of lane takes at this speed.
+double change_length_m(const CorridorTraffic& traffic, std::size_t vehicle, double speed_mps);
+inline bool changes_lane(const CorridorTraffic& traffic, std::size_t vehicle) {
+  return traffic.change_part[vehicle] < 1.0;
+}
+
+/// From where it is and points, relative to the middle of its lane, the vehicle makes for that.
+void begin_change(CorridorTraffic& traffic, std::size_t vehicle, double offset_m, double slope);
+
+Lateral lateral(const CorridorTraffic& traffic, std::size_t vehicle);
+
+/// What a vehicle takes of the road's width, turned as it is, as `LaneEntry` has it.
+struct Across {
+  double middle_m = 0.0, half_width_m = 0.0;
+};
+Across across(const CorridorTraffic& traffic, std::size_t vehicle);
+/// The same when it is where it is going to.
+Across across_then(const CorridorTraffic& traffic, std::size_t vehicle);
+
+}  // namespace septet::traffic
