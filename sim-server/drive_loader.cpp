@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/check.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
@@ -82,7 +83,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
 }
 
 Expected<logging::SourceFile> from_disk(const std::string& role, const fs::path& path) {
-  return read_text_file(path).map([&](std::string text) { return logging::SourceFile{role, path.string(), std::move(text)}; });
+  return read_regular_file(path).map([&](std::string text) { return logging::SourceFile{role, path.string(), std::move(text)}; });
 }
 
 }  // namespace

@@ -1,11 +1,7 @@
 #include "sim-server/resources.hpp"
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <fmt/core.h>
 
@@ -78,14 +74,6 @@ Expected<fs::path> find_resource(const std::string& name, std::string_view kind,
   }
   return failure(fmt::format("there is no such {} file", extension), name,
                  fmt::format("give a file, or one of: {}", names_in(place, extension)));
-}
-
-Expected<std::string> read_text_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream) return failure(std::strerror(errno ? errno : EIO), file.string(), "check that the file exists and can be read");
-  return text.str();
 }
 
 }  // namespace septet::server

@@ -17,6 +17,4 @@ Expected<std::filesystem::path> data_folder();
 /// folder's `kind` ("rigs", "scenarios", "vehicles"). The error lists the names there are.
 Expected<std::filesystem::path> find_resource(const std::string& name, std::string_view kind, std::string_view extension);
 
-Expected<std::string> read_text_file(const std::filesystem::path& file);
-
 }  // namespace septet::server

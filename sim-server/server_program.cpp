@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/net/multicast_probe.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/debris_looks.hpp"
@@ -142,7 +143,7 @@ Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
   auto session = logging::SessionReader::open(options.replay);
   if (!session) return tl::unexpected(session.error());
   drive.session.emplace(std::move(*session));
-  const auto rig_text = read_text_file(options.rig);
+  const auto rig_text = read_regular_file(options.rig);
   if (!rig_text) return tl::unexpected(rig_text.error());
   auto rig = rig::read_rig(*rig_text, options.rig);
   if (!rig) return tl::unexpected(rig.error());

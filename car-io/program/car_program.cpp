@@ -3,14 +3,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include <fmt/core.h>
 
 #include "car-io/program/calibration.hpp"
 #include "car-io/program/car_link.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
 
@@ -46,12 +45,9 @@ struct CarHere {
 };
 
 Expected<CarHere> open_car(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream)
-    return failure("the rig cannot be read", file.string(), "give the rig's file with --rig");
-  auto rig = rig::read_rig(text.str(), file.string());
+  const auto text = read_regular_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto rig = rig::read_rig(*text, file.string());
   if (!rig) return tl::unexpected(rig.error());
   const auto layout = find_car_layout(rig->car.layout);
   if (!layout) return tl::unexpected(layout.error());

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/scenario/scenario_parts.hpp"
 
 namespace septet::scenario {
@@ -90,12 +89,7 @@ ScenarioFiles files_in(const std::string& folder) {
   namespace fs = std::filesystem;
   ScenarioFiles files;
   files.read = [folder](const std::string& path) -> Expected<std::string> {
-    const fs::path whole = fs::path(folder) / path;
-    std::ifstream in(whole, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || in.bad())
-      return failure("the file cannot be read", whole.string(), "check its name and rights");
-    return text;
+    return read_regular_file(fs::path(folder) / path);
   };
   files.list = [folder](const std::string& path) -> Expected<std::vector<std::string>> {
     std::error_code problem;

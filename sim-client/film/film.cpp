@@ -1,10 +1,8 @@
 #include "sim-client/film/film.hpp"
 
-#include <fstream>
-#include <sstream>
-
 #include <fmt/core.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
 #include "logging/recorded_scene.hpp"
@@ -19,20 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double time_slack_s = 1e-6;
-constexpr std::uintmax_t longest_script_bytes = 1 << 22;
+constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
-
-Expected<std::string> read_text(const fs::path& file) {
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error) return failure(error.message(), file.string(), "check that the file exists and can be read");
-  if (size > longest_script_bytes) return failure("it is too long for a film's script", file.string(), "give a TOML file with shots");
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  if (size > 0) text << stream.rdbuf();
-  if (!stream) return failure("it cannot be read", file.string(), "check that the file exists and can be read");
-  return text.str();
-}
 
 Expected<std::pair<double, double>> span_of(const logging::SessionReader& session, const fs::path& file) {
   const auto span = session.time_span_s();
@@ -141,7 +127,7 @@ Expected<void> Studio::draw(const FilmPlan& plan, const FilmFrame& film_frame) {
 /// The script of the options, or one for the whole session.
 Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session, std::pair<double, double> span_s) {
   if (!options.shots.empty()) {
-    const auto text = read_text(options.shots);
+    const auto text = read_regular_file(options.shots, longest_script_bytes);
     if (!text) return tl::unexpected(text.error());
     return read_script(*text, options.shots.string());
   }

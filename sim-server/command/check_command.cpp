@@ -4,10 +4,10 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -16,7 +16,7 @@ using road::Finding;
 using road::Severity;
 
 std::vector<Finding> check_file(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
+  const auto text = read_regular_file(file);
   if (!text) return {{Severity::error, 0, text.error()}};
   const auto extension = file.extension();
   if (extension == ".xodr") return road::check_opendrive(*text, file.string());

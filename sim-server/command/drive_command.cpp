@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
 #include "sim-server/child_process.hpp"
@@ -198,7 +199,7 @@ int run_drive(DriveOptions options) {
   if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
   const auto rig_file = find_resource(options.rig, "rigs", ".toml");
   if (!rig_file) return fail(rig_file.error());
-  const auto rig_text = read_text_file(*rig_file);
+  const auto rig_text = read_regular_file(*rig_file);
   if (!rig_text) return fail(rig_text.error());
   const auto rig = rig::read_rig(*rig_text, rig_file->string());
   if (!rig) return fail(rig.error());

@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_tables.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using Answer = Expected<void> (*)(const road::RoadNetwork&, std::istream&, std::ostream&);
 
 int answer(const std::string& file, std::istream& in, std::ostream& out, Answer table) {
-  const auto outcome = read_text_file(file)
+  const auto outcome = read_regular_file(file)
                            .and_then([&](const std::string& text) { return road::read_opendrive(text, file); })
                            .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); });
   if (outcome) return 0;

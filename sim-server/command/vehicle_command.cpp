@@ -1,12 +1,10 @@
 #include "sim-server/command/vehicle_command.hpp"
 
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/core.h>
 
-#include "engine/core/expected.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
 #include "sim-server/command/text_files.hpp"
@@ -17,12 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file)
-    return failure("cannot be read", path.string(), "give a file such as vehicles/volvo-s80.toml");
-  return vehicle::read_vehicle(text.str(), path.filename().string());
+  return read_regular_file(path).and_then([&](const std::string& text) {
+    return vehicle::read_vehicle(text, path.filename().string());
+  });
 }
 
 Expected<void> write_report(const VehicleTestOptions& options,
