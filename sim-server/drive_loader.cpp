@@ -10,6 +10,7 @@
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenery/road_world.hpp"
 #include "sim-server/resources.hpp"
 
 namespace septet::server {
@@ -71,6 +72,8 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
   auto roads = road::read_opendrive(road_source->content, road_source->name, &findings);
   if (!roads) return tl::unexpected(roads.error());
   model->roads = std::move(*roads);
+  if (const auto buildable = scenery::check_world_size(model->roads); !buildable)
+    return failure(buildable.error().what, road_source->name, buildable.error().remedy);
 
   const auto car_source = take("vehicle", drive.rig.car.vehicle);
   if (!car_source) return tl::unexpected(car_source.error());

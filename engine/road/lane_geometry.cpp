@@ -18,7 +18,8 @@ Border next_border(const Lane& lane, const Border& inner, double s_m) {
   if (!lane.widths.empty()) {
     const CubicRecord& width = lane.widths[record_at(lane.widths, s_m)];
     const double value = width.value(s_m);
-    if (value <= 0.0) return inner;
+    // At exactly 0 the lane begins or ends, and its border already runs off.
+    if (value < 0.0) return inner;
     return {inner.t_m + side * value, inner.slope + side * width.slope(s_m)};
   }
   if (lane.borders.empty()) return inner;

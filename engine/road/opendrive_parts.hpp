@@ -26,6 +26,8 @@ void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node,
                     const HeaderOffset& offset, Road& road);
 void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
+/// Whether the lanes make a surface: they do not fold over, nor leave the world upwards.
+void check_surface(XmlFindings& findings, const pugi::xml_node& road_node, const Road& road);
 std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node,
                                  const LaneSection& section);
 /// A `<material>` of a lane or of an object that is a patch of the road.
@@ -42,5 +44,7 @@ void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork
 /// when all is linked.
 void check_lane_links(XmlFindings& findings, const pugi::xml_node& root,
                       const RoadNetwork& network);
+/// Holds the standard's checker rules against a file without errors (rule_checks.hpp).
+void check_rules(XmlFindings& findings, const pugi::xml_node& root, const RoadNetwork& network);
 
 }  // namespace septet::road

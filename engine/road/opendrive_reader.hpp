@@ -6,6 +6,7 @@
 /// was ignored or repaired.
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Finding {
   Severity severity = Severity::error;
   int line = 0;
   Error error;
+  /// The checker rule of the standard that says so, "asam.net:xodr:1.4.0:…"; empty where none does.
+  std::string rule = {};
 };
 
 /// The network, or the first error. `name` is the file's name in messages. Warnings are added to
@@ -29,7 +32,8 @@ Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name
                                      std::vector<Finding>* warnings = nullptr);
 
 /// Everything wrong with the text, in the order of its lines, at most 1,000 findings; empty for a
-/// clean file.
+/// clean file. Where the text can be read, the standard's checker rules are held against it too
+/// (CHECKS.md).
 std::vector<Finding> check_opendrive(std::string_view xml, std::string_view name);
 
 }  // namespace septet::road

@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
 #include <pugixml.hpp>
 
 #include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_limits.hpp"
 
 namespace septet::road {
 namespace {
@@ -15,15 +18,49 @@ Orientation read_orientation(const pugi::xml_node& node) {
   return text == "-" ? Orientation::against : Orientation::both;
 }
 
-ObjectRepeat read_repeat(XmlFindings& findings, const pugi::xml_node& node,
+constexpr double tolerated_m = 0.01;
+
+/// A station that a thing stands at; beyond the road: a warning and the road's end.
+double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
+  const double kept = std::clamp(s_m, 0.0, road.length_m);
+  if (std::abs(s_m - kept) > tolerated_m) {
+    findings.warning(
+        node, fmt::format("s={} is beyond the road, which is {} m long; it is taken to its end",
+                          s_m, road.length_m),
+        "keep s within the road");
+  }
+  return kept;
+}
+
+/// The length of what begins at `s_m`; what reaches beyond the road is cut off there.
+double length_on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road,
+                      double s_m) {
+  const double length = findings.amount_or(node, "length", 0.0);
+  const double kept = std::min(length, road.length_m - s_m);
+  if (length > kept + tolerated_m) {
+    findings.warning(
+        node,
+        fmt::format("it reaches {:.4g} m beyond the road; it is cut off there", length - kept),
+        "keep s + length within the road");
+  }
+  return kept;
+}
+
+ObjectRepeat read_repeat(XmlFindings& findings, const pugi::xml_node& node, const Road& road,
                          const RoadObject& object) {
   const auto number_or = [&](const char* attribute, double fallback) {
-    return findings.number_or(node, attribute, fallback);
+    return findings.number_or(node, attribute, fallback, largest_object_m);
   };
   ObjectRepeat repeat;
-  repeat.s_m = number_or("s", object.s_m);
-  repeat.length_m = number_or("length", 0.0);
-  repeat.distance_m = number_or("distance", 0.0);
+  repeat.s_m = on_road(findings, node, road, findings.number_or(node, "s", object.s_m));
+  repeat.length_m = length_on_road(findings, node, road, repeat.s_m);
+  repeat.distance_m = findings.amount_or(node, "distance", 0.0);
+  if (repeat.distance_m > 0.0 && repeat.distance_m < least_spacing_m) {
+    findings.warning(
+        node, fmt::format("distance={}; it is taken as one continuous object", repeat.distance_m),
+        fmt::format("give 0 or at least {} m", least_spacing_m));
+    repeat.distance_m = 0.0;
+  }
   repeat.t_start_m = number_or("tStart", object.t_m);
   repeat.t_end_m = number_or("tEnd", repeat.t_start_m);
   repeat.width_start_m = number_or("widthStart", object.width_m);
@@ -40,38 +77,43 @@ Outline read_outline(XmlFindings& findings, const pugi::xml_node& node) {
   outline.closed = node.attribute("closed").as_bool(true);
   for (const auto corner : node.children()) {
     const std::string_view name = corner.name();
+    const auto number = [&](const char* attribute, double most) {
+      return findings.number(corner, attribute, most);
+    };
+    const auto number_or = [&](const char* attribute) {
+      return findings.number_or(corner, attribute, 0.0, largest_object_m);
+    };
     if (name == "cornerRoad") {
-      outline.corners.push_back({true, findings.number(corner, "s"), findings.number(corner, "t"),
-                                 findings.number_or(corner, "dz", 0.0),
-                                 findings.number_or(corner, "height", 0.0)});
+      outline.corners.push_back({true, number("s", longest_road_m), number("t", largest_object_m),
+                                 number_or("dz"), number_or("height")});
     } else if (name == "cornerLocal") {
-      outline.corners.push_back({false, findings.number(corner, "u"), findings.number(corner, "v"),
-                                 findings.number_or(corner, "z", 0.0),
-                                 findings.number_or(corner, "height", 0.0)});
+      outline.corners.push_back({false, number("u", largest_object_m),
+                                 number("v", largest_object_m), number_or("z"),
+                                 number_or("height")});
     }
   }
   return outline;
 }
 
-RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node) {
+RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node, const Road& road) {
   RoadObject object;
   object.id = node.attribute("id").value();
   object.name = node.attribute("name").value();
   object.type = node.attribute("type").value();
   object.subtype = node.attribute("subtype").value();
-  object.s_m = findings.number(node, "s");
-  object.t_m = findings.number(node, "t");
-  object.z_offset_m = findings.number_or(node, "zOffset", 0.0);
+  object.s_m = on_road(findings, node, road, findings.number(node, "s"));
+  object.t_m = findings.number(node, "t", largest_object_m);
+  object.z_offset_m = findings.number_or(node, "zOffset", 0.0, largest_object_m);
   object.heading_rad = findings.number_or(node, "hdg", 0.0);
   object.pitch_rad = findings.number_or(node, "pitch", 0.0);
   object.roll_rad = findings.number_or(node, "roll", 0.0);
-  object.length_m = findings.number_or(node, "length", 0.0);
-  object.width_m = findings.number_or(node, "width", 0.0);
-  object.height_m = findings.number_or(node, "height", 0.0);
-  object.radius_m = findings.number_or(node, "radius", 0.0);
+  object.length_m = findings.amount_or(node, "length", 0.0, longest_road_m);
+  object.width_m = findings.amount_or(node, "width", 0.0, largest_object_m);
+  object.height_m = findings.amount_or(node, "height", 0.0, largest_object_m);
+  object.radius_m = findings.amount_or(node, "radius", 0.0, largest_object_m);
   object.orientation = read_orientation(node);
   for (const auto repeat : node.children("repeat"))
-    object.repeats.push_back(read_repeat(findings, repeat, object));
+    object.repeats.push_back(read_repeat(findings, repeat, road, object));
   // Up to 1.4 the one outline is a child of the object; since then all are in a list.
   for (const auto& holder : {node, node.child("outlines")})
     for (const auto outline : holder.children("outline"))
@@ -123,13 +165,9 @@ void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const
     structure.id = node.attribute("id").value();
     structure.name = node.attribute("name").value();
     structure.type = node.attribute("type").value();
-    structure.s_m = findings.number(node, "s");
-    structure.length_m = findings.number(node, "length");
-    if (structure.s_m < 0.0 || structure.length_m < 0.0 ||
-        structure.s_m + structure.length_m > road.length_m + 0.01) {
-      findings.warning(node, "it reaches beyond the road", "keep s and s + length within the road");
-    }
-    road.structures.push_back(std::move(structure));
+    structure.s_m = on_road(findings, node, road, findings.number(node, "s"));
+    structure.length_m = length_on_road(findings, node, road, structure.s_m);
+    if (structure.length_m > 0.0) road.structures.push_back(std::move(structure));
   }
 }
 
@@ -138,7 +176,7 @@ void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const
 void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& road) {
   const auto objects = road_node.child("objects");
   for (const auto node : objects.children("object"))
-    road.objects.push_back(read_object(findings, node));
+    road.objects.push_back(read_object(findings, node, road));
   for (const RoadObject& object : road.objects)
     if (object.material) road.patches.push_back(patch_of(object));
   read_structures(findings, objects, "bridge", RoadStructure::Kind::bridge, road);
@@ -155,12 +193,12 @@ void read_signals(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
     signal.subtype = node.attribute("subtype").value();
     signal.unit = node.attribute("unit").value();
     signal.text = node.attribute("text").value();
-    signal.s_m = findings.number(node, "s");
-    signal.t_m = findings.number(node, "t");
-    signal.z_offset_m = findings.number_or(node, "zOffset", 0.0);
+    signal.s_m = on_road(findings, node, road, findings.number(node, "s"));
+    signal.t_m = findings.number(node, "t", largest_object_m);
+    signal.z_offset_m = findings.number_or(node, "zOffset", 0.0, largest_object_m);
     signal.value = findings.number_or(node, "value", 0.0);
-    signal.height_m = findings.number_or(node, "height", 0.0);
-    signal.width_m = findings.number_or(node, "width", 0.0);
+    signal.height_m = findings.amount_or(node, "height", 0.0, tallest_m);
+    signal.width_m = findings.amount_or(node, "width", 0.0, tallest_m);
     signal.heading_offset_rad = findings.number_or(node, "hOffset", 0.0);
     signal.pitch_rad = findings.number_or(node, "pitch", 0.0);
     signal.roll_rad = findings.number_or(node, "roll", 0.0);

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "engine/road/cubic_range.hpp"
 #include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_limits.hpp"
 
 namespace septet::road {
 namespace {
 
-constexpr double widest_m = 1000.0, tolerated_negative_m = 0.01;
+constexpr double tolerated_negative_m = 0.01;
 
 std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_node,
                             const char* element) {
@@ -20,8 +22,10 @@ std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_no
   return ids;
 }
 
-LaneType read_type(XmlFindings& findings, const pugi::xml_node& node) {
+LaneType read_type(XmlFindings& findings, const pugi::xml_node& node, int id) {
   const std::string_view text = node.attribute("type").value();
+  // The centre lane needs no type.
+  if (text.empty() && id == 0) return LaneType::none;
   for (int i = 0; i < static_cast<int>(LaneType::other); ++i) {
     if (text == name_of(static_cast<LaneType>(i))) return static_cast<LaneType>(i);
   }
@@ -31,7 +35,9 @@ LaneType read_type(XmlFindings& findings, const pugi::xml_node& node) {
   if (text == "roadMark" || text == "special1" || text == "special2" || text == "special3")
     return LaneType::other;
   if (text == "shared" || text == "walking") return LaneType::sidewalk;
-  findings.warning(node, fmt::format("lane type \"{}\" is unknown", text.substr(0, 40)),
+  findings.warning(node,
+                   text.empty() ? fmt::format("lane {} has no type", id)
+                                : fmt::format("lane type \"{}\" is unknown", text.substr(0, 40)),
                    "use a type of the standard");
   return LaneType::other;
 }
@@ -46,36 +52,30 @@ void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane&
                   double s_end) {
   const bool by_border = lane.widths.empty();
   const CubicProfile& profile = by_border ? lane.borders : lane.widths;
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    const double end =
-        std::max(profile[i].s_m, i + 1 < profile.size() ? profile[i + 1].s_m : s_end);
-    for (int sample = 0; sample <= 8; ++sample) {
-      const double s = profile[i].s_m + (end - profile[i].s_m) * sample / 8.0;
-      const double value = profile[i].value(s);
-      if (std::abs(value) > widest_m) {
-        findings.error(node, fmt::format("lane {} is {:.4g} m wide at s={:.3f}", lane.id, value, s),
-                       "check its polynomial");
-        break;
-      }
-      if (!by_border && value < -tolerated_negative_m) {
-        const std::string what = fmt::format(
-            "the width of lane {} is negative ({:.4g} m at s={:.3f})", lane.id, value, s);
-        if (sample == 0) {
-          findings.error(node, what, "give a width of at least 0 m");
-        } else {
-          findings.warning(node, what + "; it is taken as 0", "give a width of at least 0 m");
-        }
-        break;
+  visit_records(profile, s_end, [&](const CubicRecord& record, double end) {
+    const ValueRange range = value_range(record, record.s_m, end);
+    if (!(range.magnitude() <= widest_m)) {
+      findings.error(node,
+                     fmt::format("lane {} is {:.4g} m wide from s={:.3f}", lane.id,
+                                 range.magnitude(), record.s_m),
+                     "check its polynomial");
+    } else if (!by_border && range.low < -tolerated_negative_m) {
+      const std::string what = fmt::format("the width of lane {} from s={:.3f} is negative ({:.4g} m)",
+                                           lane.id, record.s_m, range.low);
+      if (record.a < -tolerated_negative_m) {
+        findings.error(node, what, "give a width of at least 0 m");
+      } else {
+        findings.warning(node, what + "; it is taken as 0", "give a width of at least 0 m");
       }
     }
-  }
+  });
 }
 
 Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSection& section,
                int id) {
   Lane lane;
   lane.id = id;
-  lane.type = read_type(findings, node);
+  lane.type = read_type(findings, node, id);
   lane.direction = read_direction(node);
   lane.level = node.attribute("level").as_bool();
   lane.predecessors = read_links(findings, node, "predecessor");
@@ -91,8 +91,8 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
   check_widths(findings, node, lane, section.s_end_m);
   for (const auto height : node.children("height")) {
     lane.heights.push_back({section.s_m + findings.number_or(height, "sOffset", 0.0),
-                            findings.number_or(height, "inner", 0.0),
-                            findings.number_or(height, "outer", 0.0)});
+                            findings.number_or(height, "inner", 0.0, tallest_m),
+                            findings.number_or(height, "outer", 0.0, tallest_m)});
   }
   for (const auto speed : node.children("speed")) {
     lane.speeds.push_back(
@@ -120,6 +120,11 @@ std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_no
       findings.error(node, fmt::format("lane {} stands on the wrong side", *id),
                      "left lanes are above 0, right lanes below");
       continue;
+    }
+    if (lanes.size() == static_cast<std::size_t>(most_lanes_of_a_side)) {
+      findings.error(side_node, fmt::format("there are more than {} lanes", most_lanes_of_a_side),
+                     "split the road into several side by side");
+      break;
     }
     lanes.push_back(read_lane(findings, node, section, *id));
   }
@@ -180,25 +185,15 @@ void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection
 SurfaceMaterial read_material(XmlFindings& findings, const pugi::xml_node& node) {
   SurfaceMaterial material;
   material.surface = node.attribute("surface").value();
-  material.friction = findings.number_or(node, "friction", 0.0);
-  material.roughness = findings.number_or(node, "roughness", 0.0);
-  if (material.friction < 0.0 || material.friction > 2.0) {
-    findings.error(node, fmt::format("its friction is {}", material.friction),
-                   "give a coefficient from 0 to 2");
-    material.friction = 0.0;
-  }
-  if (material.roughness < 0.0 || material.roughness > 100.0) {
-    findings.error(node, fmt::format("its roughness is {}", material.roughness),
-                   "give a number from 0 to 100");
-    material.roughness = 0.0;
-  }
+  material.friction = findings.amount_or(node, "friction", 0.0, largest_coefficient);
+  material.roughness = findings.amount_or(node, "roughness", 0.0, largest_coefficient);
   return material;
 }
 
 double read_speed(XmlFindings& findings, const pugi::xml_node& node) {
   const std::string_view max = node.attribute("max").value();
   if (max == "no limit" || max == "undefined") return 0.0;
-  const double value = findings.number(node, "max");
+  const double value = findings.amount_or(node, "max", 0.0, fastest);
   const std::string_view unit = node.attribute("unit").value();
   if (unit == "km/h") return value / 3.6;
   if (unit == "mph") return value * 0.44704;
@@ -213,6 +208,13 @@ double read_speed(XmlFindings& findings, const pugi::xml_node& node) {
 void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& road) {
   const auto lanes = road_node.child("lanes");
   road.lane_offset = read_profile(findings, lanes, "laneOffset", "s", 0.0);
+  visit_records(road.lane_offset, road.length_m, [&](const CubicRecord& record, double end) {
+    const double reach = value_range(record, record.s_m, end).magnitude();
+    if (reach <= widest_m) return;
+    findings.error(lanes,
+                   fmt::format("the lane offset from s={} reaches {:.4g} m", record.s_m, reach),
+                   fmt::format("keep it within ±{} m", widest_m));
+  });
   std::vector<pugi::xml_node> nodes;
   for (const auto node : lanes.children("laneSection")) {
     const double s = findings.number(node, "s");

@@ -43,15 +43,17 @@ RoadLink read_road_link(XmlFindings& findings, const pugi::xml_node& node, const
         "write road or junction");
     return link;
   }
+  // Maps that were cut out of larger ones are full of these.
   if (link.road == no_index && link.junction == no_index && !id.empty()) {
-    findings.error(node, fmt::format("{} {} does not exist", type, id),
-                   "link to one of the file, or remove the link");
+    findings.warning(node, fmt::format("{} {} does not exist; there is no link", type, id),
+                     "link to one of the file, or remove the link");
   }
   return link;
 }
 
-JunctionConnection read_connection(XmlFindings& findings, const pugi::xml_node& node,
-                                   const Indices& roads) {
+/// Appended to the junction, unless it leads from or to a road that the file does not have.
+void read_connection(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads,
+                     Junction& junction) {
   JunctionConnection connection;
   connection.id = node.attribute("id").value();
   connection.incoming = index_of(roads, node.attribute("incomingRoad").value());
@@ -59,16 +61,19 @@ JunctionConnection read_connection(XmlFindings& findings, const pugi::xml_node& 
   connection.connecting =
       index_of(roads, node.attribute(direct ? "linkedRoad" : "connectingRoad").value());
   if (connection.incoming == no_index || connection.connecting == no_index) {
-    findings.error(node,
-                   fmt::format("connection {} names a road that does not exist", connection.id),
-                   "check incomingRoad and connectingRoad (linkedRoad in a direct junction)");
+    findings.warning(
+        node,
+        fmt::format("connection {} names a road that does not exist; it is left out",
+                    connection.id),
+        "check incomingRoad and connectingRoad (linkedRoad in a direct junction)");
+    return;
   }
   connection.contact = read_contact(findings, node);
   for (const auto link : node.children("laneLink")) {
     const auto from = findings.integer(link, "from"), to = findings.integer(link, "to");
     if (from && to) connection.lane_links.push_back({*from, *to});
   }
-  return connection;
+  junction.connections.push_back(std::move(connection));
 }
 
 Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads) {
@@ -86,7 +91,7 @@ Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const 
     return junction;
   }
   for (const auto connection : node.children("connection")) {
-    junction.connections.push_back(read_connection(findings, connection, roads));
+    read_connection(findings, connection, roads, junction);
   }
   return junction;
 }
@@ -134,8 +139,10 @@ void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork
     if (!junction.empty() && junction != "-1") {
       road.junction = index_of(junctions, junction);
       if (road.junction == no_index) {
-        findings.error(node, fmt::format("junction {} does not exist", junction.substr(0, 40)),
-                       "write -1 or an id of a junction");
+        findings.warning(node,
+                         fmt::format("junction {} does not exist; the road belongs to none",
+                                     junction.substr(0, 40)),
+                         "write -1 or an id of a junction");
       }
     }
     road.predecessor =

@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 
 #include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_limits.hpp"
 
 namespace septet::road {
 namespace {
@@ -94,16 +95,23 @@ std::vector<RoadMarkLine> lines_of(RoadMarkType type, double width, int lane) {
   return {};
 }
 
-RoadMarkLine read_line(XmlFindings& findings, const pugi::xml_node& node, double width, bool once) {
+/// Appended to the mark's lines, unless its dashes are too short to be painted.
+void read_line(XmlFindings& findings, const pugi::xml_node& node, bool once, RoadMark& mark) {
   RoadMarkLine line;
-  line.length_m = std::max(0.0, findings.number_or(node, "length", 0.0));
-  line.space_m = once ? 0.0 : std::max(0.0, findings.number_or(node, "space", 0.0));
-  line.t_offset_m = findings.number_or(node, "tOffset", 0.0);
-  line.s_offset_m = findings.number_or(node, "sOffset", 0.0);
-  const double own_width = findings.number_or(node, "width", 0.0);
-  line.width_m = own_width > 0.0 ? own_width : width;
+  line.length_m = findings.amount_or(node, "length", 0.0, longest_road_m);
+  line.space_m = once ? 0.0 : findings.amount_or(node, "space", 0.0, longest_road_m);
+  line.t_offset_m = findings.number_or(node, "tOffset", 0.0, widest_m);
+  line.s_offset_m = findings.number_or(node, "sOffset", 0.0, longest_road_m);
+  const double own_width = findings.amount_or(node, "width", 0.0, widest_m);
+  line.width_m = own_width > 0.0 ? own_width : mark.width_m;
   line.once = once;
-  return line;
+  if (line.space_m > 0.0 && line.length_m < shortest_dash_m) {
+    findings.warning(
+        node, fmt::format("its dashes are {} m long; it is left out", line.length_m),
+        fmt::format("give a length of at least {} m, or no space", shortest_dash_m));
+    return;
+  }
+  mark.lines.push_back(line);
 }
 
 }  // namespace
@@ -119,13 +127,13 @@ std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& la
     mark.color = word_value(findings, node, "color", color_words, RoadMarkColor::white);
     mark.lane_change = word_value(findings, node, "laneChange", change_words, LaneChange::both);
     mark.bold = std::string_view(node.attribute("weight").value()) == "bold";
-    const double width = findings.number_or(node, "width", 0.0);
+    const double width = findings.amount_or(node, "width", 0.0, widest_m);
     mark.width_m = width > 0.0 ? width : (mark.bold ? bold_width_m : standard_width_m);
-    mark.height_m = findings.number_or(node, "height", 0.0);
+    mark.height_m = findings.number_or(node, "height", 0.0, tallest_m);
     for (const auto line : node.child("type").children("line"))
-      mark.lines.push_back(read_line(findings, line, mark.width_m, false));
+      read_line(findings, line, false, mark);
     for (const auto line : node.child("explicit").children("line"))
-      mark.lines.push_back(read_line(findings, line, mark.width_m, true));
+      read_line(findings, line, true, mark);
     if (mark.type == RoadMarkType::none) mark.lines.clear();
     if (mark.lines.empty()) mark.lines = lines_of(mark.type, mark.width_m, lane);
     if (!marks.empty() && mark.s_m < marks.back().s_m) {

@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "engine/road/cubic_range.hpp"
 #include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_limits.hpp"
 #include "engine/road/road_position.hpp"
 
 namespace septet::road {
 namespace {
 
-constexpr double steepest_roll_rad = 1.5;
 constexpr double break_m = 0.05, break_rad = 0.01;
+/// Roads of test tracks climb a metre and a half in a metre; beyond, a coefficient is wrong.
+constexpr double steepest_grade = 2.0;
 
 Vec2 turned(const Vec2& v, double angle_rad) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
@@ -58,25 +61,55 @@ Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometr
                  "add one of them");
 }
 
+/// Whether the last record keeps to where roads can be.
+bool is_in_the_world(const PlanCurve& plan) {
+  const PlanRecord& record = plan.records.back();
+  for (int i = 0; i <= 8; ++i) {
+    // Within the record, whatever s is rounded to.
+    const double ds = record.length_m * (1e-3 + 0.998 * i / 8.0);
+    const Vec2 p = evaluate_plan(plan, record.s_m + ds).position_m;
+    if (!(std::abs(p.x) <= 2.0 * farthest_m && std::abs(p.y) <= 2.0 * farthest_m)) return false;
+  }
+  return true;
+}
+
 /// Says where a record does not begin at the end of the one before it.
 void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end,
                  const PlanRecord& next) {
-  const double gap = glm::distance(end.position_m, next.start_m);
+  // A cubic begins where, and as, its own coefficients say.
+  const bool cubic = next.kind == PlanKind::cubic;
+  const auto placed = [&](double along, double across) {
+    return along * next.direction + across * Vec2(-next.direction.y, next.direction.x);
+  };
+  const Vec2 start =
+      next.start_m + (cubic ? placed(next.cubic.u[0], next.cubic.v[0]) : Vec2(0.0));
+  const Vec2 direction = cubic ? placed(next.cubic.u[1], next.cubic.v[1]) : next.direction;
+  const double gap = glm::distance(end.position_m, start);
   if (gap > break_m) {
     findings.warning(geometry,
                      fmt::format("it begins {:.3f} m from the end of the record before it", gap),
                      "let the records join");
   }
-  if (next.kind == PlanKind::cubic) return;
   const double turn =
-      std::atan2(end.direction.x * next.direction.y - end.direction.y * next.direction.x,
-                 glm::dot(end.direction, next.direction));
+      std::atan2(end.direction.x * direction.y - end.direction.y * direction.x,
+                 glm::dot(end.direction, direction));
   if (std::abs(turn) > break_rad) {
     findings.warning(
         geometry,
         fmt::format("its heading differs by {:.4f} rad from the end of the record before it", turn),
         "let the records join smoothly");
   }
+}
+
+void check_roll(XmlFindings& findings, const pugi::xml_node& lateral, const char* what,
+                const CubicProfile& profile, double s_end) {
+  visit_records(profile, s_end, [&](const CubicRecord& record, double end) {
+    const double roll = value_range(record, record.s_m, end).magnitude();
+    if (roll <= steepest_roll_rad) return;
+    findings.error(lateral,
+                   fmt::format("the {} from s={} reaches {:.4g} rad", what, record.s_m, roll),
+                   fmt::format("keep it within ±{} rad", steepest_roll_rad));
+  });
 }
 
 }  // namespace
@@ -107,10 +140,11 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
   for (const auto geometry : plan_view.children("geometry")) {
     PlanStart start;
     start.s_m = findings.number(geometry, "s");
-    const Vec2 position(findings.number(geometry, "x"), findings.number(geometry, "y"));
+    const Vec2 position(findings.number(geometry, "x", farthest_m),
+                        findings.number(geometry, "y", farthest_m));
     start.position_m = turned(position + offset.shift_m, offset.heading_rad);
     start.heading_rad = wrap_angle(findings.number(geometry, "hdg") + offset.heading_rad);
-    start.length_m = findings.number(geometry, "length");
+    start.length_m = findings.number(geometry, "length", longest_road_m);
     if (start.length_m == 0.0) {
       findings.warning(geometry, "its length is 0; it is left out", "remove it");
       continue;
@@ -138,6 +172,12 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
       findings.error(geometry, appended.error().what, appended.error().remedy);
       continue;
     }
+    if (!is_in_the_world(road.plan)) {
+      findings.error(geometry, "its curve leaves the world",
+                     fmt::format("keep it within ±{} m; check its coefficients", farthest_m));
+      road.plan.records.pop_back();
+      continue;
+    }
     if (!first) check_joint(findings, geometry, end, road.plan.records.back());
     s_end = start.s_m + start.length_m;
   }
@@ -148,9 +188,13 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
     return;
   }
   if (std::abs(s_end - road.length_m) > break_m) {
+    const bool shorter = s_end < road.length_m;
     findings.warning(
-        road_node, fmt::format("length={} but its geometry ends at {:.3f} m", road.length_m, s_end),
+        road_node,
+        fmt::format("length={} but its geometry ends at {:.3f} m{}", road.length_m, s_end,
+                    shorter ? ", where the road is taken to end" : ""),
         "let the length be the sum of its geometries");
+    if (shorter) road.length_m = s_end;
   }
 }
 
@@ -159,24 +203,26 @@ void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node,
   road.elevation =
       read_profile(findings, road_node.child("elevationProfile"), "elevation", "s", 0.0);
   for (CubicRecord& record : road.elevation) record.a += offset.z_m;
+  const auto profile = road_node.child("elevationProfile");
+  visit_records(road.elevation, road.length_m, [&](const CubicRecord& record, double end) {
+    const double height = value_range(record, record.s_m, end).magnitude(),
+                 grade = slope_range(record, record.s_m, end).magnitude();
+    if (!(height <= highest_m)) {
+      findings.error(
+          profile, fmt::format("the elevation from s={} reaches {:.4g} m", record.s_m, height),
+          fmt::format("keep it within ±{} m; check its coefficients", highest_m));
+    } else if (grade > steepest_grade) {
+      findings.warning(
+          profile, fmt::format("the road from s={} climbs {:.4g} m in a metre", record.s_m, grade),
+          "check the coefficients");
+    }
+  });
 }
 
 void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& road) {
   const auto lateral = road_node.child("lateralProfile");
   road.superelevation = read_profile(findings, lateral, "superelevation", "s", 0.0);
-  for (std::size_t i = 0; i < road.superelevation.size(); ++i) {
-    const CubicRecord& record = road.superelevation[i];
-    const double end =
-        i + 1 < road.superelevation.size() ? road.superelevation[i + 1].s_m : road.length_m;
-    for (int sample = 0; sample <= 8; ++sample) {
-      const double roll = record.value(record.s_m + std::max(0.0, end - record.s_m) * sample / 8.0);
-      if (std::abs(roll) <= steepest_roll_rad) continue;
-      findings.error(
-          lateral, fmt::format("the superelevation from s={} reaches {:.4g} rad", record.s_m, roll),
-          fmt::format("keep it within ±{} rad", steepest_roll_rad));
-      break;
-    }
-  }
+  check_roll(findings, lateral, "superelevation", road.superelevation, road.length_m);
   for (const auto node : lateral.children("crossfall")) {
     const std::string_view side = node.attribute("side").value();
     const CubicRecord record{findings.number(node, "s"), findings.number_or(node, "a", 0.0),
@@ -197,6 +243,8 @@ void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
                    [](const LateralShape& a, const LateralShape& b) {
                      return a.s_m != b.s_m ? a.s_m < b.s_m : a.t_m < b.t_m;
                    });
+  check_roll(findings, lateral, "crossfall", road.crossfall_left, road.length_m);
+  check_roll(findings, lateral, "crossfall", road.crossfall_right, road.length_m);
   if (const auto surface = lateral.child("crossSectionSurface")) {
     findings.warning(surface, "cross-section surfaces are not honoured",
                      "use superelevation and shape");

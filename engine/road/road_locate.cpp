@@ -31,8 +31,13 @@ Offset offset_from(const PlanPoint& plan, const Vec2& world_m) {
 Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s,
                    double t_before) {
   const auto [along, across] = offset_from(section.plan, world_m);
-  const double h = surface_offset_m(road, s, t_before);
-  const double t = (across + h * section.sin_roll) / section.cos_roll;
+  double h = 0.0, t = t_before;
+  // The surface's height at t moves t: each round leaves its cross slope times the bank of the error.
+  for (int round = 0; round < 24; ++round) {
+    h = surface_offset_m(road, s, t);
+    const double before = std::exchange(t, (across + h * section.sin_roll) / section.cos_roll);
+    if (road.flat || std::abs(t - before) < 1e-10) break;
+  }
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
 }
 

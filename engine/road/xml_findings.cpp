@@ -11,7 +11,6 @@ namespace septet::road {
 namespace {
 
 constexpr std::size_t most_findings = 1000;
-constexpr double largest_number = 1e12;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
@@ -54,31 +53,34 @@ int XmlFindings::line_of(std::ptrdiff_t offset) const {
 }
 
 void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what,
-                      std::string remedy) {
+                      std::string remedy, std::string_view rule) {
   std::string where = line > 0 ? fmt::format("{}:{}", name_, line) : name_;
   if (!element.empty()) where += fmt::format(", <{}>", shown(element));
   Error error{std::move(what), std::move(where), std::move(remedy)};
   if (severity == Severity::error && !first_error_) first_error_ = error;
   if (findings_.size() < most_findings - 1) {
-    findings_.push_back({severity, line, std::move(error)});
+    findings_.push_back({severity, line, std::move(error), std::string(rule)});
   } else if (findings_.size() == most_findings - 1) {
     findings_.push_back(
         {severity, line, {"there is more wrong than is listed here", name_, "repair these first"}});
   }
 }
 
-void XmlFindings::error(const pugi::xml_node& node, std::string what, std::string remedy) {
+void XmlFindings::error(const pugi::xml_node& node, std::string what, std::string remedy,
+                        std::string_view rule) {
   add(Severity::error, line_of(node.offset_debug()), node.name(), std::move(what),
-      std::move(remedy));
+      std::move(remedy), rule);
 }
 
-void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::string remedy) {
+void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::string remedy,
+                          std::string_view rule) {
   add(Severity::warning, line_of(node.offset_debug()), node.name(), std::move(what),
-      std::move(remedy));
+      std::move(remedy), rule);
 }
 
-void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy) {
-  add(Severity::error, line_of(offset), {}, std::move(what), std::move(remedy));
+void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
+                           std::string_view rule) {
+  add(Severity::error, line_of(offset), {}, std::move(what), std::move(remedy), rule);
 }
 
 std::vector<Finding> XmlFindings::findings() const {
@@ -88,7 +90,7 @@ std::vector<Finding> XmlFindings::findings() const {
   return sorted;
 }
 
-double XmlFindings::number(const pugi::xml_node& node, const char* attribute) {
+double XmlFindings::number(const pugi::xml_node& node, const char* attribute, double most) {
   if (!node.attribute(attribute)) {
     error(node, fmt::format("attribute {} is missing", attribute),
           fmt::format("add {}=\"…\", a number", attribute));
@@ -96,16 +98,27 @@ double XmlFindings::number(const pugi::xml_node& node, const char* attribute) {
   }
   const std::string_view text = node.attribute(attribute).value();
   const auto value = parse<double>(text);
-  if (!value || !(std::abs(*value) <= largest_number)) {
-    error(node, fmt::format("{}=\"{}\" is not a number within ±1e12", attribute, shown(text)),
-          "write a finite number with a decimal point");
+  if (!value || !(std::abs(*value) <= most)) {
+    error(node, fmt::format("{}=\"{}\" is not a number within ±{}", attribute, shown(text), most),
+          "write a number of that range, with a decimal point");
     return 0.0;
   }
   return *value;
 }
 
-double XmlFindings::number_or(const pugi::xml_node& node, const char* attribute, double fallback) {
-  return trimmed(node.attribute(attribute).value()).empty() ? fallback : number(node, attribute);
+double XmlFindings::number_or(const pugi::xml_node& node, const char* attribute, double fallback,
+                              double most) {
+  return trimmed(node.attribute(attribute).value()).empty() ? fallback
+                                                            : number(node, attribute, most);
+}
+
+double XmlFindings::amount_or(const pugi::xml_node& node, const char* attribute, double fallback,
+                              double most) {
+  const double value = number_or(node, attribute, fallback, most);
+  if (value >= 0.0) return value;
+  warning(node, fmt::format("{}={} is below 0; it is taken as 0", attribute, value),
+          "give a number of at least 0");
+  return 0.0;
 }
 
 std::optional<int> XmlFindings::integer(const pugi::xml_node& node, const char* attribute) {

@@ -24,20 +24,29 @@ class XmlFindings {
  public:
   XmlFindings(std::string_view text, std::string_view name);
 
-  void error(const pugi::xml_node& node, std::string what, std::string remedy);
-  void warning(const pugi::xml_node& node, std::string what, std::string remedy);
+  /// `rule`: the standard's checker rule that is broken, if there is one.
+  void error(const pugi::xml_node& node, std::string what, std::string remedy,
+             std::string_view rule = {});
+  void warning(const pugi::xml_node& node, std::string what, std::string remedy,
+               std::string_view rule = {});
   /// An error at a byte of the text, for what is no XML at all.
-  void error_at(std::ptrdiff_t offset, std::string what, std::string remedy);
+  void error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
+                std::string_view rule = {});
 
   bool has_error() const { return first_error_.has_value(); }
   const Error& first_error() const { return *first_error_; }
   /// Sorted by line; at most 1,000, the last of them says so.
   std::vector<Finding> findings() const;
 
-  /// A finite number of magnitude up to 1e12. Missing: an error and 0.
-  double number(const pugi::xml_node& node, const char* attribute);
+  static constexpr double largest_number = 1e12;
+  /// A finite number within ±most (road_limits.hpp). Missing or beyond: an error and 0.
+  double number(const pugi::xml_node& node, const char* attribute, double most = largest_number);
   /// The same; missing or empty: the fallback.
-  double number_or(const pugi::xml_node& node, const char* attribute, double fallback);
+  double number_or(const pugi::xml_node& node, const char* attribute, double fallback,
+                   double most = largest_number);
+  /// A number of at least 0; missing or empty: the fallback; below 0: a warning and 0.
+  double amount_or(const pugi::xml_node& node, const char* attribute, double fallback,
+                   double most = largest_number);
   /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and nothing.
   std::optional<int> integer(const pugi::xml_node& node, const char* attribute);
   /// A text that must be there. Missing or empty: an error.
@@ -45,7 +54,7 @@ class XmlFindings {
 
  private:
   void add(Severity severity, int line, std::string_view element, std::string what,
-           std::string remedy);
+           std::string remedy, std::string_view rule);
   int line_of(std::ptrdiff_t offset) const;
 
   std::string name_;

@@ -16,11 +16,10 @@ namespace {
 using geometry::lattice_random;
 using geometry::MeshBuilder;
 
-constexpr double tile_m = 512.0, middle_tile_m = 1024.0, far_tile_m = 2048.0;
+constexpr double tile_m = 512.0, middle_tile_m = 1024.0;
 constexpr double near_cell_m = tile_m / 24, middle_cell_m = tile_m / 6,
-                 far_cell_m = far_tile_m / 16;
+                 far_cell_m = land_tile_m / 16;
 constexpr float middle_until_m = 7000.0f;
-constexpr double reach_m = 5200.0;    ///< Of the land beyond the roads.
 constexpr double ring_drop_m = 0.35;  ///< A tile overlaps its neighbours by one cell, sunk by this.
 constexpr double texture_m = 6.0;
 
@@ -263,24 +262,19 @@ void build_water(const WorldContext& world, const Terrain::Valley& valley) {
 }  // namespace
 
 void build_land(const WorldContext& world) {
-  const Vec2 low = world.terrain.low_m() - reach_m, high = world.terrain.high_m() + reach_m;
-  const auto first_x = static_cast<int>(std::floor(low.x / far_tile_m)),
-             last_x = static_cast<int>(std::ceil(high.x / far_tile_m));
-  const auto first_y = static_cast<int>(std::floor(low.y / far_tile_m)),
-             last_y = static_cast<int>(std::ceil(high.y / far_tile_m));
-  for (int y = first_y; y < last_y; ++y)
-    for (int x = first_x; x < last_x; ++x) {
-      const Vec2 corner = Vec2(x, y) * far_tile_m;
-      const double distance = world.terrain.distance_m(corner + Vec2(far_tile_m / 2));
-      if (distance > reach_m + far_tile_m / 2) continue;
-      if (distance > 2900.0) {
-        const LandGrid grid(world, corner, far_tile_m, far_cell_m);
-        build_plain(world, grid, grid.origin(), 0.0f, all_m);
-        continue;
-      }
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i) build_middle_tile(world, corner + Vec2(i, j) * middle_tile_m);
+  constexpr double farthest_m = land_reach_m + land_tile_m / 2;
+  for (const glm::i64vec2& square : world.terrain.squares_near(land_tile_m, farthest_m)) {
+    const Vec2 corner = Vec2(square) * land_tile_m;
+    const double distance = world.terrain.distance_m(corner + Vec2(land_tile_m / 2));
+    if (distance > farthest_m) continue;
+    if (distance > 2900.0) {
+      const LandGrid grid(world, corner, land_tile_m, far_cell_m);
+      build_plain(world, grid, grid.origin(), 0.0f, all_m);
+      continue;
     }
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) build_middle_tile(world, corner + Vec2(i, j) * middle_tile_m);
+  }
   for (const Terrain::Valley& valley : world.terrain.valleys()) build_water(world, valley);
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "engine/core/expected.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/scene/builder.hpp"
 
@@ -18,6 +19,12 @@ struct RoadWorldOptions {
   double overrun_m = 1500.0;  ///< How far loose ends of roads run on.
 };
 
+/// Whether the world around the roads can be built in reasonable time and memory: as much land,
+/// road, paint and structures as a region holds. Error: what there is too much of.
+Expected<void> check_world_size(const road::RoadNetwork& network,
+                                const RoadWorldOptions& options = {});
+
+/// For a network that check_world_size lets pass.
 void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network,
                       std::uint64_t seed, const RoadWorldOptions& options = {});
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,6 +30,22 @@ double smooth_step(double low, double high, double x) {
 
 double Terrain::meander_m(double across_m) {
   return 14.0 * std::sin(across_m / 85.0) * smooth_step(30.0, 160.0, std::abs(across_m));
+}
+
+std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m,
+                                       double reach_m) {
+  // By y first, then by x; neighbours in the list mostly name the same squares.
+  std::set<std::pair<std::int64_t, std::int64_t>> found;
+  for (const Vec2& place : places) {
+    const Vec2 first = glm::floor((place - reach_m) / side_m - 0.5),
+               last = glm::ceil((place + reach_m) / side_m - 0.5);
+    for (auto y = static_cast<std::int64_t>(first.y); y <= static_cast<std::int64_t>(last.y); ++y)
+      for (auto x = static_cast<std::int64_t>(first.x); x <= static_cast<std::int64_t>(last.x); ++x)
+        found.emplace(y, x);
+  }
+  std::vector<glm::i64vec2> squares;
+  for (const auto& [y, x] : found) squares.emplace_back(x, y);
+  return squares;
 }
 
 Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : roads_(roads), seed_(seed) {
@@ -115,6 +132,12 @@ double Terrain::distance_m(const Vec2& p) const {
   for (const Sample& sample : coarse_)
     least = std::min(least, glm::distance(p, Vec2(sample.position_m)));
   return least;
+}
+
+std::vector<glm::i64vec2> Terrain::squares_near(double side_m, double within_m) const {
+  std::vector<Vec2> places;
+  for (const Sample& sample : coarse_) places.emplace_back(sample.position_m);
+  return scenery::squares_near(places, side_m, within_m);
 }
 
 double Terrain::height_m(const Vec2& p, const Nearest& near) const {

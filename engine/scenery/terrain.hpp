@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/ext/vector_int2_sized.hpp>
+
 #include "engine/scenery/road_shape.hpp"
 
 namespace septet::scenery {
@@ -41,6 +43,9 @@ class Terrain {
   bool is_at_portal(const Nearest& nearest) const;
   /// Share of woodland at p, 0 to 1.
   double woodland(const Vec2& p) const;
+
+  /// scenery::squares_near of all roads.
+  std::vector<glm::i64vec2> squares_near(double side_m, double within_m) const;
 
   Vec2 low_m() const { return low_m_; }
   Vec2 high_m() const { return high_m_; }
@@ -79,6 +84,12 @@ class Terrain {
   std::vector<Mouth> tunnels_;
   Vec2 low_m_{1e9}, high_m_{-1e9};
 };
+
+/// The lower corners, in steps of `side_m`, of all squares whose middle lies within `reach_m` of one
+/// of the places along x and along y, and of some beyond; row by row. What lies between places far
+/// apart is not walked.
+std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m,
+                                       double reach_m);
 
 /// 0 below `low`, 1 above `high`, smooth between.
 double smooth_step(double low, double high, double x);

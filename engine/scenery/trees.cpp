@@ -197,17 +197,14 @@ class TreePlanter {
 
 void build_trees(const WorldContext& world) {
   TreePlanter planter(world);
-  constexpr double side = 256.0;
-  const auto first_x = static_cast<int>(std::floor((world.terrain.low_m().x - 350.0) / side)),
-             last_x = static_cast<int>(std::ceil((world.terrain.high_m().x + 350.0) / side));
-  const auto first_y = static_cast<int>(std::floor((world.terrain.low_m().y - 350.0) / side)),
-             last_y = static_cast<int>(std::ceil((world.terrain.high_m().y + 350.0) / side));
-  for (int y = first_y; y < last_y; ++y)
-    for (int x = first_x; x < last_x; ++x) {
-      const Vec2 corner = Vec2(x, y) * side;
-      if (world.terrain.distance_m(corner + Vec2(side / 2)) < 650.0)
-        planter.plant_tile(corner, side);
-    }
+  constexpr double side = 256.0, reach = 650.0, margin = 350.0;
+  const Vec2 first = glm::floor((world.terrain.low_m() - margin) / side),
+             end = glm::ceil((world.terrain.high_m() + margin) / side);
+  for (const glm::i64vec2& square : world.terrain.squares_near(side, reach)) {
+    const Vec2 at(square), corner = at * side;
+    if (at.x < first.x || at.y < first.y || at.x >= end.x || at.y >= end.y) continue;
+    if (world.terrain.distance_m(corner + Vec2(side / 2)) < reach) planter.plant_tile(corner, side);
+  }
 }
 
 }  // namespace septet::scenery

@@ -35,6 +35,8 @@ inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::
 
 /// How far the precise tiles of the road are seen from their middle, and how far anything is.
 inline constexpr float road_near_m = 380.0f, land_near_m = 800.0f, all_m = 14000.0f;
+/// How far the land reaches beyond the roads, and the side of its squares.
+inline constexpr double land_reach_m = 5200.0, land_tile_m = 2048.0;
 
 void build_pavement(const WorldContext& world);  ///< Asphalt, repairs, markings.
 void build_far_road(const WorldContext& world);  ///< All of the road's parts, simplified.

@@ -12,9 +12,11 @@ namespace {
 using Answer = Expected<void> (*)(const road::RoadNetwork&, std::istream&, std::ostream&);
 
 int answer(const std::string& file, std::istream& in, std::ostream& out, Answer table) {
+  std::vector<road::Finding> warnings;
   const auto outcome = read_regular_file(file)
-                           .and_then([&](const std::string& text) { return road::read_opendrive(text, file); })
+                           .and_then([&](const std::string& text) { return road::read_opendrive(text, file, &warnings); })
                            .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); });
+  for (const road::Finding& warning : warnings) fmt::print(stderr, "warning: {}\n", describe(warning.error));
   if (outcome) return 0;
   fmt::print(stderr, "septet: {}\n", describe(outcome.error()));
   return 1;

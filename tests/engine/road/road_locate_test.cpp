@@ -108,4 +108,79 @@ TEST_CASE("the normal of the surface is that of the points around it") {
   }
 }
 
+TEST_CASE("a banked road with a shape and a crossfall and raised lanes is inverted exactly") {
+  SmallRoad road{.length_m = 200.0, .geometry = "<arc curvature=\"0.01\"/>"};
+  road.profiles =
+      "<lateralProfile><superelevation s=\"0\" a=\"0.2\" b=\"0.001\" c=\"0\" d=\"0\"/>"
+      "<crossfall side=\"both\" s=\"0\" a=\"0.03\" b=\"0\" c=\"0\" d=\"0\"/>"
+      "<shape s=\"0\" t=\"0\" a=\"0.1\" b=\"0.05\" c=\"0\" d=\"0\"/></lateralProfile>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) +
+                  "</center><right>" +
+                  lane(-1, 3.5, "<height sOffset=\"0\" inner=\"0.4\" outer=\"0.6\"/>") +
+                  "</right></laneSection>";
+  const RoadNetwork network = read_or_fail(road.xml());
+  Random random(4);
+  for (int i = 0; i < 500; ++i) {
+    const RoadPosition position{0, random.uniform(5.0, 195.0), random.uniform(-3.4, 2.9)};
+    const auto found = locate(network, Vec2(evaluate(network, position).position_m));
+    REQUIRE(found.has_value());
+    REQUIRE(found->position.s_m == doctest::Approx(position.s_m).epsilon(1e-8));
+    REQUIRE(found->position.t_m == doctest::Approx(position.t_m).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to the point") {
+  const auto connecting = [](const char* id, double y, double width) {
+    std::ostringstream text;
+    text << "<road id=\"" << id << "\" length=\"50\" junction=\"7\"><link><predecessor "
+         << "elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link><planView><geometry "
+         << "s=\"0\" x=\"100\" y=\"" << y << "\" hdg=\"0\" length=\"50\"><line/></geometry>"
+         << "</planView><lanes><laneSection s=\"0\"><center>" << lane(0, 0) << "</center><right>"
+         << lane(-1, width) << "</right></laneSection></lanes></road>";
+    return text.str();
+  };
+  const auto connection = [](const char* id) {
+    return std::string("<connection id=\"") + id + "\" incomingRoad=\"a\" connectingRoad=\"" + id +
+           "\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>";
+  };
+  // Both hold the points from y = -3 to 0; the middle of b is at -1.75, that of c at -4.
+  const std::string more = connecting("b", 0.0, 3.5) + connecting("c", 0.0, 8.0) +
+                           "<junction id=\"7\">" + connection("b") + connection("c") +
+                           "</junction>";
+  const std::string xml =
+      replaced(replaced(SmallRoad{}.xml(), "<planView>",
+                        "<link><successor elementType=\"junction\" elementId=\"7\"/></link>"
+                        "<planView>"),
+               "</OpenDRIVE>", more + "</OpenDRIVE>");
+  const RoadNetwork network = read_or_fail(xml);
+  const RoadPosition hint{0, 99.0, -1.75};
+  const auto near_b = locate(network, {103.0, -1.5}, &hint),
+             near_c = locate(network, {103.0, -3.4}, &hint);
+  REQUIRE(near_b.has_value());
+  REQUIRE(near_c.has_value());
+  CHECK(network.roads[near_b->position.road].id == "b");
+  CHECK(network.roads[near_c->position.road].id == "c");
+}
+
+TEST_CASE("on the inside of a climbing bend the surface is steeper than the reference line") {
+  SmallRoad road{.length_m = 40.0, .geometry = "<arc curvature=\"0.04\"/>"};
+  road.profiles =
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.1\" c=\"0\" d=\"0\"/></elevationProfile>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 12.0) + "</left><center>" + lane(0, 0) +
+                  "</center><right>" + lane(-1, 12.0) + "</right></laneSection>";
+  const RoadNetwork network = read_or_fail(road.xml());
+  for (const double t : {-10.0, 0.0, 10.0}) {
+    const RoadPosition position{0, 20.0, t};
+    const Vec2 at(evaluate(network, position).position_m);
+    const auto height_at = [&](const Vec2& offset) {
+      return surface_at(network, at + offset, &position)->height_m;
+    };
+    const double h = 1e-3;
+    const Vec3 by_differences = glm::normalize(
+        Vec3((height_at({-h, 0.0}) - height_at({h, 0.0})) / (2 * h),
+             (height_at({0.0, -h}) - height_at({0.0, h})) / (2 * h), 1.0));
+    CHECK(glm::distance(surface_at(network, at, &position)->normal, by_differences) < 1e-6);
+  }
+}
+
 }  // namespace septet::road

@@ -1,5 +1,7 @@
 #include "engine/road/surface_material.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "road_files.hpp"
@@ -58,11 +60,14 @@ TEST_CASE("a patch lies on the lane within its outline and nowhere else") {
   CHECK_FALSE(is_ice(80.0, -1.0));  // A tree is no patch.
 }
 
-TEST_CASE("a friction out of bounds is refused") {
+TEST_CASE("a friction below 0 is said and none is given") {
   std::string xml = mixed_road();
   const auto at = xml.find("friction=\"0.8\"");
   xml.replace(at, 14, "friction=\"-1\"");
-  CHECK_FALSE(read_opendrive(xml, "broken.xodr").has_value());
+  const auto findings = check_opendrive(xml, "broken.xodr");
+  CHECK(std::ranges::any_of(findings, [](const Finding& finding) {
+    return finding.error.what == "friction=-1 is below 0; it is taken as 0";
+  }));
 }
 
 }  // namespace septet::road

@@ -50,6 +50,21 @@ TEST_CASE("the same seed gives the same world byte for byte and it fits on the w
   CHECK(first.bytes < 11'000'000);
 }
 
+TEST_CASE("the land between roads that are far apart is not walked") {
+  const std::string xml = road::replaced(
+      road::SmallRoad{}.xml(), "</OpenDRIVE>",
+      road::replaced(road::replaced(road::SmallRoad{}.xml(), "id=\"a\"", "id=\"b\""), "x=\"0\"",
+                     "x=\"9e7\"")
+              .substr(std::string("<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"8\"></header>\n").size()));
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  RoadWorldOptions options{false, false, 0.0};
+  const road::RoadNetwork network = road::read_or_fail(xml);
+  REQUIRE(check_world_size(network, options).has_value());
+  build_road_world(builder, network, 3, options);
+  CHECK(scene::resolve(store).meshes.size() > 0);
+}
+
 TEST_CASE("everything of the world is finite and has a material") {
   scene::Store store;
   scene::SceneBuilder builder(store);
