@@ -36,7 +36,8 @@ FollowingLaw::FollowingLaw(const FollowingParameters& driver)
       acceleration_mps2(driver.acceleration_mps2),
       standstill_gap_m(driver.standstill_gap_m),
       half_inverse_root_ab(0.5 /
-                           std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)) {}
+                           std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)),
+      comfortable_braking_mps2(driver.comfortable_braking_mps2) {}
 
 double idm_acceleration(const FollowingParameters& driver, double speed_mps,
                         double leader_speed_mps, double gap_m) {

@@ -4,7 +4,9 @@
 /// Sources: M. Treiber, A. Hennecke, D. Helbing, "Congested traffic states in empirical
 /// observations and microscopic simulations", Phys. Rev. E 62 (2000), eqs. 2–4 (IDM); A. Kesting,
 /// M. Treiber, D. Helbing, "General lane-changing model MOBIL for car-following models", Transp.
-/// Res. Rec. 1999 (2007), eqs. 2–5. Pure functions; SI units.
+/// Res. Rec. 1999 (2007), eqs. 2–5; A. Kesting, M. Treiber, D. Helbing, "Enhanced intelligent driver
+/// model to access the impact of driving strategies on traffic capacity", Phil. Trans. R. Soc. A 368
+/// (2010), section 3 (whoever is cut in upon). Pure functions; SI units.
 
 #include <limits>
 
@@ -61,6 +63,7 @@ double idm_stability_margin(const FollowingParameters& driver, double gap_m);
 struct FollowingLaw {
   double inverse_desired_speed = 1.0, time_gap_s = 1.0, acceleration_mps2 = 1.0;
   double standstill_gap_m = 2.0, half_inverse_root_ab = 1.0;
+  double comfortable_braking_mps2 = 2.0;
 
   FollowingLaw() = default;
   explicit FollowingLaw(const FollowingParameters& driver);
@@ -73,6 +76,33 @@ struct FollowingLaw {
     const double wanted = standstill_gap_m + (dynamic > 0.0 ? dynamic : 0.0);
     const double tight = wanted / (gap_m > 0.1 ? gap_m : 0.1);
     const double a = acceleration_mps2 * (1.0 - ratio2 * ratio2 - tight * tight);
+    return a > -hardest_braking_mps2 ? a : -hardest_braking_mps2;
+  }
+
+  /// How a driver brakes where the intelligent driver model's answer is `idm_mps2`: the model takes
+  /// a gap that a cut-in has shortened for an emergency. People count on the leader not to brake
+  /// harder than now, and take longer to open the gap: from what just avoids a collision (the
+  /// constant-acceleration heuristic) on, the model's braking is felt no harder than the
+  /// comfortable one. In equilibrium, and to first order about it, both are the same. Other than
+  /// the paper, nobody counts on a leader's gaining speed, and tanh is its Padé approximant, good to 0.03.
+  double with_coolness(double idm_mps2, double speed_mps, double leader_speed_mps,
+                       double leader_acceleration_mps2, double gap_m) const {
+    if (idm_mps2 >= 0.0) return idm_mps2;
+    constexpr double coolness = 0.99;
+    const double gap = gap_m > 0.1 ? gap_m : 0.1;
+    const double leader_mps2 = leader_acceleration_mps2 < 0.0 ? leader_acceleration_mps2 : 0.0;
+    const double closing = speed_mps - leader_speed_mps, free = -2.0 * gap * leader_mps2;
+    const double just_enough =
+        leader_speed_mps * closing < free
+            ? speed_mps * speed_mps * leader_mps2 / (leader_speed_mps * leader_speed_mps + free)
+            : leader_mps2 - (closing > 0.0 ? closing * closing / (2.0 * gap) : 0.0);
+    const double beyond = (idm_mps2 - just_enough) / comfortable_braking_mps2;
+    if (beyond >= 0.0) return idm_mps2;
+    const double square = beyond * beyond;
+    const double tanh =
+        beyond > -3.0 ? beyond * (27.0 + square) / (27.0 + 9.0 * square) : -1.0;
+    const double a = (1.0 - coolness) * idm_mps2 +
+                     coolness * (just_enough + comfortable_braking_mps2 * tanh);
     return a > -hardest_braking_mps2 ? a : -hardest_braking_mps2;
   }
 };

@@ -62,8 +62,8 @@ void follow_carefully(CorridorTraffic& traffic, const std::vector<LaneEntry>& la
     const auto i = static_cast<std::size_t>(own.vehicle);
     double limit = no_leader;
     const LaneEntry* leader = leader_among_straddlers(traffic, lane, k, limit);
-    double a = traffic.law[i].acceleration(own.speed_mps, leader ? leader->speed_mps : 0.0,
-                                           gap_to(traffic, own.x_m, leader));
+    double a = acceleration_behind(traffic.law[i], own.speed_mps, leader,
+                                   gap_to(traffic, own.x_m, leader));
     if (own.speed_mps > limit - 1.0) {
       a = std::min(a, std::clamp(limit - own.speed_mps, -3.0, 1.0));
     }
@@ -78,16 +78,16 @@ void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane
     if (own.vehicle < 0) continue;
     const auto i = static_cast<std::size_t>(own.vehicle);
     const LaneEntry& leader = lane[k + 1];
-    const double a = traffic.law[i].acceleration(own.speed_mps, leader.speed_mps,
-                                                 leader.x_m - own.x_m - leader.length_m);
+    const double a = acceleration_behind(traffic.law[i], own.speed_mps, &leader,
+                                         leader.x_m - own.x_m - leader.length_m);
     traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
   }
   if (count == 0 || lane.back().vehicle < 0) return;
   const LaneEntry& own = lane.back();
   const auto i = static_cast<std::size_t>(own.vehicle);
   const LaneEntry* leader = traffic.corridor.closed && count > 1 ? &lane.front() : nullptr;
-  const double a = traffic.law[i].acceleration(own.speed_mps, leader ? leader->speed_mps : 0.0,
-                                               gap_to(traffic, own.x_m, leader));
+  const double a = acceleration_behind(traffic.law[i], own.speed_mps, leader,
+                                       gap_to(traffic, own.x_m, leader));
   traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
 }
 
@@ -96,8 +96,9 @@ void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane
 LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t i) {
   const Across body = across(traffic, i);
   return {traffic.x_m[i],
-          traffic.length_m[i],
           traffic.speed_mps[i],
+          static_cast<float>(traffic.length_m[i]),
+          static_cast<float>(traffic.acceleration_mps2[i]),
           static_cast<float>(body.middle_m),
           static_cast<float>(body.half_width_m),
           static_cast<std::int32_t>(i),
@@ -121,6 +122,7 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
       LaneEntry& entry = lane[kept++];
       entry.x_m = traffic.x_m[i];
       entry.speed_mps = traffic.speed_mps[i];
+      entry.acceleration_mps2 = static_cast<float>(traffic.acceleration_mps2[i]);
       if (careful) {
         const Across body = across(traffic, i);
         entry.lateral_m = static_cast<float>(body.middle_m);
@@ -184,7 +186,8 @@ void follow(CorridorTraffic& traffic) {
     const double to_end = traffic.lane_end_m[i] - traffic.x_m[i];
     if (to_end > look_ahead_lane_end_m) continue;
     // A lane that ends is a standing obstacle.
-    const double a = traffic.law[i].acceleration(traffic.speed_mps[i], 0.0, to_end);
+    constexpr LaneEntry end{};
+    const double a = acceleration_behind(traffic.law[i], traffic.speed_mps[i], &end, to_end);
     traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
   }
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
@@ -11,7 +12,7 @@ namespace {
 constexpr double over_the_line_m = 0.2;
 
 void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle,
-                       std::int32_t index, const road::Location& place,
+                       std::int32_t index, double acceleration_mps2, const road::Location& place,
                        const CorridorTraffic& traffic, ForeignTraffic& found) {
   const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
   if (!x) return;
@@ -22,9 +23,10 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   const double half_width = 0.5 * model.width_m;
   LaneEntry entry;
   entry.x_m = *x + 0.5 * model.length_m;
-  entry.length_m = model.length_m;
+  entry.length_m = static_cast<float>(model.length_m);
   // Only what goes along with the traffic counts as its speed.
   entry.speed_mps = glm::length(vehicle.velocity_mps);
+  entry.acceleration_mps2 = static_cast<float>(acceleration_mps2);
   entry.lateral_m = static_cast<float>(-lane * traffic.table.lane_width_m + offset_left);
   entry.half_width_m = static_cast<float>(half_width);
   entry.vehicle = -1 - index;
@@ -43,19 +45,26 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
 }  // namespace
 
 std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
-                                          std::span<const ForeignVehicle> foreign,
+                                          std::span<const ForeignVehicle> foreign, double dt_s,
                                           TrafficState& state) {
   state.foreign_places.resize(foreign.size());
+  state.foreign_speeds_mps.resize(foreign.size(), no_leader);
   std::vector<ForeignTraffic> found(state.corridors.size());
   for (std::size_t i = 0; i < foreign.size(); ++i) {
+    const double now_mps = glm::length(foreign[i].velocity_mps);
+    const double before_mps = std::exchange(state.foreign_speeds_mps[i], now_mps);
     const VehicleModel& model = vehicle_models()[foreign[i].model];
     const Vec3 middle = foreign[i].world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.0);
     auto& hint = state.foreign_places[i];
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
     if (!place || place->lanes.lane == 0) continue;
     hint = place->position;
+    const double change_mps = now_mps - before_mps;
+    // Who was put somewhere else has not braked.
+    const double braking_mps2 =
+        change_mps > -hardest_braking_mps2 * 2.0 * dt_s ? change_mps / dt_s : 0.0;
     for (std::size_t c = 0; c < state.corridors.size(); ++c) {
-      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), *place,
+      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, *place,
                         state.corridors[c], found[c]);
     }
   }

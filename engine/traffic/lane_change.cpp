@@ -9,19 +9,17 @@ namespace {
 constexpr double refused = -no_leader;
 constexpr double look_ahead_lane_end_m = 250.0;
 constexpr double smallest_gap_m = 2.0;
+constexpr LaneEntry standing{};  ///< The end of a lane.
 /// What making room for an emergency vehicle outweighs.
 constexpr double leave_lane_bias_mps2 = 3.0;
 /// What reaching one's exit outweighs.
 constexpr double exit_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
-/// Acceleration of somebody in the order behind a gap; foreign ones are taken to drive as the one
-/// who decides.
-double acceleration_behind(const CorridorTraffic& traffic, const LaneEntry& behind,
-                           std::size_t decider, double gap_m, double ahead_speed_mps) {
-  const std::size_t driver =
-      behind.vehicle >= 0 ? static_cast<std::size_t>(behind.vehicle) : decider;
-  return traffic.law[driver].acceleration(behind.speed_mps, ahead_speed_mps, gap_m);
+/// The law by which somebody in the order drives; foreign ones as the one who decides.
+const FollowingLaw& law_of(const CorridorTraffic& traffic, const LaneEntry& entry,
+                           std::size_t decider) {
+  return traffic.law[entry.vehicle >= 0 ? static_cast<std::size_t>(entry.vehicle) : decider];
 }
 
 /// One driver's thought about a change of lane.
@@ -44,18 +42,24 @@ struct Decision {
     const double gap_ahead = gap_to(traffic, x, ahead);
     if (gap_ahead < smallest_gap_m) return refused;
     const double ahead_speed = ahead != nullptr ? ahead->speed_mps : 0.0;
-    double own_then = traffic.law[i].acceleration(v, ahead_speed, gap_ahead);
-    if (own_then < -change.largest_braking_mps2) return refused;
-    if (lane_end - x < look_ahead_lane_end_m) {
-      own_then = std::min(own_then, traffic.law[i].acceleration(v, 0.0, lane_end - x));
-    }
+    // Whether it is safe is asked of the stricter law.
+    const FollowingLaw& law = traffic.law[i];
+    if (law.acceleration(v, ahead_speed, gap_ahead) < -change.largest_braking_mps2) return refused;
+    double own_then = acceleration_behind(law, v, ahead, gap_ahead);
+    if (lane_end - x < look_ahead_lane_end_m)
+      own_then = std::min(own_then, acceleration_behind(law, v, &standing, lane_end - x));
     double others = old_follower_gain;
     if (behind != nullptr) {
       const double gap = way_ahead_m(traffic.corridor, x - behind->x_m) - traffic.length_m[i];
       if (gap < smallest_gap_m) return refused;
-      const double then = acceleration_behind(traffic, *behind, i, gap, v);
-      if (then < -change.largest_braking_mps2) return refused;
-      others += then - present_acceleration(*behind, 0.0);
+      const FollowingLaw& law_behind = law_of(traffic, *behind, i);
+      if (law_behind.acceleration(behind->speed_mps, v, gap) < -change.largest_braking_mps2)
+        return refused;
+      LaneEntry own;
+      own.speed_mps = v;
+      own.acceleration_mps2 = static_cast<float>(own_now);
+      others += acceleration_behind(law_behind, behind->speed_mps, &own, gap) -
+                present_acceleration(*behind, 0.0);
     }
     return own_then - own_now +
            change.politeness *
@@ -79,9 +83,9 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
   const auto old = neighbours(traffic, lane, x, static_cast<std::int32_t>(i), hints[1]);
   if (old.behind != nullptr && change.politeness > 0.0) {
     const double gap = gap_to(traffic, old.behind->x_m, old.ahead);
-    const double ahead_speed = old.ahead != nullptr ? old.ahead->speed_mps : 0.0;
-    decision.old_follower_gain = acceleration_behind(traffic, *old.behind, i, gap, ahead_speed) -
-                                 decision.present_acceleration(*old.behind, 0.0);
+    decision.old_follower_gain =
+        acceleration_behind(law_of(traffic, *old.behind, i), old.behind->speed_mps, old.ahead, gap) -
+        decision.present_acceleration(*old.behind, 0.0);
   }
   int best = lane;
   double best_gain = change.threshold_mps2;

@@ -13,8 +13,9 @@ namespace septet::traffic {
 
 struct LaneEntry {
   double x_m = 0.0;  ///< Front bumper.
-  double length_m = 0.0;
   double speed_mps = 0.0;
+  float length_m = 0.0F;
+  float acceleration_mps2 = 0.0F;
   float lateral_m = 0.0F;     ///< The body's middle, as lateral_m of traffic.hpp.
   float half_width_m = 0.0F;  ///< Of what the body takes of the road, turned as it is.
   std::int32_t vehicle = -1;  ///< Index in the corridor's arrays; negative for a foreign vehicle.

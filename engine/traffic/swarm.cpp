@@ -22,7 +22,7 @@ bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double lengt
   if (behind == nullptr) return true;
   LaneEntry own;
   own.x_m = x_m;
-  own.length_m = length_m;
+  own.length_m = static_cast<float>(length_m);
   return gap_to(traffic, behind->x_m, &own) > 8.0 + 0.8 * std::max(speed_mps, behind->speed_mps);
 }
 
@@ -162,7 +162,7 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
   }
   const std::size_t directions = state.corridors.size();
   add_ramps(network, state);
-  const auto placed_foreign = place_foreign(network, foreign, state);
+  const auto placed_foreign = place_foreign(network, foreign, 1.0, state);
   ParticipantId next_id = parameters.first_id;
   const auto opposite_count =
       directions < 2 ? 0 : static_cast<std::uint32_t>(parameters.opposite_share * parameters.count);
@@ -208,7 +208,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
              std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
              TrafficState& state) {
   state.time_s += dt_s;
-  auto placed_foreign = place_foreign(network, foreign, state);
+  auto placed_foreign = place_foreign(network, foreign, dt_s, state);
   show_across_mouths(state, placed_foreign);
   const std::size_t directions = state.corridors.size() - state.ramps.size();
   const double middle_speed_mps = foreign.empty() ? 0.0 : glm::length(foreign.front().velocity_mps);

@@ -130,7 +130,8 @@ struct TrafficState {
   std::vector<Ramp> ramps;
   double time_s = 0.0;
   std::vector<std::optional<road::RoadPosition>>
-      foreign_places;  ///< Hints, one per foreign vehicle.
+      foreign_places;                        ///< Hints, one per foreign vehicle.
+  std::vector<double> foreign_speeds_mps;  ///< A tick ago.
 };
 
 /// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring

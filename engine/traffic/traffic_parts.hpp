@@ -25,9 +25,9 @@ struct ForeignTraffic {
   std::vector<EmergencyVehicle> emergencies;
 };
 
-/// One per corridor. Updates the hints of where foreign vehicles are.
+/// One per corridor. Keeps where foreign vehicles are and how fast, for the next tick.
 std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
-                                          std::span<const ForeignVehicle> foreign,
+                                          std::span<const ForeignVehicle> foreign, double dt_s,
                                           TrafficState& state);
 
 LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t vehicle);
@@ -55,6 +55,14 @@ inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle)
 inline double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
   return ahead == nullptr ? no_leader
                           : way_ahead_m(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
+}
+
+/// As the vehicle drives behind this entry; null: nobody.
+inline double acceleration_behind(const FollowingLaw& law, double speed_mps, const LaneEntry* ahead,
+                                  double gap_m) {
+  if (ahead == nullptr) return law.acceleration(speed_mps, 0.0, no_leader);
+  const double idm_mps2 = law.acceleration(speed_mps, ahead->speed_mps, gap_m);
+  return law.with_coolness(idm_mps2, speed_mps, ahead->speed_mps, ahead->acceleration_mps2, gap_m);
 }
 
 /// Stage 1: everybody's acceleration.

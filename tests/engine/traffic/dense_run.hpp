@@ -12,8 +12,6 @@ struct DenseRun {
   MotionCheck motion;
   double hard_braking_s = 0.0;  ///< Of all vehicles, below −6 m/s².
   double least_mps2 = 0.0;
-
-  double hard_braking_s_per_hour() const { return hard_braking_s / vehicle_hours; }
 };
 
 /// A car on the line between lanes 2 and 3 that comes to rest there, from where it has most room.

@@ -9,6 +9,7 @@ TEST_CASE("in dense traffic no outlines overlap and everybody moves as a car doe
     CAPTURE(per_km_and_lane);
     const DenseRun run = drive_dense(per_km_and_lane, 20.0, 1, false);
     CHECK(run.overlaps == 0);
+    CHECK(run.least_mps2 > -5.0);
     CHECK(run.motion.most_sideways_m < 0.01);
     CHECK(run.motion.most_overturned_rad < 1e-4);
   }
@@ -19,6 +20,8 @@ TEST_CASE("a car that stands across two lanes is passed and touched by nobody") 
     CAPTURE(per_km_and_lane);
     const DenseRun run = drive_dense(per_km_and_lane, 20.0, 1, true);
     CHECK(run.overlaps == 0);
+    // By those beside whom it appeared.
+    CHECK(run.hard_braking_s < 2.5);
     CHECK(run.motion.most_sideways_m < 0.01);
     CHECK(run.motion.most_overturned_rad < 1e-4);
   }

@@ -51,11 +51,16 @@ TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touc
     Random random(seed);
     TrafficState traffic = populate(parameters, *network, foreign(), random);
     int with_ambulance = 0, among_traffic = 0;
-    double most_aside = 0.0;
+    double most_aside = 0.0, hard_braking_s = 0.0, least_mps2 = 0.0;
     const double dt = 1.0 / 60.0;
     for (int tick = 0; tick < 60 * 60; ++tick) {
       scenario::advance_scenario(*scenario, *network, dt, *state);
       advance(parameters, *network, foreign(), dt, random, traffic);
+      for (const CorridorTraffic& corridor : traffic.corridors)
+        for (const double a : corridor.acceleration_mps2) {
+          least_mps2 = std::min(least_mps2, a);
+          if (a < -6.0) hard_braking_s += dt;
+        }
       for (const double aside : traffic.corridors[0].aside_m)
         most_aside = std::max(most_aside, std::abs(aside));
       if (tick % 6 != 0) continue;
@@ -69,6 +74,9 @@ TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touc
     CHECK(with_ambulance == 0);
     CHECK(among_traffic == 0);
     CHECK(most_aside > 0.8);
+    const double vehicle_hours = parameters.count / 60.0;
+    MESSAGE(hard_braking_s << " s below -6 m/s2, the least " << least_mps2);
+    CHECK(hard_braking_s < 0.1 * vehicle_hours);
   }
 }
 
