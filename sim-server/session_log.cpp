@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/road/body_lanes.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/scene/command_codec.hpp"
@@ -97,11 +98,14 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
     const road::RoadPosition hint{car.road, car.road_s_m + direction * ahead_m, 0.0};
     const auto& position = other.world_from_vehicle.position_m;
     const auto place = road::locate(roads, {position.x, position.y}, &hint);
-    if (!place || place->position.road != car.road || place->lanes.lane != car.lane) continue;
+    if (!place || place->position.road != car.road) continue;
+    const VehicleModel& model = vehicle_models()[other.model];
+    const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
+    const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
+    if (!road::drivable_lanes_under(roads, place->position, body).contains(car.lane)) continue;
     // The driver's station is that of the front axle; distances are between bumpers.
     const double to_rear_axle = direction * (place->position.s_m - car.road_s_m);
     const double own_front = own.front_m() - own.wheelbase_m;
-    const VehicleModel& model = vehicle_models()[other.model];
     const double gap = to_rear_axle - model.rear_overhang_m - own_front;
     if (gap < -2.0 || gap > 250.0 || (leader && gap > leader->distance_gap_m)) continue;
     leader = logging::Leader{other.id, gap, gap + model.length_m, glm::length(other.velocity_mps)};

@@ -48,13 +48,14 @@ struct SteeringParameters {
   double heading_noise_rad = 0.0018, heading_noise_s = 0.6;
 };
 
-/// Speed and gap: the intelligent driver model behind a reaction time.
+/// Speed and gap: the improved intelligent driver model behind a reaction time.
 struct SpeedParameters {
   double limit_factor = 1.0;        ///< Desired speed over the limit.
   double desired_speed_mps = 33.3;  ///< Where no limit is posted.
   double time_gap_s = 1.5;
   double acceleration_mps2 = 1.6, braking_mps2 = 2.0;
   double standstill_gap_m = 3.0;
+  double coolness = 0.99;  ///< Trust that the one ahead keeps its acceleration.
   double reaction_time_s = 0.7;
   double distance_noise = 0.06,
          noise_s = 8.0;  ///< Relative SD of perceived distances and speeds, correlation time.
@@ -65,7 +66,9 @@ struct LaneChoiceParameters {
   double threshold_mps2 = 0.25;        ///< Gain for which a change is worth it.
   double follow_ambulance_mps2 = 0.7;  ///< Worth of being in the ambulance's lane.
   double keep_out_mps2 = 0.3;          ///< Worth of one lane further from the middle of the road.
-  double safe_braking_mps2 = 2.5;      ///< The most that a change may ask of the one behind.
+  double accepted_gap = 0.5;           ///< Time gap that a change may leave, ahead and behind, over the driver's own.
+  double safe_braking_mps2 = 1.5;      ///< The most that a change may ask of anybody.
+  double strictness_underway = 0.6;    ///< Of both, once the car moves over: below this the driver goes back.
   double signal_s = 1.5;               ///< Indicator before the wheel turns.
   double duration_s = 5.0;
   double pause_s = 4.0;  ///< Between two changes.

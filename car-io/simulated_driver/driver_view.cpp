@@ -1,18 +1,18 @@
 #include "car-io/simulated_driver/driver_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/road/lane_geometry.hpp"
-#include "engine/road/lane_links.hpp"
+#include "engine/road/body_lanes.hpp"
 #include "engine/road/road_locate.hpp"
 
 namespace septet::car_io {
 namespace {
 
 constexpr double sight_m = 250.0;
-constexpr double body_over_line_m =
-    0.2;  ///< From here on a vehicle counts in the lane beside, too.
+constexpr double acceleration_seen_in_s = 0.5;
+constexpr double foresight_s = 1.0;  ///< Who comes over a line is seen to do so this much earlier.
 
 Vec2 ground_position(const Participant& participant) {
   return Vec2(participant.world_from_vehicle.position_m);
@@ -21,6 +21,24 @@ Vec2 ground_position(const Participant& participant) {
 /// Offset from the lane's centre to the driver's left, for an offset towards +t.
 double to_the_left(const traffic::CorridorPiece& piece, double towards_t_m) {
   return piece.along_s ? towards_t_m : -towards_t_m;
+}
+
+/// The lanes that a vehicle lies over now or, moving sideways as it does, soon.
+road::LaneRange lanes_taken(const road::RoadNetwork& network, const road::RoadPosition& position,
+                            const Participant& vehicle, const VehicleModel& model) {
+  const Vec3 heads = vehicle.world_from_vehicle.orientation * Vec3(1, 0, 0);
+  const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m,
+                               model.front_m(), model.width_m};
+  const road::LaneRange now = road::drivable_lanes_under(network, position, body);
+  const double along_rad = road::evaluate(network, position).heading_rad;
+  const double sideways_mps =
+      glm::dot(Vec2(vehicle.velocity_mps), Vec2(-std::sin(along_rad), std::cos(along_rad)));
+  if (std::abs(sideways_mps) < 0.1) return now;
+  road::RoadPosition soon_at = position;
+  soon_at.t_m += foresight_s * sideways_mps;
+  const road::LaneRange soon = road::drivable_lanes_under(network, soon_at, body);
+  if (now.empty() || soon.empty()) return now.empty() ? soon : now;
+  return {std::min(now.lowest, soon.lowest), std::max(now.highest, soon.highest)};
 }
 
 }  // namespace
@@ -77,31 +95,41 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
     road::RoadPosition hint = own.position;
     hint.s_m += glm::dot(ground_position(other) - here, forward);
     const auto location = road::locate(network, ground_position(other), &hint);
-    if (!location || location->lanes.lane == 0 || location->lanes.outside_m > 0.0) continue;
-    const auto x_m = traffic::x_of(network, corridor, location->position, location->lanes.lane);
-    if (!x_m) continue;
+    const int side = traffic::piece_at(corridor, own.x_m).side;
+    if (!location || location->lanes.lane * side <= 0) continue;
     const VehicleModel& model = vehicle_models()[other.model];
-    const traffic::CorridorPiece& piece = traffic::piece_at(corridor, *x_m);
+    const road::LaneRange lanes = lanes_taken(network, location->position, other, model);
+    if (lanes.empty()) continue;
+    const auto x_m = traffic::x_of(network, corridor, location->position, lanes.lowest);
+    if (!x_m) continue;
+    const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
     SeenVehicle vehicle;
     vehicle.id = other.id;
     vehicle.lane = std::abs(location->lanes.lane);
-    const double left_m = to_the_left(piece, location->lanes.offset_m);
-    const double lane_m = road::lane_width_m(network, location->position.road, location->lanes.lane,
-                                             location->position.s_m);
-    if (std::abs(left_m) + model.width_m / 2.0 > lane_m / 2.0 + body_over_line_m)
-      vehicle.also_in_lane =
-          vehicle.lane + ((left_m > 0.0) == lanes_grow_to_the_right(piece) ? -1 : 1);
+    vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest));
+    vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest));
     const double ahead_m = traffic::distance_m(corridor, own.x_m, *x_m);
     vehicle.is_ahead = ahead_m + model.centre_x_m() > (own.front_m - own.rear_m) / 2.0;
     vehicle.gap_m = vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m
                                      : -ahead_m - model.front_m() - own.rear_m;
-    vehicle.speed_mps =
-        glm::dot(other.velocity_mps, other.world_from_vehicle.orientation * Vec3(1, 0, 0));
+    vehicle.speed_mps = glm::dot(other.velocity_mps, heads);
     vehicle.is_ambulance =
         model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
     seen.push_back(vehicle);
   }
   return seen;
+}
+
+void see_accelerations(std::span<const SeenVehicle> before, double dt_s,
+                       std::vector<SeenVehicle>& now) {
+  const double share = 1.0 - std::exp(-dt_s / acceleration_seen_in_s);
+  for (SeenVehicle& vehicle : now) {
+    const auto last = std::ranges::lower_bound(before, vehicle.id, {}, &SeenVehicle::id);
+    if (last == before.end() || last->id != vehicle.id) continue;
+    const double rate_mps2 = (vehicle.speed_mps - last->speed_mps) / dt_s;
+    vehicle.acceleration_mps2 =
+        last->acceleration_mps2 + share * (rate_mps2 - last->acceleration_mps2);
+  }
 }
 
 }  // namespace septet::car_io

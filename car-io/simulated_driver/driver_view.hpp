@@ -6,6 +6,7 @@
 /// corridor counts them, outwards from the middle of the road; "left" and "right" are the driver's.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/road/road_network.hpp"
@@ -28,11 +29,12 @@ struct OwnPlace {
 
 struct SeenVehicle {
   ParticipantId id = 0;
-  int lane = 0;
-  int also_in_lane = 0;  ///< The lane beside it that its body reaches into; 0: none.
+  int lane = 0;                           ///< That its middle is in or nearest to.
+  int innermost_lane = 0, outermost_lane = 0;  ///< Those that its body lies over, or will within a second.
   bool is_ahead = false;
   double gap_m = 0.0;  ///< Bumper to bumper; negative while it is alongside.
   double speed_mps = 0.0;
+  double acceleration_mps2 = 0.0;  ///< As its changing speed has told it.
   bool is_ambulance = false;  ///< With its beacon on.
 };
 
@@ -51,10 +53,15 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
                                       const traffic::Corridor& corridor, const Snapshot& snapshot,
                                       const std::optional<road::RoadPosition>& hint);
 
-/// All vehicles of the corridor within 250 m.
+/// All vehicles in the corridor's lanes, or about to be, within 250 m, by ascending id. Who stands on the
+/// shoulder is not among them. Accelerations stay 0.
 std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
                                       const traffic::Corridor& corridor, const Snapshot& snapshot,
                                       const OwnPlace& own);
+
+/// Accelerations by what changed since the look `dt_s` before: the eye takes half a second to tell.
+void see_accelerations(std::span<const SeenVehicle> before, double dt_s,
+                       std::vector<SeenVehicle>& now);
 
 /// Whether lane numbers grow to the right, as in right-hand traffic.
 bool lanes_grow_to_the_right(const traffic::CorridorPiece& piece);

@@ -7,25 +7,36 @@ namespace septet::car_io {
 namespace {
 
 constexpr double thought_interval_s = 0.5;
+/// Below this speed a way across is a matter of distance: nobody slides sideways while standing.
+constexpr double slow_mps = 8.0;
+
+double pace(double own_speed_mps) { return std::clamp(own_speed_mps / slow_mps, 0.0, 1.0); }
 
 bool is_in(const SeenVehicle& vehicle, int lane) {
-  return vehicle.lane == lane || vehicle.also_in_lane == lane;
+  return vehicle.innermost_lane <= lane && lane <= vehicle.outermost_lane;
 }
 
 bool lies_left(const LaneScene& scene, int lane) {
   return (lane < scene.own.lane) == scene.grows_to_the_right;
 }
 
-double wish_in_lane(const LaneScene& scene, int lane, const DriverParameters& driver) {
-  return wished_acceleration_mps2(driver.speed, scene.own.speed_mps, scene.desired_speed_mps,
-                                  obstacle_in_lane(scene, lane));
+/// What a lane offers by the plain intelligent driver model, which minds a slower vehicle long before
+/// the foot has to.
+double offer_mps2(const LaneScene& scene, int lane, const DriverParameters& driver) {
+  const double a = driver.speed.acceleration_mps2, v = std::max(scene.own.speed_mps, 0.0);
+  double tightest = 0.0;
+  for (const SeenVehicle& vehicle : scene.vehicles)
+    if (vehicle.is_ahead && (is_in(vehicle, lane) || vehicle.is_ambulance))
+      tightest = std::max(tightest, wanted_gap_m(driver.speed, v, vehicle.speed_mps) /
+                                        std::max(vehicle.gap_m, 0.5));
+  return a * (1.0 - std::pow(v / std::max(scene.desired_speed_mps, 0.1), 4) - tightest * tightest);
 }
 
 /// What a lane offers, m/s²: its acceleration and the driver's likings.
 double value_of(const LaneScene& scene, int lane, const DriverParameters& driver) {
-  double value = wish_in_lane(scene, lane, driver);
+  double value = offer_mps2(scene, lane, driver);
   // Nobody is passed on the outer side.
-  if (lane > scene.own.lane) value = std::min(value, wish_in_lane(scene, scene.own.lane, driver));
+  if (lane > scene.own.lane) value = std::min(value, offer_mps2(scene, scene.own.lane, driver));
   // A lane that ends is a wall at its end.
   if (lane == scene.own.lane && scene.lane_ends_in_m < 500.0)
     value = std::min(
@@ -64,42 +75,74 @@ void give_up(LaneState& state) {
   enter(state, LanePhase::keep);
 }
 
-}  // namespace
-
-std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane) {
-  std::optional<Obstacle> nearest;
-  for (const SeenVehicle& vehicle : scene.vehicles)
-    if (vehicle.is_ahead && (is_in(vehicle, lane) || vehicle.is_ambulance) &&
-        (!nearest || vehicle.gap_m < nearest->gap_m))
-      nearest = Obstacle{vehicle.gap_m, vehicle.speed_mps};
-  return nearest;
+/// From where the car is on its way, as it moves.
+void turn_back(LaneState& state, const LaneChoiceParameters& lanes) {
+  const WayPoint now = point_on_way(state.way, state.phase_s);
+  state.way = {now.at, now.rate_ps, now.rate_change_ps2, 0.0, lanes.duration_s};
+  enter(state, LanePhase::go_back);
 }
 
-bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver) {
-  const double own_speed = scene.own.speed_mps;
+}  // namespace
+
+std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
+                                         const SpeedParameters& speed) {
+  std::optional<Obstacle> hardest;
+  double least_mps2 = 0.0;
+  for (const SeenVehicle& vehicle : scene.vehicles) {
+    if (!vehicle.is_ahead || !(is_in(vehicle, lane) || vehicle.is_ambulance)) continue;
+    const Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
+    const double wish_mps2 =
+        wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
+    if (hardest && wish_mps2 >= least_mps2) continue;
+    hardest = obstacle;
+    least_mps2 = wish_mps2;
+  }
+  return hardest;
+}
+
+bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, double strictness) {
+  const double own_mps = scene.own.speed_mps;
+  const double until_crossed_s = strictness * driver.lanes.duration_s / 2.0;
   for (const SeenVehicle& vehicle : scene.vehicles) {
     if (!is_in(vehicle, lane)) continue;
-    const double needed_m = driver.speed.standstill_gap_m + 0.25 * own_speed;
-    if (vehicle.gap_m < needed_m) return false;
-    const double closing_mps =
-        vehicle.is_ahead ? own_speed - vehicle.speed_mps : vehicle.speed_mps - own_speed;
-    // Braking that takes the closing speed out of the gap, less what is to remain of it.
-    if (closing_mps > 0.0 && closing_mps * closing_mps / (2.0 * (vehicle.gap_m - needed_m + 1.0)) >
-                                 driver.lanes.safe_braking_mps2)
+    const double behind_mps = vehicle.is_ahead ? own_mps : vehicle.speed_mps;
+    const double ahead_mps = vehicle.is_ahead ? vehicle.speed_mps : own_mps;
+    const double closing_mps = std::max(behind_mps - ahead_mps, 0.0);
+    const double needed_m = strictness * (driver.speed.standstill_gap_m +
+                                          driver.lanes.accepted_gap * driver.speed.time_gap_s * behind_mps);
+    const double left_m = vehicle.gap_m - closing_mps * until_crossed_s - needed_m;
+    if (left_m < 0.0) return false;
+    // Braking that takes the closing speed out of what is left.
+    if (closing_mps * closing_mps > 2.0 * left_m * driver.lanes.safe_braking_mps2 / strictness)
       return false;
   }
   return true;
 }
 
-double change_progress(const LaneChoiceParameters& lanes, double phase_s) {
-  const double u = std::clamp(phase_s / lanes.duration_s, 0.0, 1.0);
-  return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+WayPoint point_on_way(const LaneWay& way, double time_s) {
+  if (time_s >= way.duration_s) return {way.to, 0.0, 0.0};
+  const double t = std::max(time_s, 0.0), T = way.duration_s;
+  const double p = way.from, v = way.from_rate_ps, a = way.from_rate_change_ps2;
+  // What the motion at the beginning leaves to be done by the higher powers.
+  const double place = way.to - (p + v * T + a * T * T / 2.0), rate = -(v + a * T), change = -a;
+  const double c3 = (10.0 * place - 4.0 * rate * T + change * T * T / 2.0) / (T * T * T);
+  const double c4 = (-15.0 * place + 7.0 * rate * T - change * T * T) / (T * T * T * T);
+  const double c5 = (6.0 * place - 3.0 * rate * T + change * T * T / 2.0) / (T * T * T * T * T);
+  return {p + t * (v + t * (a / 2.0 + t * (c3 + t * (c4 + t * c5)))),
+          v + t * (a + t * (3.0 * c3 + t * (4.0 * c4 + t * 5.0 * c5))),
+          a + t * (6.0 * c3 + t * (12.0 * c4 + t * 20.0 * c5))};
+}
+
+double place_across(const LaneState& state, double own_speed_mps, double ahead_s) {
+  if (state.phase < LanePhase::change) return 0.0;
+  return point_on_way(state.way, state.phase_s + pace(own_speed_mps) * ahead_s).at;
 }
 
 void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene,
                          MirrorState& mirrors, const std::optional<Mirror>& looked, double dt_s,
                          Random& random) {
-  state.phase_s += dt_s;
+  state.phase_s +=
+      state.phase < LanePhase::change ? dt_s : pace(scene.own.speed_mps) * dt_s;
   state.since_change_s += dt_s;
   const auto mirror_of_target = [&] {
     return lies_left(scene, state.target) ? Mirror::left : Mirror::right;
@@ -131,14 +174,21 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       return;
     case LanePhase::look_again:
       if (!looked) return;
-      is_safe(scene, state.target, driver) ? enter(state, LanePhase::change) : give_up(state);
-      return;
+      if (!is_safe(scene, state.target, driver)) return give_up(state);
+      state.way = {.duration_s = driver.lanes.duration_s};
+      return enter(state, LanePhase::change);
     case LanePhase::change:
-      if (state.phase_s < driver.lanes.duration_s) return;
+      if (scene.own.lane != state.target &&
+          !is_safe(scene, state.target, driver, driver.lanes.strictness_underway))
+        return turn_back(state, driver.lanes);
+      if (state.phase_s < state.way.duration_s) return;
       state.lane = state.target;
       state.since_change_s = 0.0;
-      enter(state, LanePhase::keep);
-      return;
+      return enter(state, LanePhase::keep);
+    case LanePhase::go_back:
+      if (state.phase_s < state.way.duration_s) return;
+      state.since_change_s = 0.0;
+      return give_up(state);
   }
 }
 

@@ -11,25 +11,55 @@ constexpr double accelerator_rate_ps = 1.5, brake_rate_ps = 4.0, release_rate_ps
 constexpr double seat_gain_s2pm_ps = 0.10;  ///< Accelerator per second and m/s² that the car lacks.
 constexpr double coasting_mps2 =
     0.35;  ///< Engine's drag with the foot off, beside air and rolling.
-constexpr double emergency_mps2 = -3.5;
+constexpr double emergency_mps2 =
+    -3.5;  ///< Needed not to touch the one ahead: from here on the foot moves as fast as it can.
+constexpr double emergency_jerk_mps3 = 20.0;
+constexpr double hardest_mps2 = -9.0;
+constexpr double least_gap_m = 0.5;
+constexpr double braking_lasts_s = 1.0;  ///< For so long braking ahead is expected to go on.
 
 double approach(double value, double target, double step) {
   return value + std::clamp(target - value, -step, step);
 }
 
+double expected_speed_mps(const Obstacle& obstacle) {
+  return std::max(
+      obstacle.speed_mps + std::min(obstacle.acceleration_mps2, 0.0) * braking_lasts_s, 0.0);
+}
+
 }  // namespace
+
+double wanted_gap_m(const SpeedParameters& speed, double own_speed_mps, double leader_speed_mps) {
+  const double closing = own_speed_mps * (own_speed_mps - leader_speed_mps) /
+                         (2.0 * std::sqrt(speed.acceleration_mps2 * speed.braking_mps2));
+  return speed.standstill_gap_m + std::max(0.0, own_speed_mps * speed.time_gap_s + closing);
+}
+
+double heuristic_acceleration_mps2(double own_speed_mps, const Obstacle& obstacle) {
+  const double closing_mps = std::max(own_speed_mps - expected_speed_mps(obstacle), 0.0);
+  return -closing_mps * closing_mps / (2.0 * std::max(obstacle.gap_m, least_gap_m));
+}
 
 double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_mps,
                                 double desired_speed_mps, const std::optional<Obstacle>& obstacle) {
-  const double v = std::max(0.0, own_speed_mps), ratio = v / std::max(desired_speed_mps, 0.1);
-  double interaction = 0.0;
-  if (obstacle) {
-    const double closing = v * (v - obstacle->speed_mps) /
-                           (2.0 * std::sqrt(speed.acceleration_mps2 * speed.braking_mps2));
-    const double wanted_m = speed.standstill_gap_m + std::max(0.0, v * speed.time_gap_s + closing);
-    interaction = std::pow(wanted_m / std::max(obstacle->gap_m, 0.5), 2);
-  }
-  return std::max(speed.acceleration_mps2 * (1.0 - std::pow(ratio, 4) - interaction), -9.0);
+  const double v = std::max(0.0, own_speed_mps), desired_v = std::max(desired_speed_mps, 0.1);
+  const double a = speed.acceleration_mps2, b = speed.braking_mps2;
+  const double free =
+      v <= desired_v ? a * (1.0 - std::pow(v / desired_v, 4)) : -b * (1.0 - std::pow(desired_v / v, 4.0 * a / b));
+  if (!obstacle) return free;
+  const double tightness = wanted_gap_m(speed, v, expected_speed_mps(*obstacle)) / std::max(obstacle->gap_m, least_gap_m);
+  double gap_keeping = 0.0;
+  if (v > desired_v)
+    gap_keeping = free + (tightness >= 1.0 ? a * (1.0 - tightness * tightness) : 0.0);
+  else if (tightness >= 1.0)
+    gap_keeping = a * (1.0 - tightness * tightness);
+  else
+    gap_keeping = free > 0.0 ? free * (1.0 - std::pow(tightness, 2.0 * a / free)) : free;
+  gap_keeping = std::max(gap_keeping, hardest_mps2);
+  const double heuristic = heuristic_acceleration_mps2(v, *obstacle);
+  if (gap_keeping >= heuristic) return gap_keeping;
+  const double calm = heuristic + b * std::tanh((gap_keeping - heuristic) / b);
+  return std::max((1.0 - speed.coolness) * gap_keeping + speed.coolness * calm, hardest_mps2);
 }
 
 void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car,
@@ -41,10 +71,16 @@ void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKn
   const double speed_error =
       state.speed_error.advance(speed.distance_noise / 4.0, speed.noise_s, dt_s, random);
   std::optional<Obstacle> felt = state.eyes.through(now_s, obstacle, speed.reaction_time_s);
-  if (felt) felt->gap_m *= 1.0 + distance_error;
+  if (felt) {
+    // The driver knows that the gap has gone on shrinking while the foot was on its way.
+    felt->gap_m -= speed.reaction_time_s * (own.speed_mps - felt->speed_mps);
+    felt->gap_m *= 1.0 + distance_error;
+  }
   const double wish =
       wished_acceleration_mps2(speed, own.speed_mps * (1.0 + speed_error), desired_speed_mps, felt);
-  const double jerk_mps3 = wish < emergency_mps2 ? 20.0 : speed.largest_jerk_mps3;
+  const bool emergency =
+      felt && heuristic_acceleration_mps2(own.speed_mps, *felt) < emergency_mps2;
+  const double jerk_mps3 = emergency ? emergency_jerk_mps3 : speed.largest_jerk_mps3;
   state.wish_mps2 = approach(state.wish_mps2, wish, jerk_mps3 * dt_s);
 
   const double v = std::max(0.0, own.speed_mps);

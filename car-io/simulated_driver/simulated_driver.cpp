@@ -26,10 +26,9 @@ Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network,
         .road.position_m;
   };
   const Vec3 here = centre(lanes.lane);
-  if (lanes.phase != LanePhase::change) return here;
-  const double progress =
-      change_progress(driver.parameters.lanes, lanes.phase_s + ahead_m / std::max(speed_mps, 1.0));
-  return here + progress * (centre(lanes.target) - here);
+  if (lanes.phase < LanePhase::change) return here;
+  const double across = place_across(lanes, speed_mps, ahead_m / std::max(speed_mps, 1.0));
+  return here + across * (centre(lanes.target) - here);
 }
 
 double bearing_rad(const RigidTransform& world_from_vehicle, const Vec3& point_m) {
@@ -47,6 +46,17 @@ PathAngles see_path(const SimulatedDriver& driver, const road::RoadNetwork& netw
                       path_point(driver, network, own.x_m, near_m, own.speed_mps)),
           bearing_rad(body.world_from_vehicle,
                       path_point(driver, network, own.x_m, far_m, own.speed_mps))};
+}
+
+/// Who takes the wheel under way holds it as the bend asks for.
+void take_the_wheel(SimulatedDriver& driver, const road::RoadNetwork& network,
+                    const OwnPlace& own) {
+  const road::LanePoint lane =
+      road::evaluate_lane(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
+  const double ahead = traffic::piece_at(*driver.corridor, own.x_m).along_s ? 1.0 : -1.0;
+  driver.steering.intended_rad = driver.steering.hands_rad =
+      steady_wheel_rad(driver.parameters.car, own.speed_mps, ahead * lane.road.curvature_per_m,
+                       ahead * lane.road.roll_rad);
 }
 
 /// How far the lane stays open, up to the preview.
@@ -70,17 +80,21 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
   return limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
 }
 
-/// The nearer of the obstacles in the lane and, during a change, in the one to come; the road's end
-/// counts as one.
+/// Of the obstacles in the lane and, on the way across, in the one beside, the one that asks for the most
+/// braking; the road's end counts as one.
 std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, const LaneScene& scene) {
-  std::optional<Obstacle> nearest = obstacle_in_lane(scene, driver.lanes.lane);
-  const auto consider = [&](const std::optional<Obstacle>& other) {
-    if (other && (!nearest || other->gap_m < nearest->gap_m)) nearest = other;
+  const SpeedParameters& speed = driver.parameters.speed;
+  const auto wish_mps2 = [&](const Obstacle& obstacle) {
+    return wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
   };
-  if (driver.lanes.phase == LanePhase::change)
-    consider(obstacle_in_lane(scene, driver.lanes.target));
+  std::optional<Obstacle> hardest = obstacle_in_lane(scene, driver.lanes.lane, speed);
+  const auto consider = [&](const std::optional<Obstacle>& other) {
+    if (other && (!hardest || wish_mps2(*other) < wish_mps2(*hardest))) hardest = other;
+  };
+  if (driver.lanes.phase >= LanePhase::change)
+    consider(obstacle_in_lane(scene, driver.lanes.target, speed));
   if (scene.lane_ends_in_m < lane_preview_m) consider(Obstacle{scene.lane_ends_in_m, 0.0});
-  return nearest;
+  return hardest;
 }
 
 /// No road in sight: hold the wheel, brake.
@@ -118,9 +132,12 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     return input;
   }
   driver.place = own->position;
+  if (!driver.steering.has_seen) take_the_wheel(driver, network, *own);
   if (driver.lanes.lane == 0) driver.lanes.lane = driver.lanes.target = own->lane;
   if (driver.now_s >= driver.next_look_around_s) {
-    driver.vehicles = see_vehicles(network, *driver.corridor, snapshot, *own);
+    auto seen = see_vehicles(network, *driver.corridor, snapshot, *own);
+    see_accelerations(driver.vehicles, look_around_interval_s, seen);
+    driver.vehicles = std::move(seen);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
   }
 
@@ -162,7 +179,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     input.gear = static_cast<std::int8_t>(driver.gears.lever);
     input.clutch = driver.gears.clutch;
   }
-  const bool signals = driver.lanes.phase >= LanePhase::signal;
+  const bool signals =
+      driver.lanes.phase >= LanePhase::signal && driver.lanes.phase != LanePhase::go_back;
   if (signals)
     input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right
                           ? IndicatorStalk::left

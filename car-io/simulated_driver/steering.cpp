@@ -19,6 +19,15 @@ SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowle
   return gains;
 }
 
+double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m,
+                        double roll_rad) {
+  constexpr double gravity_mps2 = 9.81;
+  const double sideways_mps2 =
+      speed_mps * speed_mps * curvature_per_m + gravity_mps2 * std::sin(roll_rad);
+  return car.steering_ratio *
+         (car.wheelbase_m * curvature_per_m + car.understeer_radps2pm * sideways_mps2);
+}
+
 double advance_steering(SteeringState& state, const SteeringParameters& steering,
                         const CarKnowledge& car, const PathAngles& path, bool sees_road,
                         double speed_mps, double now_s, double dt_s, Random& random) {

@@ -25,6 +25,12 @@ struct SteeringGains {
 SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car,
                              double speed_mps);
 
+/// The hand wheel that holds a bend in a steady state: the bend's geometry, and understeer with the
+/// lateral acceleration that banking does not give. Curvature positive to the left; roll positive lifts
+/// the left side.
+double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m,
+                        double roll_rad);
+
 struct SteeringState {
   ReactionDelay<PathAngles> eyes;
   WanderingError position_error_m, heading_error_rad;

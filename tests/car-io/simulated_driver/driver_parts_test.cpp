@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "car-io/simulated_driver/lane_choice.hpp"
 #include "car-io/simulated_driver/mirrors.hpp"
 #include "car-io/simulated_driver/pedals.hpp"
 #include "car-io/simulated_driver/perception.hpp"
@@ -69,15 +68,52 @@ TEST_CASE("a wandering error has the standard deviation and correlation time it 
   CHECK(products / squares == doctest::Approx(std::exp(-0.1 / 2.0)).epsilon(0.01));
 }
 
-TEST_CASE("the wish is none at the desired speed and at the equilibrium gap") {
+TEST_CASE("the wish is none at the desired speed and at the time gap") {
   const SpeedParameters speed;
   CHECK(wished_acceleration_mps2(speed, 30.0, 30.0, std::nullopt) == doctest::Approx(0.0));
   CHECK(wished_acceleration_mps2(speed, 0.0, 30.0, std::nullopt) ==
         doctest::Approx(speed.acceleration_mps2));
-  const double gap_m = (speed.standstill_gap_m + 20.0 * speed.time_gap_s) /
-                       std::sqrt(1.0 - std::pow(20.0 / 30.0, 4));
+  const double gap_m = speed.standstill_gap_m + 20.0 * speed.time_gap_s;
   CHECK(std::abs(wished_acceleration_mps2(speed, 20.0, 30.0, Obstacle{gap_m, 20.0})) < 1e-9);
-  CHECK(wished_acceleration_mps2(speed, 20.0, 30.0, Obstacle{5.0, 0.0}) < -5.0);
+}
+
+TEST_CASE("a short gap to one who does not come nearer is opened gently, whoever cut in") {
+  const SpeedParameters speed;
+  for (const double gap_m : {2.0, 5.0, 13.0, 30.0})
+    for (const double faster_mps : {0.0, 1.0, 4.0})
+      CHECK(wished_acceleration_mps2(speed, 28.9, 30.0, Obstacle{gap_m, 28.9 + faster_mps}) > -2.2);
+  CHECK(wished_acceleration_mps2(speed, 30.0, 33.0, Obstacle{37.0, 26.7}) > -2.5);
+}
+
+TEST_CASE("what stands in the way or brakes hard is braked for as hard as it takes") {
+  const SpeedParameters speed;
+  for (const double v : {10.0, 20.0, 30.0})
+    for (const double needed_mps2 : {3.0, 4.5, 6.0}) {
+      const double gap_m = v * v / (2.0 * needed_mps2);
+      CHECK(wished_acceleration_mps2(speed, v, 33.0, Obstacle{gap_m, 0.0}) < -needed_mps2);
+      CHECK(heuristic_acceleration_mps2(v, Obstacle{gap_m, 0.0}) == doctest::Approx(-needed_mps2));
+    }
+  const Obstacle steady{30.0, 25.0}, braking{30.0, 25.0, -6.0};
+  CHECK(wished_acceleration_mps2(speed, 25.0, 33.0, braking) < wished_acceleration_mps2(speed, 25.0, 33.0, steady) - 0.5);
+}
+
+TEST_CASE("only an emergency moves the foot faster than comfort allows") {
+  const SpeedParameters speed;
+  OwnPlace own;
+  own.speed_mps = 28.0;
+  const auto largest_jerk_behind = [&](const Obstacle& obstacle) {
+    PedalState pedals;
+    Random random(2);
+    double largest = 0.0, before = 0.0;
+    for (int i = 0; i < 120 * 3; ++i) {
+      advance_pedals(pedals, speed, {}, own, 30.0, obstacle, i / 120.0, 1.0 / 120.0, random);
+      largest = std::max(largest, std::abs(pedals.wish_mps2 - before) * 120.0);
+      before = pedals.wish_mps2;
+    }
+    return largest;
+  };
+  CHECK(largest_jerk_behind({8.0, 28.0}) == doctest::Approx(speed.largest_jerk_mps3));
+  CHECK(largest_jerk_behind({60.0, 0.0}) > 10.0);
 }
 
 TEST_CASE("accelerator and brake are never pressed together") {
@@ -120,27 +156,15 @@ TEST_CASE("a glance turns the head to the mirror and back") {
   CHECK(sees_road(mirrors));
 }
 
-TEST_CASE("a change is safe with room and refused beside and before a faster one") {
-  OwnPlace own;
-  own.lane = 3;
-  own.speed_mps = 25.0;
-  std::vector<SeenVehicle> vehicles(1);
-  vehicles[0].lane = 2;
-  const LaneScene scene{.own = own, .vehicles = vehicles, .desired_speed_mps = 30.0};
-  const auto is_safe_with = [&](bool ahead, double gap_m, double speed_mps) {
-    vehicles[0].is_ahead = ahead;
-    vehicles[0].gap_m = gap_m;
-    vehicles[0].speed_mps = speed_mps;
-    return is_safe(scene, 2, DriverParameters{});
-  };
-  CHECK(is_safe_with(false, 40.0, 25.0));
-  CHECK_FALSE(is_safe_with(false, -3.0, 25.0));
-  CHECK_FALSE(is_safe_with(false, 30.0, 40.0));
-  CHECK(is_safe_with(false, 60.0, 28.0));
-  CHECK_FALSE(is_safe_with(true, 12.0, 10.0));
-  vehicles[0].lane = 4;
-  vehicles[0].also_in_lane = 2;
-  CHECK_FALSE(is_safe_with(true, 2.0, 25.0));
+TEST_CASE("the hand wheel for a bend is that of its geometry and of what banking leaves to the tyres") {
+  const CarKnowledge car;
+  CHECK(steady_wheel_rad(car, 30.0, 0.0, 0.0) == 0.0);
+  const double creeping = steady_wheel_rad(car, 0.1, 1.0 / 100.0, 0.0);
+  CHECK(creeping == doctest::Approx(car.steering_ratio * car.wheelbase_m / 100.0).epsilon(1e-3));
+  const double flat = steady_wheel_rad(car, 30.0, 1.0 / 500.0, 0.0);
+  CHECK(flat == doctest::Approx(car.steering_ratio * (car.wheelbase_m / 500.0 + car.understeer_radps2pm * 1.8)));
+  CHECK(steady_wheel_rad(car, 30.0, -1.0 / 500.0, 0.0) == -flat);
+  CHECK(steady_wheel_rad(car, 30.0, 1.0 / 500.0, -0.025) < flat);  // The right side lifted.
 }
 
 TEST_CASE("every named driver exists and another name is refused") {

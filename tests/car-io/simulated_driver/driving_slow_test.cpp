@@ -72,6 +72,25 @@ TEST_CASE("without its noise the driver keeps to the middle of the lane through 
     REQUIRE(std::abs(sample.lateral_position_m) < 0.35);
 }
 
+TEST_CASE("a drive that begins in a bend begins in the middle of the lane") {
+  DriverParameters driver = *find_driver("plain");
+  driver.steering.position_noise_m = driver.steering.heading_noise_rad = 0.0;
+  driver.mirrors.interval_s = 1e9;
+  driver.mirrors.glance_s = 0.01;
+  driver.lanes.threshold_mps2 = 100.0;
+  // Left with 1,800 m, banked; and right with 1,500 m.
+  for (const double s_m : {600.0, 2100.0}) {
+    ClosedLoop loop(driver, 1, -4, s_m, 30.0);
+    loop.run(ClosedLoop::tick_s);
+    const double taken_rad = loop.input.steering_wheel_rad;
+    loop.run(12.0);
+    MESSAGE("hand wheel at the start " << taken_rad << " rad, 12 s later " << loop.input.steering_wheel_rad << " rad");
+    CHECK(taken_rad == doctest::Approx(loop.input.steering_wheel_rad).epsilon(0.25));
+    for (const logging::Sample& sample : loop.samples)
+      REQUIRE(std::abs(sample.lateral_position_m) < 0.12);
+  }
+}
+
 TEST_CASE("from a standstill the driver reaches the limit and holds it") {
   DriverParameters driver = *find_driver("plain");
   driver.lanes.threshold_mps2 = 100.0;
