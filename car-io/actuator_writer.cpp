@@ -14,6 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Of the device's own: 25 periods of the reports.
+constexpr std::uint16_t watchdog_ms = 250;
+
 Clock::duration duration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -62,6 +65,7 @@ struct ActuatorWriter::State {
         return std::nullopt;
       }
       device = std::move(*opened);
+      if (auto fault = set_watchdog()) return fault;
     }
     auto written = device->write(encode_actuators(actuators, ++sequence));
     if (written && options.has_steering_force)
@@ -78,6 +82,19 @@ struct ActuatorWriter::State {
                  "check the rig's [car] layout against the device"};
   }
 
+  /// The second net, for the case that this program cannot write zeros any more: killed, stopped, the machine gone. Whether the device
+  /// has taken it shows when it is read back; said once.
+  std::optional<Error> set_watchdog() {
+    const auto sent = device->send_feature(encode_device_status({.watchdog_ms = watchdog_ms}));
+    const auto kept = sent ? device->get_feature(device_report_id, device_report_bytes) : tl::unexpected(sent.error());
+    const auto status = kept ? decode_device_status(*kept) : tl::unexpected(kept.error());
+    if (status && status->watchdog_ms == watchdog_ms) return std::nullopt;
+    if (std::exchange(told_of_watchdog, true)) return std::nullopt;
+    const std::string answer = status ? fmt::format("it says {} ms", status->watchdog_ms) : status.error().what;
+    return Error{fmt::format("its watchdog does not hold {} ms ({}): fan, shaker and wheel force would go on if this program were killed", watchdog_ms, answer),
+                 "the car's device", "correct its firmware (feature report 3), and keep a hand on the emergency switch"};
+  }
+
   // Of the thread alone.
   OpenHidDevice open;
   ActuatorWriterOptions options;
@@ -85,6 +102,7 @@ struct ActuatorWriter::State {
   Clock::time_point next_try = Clock::now();
   std::uint8_t sequence = 0;
   int refusals = 0;
+  bool told_of_watchdog = false;
 
   // Shared.
   std::mutex mutex;

@@ -1,5 +1,6 @@
 #include "sim-server/live_drive.hpp"
 
+#include "engine/core/printable.hpp"
 #include "sim-server/car_motion.hpp"
 
 namespace septet::server {
@@ -36,8 +37,9 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
 }
 
 void LiveDrive::tell(const std::string& what) {
-  messages_.push_back("car: " + what);
-  if (log_) log_->record_message("car", what);
+  const std::string said = printable(what);
+  messages_.push_back("car: " + said);
+  if (log_) log_->record_message("car", said);
 }
 
 void LiveDrive::move_actuators() {

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
+
 namespace septet::server {
 
 using namespace control;
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::size_t scene_bytes_per_pump = 1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
 constexpr double deaf_after_s = 0.5, hung_after_s = 0.25;
+constexpr double strangers_told_every_s = 10.0;
 
 Bytes to_bytes(const std::string& text) {
   const auto bytes = std::as_bytes(std::span(text));
@@ -23,6 +26,12 @@ std::uint64_t instance_of(const net::SessionId& session) {
   std::uint64_t number = 0;
   std::memcpy(&number, session.data(), sizeof number);
   return number;
+}
+
+const std::uint16_t protocol_version = Hello{}.protocol;
+
+std::string other_protocol(std::uint16_t theirs) {
+  return fmt::format("it speaks version {} of the control messages, the server version {}; run the same Septet on all machines", theirs, protocol_version);
 }
 
 /// Does lockstep wait for this screen no more at `tick`?
@@ -58,18 +67,13 @@ void ScreenHost::send(net::ClientId client, const ControlMessage& message) {
 void ScreenHost::pump(double now_s) {
   for (const net::ServerEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
-      case net::ServerEvent::Kind::connected:
-        if (const auto* info = lane_.info(event.client)) {
-          scene_.connect(event.client, info->name);
-          for (HostedScreen& screen : screens_)
-            if (screen.name == info->name) screen.expected = true;
-        }
-        break;
-      case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason); break;
+      case net::ServerEvent::Kind::connected: on_connected(event); break;
+      case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason, now_s); break;
       case net::ServerEvent::Kind::message: on_message(event, now_s); break;
       case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
     }
   }
+  tell_of_strangers(now_s);
   if (options_.car)
     if (const auto feedback = options_.car->take_feedback(); feedback && car_client_)
       lane_.send(*car_client_, net::share(encode_control(*feedback)), net::Reliability::unreliable);
@@ -103,11 +107,21 @@ void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   const auto* info = lane_.info(client);
   if (!info) return;
   const net::Address destination{info->address.ip, port};
+  if (const auto before = unicast_.find(client); before != unicast_.end()) publisher_.remove_destination(before->second);
   unicast_[client] = destination;
   publisher_.add_destination(destination);
 }
 
+void ScreenHost::on_connected(const net::ServerEvent& event) {
+  clients_[event.client] = event.name;
+  scene_.connect(event.client, event.name);
+  for (HostedScreen& screen : screens_)
+    if (screen.name == event.name && !screen.client) screen.expected = true;
+}
+
 void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
+  // What it sent before another connection took its place arrives after that.
+  if (!clients_.contains(event.client)) return;
   baselines_.heard(event.client, now_s);
   switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
     case LaneMessage::scene:
@@ -125,7 +139,7 @@ void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
 
 void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
   if (const auto* hello = std::get_if<Hello>(&message)) return on_hello(client, *hello, now_s);
-  if (std::holds_alternative<CarHello>(message)) return on_car_hello(client);
+  if (const auto* car = std::get_if<CarHello>(&message)) return on_car_hello(client, *car, now_s);
   if (const auto* report = std::get_if<CarReport>(&message)) {
     if (car_client_ == client) options_.car->device.receive(report->number, to_bytes(report->report), report->problem);
     return;
@@ -141,13 +155,15 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     screen->scene_arrived = true;
   } else if (const auto* presented = std::get_if<Presented>(&message)) {
     if (!screen->has_presented)
-      messages_.push_back(fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s));
-    screen->presented = std::max(screen->presented, presented->tick);
+      tell(client, fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s), now_s);
+    // Nobody has shown what was not sent.
+    const Tick newest = sent_.empty() ? 0 : sent_.back()->snapshot().tick;
+    screen->presented = std::max(screen->presented, std::min(presented->tick, newest));
     screen->has_presented = true;
     screen->left_behind = false;
     ++screen->frames;
   } else if (const auto* controls = std::get_if<Controls>(&message)) {
-    controls_ = controls->input;
+    if (options_.drivers.contains(screen->name)) controls_ = controls->input;
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
   }
@@ -155,14 +171,15 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
 
 void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s) {
   const auto screen = std::ranges::find(screens_, hello.screen, &HostedScreen::name);
-  if (screen == screens_.end()) {
-    messages_.push_back(fmt::format("refused a screen called \"{}\": the rig has none of that name", hello.screen));
-    return send(client, Refusal{fmt::format("the rig has no screen \"{}\"", hello.screen)});
-  }
+  const std::string& name = clients_.at(client);
+  if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
+  if (hello.screen != name)
+    return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen), now_s);
+  if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
   // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
   if (screen->client && *screen->client != client) {
     const net::ClientId old = *screen->client;
-    on_disconnected(old, "replaced by a new connection");
+    on_disconnected(old, "replaced by a new connection", now_s);
     lane_.disconnect(old, "replaced by a new connection");
   }
   screen->client = client;
@@ -174,25 +191,50 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   screen->tick_port = hello.tick_port;
   screen->unanswered_since_s.reset();
   if (options_.welcome.group_ip == 0) add_unicast(client, hello.tick_port);
-  messages_.push_back(fmt::format("screen {} connected", hello.screen));
+  tell(client, fmt::format("screen {} connected", hello.screen), now_s);
   send(client, options_.welcome);
 }
 
-void ScreenHost::on_car_hello(net::ClientId client) {
-  const auto* info = lane_.info(client);
-  if (!options_.car || !info || info->name != car_client_name) {
-    const char* reason = options_.car ? "its key is not the one called \"car\" in allowed-clients"
-                                      : "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)";
-    messages_.push_back(fmt::format("refused a car: {}", reason));
-    return send(client, Refusal{reason});
-  }
+void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, double now_s) {
+  const std::string& name = clients_.at(client);
+  if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
+  if (!options_.car) return refuse(client, "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)", now_s);
+  if (name != car_client_name) return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be the car", name), now_s);
   car_client_ = client;
   options_.car->device.lose("septet-car has connected and has not read its device yet");
-  messages_.push_back("the car connected");
+  tell(client, "the car connected", now_s);
   send(client, CarWelcome{options_.welcome.rig});
 }
 
-void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason) {
+void ScreenHost::refuse(net::ClientId client, const std::string& reason, double now_s) {
+  const auto* info = lane_.info(client);
+  tell(client, fmt::format("refused the client {} at {}: {}", clients_.at(client), info ? net::to_text(info->address) : "?", reason), now_s);
+  send(client, Refusal{printable(reason)});
+}
+
+void ScreenHost::tell(net::ClientId client, const std::string& text, double now_s) {
+  if (auto said = limits_[clients_.at(client)].take(printable(text), now_s)) messages_.push_back(std::move(*said));
+}
+
+/// What nobody with a key has sent, or not whole: an attack, a wrong server.public, another program on the port.
+void ScreenHost::tell_of_strangers(double now_s) {
+  if (now_s - told_s_ < strangers_told_every_s) return;
+  told_s_ = now_s;
+  const net::ChannelCounters now = lane_.counters();
+  // A connection that never was takes its counters with it.
+  const auto rise = [](std::uint64_t after, std::uint64_t before) { return after > before ? after - before : 0; };
+  const auto forged = rise(now.forged, told_.forged), malformed = rise(now.malformed, told_.malformed), cookies = rise(now.bad_cookies, told_.bad_cookies);
+  told_ = now;
+  if (forged + malformed + cookies == 0) return;
+  messages_.push_back(fmt::format("datagrams that were refused in {:.0f} s: {} forged or sealed for another server's key, {} malformed, {} with a bad cookie",
+                                  strangers_told_every_s, forged, malformed, cookies));
+}
+
+void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason, double now_s) {
+  const auto known = clients_.find(client);
+  if (known == clients_.end()) return;
+  for (HostedScreen& screen : screens_)
+    if (screen.name == known->second) screen.expected = false;
   scene_.disconnect(client);
   baselines_.leave(client);
   if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
@@ -200,15 +242,16 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     unicast_.erase(destination);
   }
   if (car_client_ == client) {
-    messages_.push_back(fmt::format("the car left: {}", reason));
+    tell(client, fmt::format("the car left: {}", reason), now_s);
     options_.car->device.lose("the connection to septet-car was lost");
     car_client_.reset();
   }
   if (HostedScreen* screen = screen_of(client)) {
-    messages_.push_back(fmt::format("screen {} left: {}", screen->name, reason));
+    tell(client, fmt::format("screen {} left: {}", screen->name, reason), now_s);
     screen->client.reset();
     screen->scene_arrived = false;
   }
+  clients_.erase(known);
 }
 
 void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
@@ -230,8 +273,12 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
 }
 
-bool ScreenHost::all_ready() const {
-  return std::ranges::all_of(screens_, [](const HostedScreen& screen) { return screen.live() && screen.scene_arrived; });
+std::vector<std::string> ScreenHost::missing() const {
+  std::vector<std::string> names;
+  for (const HostedScreen& screen : screens_)
+    if (!screen.live() || !screen.scene_arrived) names.push_back(screen.name);
+  if (options_.car && !car_client_) names.push_back("the car");
+  return names;
 }
 
 bool ScreenHost::all_presented(Tick tick) const {

@@ -4,13 +4,18 @@
 /// It never waits for a screen: ticks go out once whatever the number of screens, and what a screen has not taken of the
 /// scene costs a bounded queue. In lockstep it is the caller who waits, by asking `all_presented`. Sockets only through the
 /// DatagramSocket seam, time only as an argument. One thread.
+///
+/// Whoever has a key of the list may send anything in any order: a client is what the list calls its key, it can be that screen
+/// or that car and nothing else, and what it says concerns itself alone. Its text is made printable and limited in number.
 
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "engine/core/message_limit.hpp"
 #include "engine/net/baseline_tracker.hpp"
 #include "engine/net/secure_server.hpp"
 #include "engine/net/tick_publisher.hpp"
@@ -31,6 +36,7 @@ struct ScreenHostOptions {
   control::Welcome welcome;
   std::vector<std::string> screens;  ///< Names that the rig knows; others are refused.
   std::shared_ptr<RemoteCar> car;    ///< The driver's car where it is on another machine; null: a car is refused.
+  std::set<std::string> drivers;     ///< Screens whose keyboard or gamepad may drive.
   double least_playout_delay_s = 2.0 / 120.0;
   std::size_t max_datagram_bytes = 1200;
 };
@@ -65,6 +71,9 @@ class ScreenHost {
   void pump(double now_s);
   bool has_backlog() const { return lane_.has_backlog(); }
 
+  /// Who may connect from now on. Who is connected and no longer on the list is out at once.
+  void set_allowed(std::vector<net::AllowedClient> allowed) { lane_.set_allowed(std::move(allowed)); }
+
   /// Tells of a command that the store has taken.
   void scene_changed(const scene::Command& command) { scene_.applied(command); }
 
@@ -75,7 +84,9 @@ class ScreenHost {
 
   const std::vector<HostedScreen>& screens() const { return screens_; }
   /// Every screen of the rig is connected and holds the whole scene.
-  bool all_ready() const;
+  bool all_ready() const { return missing().empty(); }
+  /// Which screens are not there, or not whole; and the car, where it is on another machine.
+  std::vector<std::string> missing() const;
   /// Every connected screen has shown this tick, or, if it came later, holds the scene and can show the next. So those
   /// that come up have the machine to themselves. Screens that have gone or are left behind do not count.
   bool all_presented(Tick tick) const;
@@ -95,12 +106,18 @@ class ScreenHost {
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
+  void on_connected(const net::ServerEvent& event);
   void on_message(const net::ServerEvent& event, double now_s);
   void on_control(net::ClientId client, const control::ControlMessage& message, double now_s);
   void on_hello(net::ClientId client, const control::Hello& hello, double now_s);
   void add_unicast(net::ClientId client, std::uint16_t port);
-  void on_car_hello(net::ClientId client);
-  void on_disconnected(net::ClientId client, const std::string& reason);
+  void on_car_hello(net::ClientId client, const control::CarHello& hello, double now_s);
+  /// Says why, to it and to the operator.
+  void refuse(net::ClientId client, const std::string& reason, double now_s);
+  /// Of a client: made printable, and not too often.
+  void tell(net::ClientId client, const std::string& text, double now_s);
+  void tell_of_strangers(double now_s);
+  void on_disconnected(net::ClientId client, const std::string& reason, double now_s);
   void send_unicast_to_the_deaf(double now_s);
   HostedScreen* screen_of(net::ClientId client);
   void send(net::ClientId client, const control::ControlMessage& message);
@@ -112,10 +129,15 @@ class ScreenHost {
   replication::ReplicationServer scene_;
   PlayoutPlanner planner_;
   std::vector<HostedScreen> screens_;
+  /// By what name the list calls them. Each from its connection to its end by the order of events: some events are of one that has gone.
+  std::map<net::ClientId, std::string> clients_;
+  std::map<std::string, MessageLimit> limits_;  ///< By the name in the list.
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::optional<DriverInput> controls_;
   std::optional<net::ClientId> car_client_;
+  net::ChannelCounters told_;  ///< What the operator has been told of.
+  double told_s_ = 0.0;
   std::size_t last_tick_bytes_ = 0;
   std::vector<std::string> messages_;
 };

@@ -10,6 +10,7 @@
 #include "sim-server/command/film_command.hpp"
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
+#include "sim-server/command/rig_command.hpp"
 #include "sim-server/command/road_command.hpp"
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
@@ -77,6 +78,15 @@ int run(int argc, char** argv) {
   auto* locate = road_command->add_subcommand("locate", "Lines x_m,y_m in, road positions out");
   locate->add_option("file", road_file, "OpenDRIVE file")->required();
   locate->callback([&] { status = run_road_locate(road_file, std::cin, std::cout); });
+
+  auto* rig_command = app.add_subcommand("rig", "What a rig of several machines needs");
+  rig_command->require_subcommand(1);
+  std::string rig_name;
+  std::filesystem::path keys_out = "keys";
+  auto* rig_keys = rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
+  rig_keys->add_option("rig", rig_name, "Rig: a file or a name")->required();
+  rig_keys->add_option("--out", keys_out, "Folder for the folders; keys that are there stay")->capture_default_str();
+  rig_keys->callback([&] { status = run_rig_keys(rig_name, keys_out); });
 
   auto* vehicle_command = app.add_subcommand("vehicle", "A car on the test track");
   vehicle_command->require_subcommand(1);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace septet::server {
 namespace {
@@ -17,6 +17,8 @@ struct Loop {
   ServeResult result;
 
   void pump() {
+    if (environment.changed_list)
+      if (auto list = environment.changed_list()) host.set_allowed(std::move(*list));
     host.pump(environment.now_s());
     for (const auto& text : host.take_messages()) environment.message(text);
   }
@@ -46,7 +48,8 @@ struct Loop {
 
   Expected<std::shared_ptr<const TakenSnapshot>> take_tick() {
     auto snapshot = source.next(host.take_controls());
-    for (const auto& text : source.take_messages()) environment.message(text);
+    for (const auto& text : source.take_messages())
+      if (environment.show) environment.show(text);
     if (snapshot && *snapshot) {
       ++result.ticks;
       result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
@@ -56,18 +59,21 @@ struct Loop {
   }
 };
 
+/// All who belong to the rig are there, or the operator does without them. Simulated time begins after that.
 Expected<void> wait_for_screens(Loop& loop) {
-  const auto missing = [&] {
-    std::string names;
-    for (const auto& screen : loop.host.screens())
-      if (!screen.live() || !screen.scene_arrived) names += (names.empty() ? "" : ", ") + screen.name;
-    return names;
-  };
-  const bool ready = loop.pump_until([&] { return loop.host.all_ready(); }, loop.options.patience_s, 0.5,
-                                     [&] { loop.report("waiting for " + missing()); });
-  if (!ready && !loop.environment.stop_requested())
-    return failure(fmt::format("no answer within {:.0f} s from: {}", loop.options.patience_s, missing()), "screens",
+  const auto missing = [&] { return fmt::format("{}", fmt::join(loop.host.missing(), ", ")); };
+  const double patience_s = loop.options.lockstep ? loop.options.patience_s : loop.options.wait_for_screens_s;
+  const bool can_go = loop.environment.told_to_go != nullptr;
+  const auto told_to_go = [&] { return can_go && loop.environment.told_to_go(); };
+  if (patience_s > 0.0)
+    loop.pump_until([&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
+                    [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
+  loop.started_s = loop.environment.now_s();
+  if (patience_s <= 0.0 || loop.host.all_ready() || loop.environment.stop_requested()) return {};
+  if (loop.options.lockstep && !told_to_go())
+    return failure(fmt::format("no answer within {:.0f} s from: {}", patience_s, missing()), "screens",
                    "look into their logs, and check that they run and reach this machine");
+  loop.environment.message("the drive begins without " + missing());
   return {};
 }
 
@@ -89,6 +95,7 @@ Expected<void> run_lockstep(Loop& loop) {
 }
 
 Expected<void> run_real_time(Loop& loop) {
+  if (auto ready = wait_for_screens(loop); !ready) return ready;
   const double tick_s = 1.0 / loop.source.tick_rate_hz();
   double due_s = loop.environment.now_s();
   double reported_s = due_s;
@@ -122,13 +129,12 @@ Expected<void> run_real_time(Loop& loop) {
 Expected<ServeResult> serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
                             const ServeEnvironment& environment) {
   Loop loop{source, host, options, environment, environment.now_s(), {}};
-  const double begun_s = environment.now_s();
   auto outcome = options.lockstep ? run_lockstep(loop) : run_real_time(loop);
-  loop.result.wall_s = environment.now_s() - begun_s;
+  loop.result.wall_s = environment.now_s() - loop.started_s;
   // Whatever happened, the screens hear that it is over and say what they have seen.
   host.finish(outcome ? "the drive is over" : outcome.error().what);
   const ServeEnvironment farewell{environment.now_s, environment.wait, [] { return false; }, environment.report, environment.message};
-  Loop last{source, host, options, farewell, begun_s, {}};
+  Loop last{source, host, options, farewell, loop.started_s, {}};
   last.pump_until([&] { return host.all_reported(); }, 10.0, 1.0, [] {});
   if (!outcome) return tl::unexpected(outcome.error());
   return loop.result;

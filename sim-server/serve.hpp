@@ -19,7 +19,8 @@ struct ServeOptions {
   bool lockstep = false;
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
-  double patience_s = 60.0;            ///< For the screens to be ready at the start, in lockstep.
+  double patience_s = 60.0;            ///< For the screens to be ready at the start, in lockstep; then the drive fails.
+  double wait_for_screens_s = 0.0;     ///< The same in real time; then it drives without those that are missing.
   double lockstep_patience_s = 10.0;   ///< For one frame; then whoever has not answered is left behind.
 };
 
@@ -35,7 +36,14 @@ struct ServeEnvironment {
   std::function<void(double seconds)> wait;
   std::function<bool()> stop_requested;
   std::function<void(const Progress&)> report;
+  /// What has happened, for the console and the log.
   std::function<void(const std::string&)> message;
+  /// The same of the source of ticks, which logs it itself: for the console. May be empty, as those below.
+  std::function<void(const std::string&)> show;
+  /// Whether the operator wants to drive without those who are missing.
+  std::function<bool()> told_to_go;
+  /// The list of allowed clients, where it has changed.
+  std::function<std::optional<std::vector<net::AllowedClient>>()> changed_list;
 };
 
 struct ServeResult {

@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--driver", options.driver, "Which simulated driver");
   app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
+  app.add_option("--wait-for-screens", options.wait_for_screens_s,
+                 "Seconds to wait for the rig's screens and car, then drive without those that are missing (default: until all are there, or Enter or the line \"go\")");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");

@@ -17,6 +17,7 @@ struct ServerOptions {
   std::uint64_t seed = 1;
   std::string driver;    ///< Simulated driver; empty: the rig's.
   std::string traffic = "own";  ///< Who moves the traffic: own or sumo.
+  double wait_for_screens_s = -1.0;  ///< Before it drives, in real time; then without those that are missing. Negative: until all are there.
   bool lockstep = false;
   bool no_screens = false;
   bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.

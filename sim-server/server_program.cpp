@@ -5,10 +5,13 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <limits>
+#include <set>
 
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/net/allowed_clients_watch.hpp"
 #include "engine/net/multicast_probe.hpp"
 #include "engine/scene/builder.hpp"
 #include "engine/scenery/debris_looks.hpp"
@@ -17,6 +20,7 @@
 #include "logging/recorded_scene.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/driver_seat.hpp"
+#include "sim-server/go_word.hpp"
 #include "sim-server/live_drive.hpp"
 #include "sim-server/remote_car.hpp"
 #include "sim-server/replay_source.hpp"
@@ -67,7 +71,12 @@ struct Sockets {
 };
 
 Expected<Sockets> open_sockets(const ServerOptions& options, const rig::Network& network, bool one_machine) {
-  const std::uint32_t ip = one_machine ? net::loopback_ip : 0;
+  std::uint32_t ip = one_machine ? net::loopback_ip : 0;
+  if (!network.interface_address.empty()) {
+    const auto parsed = net::parse_ip(network.interface_address, "rig, network.interface_address");
+    if (!parsed) return tl::unexpected(parsed.error());
+    ip = *parsed;
+  }
   auto lane = net::UdpSocket::open({{ip, options.any_port ? std::uint16_t{0} : network.scene_port}});
   if (!lane) return tl::unexpected(lane.error());
   auto tick = net::UdpSocket::open({{ip, 0}});
@@ -75,18 +84,22 @@ Expected<Sockets> open_sockets(const ServerOptions& options, const rig::Network&
   return Sockets{std::move(*lane), std::move(*tick)};
 }
 
+/// Whose keyboard or gamepad may drive: the screens' at the server's own machine, if the rig says that a keyboard does.
+std::set<std::string> drivers_of(const rig::Rig& rig) {
+  std::set<std::string> names;
+  if (rig.car.source != rig::CarSource::keyboard) return names;
+  for (const auto& screen : rig.screens)
+    if (screen.machine.empty()) names.insert(screen.name);
+  return names;
+}
+
 /// Multicast if the rig wants it, or if it does not mind and the machine's own loopback carries it.
-Expected<void> choose_transport(const rig::Network& network, bool one_machine, Sockets& sockets, bool any_port, control::Welcome& welcome,
+Expected<void> choose_transport(const rig::Network& network, Sockets& sockets, bool any_port, control::Welcome& welcome,
                                 ProgressLine& progress) {
   if (network.transport == rig::TickTransport::unicast) return {};
   const auto group_ip = net::parse_ip(network.tick_group, "rig, network.tick_group");
   if (!group_ip) return tl::unexpected(group_ip.error());
-  std::uint32_t interface_ip = one_machine ? net::loopback_ip : 0;
-  if (!network.interface_address.empty()) {
-    const auto parsed = net::parse_ip(network.interface_address, "rig, network.interface_address");
-    if (!parsed) return tl::unexpected(parsed.error());
-    interface_ip = *parsed;
-  }
+  const std::uint32_t interface_ip = sockets.tick.local_address().ip;
   // Two drives on one machine must not hear each other's group: the port follows the scene lane's.
   const auto port = any_port ? static_cast<std::uint16_t>(sockets.lane.local_address().port ^ 1u) : network.tick_port;
   const net::Address group{*group_ip, port};
@@ -246,8 +259,9 @@ Expected<void> run_server(const ServerOptions& options) {
     host_options.limits.timeout_s = options.lockstep ? 60.0 : 5.0;
     host_options.least_playout_delay_s = rig.network.playout_delay_ticks / drive.source->tick_rate_hz();
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
+    host_options.drivers = drivers_of(rig);
     host_options.car = drive.remote_car;
-    if (auto chosen = choose_transport(rig.network, is_one_machine(rig), sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
+    if (auto chosen = choose_transport(rig.network, sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
     ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(host_options));
     fmt::print("ready {}\n", sockets.lane.local_address().port);
     std::fflush(stdout);
@@ -259,12 +273,24 @@ Expected<void> run_server(const ServerOptions& options) {
       net::wait_readable(waiting, seconds);
     };
     environment.stop_requested = [] { return stop_requested != 0; };
+    GoWord go;
+    environment.told_to_go = [&] { return go.said(); };
+    net::AllowedClientsWatch watch(options.keys / "allowed-clients");
+    environment.changed_list = [&]() -> std::optional<std::vector<net::AllowedClient>> {
+      auto list = watch.changed(monotonic_s());
+      if (!list) return std::nullopt;
+      environment.message(*list ? fmt::format("allowed-clients has changed: {} clients may connect", (*list)->size())
+                                : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
+      return *list ? std::optional(std::move(**list)) : std::nullopt;
+    };
+    environment.show = [&](const std::string& text) { progress.message(text); };
     environment.report = [&](const Progress& now) { progress.show(now); };
     environment.message = [&](const std::string& text) {
       progress.message(text);
       if (drive.log) drive.log->record_message("screen", text);
     };
-    result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks}, environment);
+    const double wait_s = options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
+    result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks, .wait_for_screens_s = wait_s}, environment);
     screens = host.screens();
   }
   progress.close();

@@ -17,25 +17,26 @@ std::string as_text(const Bytes& bytes) {
 }  // namespace
 
 CarLink::CarLink(net::DatagramSocket& socket, net::SecureClientOptions lane, FindDevice find_device)
-    : lane_(socket, std::move(lane)), find_device_(std::move(find_device)) {}
+    : lane_(socket, lane),
+      connection_report_(lane.server, lane.identity.public_key(), "car"),
+      find_device_(std::move(find_device)) {}
 
 void CarLink::pump(double now_s) {
   for (const net::ClientEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
       case net::ClientEvent::Kind::connected:
-        messages_.push_back("the server is there");
         feedback_tick_ = 0;
         lane_.send(net::share(encode_control(CarHello{})), net::Reliability::reliable);
         break;
       case net::ClientEvent::Kind::lost:
-        messages_.push_back("the server is gone (" + event.reason +
-                            "); it is tried again by itself");
+        is_welcome_ = false;
         break;
       case net::ClientEvent::Kind::message:
         on_control(event.bytes);
         break;
     }
   }
+  if (auto text = connection_report_.look(lane_, is_welcome_, now_s)) messages_.push_back(std::move(*text));
   if (connection_) report(now_s);
 }
 
@@ -47,6 +48,7 @@ void CarLink::on_control(std::span<const std::byte> bytes) {
     feedback_tick_ = feedback->tick;
     writer_->set({feedback->fan, feedback->vibration, feedback->vibration_hz, feedback->steering});
   } else if (const auto* welcome = std::get_if<CarWelcome>(&*message)) {
+    is_welcome_ = true;
     take_rig(welcome->rig);
   } else if (const auto* refusal = std::get_if<Refusal>(&*message)) {
     refusal_ = Error{refusal->reason, "septet-car", "correct the server's rig or allowed-clients"};

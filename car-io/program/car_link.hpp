@@ -16,6 +16,7 @@
 #include "car-io/actuator_writer.hpp"
 #include "car-io/car_connection.hpp"
 #include "engine/control/control_message.hpp"
+#include "engine/net/connection_report.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/rig/rig.hpp"
 
@@ -46,11 +47,13 @@ class CarLink {
   void report(double now_s);
 
   net::SecureClient lane_;
+  net::ConnectionReport connection_report_;
   FindDevice find_device_;
   std::unique_ptr<CarConnection> connection_;
   std::unique_ptr<ActuatorWriter> writer_;
   Bytes newest_;
   std::string problem_;
+  bool is_welcome_ = false;  ///< On this connection.
   bool was_connected_ = false;
   std::uint32_t number_ = 0;
   double reported_s_ = -1.0;

@@ -22,6 +22,7 @@ void on_signal(int) { stop_requested = 1; }
 void stop_on_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);  // The terminal was closed, the connection to it broke.
 }
 
 double monotonic_s() {
@@ -125,11 +126,13 @@ Expected<void> run_actuators(const ActuateOptions& options) {
   ActuatorWriter writer(
       find_device(here->car),
       {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
+  std::optional<Error> fault;
   for (const double end_s = monotonic_s() + options.seconds;
        monotonic_s() < end_s && !stop_requested; sleep_s(0.02)) {
     writer.set(options.actuators);
-    if (auto error = writer.take_error()) return tl::unexpected(std::move(*error));
+    if (auto error = writer.take_error(); error && !fault) fault = std::move(error);
   }
+  if (fault) return tl::unexpected(std::move(*fault));
   return {};
 }
 

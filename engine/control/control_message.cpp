@@ -1,5 +1,6 @@
 #include "engine/control/control_message.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -22,11 +23,12 @@ template <class Visitor> void fields(SceneArrived& m, Visitor& v) { v(m.revision
 template <class Visitor> void fields(Presented& m, Visitor& v) { v(m.tick); v(m.frame_ms); }
 template <class Visitor> void fields(Controls& m, Visitor& v) {
   DriverInput& i = m.input;
-  v(i.steering_wheel_rad); v(i.accelerator); v(i.brake); v(i.clutch);
+  v.within(i.steering_wheel_rad, -50.0, 50.0); v.within(i.accelerator, 0.0, 1.0); v.within(i.brake, 0.0, 1.0); v.within(i.clutch, 0.0, 1.0);
   v.enumeration(i.selector, GearSelector::park, GearSelector::manual);
   v(i.gear);
   v.enumeration(i.indicator, IndicatorStalk::right, IndicatorStalk::left);
-  v(i.hazard_lights); v(i.horn); v(i.low_beam); v(i.high_beam); v(i.parking_brake); v(i.gaze_heading_rad); v(i.sequence);
+  v(i.hazard_lights); v(i.horn); v(i.low_beam); v(i.high_beam); v(i.parking_brake);
+  v.within(i.gaze_heading_rad, -7.0, 7.0); v(i.sequence);
 }
 template <class Visitor> void fields(Finish& m, Visitor& v) { v(m.reason); }
 template <class Visitor> void fields(ScreenReport& m, Visitor& v) {
@@ -48,6 +50,7 @@ struct Put {
   }
   void operator()(std::string& value) { text(value, max_text); }
   void text(std::string& value, std::size_t limit) { writer.put_string(std::string_view(value).substr(0, limit)); }
+  void within(double& value, double least, double most) { writer.put(std::clamp(value, least, most)); }
   template <class T>
   void enumeration(T& value, T, T) { writer.put(static_cast<std::int8_t>(value)); }
 };
@@ -74,6 +77,10 @@ struct Get {
   }
   void operator()(std::string& value) { text(value, max_text); }
   void text(std::string& value, std::size_t limit) { value = reader.get_string(limit); }
+  void within(double& value, double least, double most) {
+    value = reader.get_double();
+    if (!(value >= least && value <= most)) reader.fail();
+  }
   template <class T>
   void enumeration(T& value, T low, T high) {
     const auto number = reader.get<std::int8_t>();

@@ -139,6 +139,7 @@ Channel::Verdict Channel::take(const Frame& frame, double now_s,
       clock_.add(frame.sent_s, frame.answered_s, now_s);
       break;
     case FrameKind::goodbye:
+      goodbye_.assign(reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size());
       return Verdict::goodbye;
   }
   if (kept_protocol) return Verdict::good;

@@ -67,6 +67,8 @@ class Channel {
   bool wants_to_send() const { return sender_.wants_to_send(); }
 
   std::uint32_t connection() const { return options_.connection; }
+  /// What the other end said with its goodbye; any bytes.
+  const std::string& goodbye() const { return goodbye_; }
   const Address& peer() const { return options_.peer; }
   double heard_s() const { return heard_s_; }
   double round_trip_s() const { return sender_.round_trip().smoothed_s(); }
@@ -91,6 +93,7 @@ class Channel {
   std::size_t unreliable_bytes_ = 0;
   ClockEstimate clock_;
   ChannelCounters counters_;
+  std::string goodbye_;
   Bytes text_, datagram_;  ///< Of the datagram at hand; kept to spare allocations.
   std::vector<Bytes> completed_;
 };

@@ -51,6 +51,7 @@ constexpr std::size_t hello_body = 32;
 constexpr std::size_t cookie_body = 16 + 16;
 constexpr std::size_t initiation_body = 16 + 32 + sealed_bytes;
 constexpr std::size_t response_body = 16 + 32 + 4 + 16 + terms_bytes + seal_bytes;
+constexpr std::size_t refusal_body = 16 + 32 + 1 + seal_bytes;
 
 }  // namespace
 
@@ -58,9 +59,15 @@ std::optional<SceneDatagramKind> scene_datagram_kind(std::span<const std::byte> 
   ByteReader reader(datagram);
   const auto first = reader.get<std::uint8_t>(), its_version = reader.get<std::uint8_t>(),
              kind = reader.get<std::uint8_t>();
-  if (!reader.ok() || first != first_byte || its_version != version || kind < 1 || kind > 5)
+  if (!reader.ok() || first != first_byte || its_version != version || kind < 1 || kind > 6)
     return std::nullopt;
   return static_cast<SceneDatagramKind>(kind);
+}
+
+bool is_of_other_version(std::span<const std::byte> datagram) {
+  ByteReader reader(datagram);
+  const auto first = reader.get<std::uint8_t>(), its_version = reader.get<std::uint8_t>();
+  return reader.ok() && first == first_byte && its_version != version;
 }
 
 void write_scene_prefix(SceneDatagramKind kind, ByteWriter& writer) {
@@ -157,10 +164,34 @@ Bytes ClientHandshake::initiation() const {
 std::optional<ClientHandshake::Connected> ClientHandshake::accept_response(
     std::span<const std::byte> datagram) const {
   auto reader = body(datagram, SceneDatagramKind::response, response_body);
-  if (!reader) return std::nullopt;
-  const auto echo = take_array<16>(*reader);
+  Bytes text;
+  const auto transcript = reader ? open_answer(*reader, text) : std::nullopt;
+  if (!transcript) return std::nullopt;
+  ByteReader fields(text);
+  Connected result;
+  result.connection = fields.get<std::uint32_t>();
+  result.session = take_array<16>(fields);
+  result.server = take_terms(fields);
+  const KeyPair32 keys = transcript->split();
+  result.keys = {.sending = keys.first, .receiving = keys.second};
+  return result;
+}
+
+std::optional<HandshakeRefusal> ClientHandshake::accept_refusal(
+    std::span<const std::byte> datagram) const {
+  auto reader = body(datagram, SceneDatagramKind::refusal, refusal_body);
+  Bytes text;
+  if (!reader || !open_answer(*reader, text)) return std::nullopt;
+  const auto reason = std::to_integer<std::uint8_t>(text.front());
+  if (reason < 1 || reason > 2) return std::nullopt;
+  return static_cast<HandshakeRefusal>(reason);
+}
+
+/// The second half of the key exchange, and what was sealed at its end.
+std::optional<Transcript> ClientHandshake::open_answer(ByteReader& reader, Bytes& text) const {
+  const auto echo = take_array<16>(reader);
   if (!std::equal(echo.begin(), echo.end(), ephemeral_.public_key.begin())) return std::nullopt;
-  const auto server_ephemeral = take_array<32>(*reader);
+  const auto server_ephemeral = take_array<32>(reader);
   const auto ephemeral_ephemeral = shared_secret(ephemeral_.secret, server_ephemeral);
   const auto static_ephemeral = shared_secret(static_.secret, server_ephemeral);
   if (!ephemeral_ephemeral || !static_ephemeral) return std::nullopt;
@@ -169,16 +200,8 @@ std::optional<ClientHandshake::Connected> ClientHandshake::accept_response(
   transcript.mix_hash(as_bytes_of(server_ephemeral));
   transcript.mix_key(*ephemeral_ephemeral);
   transcript.mix_key(*static_ephemeral);
-  Bytes text;
-  if (!transcript.open_text(reader->take(reader->remaining()), text)) return std::nullopt;
-  ByteReader fields(text);
-  Connected result;
-  result.connection = fields.get<std::uint32_t>();
-  result.session = take_array<16>(fields);
-  result.server = take_terms(fields);
-  const KeyPair32 keys = transcript.split();
-  result.keys = {.sending = keys.first, .receiving = keys.second};
-  return result;
+  if (!transcript.open_text(reader.take(reader.remaining()), text)) return std::nullopt;
+  return transcript;
 }
 
 std::optional<Bytes> CookieJar::answer(std::span<const std::byte> hello, const Address& from,
@@ -249,6 +272,31 @@ std::optional<ServerHandshake> ServerHandshake::accept(std::span<const std::byte
 std::optional<ServerHandshake::Connected> ServerHandshake::respond(std::uint32_t connection,
                                                                    const SessionId& session,
                                                                    const Terms& own) const {
+  Bytes text;
+  ByteWriter fields(text);
+  fields.put(connection);
+  fields.put_bytes(as_bytes_of(session));
+  put_terms(own, fields);
+
+  Connected result;
+  const auto transcript = seal_answer(SceneDatagramKind::response, text, result.response);
+  if (!transcript) return std::nullopt;
+  const KeyPair32 keys = transcript->split();
+  result.keys = {.sending = keys.second, .receiving = keys.first};
+  return result;
+}
+
+std::optional<Bytes> ServerHandshake::refuse(HandshakeRefusal reason) const {
+  const std::byte text[] = {static_cast<std::byte>(reason)};
+  Bytes datagram;
+  if (!seal_answer(SceneDatagramKind::refusal, text, datagram)) return std::nullopt;
+  return datagram;
+}
+
+/// The second half of the key exchange as a datagram, with `text` sealed at its end.
+std::optional<Transcript> ServerHandshake::seal_answer(SceneDatagramKind kind,
+                                                       std::span<const std::byte> text,
+                                                       Bytes& datagram) const {
   const ExchangeKeys ephemeral = random_exchange_keys();
   const auto ephemeral_ephemeral = shared_secret(ephemeral.secret, client_ephemeral_);
   const auto static_ephemeral = shared_secret(ephemeral.secret, client_static_);
@@ -258,21 +306,12 @@ std::optional<ServerHandshake::Connected> ServerHandshake::respond(std::uint32_t
   transcript.mix_key(*ephemeral_ephemeral);
   transcript.mix_key(*static_ephemeral);
 
-  Bytes text;
-  ByteWriter fields(text);
-  fields.put(connection);
-  fields.put_bytes(as_bytes_of(session));
-  put_terms(own, fields);
-
-  Connected result;
-  ByteWriter writer(result.response);
-  write_scene_prefix(SceneDatagramKind::response, writer);
+  ByteWriter writer(datagram);
+  write_scene_prefix(kind, writer);
   writer.put_bytes(as_bytes_of(client_ephemeral_).first(16));
   writer.put_bytes(as_bytes_of(ephemeral.public_key));
-  transcript.seal_text(text, result.response);
-  const KeyPair32 keys = transcript.split();
-  result.keys = {.sending = keys.second, .receiving = keys.first};
-  return result;
+  transcript.seal_text(text, datagram);
+  return transcript;
 }
 
 }  // namespace septet::net

@@ -16,11 +16,13 @@
 
 namespace septet::net {
 
-enum class SceneDatagramKind : std::uint8_t { hello = 1, cookie, initiation, response, data };
+enum class SceneDatagramKind : std::uint8_t { hello = 1, cookie, initiation, response, data, refusal };
 
 inline constexpr std::size_t scene_prefix_bytes = 3;
 /// Kind of a datagram of the scene lane; none if it does not begin like one.
 std::optional<SceneDatagramKind> scene_datagram_kind(std::span<const std::byte> datagram);
+/// Whether it begins like one, but of another version of the protocol.
+bool is_of_other_version(std::span<const std::byte> datagram);
 /// Appends the first three bytes.
 void write_scene_prefix(SceneDatagramKind kind, ByteWriter& writer);
 
@@ -36,6 +38,12 @@ struct Terms {
 
 struct ChannelKeys {
   Key32 sending{}, receiving{};
+};
+
+/// Why a server does not let a client in that it knows to speak with. On the wire as numbered here.
+enum class HandshakeRefusal : std::uint8_t {
+  key_unknown = 1,  ///< The client's key is not on the list.
+  key_in_use = 2,   ///< Another client with this key is connected and alive.
 };
 
 /// Chaining key and transcript hash of Noise's symmetric state.
@@ -74,9 +82,12 @@ class ClientHandshake {
   };
   /// None: not from the pinned server, or not for this handshake.
   std::optional<Connected> accept_response(std::span<const std::byte> datagram) const;
+  /// None: not from the pinned server, or not for this handshake.
+  std::optional<HandshakeRefusal> accept_refusal(std::span<const std::byte> datagram) const;
 
  private:
   ClientHandshake(const Identity& client, const PublicKey& server);
+  std::optional<Transcript> open_answer(ByteReader& reader, Bytes& text) const;
   ExchangeKeys static_, ephemeral_;
   Transcript transcript_;
   Bytes sealed_;  ///< Of the initiation: identity and terms.
@@ -116,8 +127,11 @@ class ServerHandshake {
   /// None if the client's ephemeral key is of low order.
   std::optional<Connected> respond(std::uint32_t connection, const SessionId& session,
                                    const Terms& own) const;
+  /// Sealed like a response, so that nobody else can send a client away.
+  std::optional<Bytes> refuse(HandshakeRefusal reason) const;
 
  private:
+  std::optional<Transcript> seal_answer(SceneDatagramKind kind, std::span<const std::byte> text, Bytes& datagram) const;
   explicit ServerHandshake(const PublicKey& server) : transcript_(server) {}
   PublicKey client_{};
   Key32 client_static_{}, client_ephemeral_{};

@@ -89,12 +89,12 @@ Expected<Identity> load_identity(const std::filesystem::path& file) {
   if (!in || ::stat(file.c_str(), &status) != 0)
     return failure(
         "the key file cannot be read", file.string(),
-        "check its path and owner; without the file a new identity is made at the next start");
+        "check its path and owner; `septet rig keys` makes the keys of a rig's machines");
   if ((status.st_mode & 077) != 0)
     return failure(
         "others may read the secret key", file.string(),
-        fmt::format("run `chmod 600 {}`; if it was not you who opened it, delete it and allow "
-                    "the new key that is made at the next start",
+        fmt::format("run `chmod 600 {}`; if it was not you who opened it, delete it and make "
+                    "another one with `septet rig keys`",
                     file.string()));
   std::string title, public_word, public_text, secret_word, secret_text;
   std::getline(in, title);
@@ -106,7 +106,7 @@ Expected<Identity> load_identity(const std::filesystem::path& file) {
   }
   return failure(
       "this is not a whole key file", file.string(),
-      "restore it from a copy, or delete it and allow the new key that is made at the next start");
+      "restore it from a copy, or delete it and make another one with `septet rig keys`");
 }
 
 Expected<Identity> load_or_create_identity(const std::filesystem::path& file) {
@@ -120,8 +120,8 @@ Expected<PublicKey> load_public_key(const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string text;
   if (!(stream >> text))
-    return failure("cannot read a public key", file.string(),
-                   "copy server.public from the server's keys");
+    return failure("the server's public key cannot be read", file.string(),
+                   "copy server.public from the folder that `septet rig keys` made");
   return parse_public_key(text, file.string());
 }
 
@@ -129,7 +129,7 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
   std::ifstream in(file);
   if (!in)
     return failure("the list of allowed clients cannot be read", file.string(),
-                   "make it: one line `KEY NAME` per client");
+                   "`septet rig keys` makes it: one line `KEY NAME` per client");
   std::vector<AllowedClient> clients;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -141,6 +141,10 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
     auto parsed = parse_public_key(key, where);
     if (!parsed) return tl::unexpected(parsed.error());
     if (name.empty()) return failure("a key without a name", where, "write `KEY NAME`");
+    for (const AllowedClient& other : clients) {
+      if (other.key == *parsed) return failure(fmt::format("the key of {} stands here again", other.name), where, "remove one of the two lines");
+      if (other.name == name) return failure(fmt::format("a second key for {}", name), where, "remove the line of the key that no longer counts");
+    }
     clients.push_back({*parsed, name});
   }
   return clients;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/check.hpp"
+#include "engine/core/printable.hpp"
 #include "engine/net/channel.hpp"
 #include "engine/net/handshake.hpp"
 
@@ -14,6 +15,13 @@ namespace {
 
 constexpr std::size_t max_datagrams_per_pump = 8192;
 constexpr double first_retry_s = 0.05, longest_retry_s = 0.25;
+/// To a server that has been away for long, and to one that has refused us.
+constexpr double patient_after_s = 10.0, patient_retry_s = 1.0;
+constexpr double refused_retry_s = 0.1, longest_in_use_retry_s = 2.0, longest_unknown_retry_s = 5.0;
+/// Before it says what is wrong: a handshake that is lost now and then is nothing.
+constexpr double trial_s = 1.5;
+/// For how long what the server said counts: it speaks again sooner, if it is still there.
+constexpr double remembered_s = 8.0;
 constexpr double cookie_life_s = 4.0;
 constexpr double first_pings_s = 0.1, later_pings_s = 0.25;
 constexpr int first_pings = 10;
@@ -29,9 +37,11 @@ struct SecureClient::State {
   void connect(const ClientHandshake::Connected& connected, std::vector<ClientEvent>& events);
   void lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s = 0.0);
   void knock();
+  void take_refusal(std::span<const std::byte> datagram);
   /// How long a ping has gone unanswered. Not since the server was heard: a client that was busy for seconds asked nothing.
   double silence_s() const { return channel && channel->heard_s() <= pinged_s ? now_s - pinged_s : 0.0; }
   /// While it does, an answer to a new handshake is no longer wanted.
+  Obstacle obstacle() const;
   bool hears_server() const { return channel && silence_s() <= options.knock_after_s; }
 
   DatagramSocket& socket;
@@ -39,10 +49,15 @@ struct SecureClient::State {
   double now_s = 0.0;
   ClientState state = ClientState::connecting;
   bool closed = false;
+  std::string loss;
   std::optional<Channel> channel;
   SessionId session{};
 
   std::optional<ClientHandshake> handshake;
+  std::optional<double> trying_since_s;  ///< Since when it has knocked without being let in.
+  std::optional<double> answered_s;      ///< When the last cookie came, since then.
+  Obstacle refusal = Obstacle::none;     ///< What the server last said, since then.
+  double refused_s = 0.0;                ///< When it said so.
   double cookie_s = 0.0;
   double next_knock_s = 0.0, retry_s = first_retry_s;
 
@@ -99,6 +114,8 @@ void SecureClient::State::receive(std::vector<ClientEvent>& events) {
         continue;
       }
       cookie_s = now_s;
+      answered_s = now_s;
+      if (refusal == Obstacle::other_version) refusal = Obstacle::none;
       socket.send(options.server, handshake->initiation());
     } else if (kind == SceneDatagramKind::response && handshake && !hears_server()) {
       const auto connected = handshake->accept_response(datagram->bytes);
@@ -106,10 +123,31 @@ void SecureClient::State::receive(std::vector<ClientEvent>& events) {
         connect(*connected, events);
       else
         ++past.forged;
+    } else if (kind == SceneDatagramKind::refusal && handshake && !hears_server()) {
+      take_refusal(datagram->bytes);
+    } else if (is_of_other_version(datagram->bytes) && handshake && !hears_server()) {
+      // Nobody can sign this for a version that we do not know; so it changes what is said and nothing else.
+      if (refusal == Obstacle::none) refusal = Obstacle::other_version;
+      refused_s = now_s;
     } else {
       ++past.malformed;
     }
   }
+}
+
+void SecureClient::State::take_refusal(std::span<const std::byte> datagram) {
+  const auto reason = handshake->accept_refusal(datagram);
+  if (!reason) {
+    ++past.forged;
+    return;
+  }
+  const bool in_use = *reason == HandshakeRefusal::key_in_use;
+  const Obstacle before = std::exchange(refusal, in_use ? Obstacle::key_in_use : Obstacle::key_unknown);
+  refused_s = now_s;
+  if (before != refusal) retry_s = refused_retry_s;
+  handshake.reset();
+  next_knock_s = now_s + retry_s;
+  retry_s = std::min(retry_s * 1.5, in_use ? longest_in_use_retry_s : longest_unknown_retry_s);
 }
 
 void SecureClient::State::take_data(std::span<const std::byte> datagram,
@@ -130,7 +168,7 @@ void SecureClient::State::take_data(std::span<const std::byte> datagram,
                       .reliability = message.reliability,
                       .bytes = std::move(message.bytes)});
   if (verdict == Channel::Verdict::goodbye)
-    lose("the server said goodbye", events, longest_retry_s);
+    lose(fmt::format("the server said goodbye: {}", printable(channel->goodbye())), events, longest_retry_s);
   if (verdict == Channel::Verdict::broken) lose("the server broke the protocol", events);
 }
 
@@ -147,6 +185,9 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   session = connected.session;
   handshake.reset();
   retry_s = first_retry_s;
+  trying_since_s.reset();
+  answered_s.reset();
+  refusal = Obstacle::none;
   state = ClientState::connected;
   pings = 0;
   pinged_s = -1.0;
@@ -159,6 +200,7 @@ void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& eve
   past += channel->counters();
   channel.reset();
   state = ClientState::lost;
+  loss = reason;
   next_knock_s = now_s + knock_after_s;
   events.push_back({.kind = ClientEvent::Kind::lost, .reason = std::move(reason)});
 }
@@ -166,6 +208,7 @@ void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& eve
 /// Sends hello or initiation, again and again, a little slower each time.
 void SecureClient::State::knock() {
   if (now_s < next_knock_s) return;
+  if (!trying_since_s) trying_since_s = now_s;
   const bool stale = handshake && handshake->has_cookie() && now_s - cookie_s > cookie_life_s;
   if (!handshake || stale)
     handshake = ClientHandshake::start(options.identity, options.server_key,
@@ -174,7 +217,16 @@ void SecureClient::State::knock() {
   socket.send(options.server,
               handshake->has_cookie() ? handshake->initiation() : handshake->hello());
   next_knock_s = now_s + retry_s;
-  retry_s = std::min(retry_s * 1.5, longest_retry_s);
+  const bool refused = refusal == Obstacle::key_in_use || refusal == Obstacle::key_unknown;
+  const bool patient = now_s - *trying_since_s > patient_after_s;
+  if (!refused) retry_s = std::min(retry_s * 1.5, patient ? patient_retry_s : longest_retry_s);
+}
+
+Obstacle SecureClient::State::obstacle() const {
+  if (hears_server() || !trying_since_s) return Obstacle::none;
+  if (refusal != Obstacle::none && now_s - refused_s < remembered_s) return refusal;
+  if (now_s - *trying_since_s < trial_s) return Obstacle::none;
+  return answered_s && now_s - *answered_s < remembered_s ? Obstacle::other_server_key : Obstacle::no_answer;
 }
 
 bool SecureClient::has_backlog() const {
@@ -199,6 +251,20 @@ void SecureClient::close() {
   state_->state = ClientState::lost;
 }
 
+void SecureClient::leave_for(double seconds) {
+  State& state = *state_;
+  if (!state.channel || state.closed) return;
+  state.channel->say_goodbye("leaving", state.socket);
+  state.socket.flush();
+  state.past += state.channel->counters();
+  state.channel.reset();
+  state.state = ClientState::lost;
+  state.loss = "this end has left";
+  state.next_knock_s = state.now_s + seconds;
+}
+
+Obstacle SecureClient::obstacle() const { return state_->obstacle(); }
+const std::string& SecureClient::loss() const { return state_->loss; }
 ClientState SecureClient::state() const { return state_->state; }
 double SecureClient::silence_s() const { return state_->silence_s(); }
 const SessionId& SecureClient::session() const { return state_->session; }

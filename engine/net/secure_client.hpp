@@ -37,6 +37,16 @@ enum class ClientState : std::uint8_t {
   lost,  ///< Was connected, trying again.
 };
 
+/// What keeps a client from its server, as far as it can know.
+enum class Obstacle : std::uint8_t {
+  none,              ///< It is connected, or has not tried for long.
+  no_answer,         ///< Nobody answers at the server's address.
+  other_server_key,  ///< A server answers there that cannot read what is sealed for the pinned key.
+  other_version,     ///< What answers there speaks another version of the protocol.
+  key_unknown,       ///< The server does not have this client's key on its list.
+  key_in_use,        ///< Another client with this key is connected.
+};
+
 class SecureClient {
  public:
   /// The socket must outlive the client.
@@ -52,7 +62,13 @@ class SecureClient {
   /// Says goodbye and stays silent from then on.
   void close();
 
+  /// Says goodbye and tries again after a while.
+  void leave_for(double seconds);
+
   ClientState state() const;
+  Obstacle obstacle() const;
+  /// Why the last connection ended; empty before that.
+  const std::string& loss() const;
   /// For how long the server has owed an answer on this connection; 0 without one. Time in which nobody pumped does not
   /// count: whoever draws for seconds has not asked.
   double silence_s() const;

@@ -14,7 +14,11 @@ namespace {
 constexpr std::size_t max_datagrams_per_pump = 8192;
 constexpr double handshakes_per_s = 50.0;
 constexpr double unconfirmed_s = 10.0;
-constexpr double refusal_report_s = 1.0;
+constexpr double refusal_report_s = 1.0, same_refusal_report_s = 30.0;
+/// Two pings: who is silent for longer may have been started anew elsewhere.
+constexpr double alive_s = 0.5;
+/// No answer is longer than its question.
+constexpr std::size_t smallest_hello_bytes = 3 + 32;
 /// What one connection may send before the next one has its turn.
 constexpr std::size_t turn_bytes = 64 * 1024;
 
@@ -43,15 +47,19 @@ struct SecureServer::State {
   void emit();
   const AllowedClient* find_allowed(const PublicKey& key) const;
   std::uint32_t unused_number() const;
-  void refuse(const PublicKey& key, const Address& from, std::vector<ServerEvent>& events);
+  void refuse(const ServerHandshake& handshake, HandshakeRefusal why, const Address& from,
+              std::vector<ServerEvent>& events);
+  const Connection* living_namesake(const PublicKey& key, const Address& from) const;
 
   DatagramSocket& socket;
   SecureServerOptions options;
   CookieJar cookies;
   std::map<std::uint32_t, Connection> connections;
   double now_s = 0.0;
+  double listened_s = 0.0;  ///< When what had come was last read: later silence is the server's own.
   double handshake_tokens = handshakes_per_s / 5.0;
   double refusal_reported_s = -refusal_report_s;
+  PublicKey refusal_reported{};
   std::uint32_t next_turn = 0;  ///< The connection that sends first.
   ChannelCounters strangers;    ///< What belongs to no connection, and what past ones counted.
   mutable ClientInfo asked;
@@ -66,6 +74,7 @@ std::vector<ServerEvent> SecureServer::pump(double now_s) {
   SEPTET_CHECK(now_s >= state.now_s, "time goes back from {} to {}", state.now_s, now_s);
   state.handshake_tokens = std::min(
       state.handshake_tokens + (now_s - state.now_s) * handshakes_per_s, handshakes_per_s / 5.0);
+  state.listened_s = state.now_s;
   state.now_s = now_s;
   std::vector<ServerEvent> events;
   state.receive(events);
@@ -91,6 +100,13 @@ void SecureServer::State::receive(std::vector<ServerEvent>& events) {
       take_data(*datagram, events);
     } else {
       ++strangers.malformed;
+      // It learns which version is spoken here, and nothing else.
+      if (is_of_other_version(datagram->bytes) && datagram->bytes.size() >= smallest_hello_bytes) {
+        Bytes answer;
+        ByteWriter writer(answer);
+        write_scene_prefix(SceneDatagramKind::refusal, writer);
+        socket.send(datagram->from, answer);
+      }
     }
   }
 }
@@ -109,7 +125,7 @@ void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
     return;
   }
   const AllowedClient* client = find_allowed(handshake->client());
-  if (!client) return refuse(handshake->client(), datagram.from, events);
+  if (!client) return refuse(*handshake, HandshakeRefusal::key_unknown, datagram.from, events);
   if (!are_usable(handshake->client_terms())) {
     ++strangers.malformed;
     return;
@@ -123,6 +139,8 @@ void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
       return;
     }
   }
+  if (living_namesake(client->key, datagram.from))
+    return refuse(*handshake, HandshakeRefusal::key_in_use, datagram.from, events);
   std::erase_if(connections, [&](const auto& entry) {
     return !entry.second.confirmed && entry.second.client.key == client->key;
   });
@@ -181,7 +199,9 @@ void SecureServer::State::confirm(Connection& connection, std::vector<ServerEven
       other.drop_reason = "the same client has connected anew";
   drop_the_marked(events);
   events.push_back(
-      {.kind = ServerEvent::Kind::connected, .client = connection.channel.connection()});
+      {.kind = ServerEvent::Kind::connected,
+       .client = connection.channel.connection(),
+       .name = connection.client.name});
 }
 
 void SecureServer::State::mark_the_silent() {
@@ -254,16 +274,34 @@ std::uint32_t SecureServer::State::unused_number() const {
   }
 }
 
-void SecureServer::State::refuse(const PublicKey& key, const Address& from,
-                                 std::vector<ServerEvent>& events) {
+/// A connection with this key from another address that was heard while the server listened.
+const Connection* SecureServer::State::living_namesake(const PublicKey& key,
+                                                       const Address& from) const {
+  for (const auto& [number, connection] : connections)
+    if (connection.confirmed && connection.drop_reason.empty() && connection.client.key == key &&
+        connection.channel.peer() != from && listened_s - connection.channel.heard_s() < alive_s)
+      return &connection;
+  return nullptr;
+}
+
+void SecureServer::State::refuse(const ServerHandshake& handshake, HandshakeRefusal why,
+                                 const Address& from, std::vector<ServerEvent>& events) {
+  const PublicKey& key = handshake.client();
+  if (const auto answer = handshake.refuse(why)) socket.send(from, *answer);
   ++strangers.not_allowed;
-  if (now_s - refusal_reported_s < refusal_report_s) return;
+  const double since_s = now_s - refusal_reported_s;
+  if (since_s < (key == refusal_reported ? same_refusal_report_s : refusal_report_s)) return;
   refusal_reported_s = now_s;
-  events.push_back(
-      {.kind = ServerEvent::Kind::refused,
-       .reason = fmt::format("a client at {} has the key {}, which is not on the list of allowed "
-                             "clients",
-                             to_text(from), to_text(key))});
+  refusal_reported = key;
+  const AllowedClient* client = find_allowed(key);
+  const Connection* first = living_namesake(key, from);
+  std::string reason =
+      client && first
+          ? fmt::format("a second client with the key of {} at {}; the first one, at {}, is alive",
+                        client->name, to_text(from), to_text(first->channel.peer()))
+          : fmt::format("a client at {} has the key {}, which is not on the list of allowed clients",
+                        to_text(from), to_text(key));
+  events.push_back({.kind = ServerEvent::Kind::refused, .reason = std::move(reason)});
 }
 
 bool SecureServer::has_backlog() const {
@@ -301,9 +339,11 @@ void SecureServer::set_allowed(std::vector<AllowedClient> allowed) {
   std::erase_if(state_->connections, [&](const auto& entry) {
     return !entry.second.confirmed && !state_->find_allowed(entry.second.client.key);
   });
-  for (auto& [number, connection] : state_->connections)
-    if (!state_->find_allowed(connection.client.key))
+  for (auto& [number, connection] : state_->connections) {
+    const AllowedClient* client = state_->find_allowed(connection.client.key);
+    if (!client || client->name != connection.client.name)
       connection.drop_reason = "it is no longer allowed";
+  }
 }
 
 std::vector<ClientId> SecureServer::clients() const {

@@ -8,6 +8,10 @@
 /// One thread; `now_s` never goes back. A client that hangs or vanishes is dropped after the
 /// time-out, or as soon as its queue is full, and costs at most that queue. Several pumps per tick
 /// make transfers faster.
+///
+/// One key is one client: while it is alive another one with its key is refused. A client that
+/// was started anew is let in when the old one has been silent for half a second, or at once from
+/// its old address.
 
 #include <cstdint>
 #include <map>
@@ -35,13 +39,15 @@ struct ServerEvent {
     connected,
     message,
     disconnected,
-    refused,  ///< A stranger's key: `reason` names it, for the operator; at most one event a
-              ///< second.
+    refused,  ///< A key that is not on the list, or is used twice: `reason` names it, for the
+              ///< operator; at most one event a second.
   };
   Kind kind = Kind::message;
   ClientId client = 0;
   Reliability reliability = Reliability::reliable;
   Bytes bytes{};         ///< Of a message.
+  std::string name{};    ///< Of who has connected, as the list has it. A client may be gone again
+                         ///< when the event is read, so `info` may not know it.
   std::string reason{};  ///< Of a disconnection or refusal, for the log.
 };
 
@@ -73,8 +79,8 @@ class SecureServer {
   /// Says goodbye; the event `disconnected` comes with the next pump.
   void disconnect(ClientId client, std::string reason);
 
-  /// Takes effect for new connections; connected clients that are no longer on the list are
-  /// dropped.
+  /// Takes effect for new connections; connected clients that are no longer on the list, or stand
+  /// under another name there, are dropped.
   void set_allowed(std::vector<AllowedClient> allowed);
 
   std::vector<ClientId> clients() const;

@@ -199,12 +199,17 @@ struct ReplicationServer::State {
 
   // ---- messages
 
+  void trim_lost() {
+    while (lost.size() > options.lost_sessions) lost.pop_front();
+  }
+
   Expected<void> hello(Connection& connection, const Hello& message) {
     // A client may be back before the loss of its old connection was noticed.
     for (auto& [id, other] : connections)
       if (other.session && other.session->token == message.token &&
           other.identity == connection.identity)
         lost.push_back(std::move(other.session));
+    trim_lost();
     connection.session.reset();  // A client that found a fault starts anew without a token.
     const auto found = std::find_if(lost.begin(), lost.end(), [&](const auto& session) {
       return message.token != 0 && session->token == message.token &&
@@ -323,7 +328,7 @@ void ReplicationServer::disconnect(ConnectionId connection) {
   const auto found = state_->connections.find(connection);
   if (found == state_->connections.end()) return;
   if (found->second.session) state_->lost.push_back(std::move(found->second.session));
-  while (state_->lost.size() > state_->options.lost_sessions) state_->lost.pop_front();
+  state_->trim_lost();
   state_->connections.erase(found);
 }
 

@@ -39,6 +39,15 @@ View read_inset(const toml::table& table, std::string_view file, Error& error) {
   return view;
 }
 
+/// A host's name; it also names the folder with that machine's keys.
+std::string read_machine(TableReader& reader) {
+  std::string machine = reader.get_string("machine", "");
+  constexpr std::string_view usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
+  if (machine.starts_with('.') || machine.find_first_not_of(usable) != std::string::npos)
+    reader.report("machine", fmt::format("machine is \"{}\"", machine), "use a host name: letters, digits, hyphens and points");
+  return machine;
+}
+
 Screen read_screen(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "screen", error);
   Screen screen;
@@ -47,7 +56,9 @@ Screen read_screen(const toml::table& table, std::string_view file, Error& error
     reader.report("name", fmt::format("screen.name is \"{}\"", screen.name), "use small letters, digits and hyphens");
   screen.width_px = static_cast<std::uint32_t>(reader.get_integer("width_px", screen.width_px, 16, 16384));
   screen.height_px = static_cast<std::uint32_t>(reader.get_integer("height_px", screen.height_px, 16, 16384));
-  screen.machine = reader.get_string("machine", "");
+  if (screen.name == "car" || screen.name == "server")
+    reader.report("name", fmt::format("screen.name is \"{}\", which is the name of another key", screen.name), "call the screen otherwise");
+  screen.machine = read_machine(reader);
   screen.show_interior = reader.get_bool("show_interior", false);
   View whole;
   read_window(reader, whole.window);
@@ -125,7 +136,7 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
-  car.machine = reader.get_string("machine", car.machine);
+  car.machine = read_machine(reader);
   car.layout = reader.get_string("layout", car.layout);
   car.vehicle = reader.get_string("vehicle", car.vehicle);
   car.driver = reader.get_string("driver", car.driver);

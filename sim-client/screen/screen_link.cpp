@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
+
 namespace septet::screen {
 
 using namespace control;
@@ -12,7 +14,8 @@ ScreenLink::ScreenLink(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
       tick_socket_(tick_socket),
       open_group_(std::move(open_group)),
       lane_(lane_socket, options_.lane),
-      ticks_(options_.lane.server_key) {}
+      ticks_(options_.lane.server_key),
+      connection_(options_.lane.server, options_.lane.identity.public_key(), options_.screen) {}
 
 void ScreenLink::pump(double now_s) {
   for (net::ClientEvent& event : lane_.pump(now_s)) {
@@ -20,7 +23,7 @@ void ScreenLink::pump(double now_s) {
       case net::ClientEvent::Kind::connected: on_connected(); break;
       case net::ClientEvent::Kind::lost:
         scene_.disconnected();
-        scene_arrived_ = false;
+        scene_arrived_ = is_welcome_ = false;
         break;
       case net::ClientEvent::Kind::message:
         switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
@@ -31,8 +34,21 @@ void ScreenLink::pump(double now_s) {
         }
     }
   }
+  if (auto text = connection_.look(lane_, is_welcome_, now_s)) messages_.push_back(std::move(*text));
   pump_scene();
   receive_ticks(now_s);
+  tell_of_forgeries(now_s);
+}
+
+/// Somebody on the network pretends to be the server, or floods the tick lane.
+void ScreenLink::tell_of_forgeries(double now_s) {
+  constexpr double every_s = 10.0;
+  if (now_s - told_s_ < every_s) return;
+  told_s_ = now_s;
+  const auto& counters = ticks_.counters();
+  const std::uint64_t forged = counters.forged + counters.malformed;
+  if (const std::uint64_t fresh = forged - std::exchange(told_forged_, forged); fresh > 0)
+    messages_.push_back(fmt::format("datagrams on the tick lane that are not the server's: {} in {:.0f} s", fresh, every_s));
 }
 
 void ScreenLink::on_connected() {
@@ -55,10 +71,17 @@ void ScreenLink::on_control(std::span<const std::byte> bytes) {
       else
         refusal_ = socket.error();
     }
+    refused_.clear();
+    is_welcome_ = true;
     welcome_ = std::move(*welcome);
     ++welcomes_;
   } else if (auto* refusal = std::get_if<Refusal>(&*message)) {
-    refusal_ = Error{refusal->reason, fmt::format("screen {}", options_.screen), "ask the server's operator"};
+    // The server may be started again with another rig or list: it is asked again, though not all the time.
+    if (std::exchange(refused_, refusal->reason) != refusal->reason)
+      messages_.push_back(fmt::format("refused by the server: {}; it is asked again by itself", printable(refusal->reason)));
+    lane_.leave_for(refused_for_s);
+    scene_.disconnected();
+    scene_arrived_ = is_welcome_ = false;
   } else if (std::holds_alternative<Finish>(*message)) {
     finished_ = true;
   }

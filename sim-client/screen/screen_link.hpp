@@ -8,7 +8,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "engine/net/connection_report.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/tick_receiver.hpp"
 #include "engine/control/control_message.hpp"
@@ -43,9 +46,11 @@ class ScreenLink {
   const std::optional<control::Welcome>& welcome() const { return welcome_; }
   /// Counts the server's welcomes: a new one may bring another rig and other times.
   std::uint32_t welcomes() const { return welcomes_; }
-  /// Why this screen cannot take part, if the server said so or the group cannot be heard.
+  /// Why this screen cannot go on by itself: the group cannot be heard, or the scene not be read.
   const std::optional<Error>& refusal() const { return refusal_; }
   bool finished() const { return finished_; }
+  /// What happened to the connection since the last call, for the console.
+  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
   const frame::TickHistory& history() const { return history_; }
   const scene::Store& scene() const { return scene_.store(); }
@@ -67,8 +72,10 @@ class ScreenLink {
 
  private:
   static constexpr double gone_after_s = 1.0;  ///< A living server answers four pings in it.
+  static constexpr double refused_for_s = 5.0;
   void on_connected();
   void on_control(std::span<const std::byte> bytes);
+  void tell_of_forgeries(double now_s);
   void receive_ticks(double now_s);
   void pump_scene();
 
@@ -85,7 +92,13 @@ class ScreenLink {
   std::optional<Error> refusal_;
   bool finished_ = false;
   bool scene_arrived_ = false;
+  bool is_welcome_ = false;  ///< On this connection.
   std::uint64_t refused_ticks_ = 0;
+  net::ConnectionReport connection_;
+  std::vector<std::string> messages_;
+  std::string refused_;  ///< What the server last said against this screen.
+  std::uint64_t told_forged_ = 0;
+  double told_s_ = 0.0;
 };
 
 }  // namespace septet::screen

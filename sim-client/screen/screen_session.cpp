@@ -236,6 +236,8 @@ Expected<void> Session::run() {
   while (!stop_requested) {
     const double now_s = monotonic_s();
     link_.pump(now_s);
+    // Not fmt::print, which throws where the log's disk is full.
+    for (const auto& text : link_.take_messages()) std::fputs(fmt::format("{}: {}\n", options_.name, text).c_str(), stderr);
     if (link_.refusal()) return tl::unexpected(*link_.refusal());
     if (link_.finished()) {
       say_goodbye();
@@ -261,6 +263,7 @@ Expected<void> Session::run() {
 Expected<void> run_screen(const ScreenOptions& options) {
   std::signal(SIGTERM, on_signal);
   std::signal(SIGINT, on_signal);
+  std::signal(SIGHUP, on_signal);
   const auto identity = net::load_identity(options.keys / (options.name + ".key"));
   if (!identity) return tl::unexpected(identity.error());
   const auto server_key = net::load_public_key(options.keys / "server.public");

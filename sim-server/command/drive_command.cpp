@@ -111,7 +111,7 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   ChildOptions server;
   server.program = (program_folder() / "septet-server").string();
   server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
-                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", options.seconds), "--any-port"};
+                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", options.seconds), "--any-port", "--wait-for-screens", "60"};
   const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
   if (options.replay.empty()) add({"--scenario", options.scenario, "--traffic", options.traffic});
   else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
@@ -121,11 +121,11 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   return server;
 }
 
-RunningScreen screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& port, const fs::path& keys) {
+RunningScreen screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
   RunningScreen running;
   running.name = screen.name;
   running.options.program = (program_folder() / "septet-screen").string();
-  running.options.arguments = {"--name", screen.name, "--server", "127.0.0.1:" + port, "--keys", keys.string(),
+  running.options.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
                                "--pictures", (options.out / "screens" / screen.name).string()};
   running.options.log = options.out / "screens" / (screen.name + ".log");
   if (options.virtual_screens) {
@@ -154,8 +154,9 @@ Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig
       port = line->substr(6);
   if (!port && server->poll() && server->poll()->code == 1) return Outcome::gave_up;
   std::vector<RunningScreen> screens;
+  const std::string ip = rig.network.interface_address.empty() ? "127.0.0.1" : rig.network.interface_address;
   if (port && !options.no_screens)
-    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, *port, keys->path()));
+    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, ip + ':' + *port, keys->path()));
 
   Expected<void> outcome;
   while (outcome && !server->poll()) {

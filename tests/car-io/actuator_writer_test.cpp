@@ -1,5 +1,6 @@
 #include "car-io/actuator_writer.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -92,14 +93,60 @@ TEST_CASE("a device that was plugged in again is written to again without a word
   CHECK_FALSE(writer.take_error().has_value());
 }
 
+TEST_CASE("the device's own watchdog is set whenever it is plugged in") {
+  SimulatedHidPort port;
+  port.plug();
+  ActuatorWriter writer(port.opener(), {.period_s = 0.002, .retry_s = 0.01});
+  const auto is_set = [&] {
+    const auto feature = port.feature(device_report_id);
+    const auto status = feature ? decode_device_status(*feature) : DeviceStatus{.watchdog_ms = 0};
+    return status && status->watchdog_ms == 250;
+  };
+  CHECK(comes_true(is_set));
+  port.unplug();
+  port.plug();
+  CHECK(comes_true(is_set));
+  CHECK_FALSE(writer.take_error().has_value());
+}
+
+TEST_CASE("a device that does not keep its watchdog is named once and is written to all the same") {
+  struct Forgetful final : HidDevice {
+    explicit Forgetful(std::atomic<int>& its_writes) : writes(its_writes) {}
+    Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
+    Expected<void> write(std::span<const std::byte>) override {
+      ++writes;
+      return {};
+    }
+    Expected<Bytes> get_feature(std::uint8_t, std::size_t) override {
+      const auto report = encode_device_status({.watchdog_ms = 0});
+      return Bytes(report.begin(), report.end());
+    }
+    Expected<void> send_feature(std::span<const std::byte>) override { return {}; }
+    std::atomic<int>& writes;
+  };
+  std::atomic<int> writes = 0;
+  ActuatorWriter writer([&]() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Forgetful>(writes); },
+                        {.period_s = 0.001});
+  std::optional<Error> error;
+  REQUIRE(comes_true([&] { return (error = writer.take_error()).has_value(); }));
+  CHECK(error->what.find("its watchdog does not hold 250 ms (it says 0 ms)") == 0);
+  const int before = writes;
+  CHECK(comes_true([&] { return writes > before + 3; }));
+  CHECK_FALSE(writer.take_error().has_value());
+}
+
 TEST_CASE("a device that refuses output reports is named once") {
   struct Refusing final : HidDevice {
     Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
     Expected<void> write(std::span<const std::byte>) override {
       return failure("Broken pipe", "a wheel", "");
     }
-    Expected<Bytes> get_feature(std::uint8_t, std::size_t) override { return Bytes{}; }
-    Expected<void> send_feature(std::span<const std::byte>) override { return {}; }
+    Expected<Bytes> get_feature(std::uint8_t, std::size_t) override { return feature; }
+    Expected<void> send_feature(std::span<const std::byte> report) override {
+      feature.assign(report.begin(), report.end());
+      return {};
+    }
+    Bytes feature;
   };
   ActuatorWriter writer(
       []() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Refusing>(); },

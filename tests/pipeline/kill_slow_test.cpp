@@ -73,7 +73,8 @@ std::size_t count(const std::string& text, const std::string& word) {
 }
 
 std::vector<std::string> server_arguments(const TemporaryFolder& folder, const std::string& out) {
-  return {"--rig", (folder / "small.toml").string(), "--keys", (folder / "keys").string(), "--out", (folder / out).string()};
+  return {"--rig", (folder / "small.toml").string(), "--keys", (folder / "keys").string(), "--out", (folder / out).string(),
+          "--wait-for-screens", "0"};
 }
 
 }  // namespace

@@ -1,18 +1,24 @@
 // Runs under umockdev-wrapper: libudev, open, read, write and ioctl see the devices of the testbed.
 
 #include <chrono>
+#include <csignal>
+#include <fstream>
 #include <memory>
 #include <string>
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>
+#include <poll.h>
 #include <sys/ioctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 // After the system's headers, whose macros glib undoes.
 #include <umockdev.h>
 
 #include "car-io/car_connection.hpp"
+#include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -65,6 +71,10 @@ class MockedCar {
   }
   void send(std::span<const std::byte> report) {
     REQUIRE(write(fd_, report.data(), report.size()) == static_cast<ssize_t>(report.size()));
+  }
+  bool has_report() const {
+    pollfd waiting{fd_, POLLIN, 0};
+    return poll(&waiting, 1, 0) > 0;
   }
   Bytes receive() {
     Bytes bytes(64);
@@ -155,6 +165,47 @@ TEST_CASE("a car with another serial number is told apart") {
         "a device of this kind is plugged in, but with another serial number");
   const auto any = open_hid_device({});
   CHECK_MESSAGE(any.has_value(), (any ? "" : describe(any.error())));
+}
+
+TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does") {
+  for (const int signal : {SIGHUP, SIGTERM}) {
+    CAPTURE(signal);
+    MockedCar mocked;
+    mocked.plug("S80-1");
+    const TemporaryFolder folder;
+    const std::string rig = (folder / "rig.toml").string();
+    std::ofstream(rig) << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\nsource = \"hid\"\n[[screen]]\nname = \"a\"\n"
+                          "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(SEPTET_BINARY_DIR "/septet-car", "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan", "0.5", "--vibration", "0.25", nullptr);
+      _exit(127);
+    }
+    double fan = -1.0, vibration = -1.0;
+    const auto read_reports = [&] {
+      for (int i = 0; i < 100 && mocked.has_report(); ++i)
+        if (const auto actuators = decode_actuators(mocked.receive())) fan = actuators->fan, vibration = actuators->vibration;
+    };
+    int status = 0;
+    bool ended = false;
+    const auto wait_for = [&](auto condition) {
+      for (int i = 0; i < 2000 && !condition(); ++i) {
+        ended = ended || waitpid(child, &status, WNOHANG) == child;
+        read_reports();
+        usleep(5000);
+      }
+      return condition();
+    };
+    CHECK(wait_for([&] { return fan > 0.49 || ended; }));
+    REQUIRE_FALSE(ended);
+    kill(child, signal);
+    CHECK(wait_for([&] { return ended; }));
+    if (!ended) kill(child, SIGKILL);
+    read_reports();
+    CHECK(WIFEXITED(status));
+    CHECK(fan == 0.0);
+    CHECK(vibration == 0.0);
+  }
 }
 
 }  // namespace septet::car_io

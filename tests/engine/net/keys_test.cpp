@@ -1,4 +1,5 @@
 #include "engine/net/keys.hpp"
+#include "engine/net/allowed_clients_watch.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/stat.h>
@@ -66,6 +67,52 @@ TEST_CASE("the list of allowed clients is read and its faults are named by line"
   const auto bad = load_allowed_clients(file);
   REQUIRE_FALSE(bad.has_value());
   CHECK(bad.error().where == file.string() + ":2");
+  const std::string other = to_text(identity_of(6).public_key());
+  for (const std::string& again : {key + " b\n", other + " a\n"}) {
+    std::ofstream(file) << key << " a\n" << again;
+    const auto twice = load_allowed_clients(file);
+    REQUIRE_FALSE(twice.has_value());
+    CHECK(twice.error().where == file.string() + ":2");
+  }
+}
+
+TEST_CASE("a list that changes is read anew when it is whole and the known one holds while it is bad") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "allowed-clients";
+  const std::string a = to_text(identity_of(5).public_key()) + " a\n", b = to_text(identity_of(6).public_key()) + " b\n";
+  const auto replace = [&](const std::string& text) {
+    std::ofstream(folder / "draft") << text;
+    fs::rename(folder / "draft", file);
+  };
+  replace(a + b);
+  AllowedClientsWatch watch(file);
+  double now_s = 10.0;
+  // How many looks it takes, and what they bring.
+  const auto looks = [&](int count) {
+    std::optional<Expected<std::vector<AllowedClient>>> result;
+    for (int i = 0; i < count && !result; ++i) result = watch.changed(now_s += 0.25);
+    return result;
+  };
+  CHECK_FALSE(looks(4));
+  replace(a);
+  CHECK_FALSE(looks(1));
+  const auto shorter = looks(1);
+  REQUIRE((shorter && *shorter));
+  CHECK((*shorter)->size() == 1);
+  CHECK_FALSE(looks(4));
+  replace("what is this\n");
+  const auto bad = looks(2);
+  REQUIRE(bad);
+  CHECK_FALSE(bad->has_value());
+  CHECK_FALSE(looks(4));
+  fs::remove(file);
+  const auto gone = looks(2);
+  REQUIRE(gone);
+  CHECK_FALSE(gone->has_value());
+  replace(a + b);
+  const auto longer = looks(2);
+  REQUIRE((longer && *longer));
+  CHECK((*longer)->size() == 2);
 }
 
 }  // namespace

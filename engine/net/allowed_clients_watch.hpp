@@ -1,0 +1,43 @@
+#pragma once
+/// Notices that the list of allowed clients has changed, so that a key that is taken off it is out at once.
+///
+/// It asks for the file's inode, size and time of change four times a second, and reads it when two looks in a row agree: an editor that
+/// writes it piece by piece does not throw everybody out. Time only as an argument. One thread.
+
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <sys/types.h>
+
+#include "engine/net/keys.hpp"
+
+namespace septet::net {
+
+class AllowedClientsWatch {
+ public:
+  /// The list as it is now is the one that is known.
+  explicit AllowedClientsWatch(std::filesystem::path file);
+
+  /// The new list, or why there is none: then the known one still holds. Nothing where nothing has changed.
+  std::optional<Expected<std::vector<AllowedClient>>> changed(double now_s);
+
+ private:
+  struct Stamp {
+    bool exists = false;
+    dev_t device = 0;
+    ino_t inode = 0;
+    off_t bytes = 0;
+    std::time_t changed_s = 0;
+    long changed_ns = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+  Stamp look() const;
+
+  std::filesystem::path file_;
+  Stamp known_, seen_;
+  double next_look_s_ = 0.0;
+};
+
+}  // namespace septet::net

@@ -1,0 +1,12 @@
+#pragma once
+/// `septet rig`: what a rig of several machines needs.
+
+#include <filesystem>
+#include <string>
+
+namespace septet::server {
+
+/// Writes the keys of a rig's machines below `out` (sim-server/rig_keys.hpp) and says what is new. Answers the exit status.
+int run_rig_keys(const std::string& rig, const std::filesystem::path& out);
+
+}  // namespace septet::server

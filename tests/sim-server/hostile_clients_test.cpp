@@ -1,0 +1,63 @@
+#include <doctest/doctest.h>
+
+#include "engine/core/random.hpp"
+#include "tests/sim-server/client_script.hpp"
+
+namespace septet::server {
+namespace {
+
+using enum ScriptStep;
+
+/// A script from steps and numbers.
+template <class... Parts> Bytes script(Parts... parts) { return {static_cast<std::byte>(parts)...}; }
+
+bool is_live(ClientScript& rig, std::string_view name) {
+  for (const auto& screen : rig.host().screens())
+    if (screen.name == name) return screen.live();
+  return false;
+}
+
+constexpr int a = 0, b = 1, car = 2, here = 0, elsewhere = 1;
+
+}  // namespace
+
+TEST_CASE("a screen that connects twice while the server is busy is there once") {
+  for (const int where : {here, elsewhere}) {
+    ClientScript rig;
+    // All of it waits in the server's socket, or comes while it reads: Hello and a scene message under one connection, then another
+    // one is confirmed that takes its place.
+    rig.play(script(pump, a, pump, a, end_of_pump, a, 0, pump, a, hello, a, a, scene_hello, a, pump, a, raw, a, 2, 0, 1, pump, a, restart, a, where,
+                    pump, a, pump, a, pump, a, pump, a, hello, a, a, pump, a, end_of_pump, a, 0));
+    // From another address it was refused while the first one was alive; that one sent what nobody can read, and is out.
+    for (int turn = 0; turn < 3; ++turn) rig.play(script(end_of_pump, a, 100, pump, a, pump, a, pump, a));
+    rig.play(script(hello, a, a, pump, a, end_of_pump, a, 0));
+    CHECK(is_live(rig, "a"));
+  }
+}
+
+TEST_CASE("a hello under the name of another screen does not touch that screen") {
+  for (const int attacker : {b, car}) {
+    ClientScript rig;
+    rig.connect_all();
+    // The attacker's Hello waits before the screen's own message.
+    rig.play(script(hello, attacker, a, pump, attacker, scene_hello, a, pump, a, end_of_pump, a, 0));
+    rig.play(script(end_of_pump, a, 0));
+    CHECK(is_live(rig, "a"));
+  }
+}
+
+TEST_CASE("whatever clients of the list send in whatever order the host goes on") {
+  Random random(20);
+  for (int round = 0; round < 300; ++round) {
+    Bytes bytes(600);
+    // Steps of a script rather than noise, as far as a byte can be one.
+    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(random.next_bits() % (random.uniform() < 0.7 ? 13 : 256));
+    ClientScript rig;
+    if (round % 2 == 0) rig.connect_all();
+    CAPTURE(round);
+    rig.play(bytes);
+    CHECK(rig.host().screens().size() == 2);
+  }
+}
+
+}  // namespace septet::server
