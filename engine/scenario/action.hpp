@@ -18,7 +18,8 @@ enum class DynamicsShape : std::uint8_t { step, linear, sinusoidal, cubic };
 enum class DynamicsDimension : std::uint8_t { time, distance, rate };
 
 /// How a quantity goes from one value to another: in a time (s), over a distance (m), or at a rate
-/// (units/s; for curved shapes the greatest rate).
+/// (units/s; for curved shapes the greatest rate). A rate of 0 keeps the value: it ends at once where
+/// that is the target already, else never.
 struct TransitionDynamics {
   DynamicsShape shape = DynamicsShape::step;
   DynamicsDimension dimension = DynamicsDimension::time;

@@ -31,10 +31,11 @@ double point_to_segment_m(const Vec2& point, const Vec2& a, const Vec2& b) {
   return glm::length(point - a - part * along);
 }
 
+/// Whether the point lies inside; a box without an inside, such as a point, holds nothing.
 bool contains(const std::array<Vec2, 4>& box, const Vec2& point) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 edge = box[(i + 1) % 4] - box[i], to = point - box[i];
-    if (edge.x * to.y - edge.y * to.x < 0.0) return false;
+    if (edge.x * to.y - edge.y * to.x <= 0.0) return false;
   }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -157,6 +158,7 @@ class Expression {
   }
   double named(std::string_view name) {
     if (name == "true" || name == "false") return truth(name == "true");
+    if (name == "pi") return std::numbers::pi;
     for (const Function& function : functions) {
       if (function.name != name) continue;
       if (!take('(')) return fail(fmt::format("{} needs its arguments in brackets", name));

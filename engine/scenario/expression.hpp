@@ -13,7 +13,7 @@ namespace septet::scenario {
 using Parameters = std::map<std::string, std::string, std::less<>>;
 
 /// The value of an attribute: a `$name` is replaced, `${…}` is evaluated, anything else stays.
-/// Expressions hold numbers, true and false, $names, ( ), + − * / %, and or not, and the functions
+/// Expressions hold numbers, true, false and pi (of 1.4, but used by files of all revisions), $names, ( ), + − * / %, and or not, and the functions
 /// round floor ceil sqrt pow abs sign min max sin cos tan asin acos atan. Error: what is wrong,
 /// without `where`.
 Expected<std::string> substitute(std::string_view text, const Parameters& parameters);

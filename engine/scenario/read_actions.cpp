@@ -11,7 +11,7 @@ namespace {
 constexpr int most_lanes = 1000;
 
 DynamicsShape read_shape(const Element& element) {
-  return element.word<DynamicsShape>("dynamicsShape",
+  return element.required_word<DynamicsShape>("dynamicsShape",
                                      {{"step", DynamicsShape::step},
                                       {"linear", DynamicsShape::linear},
                                       {"sinusoidal", DynamicsShape::sinusoidal},
@@ -29,8 +29,8 @@ ActionVariant read_speed(Reading& reading, const Element& element) {
     action.reference = read_entity_reference(reading, relative);
     action.value = relative.number("value");
     action.factor =
-        relative.word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
-    action.continuous = relative.boolean_or("continuous", false);
+        relative.required_word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
+    action.continuous = relative.required_boolean("continuous", false);
   } else {
     target.error("it has no target speed", "add <AbsoluteTargetSpeed> or <RelativeTargetSpeed>");
   }
@@ -55,7 +55,7 @@ ActionVariant read_lane_change(Reading& reading, const Element& element) {
 
 ActionVariant read_lane_offset(Reading& reading, const Element& element) {
   LaneOffsetAction action;
-  action.continuous = element.boolean_or("continuous", false);
+  action.continuous = element.required_boolean("continuous", false);
   const Element dynamics = element.required("LaneOffsetActionDynamics");
   action.shape = read_shape(dynamics);
   action.max_lateral_acceleration_mps2 = dynamics.optional_number("maxLateralAcc");
@@ -82,7 +82,7 @@ ActionVariant read_light(const Element& element) {
   LightStateAction action;
   const Element light = element.required("LightType").child("VehicleLight");
   const Element state = element.required("LightState");
-  action.mode = state.word<LightMode>(
+  action.mode = state.required_word<LightMode>(
       "mode", {{"off", LightMode::off}, {"on", LightMode::on}, {"flashing", LightMode::flashing}},
       LightMode::off);
   if (!light) return std::monostate{};
@@ -112,17 +112,13 @@ ActionVariant read_light(const Element& element) {
 TransitionDynamics read_dynamics(const Element& element) {
   TransitionDynamics dynamics;
   dynamics.shape = read_shape(element);
-  dynamics.dimension = element.word<DynamicsDimension>("dynamicsDimension",
+  dynamics.dimension = element.required_word<DynamicsDimension>("dynamicsDimension",
                                                        {{"time", DynamicsDimension::time},
                                                         {"distance", DynamicsDimension::distance},
                                                         {"rate", DynamicsDimension::rate}},
                                                        DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
-  if (dynamics.shape != DynamicsShape::step && dynamics.value == 0.0 &&
-      dynamics.dimension == DynamicsDimension::rate) {
-    element.error("a rate of 0 never reaches its target", "give a positive rate");
-  }
   element.word<int>("followingMode", {{"position", 0}, {"follow", 1}}, 0);
   return dynamics;
 }
@@ -152,7 +148,7 @@ ActionVariant read_private_action(Reading& reading, const Element& action) {
 
 ActionVariant read_global_action(Reading& reading, const Element& action) {
   if (const Element found = action.child("EnvironmentAction"))
-    return read_environment(reading, found);
+    return read_environment_action(reading, found);
   if (const Element traffic = action.child("TrafficAction")) {
     const std::string name = traffic.text_or("trafficName", "");
     if (const Element found = traffic.child("TrafficSwarmAction")) {

@@ -38,18 +38,24 @@ void load_catalogs(Reading& reading, const Element& where) {
 
 }  // namespace
 
-Element with_declared_parameters(const Element& element, const Parameters& assigned) {
-  Parameters parameters = element ? element.parameters() : Parameters{};
-  for (const Element& declaration :
-       element.child("ParameterDeclarations").children("ParameterDeclaration")) {
-    const std::string name = declaration.text("name");
-    declaration.text_or("parameterType", "");
-    const std::string value = declaration.with(parameters).text_or("value", "");
-    parameters[name] = value;
-    for (const Element& group : declaration.children("ConstraintGroup")) group.ignore();
+void check_catalog(Reading& reading, const Element& catalog) {
+  reading.names_are_elsewhere = true;
+  catalog.text("name");
+  for (const Element& found : catalog.all_children()) {
+    const std::string kind = found.name();
+    const Element entry = with_declared_parameters(found);
+    if (kind == "Vehicle" || kind == "Pedestrian" || kind == "MiscObject") {
+      Entity entity;
+      read_object(entry.mark(), entity);
+    } else if (kind == "Environment") {
+      read_environment(entry.mark());
+    } else if (kind == "Maneuver") {
+      check_maneuver(reading, entry.mark());
+    } else if (kind == "Controller" || kind == "Route" || kind == "Trajectory") {
+      entry.text("name");
+      entry.ignore();
+    }
   }
-  for (const auto& [name, value] : assigned) parameters[name] = value;
-  return element ? element.with(std::move(parameters)) : element;
 }
 
 Element resolve_catalog_reference(Reading& reading, const Element& parent,
@@ -62,9 +68,7 @@ Element resolve_catalog_reference(Reading& reading, const Element& parent,
   Parameters assigned;
   for (const Element& assignment :
        reference.child("ParameterAssignments").children("ParameterAssignment")) {
-    std::string name = assignment.text("parameterRef");
-    if (!name.empty() && name.front() == '$') name.erase(0, 1);
-    assigned[name] = assignment.text_or("value", "");
+    assigned[assignment.parameter_name("parameterRef")] = assignment.text_or("value", "");
   }
   const auto found = reading.catalogs.find(catalog_name);
   if (found == reading.catalogs.end()) {

@@ -6,17 +6,7 @@ namespace septet::scenario {
 namespace {
 
 Comparison read_comparison(const Element& element) {
-  Comparison comparison;
-  comparison.rule = element.word<Rule>("rule",
-                                       {{"equalTo", Rule::equal},
-                                        {"notEqualTo", Rule::not_equal},
-                                        {"lessThan", Rule::less},
-                                        {"lessOrEqual", Rule::less_or_equal},
-                                        {"greaterThan", Rule::greater},
-                                        {"greaterOrEqual", Rule::greater_or_equal}},
-                                       Rule::greater);
-  comparison.value = element.number("value");
-  return comparison;
+  return {read_rule(element), element.number("value")};
 }
 
 Direction read_direction(const Element& element) {
@@ -29,7 +19,7 @@ Direction read_direction(const Element& element) {
 
 DistanceMeasure read_measure(const Element& element) {
   DistanceMeasure measure;
-  measure.freespace = element.boolean_or("freespace", false);
+  measure.freespace = element.required_boolean("freespace", false);
   // alongRoute is what 1.0 had instead of coordinateSystem and relativeDistanceType.
   const bool along_route = element.boolean_or("alongRoute", false);
   measure.system = element.word<CoordinateSystem>(
@@ -67,8 +57,8 @@ ConditionVariant read_clearance(Reading& reading, const Element& found) {
   RelativeClearanceCondition condition;
   condition.forward_m = found.number_or("distanceForward", 0.0, 0.0);
   condition.backward_m = found.number_or("distanceBackward", 0.0, 0.0);
-  condition.freespace = found.boolean_or("freeSpace", true);
-  condition.opposite_lanes = found.boolean_or("oppositeLanes", false);
+  condition.freespace = found.required_boolean("freeSpace", true);
+  condition.opposite_lanes = found.required_boolean("oppositeLanes", false);
   for (const Element& range : found.children("RelativeLaneRange")) {
     condition.lanes.push_back(
         {range.has("from") ? range.integer("from", -most_lanes, most_lanes) : -most_lanes,
@@ -128,7 +118,7 @@ ConditionVariant read_value_condition(Reading& reading, const Element& element) 
   if (const Element found = element.child("StoryboardElementStateCondition")) {
     StoryboardElementStateCondition condition;
     condition.element = read_element_reference(reading, found);
-    condition.phase = found.word<ElementPhase>("state",
+    condition.phase = found.required_word<ElementPhase>("state",
                                                {{"standbyState", ElementPhase::standby_state},
                                                 {"runningState", ElementPhase::running_state},
                                                 {"completeState", ElementPhase::complete_state},
@@ -146,7 +136,7 @@ Condition read_condition(Reading& reading, const Element& element) {
   Condition condition;
   condition.name = element.label("name");
   condition.delay_s = element.number_or("delay", 0.0, 0.0);
-  condition.edge = element.word<Edge>("conditionEdge",
+  condition.edge = element.required_word<Edge>("conditionEdge",
                                       {{"none", Edge::none},
                                        {"rising", Edge::rising},
                                        {"falling", Edge::falling},
@@ -159,7 +149,7 @@ Condition read_condition(Reading& reading, const Element& element) {
     const Element triggering = by_entity.required("TriggeringEntities");
     condition.all_entities =
         triggering &&
-        triggering.word<bool>("triggeringEntitiesRule", {{"any", false}, {"all", true}}, false);
+        triggering.required_word<bool>("triggeringEntitiesRule", {{"any", false}, {"all", true}}, false);
     for (const Element& reference : triggering.children("EntityRef")) {
       const EntityIndex entity = read_entity_reference(reading, reference);
       if (entity != no_entity) condition.triggering_entities.push_back(entity);
@@ -172,6 +162,17 @@ Condition read_condition(Reading& reading, const Element& element) {
 }
 
 }  // namespace
+
+Rule read_rule(const Element& element) {
+  return element.required_word<Rule>("rule",
+                                     {{"equalTo", Rule::equal},
+                                      {"notEqualTo", Rule::not_equal},
+                                      {"lessThan", Rule::less},
+                                      {"lessOrEqual", Rule::less_or_equal},
+                                      {"greaterThan", Rule::greater},
+                                      {"greaterOrEqual", Rule::greater_or_equal}},
+                                     Rule::greater);
+}
 
 ElementIndex read_element_reference(Reading& reading, const Element& condition) {
   const std::string name = condition.text("storyboardElementRef");
@@ -192,7 +193,7 @@ ElementIndex read_element_reference(Reading& reading, const Element& condition) 
     }
     found = i;
   }
-  if (found == no_element) {
+  if (found == no_element && !reading.names_are_elsewhere) {
     condition.error(
         fmt::format("no {} is named \"{}\"", type.empty() ? "storyboard element" : type, name),
         "name an element of this storyboard");

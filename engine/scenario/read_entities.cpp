@@ -29,7 +29,21 @@ void read_vehicle(const Element& vehicle, Entity& entity) {
   entity.rear_axle = read_axle(axles.child("RearAxle"));
 }
 
-/// A vehicle, pedestrian or misc object, from the scenario or a catalog.
+Element find_object(Reading& reading, const Element& parent) {
+  for (const char* kind : {"Vehicle", "Pedestrian", "MiscObject"}) {
+    if (const Element found = parent.child(kind)) return with_declared_parameters(found);
+  }
+  const Element reference = parent.child("CatalogReference");
+  if (!reference) {
+    parent.error("it names no vehicle, pedestrian or misc object",
+                 "add <Vehicle>, <Pedestrian>, <MiscObject> or <CatalogReference>");
+    return {};
+  }
+  return resolve_catalog_reference(reading, parent, {"Vehicle", "Pedestrian", "MiscObject"});
+}
+
+}  // namespace
+
 void read_object(const Element& object, Entity& entity) {
   entity.type_name = object.label("name");
   entity.mass_kg = object.number_or("mass", 0.0, 0.0);
@@ -50,21 +64,6 @@ void read_object(const Element& object, Entity& entity) {
     entity.properties[property.label("name")] = property.label("value");
   }
 }
-
-Element find_object(Reading& reading, const Element& parent) {
-  for (const char* kind : {"Vehicle", "Pedestrian", "MiscObject"}) {
-    if (const Element found = parent.child(kind)) return with_declared_parameters(found);
-  }
-  const Element reference = parent.child("CatalogReference");
-  if (!reference) {
-    parent.error("it names no vehicle, pedestrian or misc object",
-                 "add <Vehicle>, <Pedestrian>, <MiscObject> or <CatalogReference>");
-    return {};
-  }
-  return resolve_catalog_reference(reading, parent, {"Vehicle", "Pedestrian", "MiscObject"});
-}
-
-}  // namespace
 
 BoundingBox read_bounding_box(const Element& parent) {
   const Element box = parent.required("BoundingBox");
@@ -98,6 +97,7 @@ EntityIndex read_entity_reference(Reading& reading, const Element& element, cons
   const std::string name = element.text(attribute);
   if (name.empty()) return no_entity;
   if (const auto found = find_entity(reading.scenario, name)) return *found;
+  if (reading.names_are_elsewhere) return no_entity;
   element.error(fmt::format("no entity is named \"{}\"", name),
                 "name a <ScenarioObject> of this file");
   return no_entity;

@@ -55,16 +55,20 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
 
 }  // namespace
 
-EnvironmentAction read_environment(Reading& reading, const Element& element) {
-  EnvironmentAction action;
+EnvironmentAction read_environment_action(Reading& reading, const Element& element) {
   Element environment = element.child("Environment");
   environment = environment ? with_declared_parameters(environment)
                             : resolve_catalog_reference(reading, element, {"Environment"});
   if (!environment) {
     if (!element.child("CatalogReference"))
       element.error("it has no environment", "add <Environment>");
-    return action;
+    return {};
   }
+  return read_environment(environment);
+}
+
+EnvironmentAction read_environment(const Element& environment) {
+  EnvironmentAction action;
   action.name = environment.label("name");
   // The sun is given by its angles; the time of day says nothing more that is drawn.
   environment.child("TimeOfDay").ignore();

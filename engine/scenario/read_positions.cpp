@@ -5,12 +5,13 @@ namespace {
 
 constexpr int most_lanes = 1000;
 
-Orientation read_orientation(const Element& position, bool relative_by_default) {
+/// Without a type it is relative in 1.3 and absolute before.
+Orientation read_orientation(const Reading& reading, const Element& position) {
   const Element orientation = position.child("Orientation");
   if (!orientation) return {};
   Orientation result;
   result.relative = orientation.word<bool>("type", {{"relative", true}, {"absolute", false}},
-                                           relative_by_default);
+                                           reading.scenario.header.revision_minor >= 3);
   result.heading_rad = orientation.number_or("h", 0.0);
   result.pitch_rad = orientation.number_or("p", 0.0);
   result.roll_rad = orientation.number_or("r", 0.0);
@@ -27,13 +28,13 @@ WorldPosition read_world(const Element& element) {
   return position;
 }
 
-LaneCoordinates read_lane(const Element& element) {
+LaneCoordinates read_lane(const Reading& reading, const Element& element) {
   LaneCoordinates position;
   position.road = element.text("roadId");
   position.lane = element.integer("laneId", -most_lanes, most_lanes);
   position.s_m = element.number("s", 0.0);
   position.offset_m = element.number_or("offset", 0.0);
-  position.orientation = read_orientation(element, false);
+  position.orientation = read_orientation(reading, element);
   return position;
 }
 
@@ -44,7 +45,7 @@ RelativeLanePosition read_relative_lane(Reading& reading, const Element& element
   position.along_lane = element.has("dsLane");
   position.ds_m = position.along_lane ? element.number("dsLane") : element.number("ds");
   position.offset_m = element.number_or("offset", 0.0);
-  position.orientation = read_orientation(element, false);
+  position.orientation = read_orientation(reading, element);
   return position;
 }
 
@@ -53,7 +54,7 @@ Relative read_offset(Reading& reading, const Element& element) {
   Relative position;
   position.entity = read_entity_reference(reading, element);
   position.delta_m = {element.number("dx"), element.number("dy"), element.number_or("dz", 0.0)};
-  position.orientation = read_orientation(element, false);
+  position.orientation = read_orientation(reading, element);
   return position;
 }
 
@@ -62,7 +63,7 @@ Relative read_offset(Reading& reading, const Element& element) {
 Position read_position(Reading& reading, const Element& parent) {
   const Element position = parent.required("Position");
   if (!position) return {};
-  if (const Element found = position.child("LanePosition")) return read_lane(found);
+  if (const Element found = position.child("LanePosition")) return read_lane(reading, found);
   if (const Element found = position.child("RelativeLanePosition"))
     return read_relative_lane(reading, found);
   if (const Element found = position.child("WorldPosition")) return read_world(found);
@@ -72,13 +73,13 @@ Position read_position(Reading& reading, const Element& parent) {
     return read_offset<RelativeObjectPosition>(reading, found);
   if (const Element found = position.child("RoadPosition")) {
     RoadCoordinates road{found.text("roadId"), found.number("s", 0.0), found.number("t"), {}};
-    road.orientation = read_orientation(found, false);
+    road.orientation = read_orientation(reading, found);
     return road;
   }
   if (const Element found = position.child("RelativeRoadPosition")) {
     RelativeRoadPosition road{
         read_entity_reference(reading, found), found.number("ds"), found.number("dt"), {}};
-    road.orientation = read_orientation(found, false);
+    road.orientation = read_orientation(reading, found);
     return road;
   }
   if (position.all_children().empty())

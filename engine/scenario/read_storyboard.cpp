@@ -65,7 +65,7 @@ Event read_event(Reading& reading, const Element& element) {
   Event event;
   event.name = element.label("name");
   event.element = reading.next_element++;
-  event.priority = element.word<EventPriority>("priority",
+  event.priority = element.required_word<EventPriority>("priority",
                                                {{"overwrite", EventPriority::overwrite},
                                                 {"override", EventPriority::overwrite},
                                                 {"skip", EventPriority::skip},
@@ -82,25 +82,33 @@ Event read_event(Reading& reading, const Element& element) {
   return event;
 }
 
+Maneuver read_maneuver(Reading& reading, const Element& element) {
+  Maneuver maneuver{element.label("name"), reading.next_element++, {}};
+  for (const Element& event : element.children("Event"))
+    maneuver.events.push_back(read_event(reading, event));
+  return maneuver;
+}
+
 ManeuverGroup read_group(Reading& reading, const Element& element) {
   ManeuverGroup group;
   group.name = element.label("name");
   group.element = reading.next_element++;
-  group.maximum_executions =
-      static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
+  if (!element.has("maximumExecutionCount")) {
+    element.warning("attribute maximumExecutionCount is missing; 1 is taken",
+                    "add maximumExecutionCount=\"1\", or the number that is meant");
+  } else {
+    group.maximum_executions =
+        static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
+  }
   const Element actors = element.required("Actors");
   group.actors_are_triggering_entities =
-      actors && actors.boolean_or("selectTriggeringEntities", false);
+      actors && actors.required_boolean("selectTriggeringEntities", false);
   for (const Element& reference : actors.children("EntityRef")) {
     const EntityIndex entity = read_entity_reference(reading, reference);
     if (entity != no_entity) group.actors.push_back(entity);
   }
-  for (const Element& found : maneuvers_of(reading, element)) {
-    Maneuver maneuver{found.label("name"), reading.next_element++, {}};
-    for (const Element& event : found.children("Event"))
-      maneuver.events.push_back(read_event(reading, event));
-    group.maneuvers.push_back(std::move(maneuver));
-  }
+  for (const Element& found : maneuvers_of(reading, element))
+    group.maneuvers.push_back(read_maneuver(reading, found));
   return group;
 }
 
@@ -131,6 +139,14 @@ void read_init(Reading& reading, const Element& actions) {
 }
 
 }  // namespace
+
+void check_maneuver(Reading& reading, const Element& maneuver) {
+  reading.scenario.element_names = {"", maneuver.label("name")};
+  reading.element_types = {"storyboard", "maneuver"};
+  reading.next_element = 1;
+  number_elements(reading, maneuver, "", 4);
+  read_maneuver(reading, maneuver);
+}
 
 void read_storyboard(Reading& reading, const Element& storyboard) {
   Scenario& scenario = reading.scenario;

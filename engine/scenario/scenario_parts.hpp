@@ -21,6 +21,10 @@ struct Reading {
   /// Catalogs by name: their <Catalog> elements. Filled on the first reference to a catalog.
   std::map<std::string, Element> catalogs;
   bool catalogs_loaded = false;
+  /// The file is checked, not driven: it may be a catalog or a distribution, or name no road.
+  bool checking = false;
+  /// A catalog is checked: what its entries name is elsewhere.
+  bool names_are_elsewhere = false;
   std::vector<Element> used_entries;  ///< Entries of catalogs that were referred to.
   ElementIndex next_element = 1;      ///< Of the storyboard element to be read next.
   std::vector<std::string>
@@ -28,8 +32,15 @@ struct Reading {
 };
 
 /// The parameters of `element`'s <ParameterDeclarations> over those of its surroundings. `assigned`
-/// values win.
+/// values win; one of the wrong type or against its constraints is an error.
 Element with_declared_parameters(const Element& element, const Parameters& assigned = {});
+/// The same for the root, with values from outside the file, each of which must be declared.
+Element with_outside_parameters(const Element& root, const std::vector<ParameterValue>& values);
+
+/// Reads every entry of a catalog, for what is wrong with it.
+void check_catalog(Reading& reading, const Element& catalog);
+/// A ParameterValueDistribution, for what is wrong with it.
+void check_distribution(Reading& reading, const Element& distribution);
 
 /// <CatalogReference> inside `parent` resolved to the catalog's entry of one of these kinds of
 /// element, with its parameters; empty if there is none or it cannot be found (an error).
@@ -37,6 +48,8 @@ Element resolve_catalog_reference(Reading& reading, const Element& parent,
                                   std::initializer_list<std::string_view> kinds);
 
 void read_entities(Reading& reading, const Element& entities);
+/// A vehicle, pedestrian or misc object, from the scenario or a catalog.
+void read_object(const Element& object, Entity& entity);
 /// An entity by name; an unknown one is an error and no_entity.
 EntityIndex read_entity_reference(Reading& reading, const Element& element,
                                   const char* attribute = "entityRef");
@@ -45,15 +58,20 @@ BoundingBox read_bounding_box(const Element& parent);
 /// The position inside `parent`, an element of the standard's type Position.
 Position read_position(Reading& reading, const Element& parent);
 
+/// The attribute `rule`.
+Rule read_rule(const Element& element);
 TransitionDynamics read_dynamics(const Element& element);
 ActionVariant read_private_action(Reading& reading, const Element& action);
 ActionVariant read_global_action(Reading& reading, const Element& action);
 ActionVariant read_user_defined_action(Reading& reading, const Element& action);
-EnvironmentAction read_environment(Reading& reading, const Element& action);
+EnvironmentAction read_environment_action(Reading& reading, const Element& action);
+EnvironmentAction read_environment(const Element& environment);
 TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& action);
 
 Trigger read_trigger(Reading& reading, const Element& trigger);
 void read_storyboard(Reading& reading, const Element& storyboard);
+/// A maneuver of a catalog, for what is wrong with it.
+void check_maneuver(Reading& reading, const Element& maneuver);
 
 /// The storyboard element of this name, or "path::name"; none or several are an error or a warning.
 ElementIndex read_element_reference(Reading& reading, const Element& condition);

@@ -34,6 +34,27 @@ void read_catalog_locations(Reading& reading, const Element& locations) {
   }
 }
 
+/// Files of the standard that are no scenarios. Answers whether it was one.
+bool read_other_definition(Reading& reading, const Element& root) {
+  if (const Element catalog = root.child("Catalog")) {
+    if (reading.checking)
+      check_catalog(reading, catalog);
+    else
+      root.error("this is a catalog, not a scenario", "give a scenario that refers to it");
+    return true;
+  }
+  if (const Element distribution = root.child("ParameterValueDistribution")) {
+    if (reading.checking)
+      check_distribution(reading, distribution);
+    else
+      root.error("this varies the parameters of a scenario and is none itself",
+                 fmt::format("give the scenario {} and its parameters",
+                             distribution.child("ScenarioFile").text("filepath")));
+    return true;
+  }
+  return false;
+}
+
 void read_definition(Reading& reading, const Element& root) {
   if (!root) return;
   if (root.name() != "OpenSCENARIO") {
@@ -41,12 +62,16 @@ void read_definition(Reading& reading, const Element& root) {
     return;
   }
   read_header(root, reading.scenario.header);
+  if (read_other_definition(reading, root)) return;
   read_catalog_locations(reading, root.child("CatalogLocations"));
   const Element roads = root.required("RoadNetwork");
+  const char* name_road = "add <LogicFile filepath=\"….xodr\"/>";
   if (const Element logic = roads.child("LogicFile"))
     reading.scenario.road_file = logic.text("filepath");
+  else if (roads && reading.checking)
+    roads.warning("it names no road, so that the scenario cannot be driven", name_road);
   else if (roads)
-    roads.error("it names no road", "add <LogicFile filepath=\"….xodr\"/>");
+    roads.error("it names no road, so that the scenario cannot be driven", name_road);
   // Septet draws the road from the OpenDRIVE file itself.
   roads.child("SceneGraphFile").ignore();
   read_entities(reading, root.required("Entities"));
@@ -59,12 +84,11 @@ struct Outcome {
 };
 
 Outcome read(std::string_view xml, std::string_view name, const ScenarioFiles& files,
-             const std::vector<ParameterValue>& parameters) {
-  Reading reading{files, {}, {}, {}, {}, false, {}, 1, {}};
+             const std::vector<ParameterValue>& parameters, bool checking) {
+  Reading reading{files};
+  reading.checking = checking;
   reading.xml_files.push_back(parse_xml(xml, std::string(name)));
-  Parameters assigned;
-  for (const ParameterValue& parameter : parameters) assigned[parameter.name] = parameter.value;
-  const Element root = with_declared_parameters(root_of(*reading.xml_files.front()), assigned);
+  const Element root = with_outside_parameters(root_of(*reading.xml_files.front()), parameters);
   read_definition(reading, root);
   if (root) root.report_unread();
   for (const Element& entry : reading.used_entries) entry.report_unread();
@@ -79,6 +103,15 @@ Outcome read(std::string_view xml, std::string_view name, const ScenarioFiles& f
 
 }  // namespace
 
+Expected<ParameterValue> parse_parameter(std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == 0 || equals == text.npos) {
+    return failure(fmt::format("\"{}\" gives no parameter a value", text.substr(0, 60)), "parameter",
+                   "write NAME=VALUE");
+  }
+  return ParameterValue{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
 std::optional<EntityIndex> find_entity(const Scenario& scenario, std::string_view name) {
   for (EntityIndex i = 0; i < scenario.entities.size(); ++i) {
     if (scenario.entities[i].name == name) return i;
@@ -89,7 +122,7 @@ std::optional<EntityIndex> find_entity(const Scenario& scenario, std::string_vie
 Expected<Scenario> read_scenario(std::string_view xml, std::string_view name,
                                  const ScenarioFiles& files, std::vector<Finding>* warnings,
                                  const std::vector<ParameterValue>& parameters) {
-  Outcome outcome = read(xml, name, files, parameters);
+  Outcome outcome = read(xml, name, files, parameters, false);
   for (Finding& finding : outcome.findings) {
     if (finding.severity == Severity::error) return tl::unexpected(std::move(finding.error));
     if (warnings != nullptr) warnings->push_back(std::move(finding));
@@ -99,7 +132,7 @@ Expected<Scenario> read_scenario(std::string_view xml, std::string_view name,
 
 std::vector<Finding> check_scenario(std::string_view xml, std::string_view name,
                                     const ScenarioFiles& files) {
-  return read(xml, name, files, {}).findings;
+  return read(xml, name, files, {}, true).findings;
 }
 
 }  // namespace septet::scenario

@@ -180,6 +180,18 @@ std::string Element::label(const char* attribute) const {
   return found.value();
 }
 
+std::string Element::parameter_name(const char* attribute) const {
+  const pugi::xml_attribute found = pugi::xml_node(node_).attribute(attribute);
+  if (found) file_->read.insert(found.internal_object());
+  std::string name = found.value();
+  if (name.starts_with('$')) name.erase(0, 1);
+  if (name.empty()) {
+    error(fmt::format("attribute {} is missing or empty", attribute),
+          "write the name of a parameter");
+  }
+  return name;
+}
+
 double Element::number(const char* attribute, double low, double high) const {
   const std::string text_value = text(attribute);
   if (text_value.empty()) return std::isfinite(low) ? low : 0.0;
@@ -217,6 +229,11 @@ bool Element::boolean_or(const char* attribute, bool fallback) const {
                     fallback);
 }
 
+bool Element::required_boolean(const char* attribute, bool fallback) const {
+  if (node_ != nullptr && !has(attribute)) missing_word(attribute, fallback ? "true" : "false");
+  return boolean_or(attribute, fallback);
+}
+
 std::string Element::content() const { return pugi::xml_node(node_).text().as_string(); }
 
 void Element::error(std::string what, std::string remedy) const {
@@ -227,6 +244,11 @@ void Element::error(std::string what, std::string remedy) const {
 void Element::warning(std::string what, std::string remedy) const {
   if (file_ != nullptr)
     file_->findings.warning(pugi::xml_node(node_), std::move(what), std::move(remedy));
+}
+
+void Element::missing_word(const char* attribute, std::string_view taken) const {
+  warning(fmt::format("attribute {} is missing; \"{}\" is taken", attribute, taken),
+          fmt::format("add {}=\"{}\", or the word that is meant", attribute, taken));
 }
 
 void Element::unknown_word(const char* attribute, const std::string& value,

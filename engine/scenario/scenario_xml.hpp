@@ -62,12 +62,16 @@ class Element {
   std::string text_or(const char* attribute, std::string fallback) const;
   /// A name: an expression that is none of the standard's is taken as text.
   std::string label(const char* attribute) const;
+  /// The name of a parameter, with or without its `$`; never replaced by a value. Must be there.
+  std::string parameter_name(const char* attribute) const;
   double number(const char* attribute, double low = -unbounded, double high = unbounded) const;
   double number_or(const char* attribute, double fallback, double low = -unbounded,
                    double high = unbounded) const;
   std::optional<double> optional_number(const char* attribute) const;
   int integer(const char* attribute, int low, int high) const;
   bool boolean_or(const char* attribute, bool fallback) const;
+  /// The same where the standard demands the attribute: without it, a warning names the fallback.
+  bool required_boolean(const char* attribute, bool fallback) const;
   /// The value that stands beside the attribute's word; an unknown word is an error and the
   /// fallback.
   template <class Value>
@@ -84,6 +88,19 @@ class Element {
     unknown_word(attribute, text_value, known);
     return fallback;
   }
+  /// The same where the standard demands the attribute: without it, a warning names the fallback.
+  template <class Value>
+  Value required_word(const char* attribute,
+                      std::initializer_list<std::pair<std::string_view, Value>> words,
+                      Value fallback) const {
+    if (has(attribute) || node_ == nullptr) return word(attribute, words, fallback);
+    for (const auto& [word, value] : words) {
+      if (value != fallback) continue;
+      missing_word(attribute, word);
+      break;
+    }
+    return fallback;
+  }
   /// The text between the tags.
   std::string content() const;
 
@@ -96,6 +113,7 @@ class Element {
   void warning(std::string what, std::string remedy) const;
 
  private:
+  void missing_word(const char* attribute, std::string_view taken) const;
   void unknown_word(const char* attribute, const std::string& value,
                     const std::string& known) const;
   std::optional<std::string> value(const char* attribute) const;

@@ -31,6 +31,16 @@ double shape_peak_acceleration(DynamicsShape shape) {
   return shape == DynamicsShape::cubic ? 6.0 : 2.0;
 }
 
+namespace {
+
+/// Seconds for a change at this greatest rate; none where there is nothing to change, for ever at a
+/// rate of 0.
+double change_time_s(DynamicsShape shape, double change, double rate) {
+  return change > 0.0 ? change * shape_peak_rate(shape) / rate : 0.0;
+}
+
+}  // namespace
+
 double value_of(const Transition& transition) {
   if (is_done(transition)) return transition.to;
   const double f = shape_value(transition.shape, transition.progress / transition.extent);
@@ -45,16 +55,17 @@ Transition speed_transition(const TransitionDynamics& dynamics, double from_mps,
                             double strongest_mps2) {
   Transition transition{dynamics.shape, false, 0.0, 0.0, from_mps, to_mps};
   if (dynamics.shape == DynamicsShape::step) return transition;
-  const double change = std::abs(to_mps - from_mps), peak = shape_peak_rate(dynamics.shape);
+  const double change = std::abs(to_mps - from_mps);
   if (dynamics.dimension == DynamicsDimension::time) {
     transition.extent = dynamics.value;
   } else if (dynamics.dimension == DynamicsDimension::distance) {
     const double mean_mps = 0.5 * std::abs(from_mps + to_mps);
     transition.extent = mean_mps > 0.0 ? dynamics.value / mean_mps : 0.0;
   } else {
-    transition.extent = change * peak / dynamics.value;
+    transition.extent = change_time_s(dynamics.shape, change, dynamics.value);
   }
-  transition.extent = std::max(transition.extent, change * peak / strongest_mps2);
+  transition.extent =
+      std::max(transition.extent, change_time_s(dynamics.shape, change, strongest_mps2));
   return transition;
 }
 
@@ -62,7 +73,7 @@ Transition offset_transition(const TransitionDynamics& dynamics, double from_m, 
   Transition transition{dynamics.shape, false, dynamics.value, 0.0, from_m, to_m};
   transition.over_distance = dynamics.dimension == DynamicsDimension::distance;
   if (dynamics.dimension == DynamicsDimension::rate) {
-    transition.extent = std::abs(to_m - from_m) * shape_peak_rate(dynamics.shape) / dynamics.value;
+    transition.extent = change_time_s(dynamics.shape, std::abs(to_m - from_m), dynamics.value);
   }
   return transition;
 }

@@ -1,6 +1,8 @@
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -40,6 +42,7 @@ TEST_CASE("expressions follow the standard's operators functions and precedence"
   CHECK(value_of("$name", parameters) == "Ego");
   CHECK(value_of("plain text") == "plain text");
   CHECK(value_of("${$speed / 3.6}", parameters) == "25");
+  CHECK(std::stod(value_of("${-pi / 2}")) == doctest::Approx(-1.5707963));
   CHECK(value_of("${2 + 3 * -4}") == "-10");
   CHECK(value_of("${(2 + 3) * 4 % 7}") == "6");
   CHECK(value_of("${max(1, pow(2, 3)) - sqrt(16)}") == "4");
@@ -112,6 +115,71 @@ TEST_CASE("parameters given from outside win over those of the file") {
   CHECK(s_of(*given) == doctest::Approx(14.0));
 }
 
+TEST_CASE("a parameter's later value sees what was given from outside to an earlier one") {
+  const std::string declared =
+      R"(<ParameterDeclarations><ParameterDeclaration name="s" parameterType="double" value="100"/>)"
+      R"(<ParameterDeclaration name="t" parameterType="double" value="${$s * 2}"/></ParameterDeclarations>)";
+  std::string text = scenario_text(private_text("A", place_text(-1, 10)), "", declared);
+  text.replace(text.find("10.000000"), 9, "$t");
+  const auto given = read_scenario(text, "test.xosc", files_in("."), nullptr, {{"s", "7"}});
+  REQUIRE_MESSAGE(given.has_value(), describe(given.error()));
+  CHECK(std::get<LaneCoordinates>(std::get<TeleportAction>(given->init.at(0).what).position).s_m == 14.0);
+}
+
+TEST_CASE("a parameter from outside that is not declared not of its type or not allowed is refused") {
+  const std::string text = scenario_text(
+      "", "",
+      R"(<ParameterDeclarations><ParameterDeclaration name="speed" parameterType="double" value="4">)"
+      R"(<ConstraintGroup><ValueConstraint rule="lessThan" value="5"/><ValueConstraint rule="greaterThan" value="0"/></ConstraintGroup>)"
+      R"(<ConstraintGroup><ValueConstraint rule="equalTo" value="9"/></ConstraintGroup></ParameterDeclaration>)"
+      R"(<ParameterDeclaration name="count" parameterType="unsignedShort" value="3"/>)"
+      R"(<ParameterDeclaration name="at" parameterType="dateTime" value="2026-01-31T12:00:00"/>)"
+      R"(<ParameterDeclaration name="on" parameterType="boolean" value="true"/></ParameterDeclarations>)");
+  const auto error_of = [&](const std::string& given) {
+    const auto parameter = parse_parameter(given);
+    REQUIRE_MESSAGE(parameter.has_value(), describe(parameter.error()));
+    const auto scenario = read_scenario(text, "test.xosc", files_in("."), nullptr, {*parameter});
+    return scenario ? std::string() : describe(scenario.error());
+  };
+  for (const char* good : {"speed=1", "speed=9", "count=65535", "at=2026-01-31T12:00:00.5+01:00", "on=false"})
+    CHECK(error_of(good) == "");
+  CHECK(error_of("sped=1").find("no parameter named \"sped\"") != std::string::npos);
+  CHECK(error_of("sped=1").find("speed, count, at, on") != std::string::npos);
+  CHECK(error_of("speed=fast").find("\"fast\" given to speed is no value of type double") != std::string::npos);
+  CHECK(error_of("speed=5").find("constraints") != std::string::npos);
+  CHECK(error_of("count=-1").find("unsignedShort") != std::string::npos);
+  CHECK(error_of("count=1.5").find("unsignedShort") != std::string::npos);
+  CHECK(error_of("at=noon").find("dateTime") != std::string::npos);
+  CHECK(error_of("on=maybe").find("boolean") != std::string::npos);
+  CHECK_FALSE(parse_parameter("speed").has_value());
+  CHECK_FALSE(parse_parameter("=5").has_value());
+}
+
+TEST_CASE("a parameter that breaks its own constraints is an error with its line") {
+  const std::string text = scenario_text(
+      "", "",
+      R"(<ParameterDeclarations><ParameterDeclaration name="v" parameterType="double" value="10"><ConstraintGroup>)"
+      R"(<ValueConstraint rule="lessThan" value="5"/></ConstraintGroup></ParameterDeclaration></ParameterDeclarations>)");
+  const auto scenario = read_scenario(text, "test.xosc", files_in("."));
+  REQUIRE_FALSE(scenario.has_value());
+  CHECK(describe(scenario.error()).find("test.xosc:1, <ParameterDeclaration>: \"10\" of v breaks") !=
+        std::string::npos);
+}
+
+TEST_CASE("an orientation without a type is relative from 1.3 on and absolute before") {
+  const auto heading_in = [](const std::string& revision) {
+    std::string text = scenario_text(private_text("A", place_text(1, 100)), "");
+    text.replace(text.find("revMinor=\"3\""), 12, "revMinor=\"" + revision + "\"");
+    const auto end = text.find("/></Position>");
+    text.replace(end, 2, "><Orientation h=\"0.1\"/></LanePosition>");
+    return heading_rad(Drive(text).a().world_from_entity.orientation);
+  };
+  // Lane 1 runs against x.
+  CHECK(std::cos(heading_in("3") - 0.1 - std::numbers::pi) == doctest::Approx(1.0));
+  CHECK(std::cos(heading_in("2") - 0.1) == doctest::Approx(1.0));
+  CHECK(std::cos(heading_in("0") - 0.1) == doctest::Approx(1.0));
+}
+
 TEST_CASE("a catalog entry takes its parameters from the reference") {
   ScenarioFiles files;
   files.list = [](const std::string&) -> Expected<std::vector<std::string>> {
@@ -127,7 +195,7 @@ TEST_CASE("a catalog entry takes its parameters from the reference") {
   std::string text = scenario_text("", "");
   const std::string reference =
       R"(<ScenarioObject name="C"><CatalogReference catalogName="cars" entryName="small"><ParameterAssignments>)"
-      R"(<ParameterAssignment parameterRef="top" value="55"/></ParameterAssignments></CatalogReference></ScenarioObject>)";
+      R"(<ParameterAssignment parameterRef="$top" value="55"/></ParameterAssignments></CatalogReference></ScenarioObject>)";
   text.insert(text.find("</Entities>"), reference);
   text.replace(
       text.find("<CatalogLocations/>"), 19,

@@ -127,6 +127,32 @@ TEST_CASE("distance conditions fire where the distance is") {
   CHECK(drive.time_of("f", ElementTransition::start) == doctest::Approx(2.0).epsilon(0.006));
 }
 
+TEST_CASE("the freespace distance to a position is that from the box to the point") {
+  const std::string near_point =
+      R"(<DistanceCondition freespace="true" rule="lessThan" value="50"><Position><LanePosition roadId="R" laneId="-2" s="300"/></Position></DistanceCondition>)";
+  const std::string soon =
+      R"(<TimeToCollisionCondition freespace="true" rule="lessThan" value="2"><TimeToCollisionConditionTarget><Position><LanePosition roadId="R" laneId="-2" s="300"/></Position></TimeToCollisionConditionTarget></TimeToCollisionCondition>)";
+  Drive drive(scenario_text(
+      two_cars, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", near_point))) +
+                           event_text("f", speed_text(20), trigger_text(of_entity_text("A", soon))))));
+  drive.run_until(10.0);
+  // At 20 m/s from 100 m, and the box reaches 3.7 m forward.
+  CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx((300 - 100 - 50 - 3.7) / 20).epsilon(0.002));
+  CHECK(drive.time_of("f", ElementTransition::start) == doctest::Approx((300 - 100 - 40 - 3.7) / 20).epsilon(0.002));
+}
+
+TEST_CASE("a rate of 0 keeps the speed and ends at once where that is the target") {
+  Drive drive(scenario_text(
+      two_cars, story_text(event_text("same", speed_text(20, "linear", "rate", 0.0), at(0.0)) +
+                           event_text("other", speed_text(30, "linear", "rate", 0.0), at(1.0)))));
+  drive.run_until(3.0);
+  CHECK(drive.time_of("same", ElementTransition::end) == doctest::Approx(0.0));
+  CHECK(drive.count_of("other", ElementTransition::start) == 1);
+  CHECK(drive.count_of("other", ElementTransition::end) == 0);
+  CHECK(drive.a().speed_mps == 20.0);
+  CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(160.0));
+}
+
 TEST_CASE("overwrite stops the running event skip waits and parallel goes along") {
   const std::string slow = speed_text(30, "linear", "time", 4.0);
   const std::string first = event_text("first", slow, at(0.0));

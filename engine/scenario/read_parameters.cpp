@@ -1,0 +1,76 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/scenario/parameter_value.hpp"
+#include "engine/scenario/scenario_parts.hpp"
+
+namespace septet::scenario {
+namespace {
+
+/// Whether the value keeps the constraints: all of a group, of any group.
+bool keeps_constraints(const Element& declaration, std::string_view value) {
+  bool any = false, some = false;
+  for (const Element& group : declaration.children("ConstraintGroup")) {
+    bool all = true;
+    for (const Element& constraint : group.children("ValueConstraint"))
+      all = compare_values(read_rule(constraint), value, constraint.text("value")) && all;
+    some = true;
+    any = any || all;
+  }
+  return any || !some;
+}
+
+}  // namespace
+
+Element with_declared_parameters(const Element& element, const Parameters& assigned) {
+  if (!element) return element;
+  Parameters parameters = element.parameters();
+  for (const auto& [name, value] : assigned) parameters[name] = value;
+  for (const Element& found :
+       element.child("ParameterDeclarations").children("ParameterDeclaration")) {
+    // A value may hang on parameters that were declared before it.
+    const Element declaration = found.with(parameters);
+    const std::string name = declaration.text("name");
+    const std::string type = declaration.text_or("parameterType", "");
+    std::string value = declaration.text_or("value", "");
+    const auto given = assigned.find(name);
+    if (given != assigned.end()) value = given->second;
+    const char* whose = given != assigned.end() ? "given to" : "of";
+    if (!is_of_type(value, type)) {
+      const std::string what = fmt::format("\"{}\" {} {} is no value of type {}", value.substr(0, 60),
+                                           whose, name, type);
+      if (given != assigned.end())
+        declaration.error(what, fmt::format("give a value of type {}", type));
+      else
+        declaration.warning(what, "correct the value or its type");
+    } else if (!keeps_constraints(declaration, value)) {
+      declaration.error(fmt::format("\"{}\" {} {} breaks its constraints", value.substr(0, 60), whose,
+                                    name),
+                        "give a value that the <ConstraintGroup> allows");
+    }
+    parameters[name] = std::move(value);
+  }
+  return element.with(std::move(parameters));
+}
+
+Element with_outside_parameters(const Element& root, const std::vector<ParameterValue>& values) {
+  Parameters assigned;
+  for (const ParameterValue& parameter : values) assigned[parameter.name] = parameter.value;
+  if (!root || assigned.empty()) return with_declared_parameters(root);
+  std::string names;
+  const auto declarations =
+      root.child("ParameterDeclarations").children("ParameterDeclaration");
+  for (const Element& declaration : declarations)
+    names += (names.empty() ? "" : ", ") + declaration.text("name");
+  for (const auto& [name, value] : assigned) {
+    const auto is_it = [&](const Element& declaration) { return declaration.text("name") == name; };
+    if (std::none_of(declarations.begin(), declarations.end(), is_it)) {
+      root.error(fmt::format("the scenario has no parameter named \"{}\"", name.substr(0, 60)),
+                 names.empty() ? "it has no parameters at all" : "name one of: " + names);
+    }
+  }
+  return with_declared_parameters(root, assigned);
+}
+
+}  // namespace septet::scenario

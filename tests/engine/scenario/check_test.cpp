@@ -1,0 +1,133 @@
+/// What `septet check` says of scenarios, catalogs and distributions.
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/scenario/scenario_text.hpp"
+
+namespace septet::scenario {
+namespace {
+
+const std::string header =
+    R"(<FileHeader revMajor="1" revMinor="1" date="2026-01-01T00:00:00" description="" author=""/>)";
+
+/// Files by name, instead of a folder.
+ScenarioFiles files_of(std::vector<std::pair<std::string, std::string>> texts) {
+  ScenarioFiles files;
+  files.read = [texts](const std::string& path) -> Expected<std::string> {
+    for (const auto& [name, text] : texts)
+      if (name == path) return text;
+    return failure("No such file or directory", path, "check its name and rights");
+  };
+  files.list = [](const std::string& path) -> Expected<std::vector<std::string>> {
+    return failure("No such file or directory", path, "check the folder's name and rights");
+  };
+  return files;
+}
+
+std::string findings_text(const std::string& text,
+                          const ScenarioFiles& files = files_of({{"test.xodr", road_text()}})) {
+  std::string all;
+  for (const Finding& finding : check_scenario(text, "test.xosc", files))
+    all += (finding.severity == Severity::error ? "error " : "warning ") + describe(finding.error) +
+           "\n";
+  return all;
+}
+
+std::string with(std::string text, const std::string& old, const std::string& replacement) {
+  REQUIRE(text.find(old) != text.npos);
+  return text.replace(text.find(old), old.size(), replacement);
+}
+
+const std::string one_car = private_text("A", place_text(-1, 10)) + private_text("B", place_text(-2, 10));
+
+}  // namespace
+
+TEST_CASE("a catalog is checked as a catalog") {
+  const std::string vehicle = vehicle_text("x");
+  const auto from = vehicle.find("<Vehicle"), to = vehicle.find("</ScenarioObject>");
+  const std::string good = "<OpenSCENARIO>" + header + "<Catalog name=\"cars\">" +
+                           vehicle.substr(from, to - from) +
+                           R"(<Controller name="driver"><Properties/></Controller></Catalog></OpenSCENARIO>)";
+  CHECK(findings_text(good) == "");
+  CHECK(findings_text(with(good, "width=\"1.8\"", "width=\"wide\"")).find("wide") != std::string::npos);
+  CHECK(findings_text(with(with(good, "<Controller ", "<Contraption "), "</Controller>", "</Contraption>")).find("Contraption") !=
+        std::string::npos);
+  const auto driven = read_scenario(good, "cars.xosc", files_of({}));
+  REQUIRE_FALSE(driven.has_value());
+  CHECK(describe(driven.error()).find("this is a catalog, not a scenario") != std::string::npos);
+}
+
+TEST_CASE("a maneuver in a catalog may name whoever refers to it") {
+  const std::string text =
+      "<OpenSCENARIO>" + header +
+      R"(<Catalog name="m"><Maneuver name="closer"><ParameterDeclarations><ParameterDeclaration name="who" parameterType="string" value=""/></ParameterDeclarations>)" +
+      event_text("e", speed_text(10),
+                 trigger_text(of_entity_text("$who", R"(<StandStillCondition duration="1"/>)"))) +
+      "</Maneuver></Catalog></OpenSCENARIO>";
+  CHECK(findings_text(with(text, "value=\"\"/", "value=\"Ego\"/")) == "");
+  CHECK(findings_text(with(text, "duration=\"1\"", "")).find("duration") != std::string::npos);
+}
+
+TEST_CASE("a distribution is checked against the scenario that it varies") {
+  const std::string text =
+      "<OpenSCENARIO>" + header +
+      R"(<ParameterValueDistribution><ScenarioFile filepath="test.xosc"/><Deterministic>)"
+      R"(<DeterministicSingleParameterDistribution parameterName="speed"><DistributionRange stepWidth="5"><Range lowerLimit="5" upperLimit="60"/></DistributionRange></DeterministicSingleParameterDistribution>)"
+      R"(</Deterministic></ParameterValueDistribution></OpenSCENARIO>)";
+  const auto declaring = [](const std::string& name) {
+    return files_of({{"test.xosc",
+                      scenario_text("", "",
+                                    "<ParameterDeclarations><ParameterDeclaration name=\"" + name +
+                                        "\" parameterType=\"double\" value=\"1\"/></ParameterDeclarations>")}});
+  };
+  CHECK(findings_text(text, declaring("speed")) == "");
+  CHECK(findings_text(text, declaring("sped")).find("no parameter named \"speed\"") != std::string::npos);
+  CHECK(findings_text(with(text, "stepWidth=\"5\"", "stepWidth=\"0\""), declaring("speed")).find("error") == 0);
+  const auto driven = read_scenario(text, "test.xosc", declaring("speed"));
+  REQUIRE_FALSE(driven.has_value());
+  CHECK(describe(driven.error()).find("varies the parameters of a scenario") != std::string::npos);
+}
+
+TEST_CASE("a scenario without a road can be checked and says why it cannot be driven") {
+  const std::string text =
+      with(scenario_text("", ""), R"(<RoadNetwork><LogicFile filepath="test.xodr"/></RoadNetwork>)",
+           "<RoadNetwork/>");
+  CHECK(findings_text(text).find("warning") == 0);
+  CHECK(findings_text(text).find("error") == std::string::npos);
+  const auto driven = read_scenario(text, "test.xosc", files_of({}));
+  REQUIRE_FALSE(driven.has_value());
+  CHECK(describe(driven.error()).find("names no road, so that the scenario cannot be driven") !=
+        std::string::npos);
+}
+
+TEST_CASE("an attribute that the standard demands is missed with the value that is taken") {
+  const std::string full = scenario_text(
+      one_car + private_text("A", speed_text(10)),
+      story_text(event_text(
+          "e", speed_text(1),
+          trigger_text(of_entity_text(
+              "A",
+              R"(<DistanceCondition freespace="true" rule="lessThan" value="1"><Position><LanePosition roadId="R" laneId="-1" s="9"/></Position></DistanceCondition>)")))));
+  CHECK(findings_text(full) == "");
+  const std::pair<std::string, std::string> demanded[] = {
+      {" priority=\"parallel\"", "overwrite"},
+      {" triggeringEntitiesRule=\"any\"", "any"},
+      {" conditionEdge=\"none\"", "none"},
+      {" freespace=\"true\"", "false"},
+      {" rule=\"lessThan\"", "greaterThan"},
+      {" dynamicsShape=\"step\"", "step"},
+      {" dynamicsDimension=\"time\"", "time"},
+      {" selectTriggeringEntities=\"false\"", "false"},
+      {"name=\"group\" maximumExecutionCount=\"1\"", "1"}};
+  for (const auto& [attribute, taken] : demanded) {
+    CAPTURE(attribute);
+    const bool named = attribute.starts_with("name");
+    const std::string found = findings_text(with(full, attribute, named ? "name=\"group\"" : ""));
+    CHECK(found.find("warning test.xosc:1, <") == 0);
+    CHECK(found.find(named ? "1 is taken" : "\"" + taken + "\" is taken") != std::string::npos);
+  }
+}
+
+}  // namespace septet::scenario
