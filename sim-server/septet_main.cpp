@@ -116,10 +116,12 @@ int run(int argc, char** argv) {
   traffic_diagram->add_option("--out", diagram.out, "Folder for the files; without it the figures are only printed");
   traffic_diagram->callback([&] { status = run_traffic_diagram(diagram); });
 
-  std::vector<std::string> files;
-  auto* check_command = app.add_subcommand("check", "Say what is wrong with road, scenario and rig files");
-  check_command->add_option("files", files, "Files (.xodr, .xosc, .toml)")->required();
-  check_command->callback([&] { status = run_check(files); });
+  CheckOptions check;
+  auto* check_command = app.add_subcommand("check", "Say what is wrong with files; exit status 1: a file has an error");
+  check_command->add_option("files", check.files, "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), sessions (.sqlite)")->required();
+  check_command->add_flag("--json", check.json, "Answer in JSON (docs/check.md)");
+  check_command->add_flag("--strict", check.strict, "Warnings count as errors in the exit status");
+  check_command->callback([&] { status = run_check(check, std::cout); });
 
   // The parser's own message does not name the word that it did not know.
   if (const std::string word = argc > 1 ? argv[1] : "-"; !word.starts_with('-')) {

@@ -249,8 +249,7 @@ Expected<SimulationState> initial_state(const SimulationModel& model, std::uniqu
   state.scenario = std::move(*started);
   const auto& entity = state.scenario.entities[model.driver_entity];
   if (!entity.active)
-    return failure(fmt::format("the driver's car \"{}\" has no place", model.scenario.entities[model.driver_entity].name), "Init",
-                   "give it a TeleportAction");
+    return tl::unexpected(scenario::why_without_place(model.scenario, model.driver_entity));
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
   apply_swarms(model, init, vehicle::outputs(model.car, state.car), state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include "engine/core/parse_toml.hpp"
 #include "engine/rig/table_reader.hpp"
 
 namespace septet::rig {

@@ -7,14 +7,6 @@
 
 namespace septet::rig {
 
-Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
-  try {
-    return toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    return failure(std::string(error.description()), fmt::format("{}:{}", file, error.source().begin.line), "correct the TOML there");
-  }
-}
-
 TableReader::TableReader(const toml::table& table, std::string_view file, std::string title, Error& error)
     : table_(table), file_(file), title_(std::move(title)), error_(error) {}
 

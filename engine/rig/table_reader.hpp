@@ -21,9 +21,6 @@ class array;
 
 namespace septet::rig {
 
-/// The table of a whole file; an Error names the line that is not TOML.
-Expected<toml::table> parse_toml(std::string_view text, std::string_view file);
-
 class TableReader {
  public:
   /// `error` is shared by the readers of one file and keeps the first report.

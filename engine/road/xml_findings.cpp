@@ -52,11 +52,18 @@ int XmlFindings::line_of(std::ptrdiff_t offset) const {
   return static_cast<int>(after - line_starts_.begin());
 }
 
+std::string XmlFindings::where(int line, std::string_view element) const {
+  const std::string place = line > 0 ? fmt::format("{}:{}", name_, line) : name_;
+  return element.empty() ? place : place + fmt::format(", <{}>", shown(element));
+}
+
+std::string XmlFindings::where(const pugi::xml_node& node) const {
+  return where(line_of(node.offset_debug()), node.name());
+}
+
 void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what,
                       std::string remedy, std::string_view rule) {
-  std::string where = line > 0 ? fmt::format("{}:{}", name_, line) : name_;
-  if (!element.empty()) where += fmt::format(", <{}>", shown(element));
-  Error error{std::move(what), std::move(where), std::move(remedy)};
+  Error error{std::move(what), where(line, element), std::move(remedy)};
   if (severity == Severity::error && !first_error_) first_error_ = error;
   if (findings_.size() < most_findings - 1) {
     findings_.push_back({severity, line, std::move(error), std::string(rule)});
@@ -81,6 +88,10 @@ void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::str
 void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
                            std::string_view rule) {
   add(Severity::error, line_of(offset), {}, std::move(what), std::move(remedy), rule);
+}
+
+void XmlFindings::warning_at(std::ptrdiff_t offset, std::string what, std::string remedy) {
+  add(Severity::warning, line_of(offset), {}, std::move(what), std::move(remedy), {});
 }
 
 std::vector<Finding> XmlFindings::findings() const {

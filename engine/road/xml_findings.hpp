@@ -32,6 +32,10 @@ class XmlFindings {
   /// An error at a byte of the text, for what is no XML at all.
   void error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
                 std::string_view rule = {});
+  void warning_at(std::ptrdiff_t offset, std::string what, std::string remedy);
+
+  /// "name:line, <element>", as errors say it.
+  std::string where(const pugi::xml_node& node) const;
 
   bool has_error() const { return first_error_.has_value(); }
   const Error& first_error() const { return *first_error_; }
@@ -55,6 +59,7 @@ class XmlFindings {
  private:
   void add(Severity severity, int line, std::string_view element, std::string what,
            std::string remedy, std::string_view rule);
+  std::string where(int line, std::string_view element) const;
   int line_of(std::ptrdiff_t offset) const;
 
   std::string name_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace septet::scenario {
@@ -59,27 +60,33 @@ double interval_gap_m(double low_a, double high_a, double low_b, double high_b) 
   return std::max({low_b - high_a, low_a - high_b, 0.0});
 }
 
-double along_own_axis_m(const Entity& entity, const EntityState& from, const Target& target,
-                        bool lateral, bool freespace) {
-  const RigidTransform own_from_world = inverse(from.world_from_entity);
-  const auto component = [&](const Vec3& world) {
-    return lateral ? (own_from_world * world).y : (own_from_world * world).x;
-  };
-  const double middle = component(target.placement.pose.position_m);
-  if (!freespace) return std::abs(middle);
-  double low = middle, high = middle;
-  if (target.box != nullptr) {
-    low = infinite;
-    high = -infinite;
-    for (const Vec2& corner : corners(target.placement.pose, *target.box)) {
-      const double at = component(Vec3(corner, target.placement.pose.position_m.z));
+/// What something takes of an axis through `origin`; a thing without a box is a point.
+std::pair<double, double> extent_m(const RigidTransform& pose, const BoundingBox* box,
+                                   const Vec3& origin, const Vec3& axis) {
+  if (box == nullptr) {
+    const double at = glm::dot(pose.position_m - origin, axis);
+    return {at, at};
+  }
+  double low = infinite, high = -infinite;
+  for (const double x : {box->front_m(), box->rear_m()}) {
+    for (const double side : {-0.5, 0.5}) {
+      const Vec3 corner = pose * Vec3(x, box->centre_m.y + side * box->width_m, 0.0);
+      const double at = glm::dot(corner - origin, axis);
       low = std::min(low, at);
       high = std::max(high, at);
     }
   }
-  const double y = entity.box.centre_m.y, half = entity.box.width_m / 2.0;
-  if (lateral) return interval_gap_m(y - half, y + half, low, high);
-  return interval_gap_m(entity.box.rear_m(), entity.box.front_m(), low, high);
+  return {low, high};
+}
+
+double along_axis_m(const Entity& entity, const EntityState& from, const Target& target,
+                    const Vec3& axis, bool freespace) {
+  const Vec3& origin = from.world_from_entity.position_m;
+  const auto own =
+      extent_m(from.world_from_entity, freespace ? &entity.box : nullptr, origin, axis);
+  const auto its =
+      extent_m(target.placement.pose, freespace ? target.box : nullptr, origin, axis);
+  return interval_gap_m(own.first, own.second, its.first, its.second);
 }
 
 double along_road_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from,
@@ -180,11 +187,13 @@ double distance_m(const road::RoadNetwork& network, const Entity& entity, const 
     return box_distance_m(own, point);
   }
   const bool lateral = measure.type == DistanceType::lateral;
+  const Vec3 axis = lateral ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0);
   switch (measure.system) {
     case CoordinateSystem::entity:
-      return along_own_axis_m(entity, from, target, lateral, measure.freespace);
+      return along_axis_m(entity, from, target, from.world_from_entity.orientation * axis,
+                          measure.freespace);
     case CoordinateSystem::world:
-      return std::abs(lateral ? apart.y : apart.x);
+      return along_axis_m(entity, from, target, axis, measure.freespace);
     case CoordinateSystem::lane:
     case CoordinateSystem::road:
       return along_road_m(network, entity, from, target, measure);

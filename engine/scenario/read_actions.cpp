@@ -9,6 +9,7 @@ namespace septet::scenario {
 namespace {
 
 constexpr int most_lanes = 1000;
+constexpr double most_mps = 1000.0;
 
 DynamicsShape read_shape(const Element& element) {
   return element.required_word<DynamicsShape>("dynamicsShape",
@@ -24,10 +25,10 @@ ActionVariant read_speed(Reading& reading, const Element& element) {
   action.dynamics = read_dynamics(element.required("SpeedActionDynamics"));
   const Element target = element.required("SpeedActionTarget");
   if (const Element absolute = target.child("AbsoluteTargetSpeed")) {
-    action.value = absolute.number("value");
+    action.value = absolute.number("value", -most_mps, most_mps);
   } else if (const Element relative = target.child("RelativeTargetSpeed")) {
     action.reference = read_entity_reference(reading, relative);
-    action.value = relative.number("value");
+    action.value = relative.number("value", -most_mps, most_mps);
     action.factor =
         relative.required_word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
     action.continuous = relative.required_boolean("continuous", false);
@@ -119,7 +120,10 @@ TransitionDynamics read_dynamics(const Element& element) {
                                                        DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
-  element.word<int>("followingMode", {{"position", 0}, {"follow", 1}}, 0);
+  if (element.word<bool>("followingMode", {{"position", false}, {"follow", true}}, false)) {
+    element.warning("followingMode=\"follow\" is not supported; \"position\" is taken",
+                    "expect the target to be met exactly");
+  }
   return dynamics;
 }
 

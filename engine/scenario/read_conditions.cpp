@@ -27,8 +27,13 @@ DistanceMeasure read_measure(const Element& element) {
       {{"entity", CoordinateSystem::entity},
        {"lane", CoordinateSystem::lane},
        {"road", CoordinateSystem::road},
-       {"world", CoordinateSystem::world}},
+       {"world", CoordinateSystem::world},
+       {"trajectory", CoordinateSystem::road}},
       along_route ? CoordinateSystem::road : CoordinateSystem::entity);
+  if (element.text_or("coordinateSystem", "") == "trajectory") {
+    element.warning("coordinateSystem=\"trajectory\" is not supported; \"road\" is taken",
+                    "measure along the road or the lane");
+  }
   measure.type = element.word<DistanceType>(
       "relativeDistanceType",
       {{"longitudinal", DistanceType::longitudinal},
@@ -86,7 +91,10 @@ ConditionVariant read_entity_condition(Reading& reading, const Element& element)
     return SpeedCondition{read_comparison(found), read_direction(found)};
   }
   if (const Element found = element.child("AccelerationCondition")) {
-    return AccelerationCondition{read_comparison(found), read_direction(found)};
+    // Before 1.2 an acceleration had no direction: it was that of the speed.
+    const bool along = reading.scenario.header.revision_minor < 2;
+    return AccelerationCondition{read_comparison(found),
+                                 along ? Direction::longitudinal : read_direction(found)};
   }
   if (const Element found = element.child("RelativeSpeedCondition")) {
     return RelativeSpeedCondition{read_entity_reference(reading, found), read_comparison(found)};

@@ -66,14 +66,20 @@ void read_object(const Element& object, Entity& entity) {
 }
 
 BoundingBox read_bounding_box(const Element& parent) {
+  constexpr double most_m = 1000.0;
   const Element box = parent.required("BoundingBox");
   const Element centre = box.required("Center"), dimensions = box.required("Dimensions");
   BoundingBox result;
-  if (centre) result.centre_m = {centre.number("x"), centre.number("y"), centre.number("z")};
+  if (centre) {
+    result.centre_m = {centre.number("x", -most_m, most_m), centre.number("y", -most_m, most_m),
+                       centre.number("z", -most_m, most_m)};
+  }
   if (dimensions) {
-    result.length_m = dimensions.number("length", 0.0);
-    result.width_m = dimensions.number("width", 0.0);
-    result.height_m = dimensions.number("height", 0.0);
+    result.length_m = dimensions.number("length", 0.0, most_m);
+    result.width_m = dimensions.number("width", 0.0, most_m);
+    result.height_m = dimensions.number("height", 0.0, most_m);
+    if (result.length_m * result.width_m * result.height_m == 0.0)
+      dimensions.warning("the box holds nothing", "give its length, width and height");
   }
   return result;
 }
@@ -82,7 +88,8 @@ void read_entities(Reading& reading, const Element& entities) {
   for (const Element& object : entities.children("ScenarioObject")) {
     Entity entity;
     entity.name = object.text("name");
-    if (find_entity(reading.scenario, entity.name)) {
+    const auto index = static_cast<EntityIndex>(reading.scenario.entities.size());
+    if (!reading.entities.try_emplace(entity.name, index).second) {
       object.error(fmt::format("there are two entities named \"{}\"", entity.name),
                    "give each its own name");
       continue;
@@ -96,7 +103,8 @@ void read_entities(Reading& reading, const Element& entities) {
 EntityIndex read_entity_reference(Reading& reading, const Element& element, const char* attribute) {
   const std::string name = element.text(attribute);
   if (name.empty()) return no_entity;
-  if (const auto found = find_entity(reading.scenario, name)) return *found;
+  const auto found = reading.entities.find(name);
+  if (found != reading.entities.end()) return found->second;
   if (reading.names_are_elsewhere) return no_entity;
   element.error(fmt::format("no entity is named \"{}\"", name),
                 "name a <ScenarioObject> of this file");

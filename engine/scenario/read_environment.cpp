@@ -7,6 +7,8 @@
 namespace septet::scenario {
 namespace {
 
+constexpr double most_mm_per_h = 1e4;
+
 void read_weather(const Element& weather, EnvironmentAction& action) {
   if (weather.has("fractionalCloudCover")) {
     action.cloud_cover = weather.word<double>("fractionalCloudCover",
@@ -27,19 +29,20 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
         "cloudState",
         {{"free", 0.0}, {"cloudy", 0.5}, {"overcast", 1.0}, {"rainy", 1.0}, {"skyOff", 0.0}}, 0.0);
   }
-  action.temperature_k = weather.optional_number("temperature");
+  action.temperature_k = weather.optional_number("temperature", 0.0, 1000.0);
   if (const Element sun = weather.child("Sun")) {
     action.sun_azimuth_rad = sun.number("azimuth");
     action.sun_elevation_rad = sun.number("elevation");
-    action.sun_illuminance_lux = sun.optional_number("illuminance");
+    action.sun_illuminance_lux = sun.optional_number("illuminance", 0.0, 1e9);
     // 1.0 and 1.1 said intensity and meant lux.
-    if (!action.sun_illuminance_lux) action.sun_illuminance_lux = sun.optional_number("intensity");
+    if (!action.sun_illuminance_lux) action.sun_illuminance_lux = sun.optional_number("intensity", 0.0, 1e9);
   }
   if (const Element fog = weather.child("Fog"))
     action.visibility_m = fog.number("visualRange", 0.0);
   if (const Element precipitation = weather.child("Precipitation")) {
     const double mm_per_h = precipitation.number_or(
-        "precipitationIntensity", precipitation.number_or("intensity", 0.0, 0.0), 0.0);
+        "precipitationIntensity", precipitation.number_or("intensity", 0.0, 0.0, most_mm_per_h), 0.0,
+        most_mm_per_h);
     enum class Kind { dry, rain, snow };
     const Kind kind = precipitation.word<Kind>(
         "precipitationType", {{"dry", Kind::dry}, {"rain", Kind::rain}, {"snow", Kind::snow}},
@@ -49,7 +52,7 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
   }
   if (const Element wind = weather.child("Wind")) {
     action.wind_direction_rad = wind.number("direction");
-    action.wind_speed_mps = wind.number("speed", 0.0);
+    action.wind_speed_mps = wind.number("speed", 0.0, 200.0);
   }
 }
 
@@ -70,11 +73,17 @@ EnvironmentAction read_environment_action(Reading& reading, const Element& eleme
 EnvironmentAction read_environment(const Element& environment) {
   EnvironmentAction action;
   action.name = environment.label("name");
-  // The sun is given by its angles; the time of day says nothing more that is drawn.
-  environment.child("TimeOfDay").ignore();
+  // The sun is given by its angles; a time of day that stands still says nothing more that is drawn.
+  if (const Element time = environment.child("TimeOfDay")) {
+    time.ignore();
+    if (time.boolean_or("animation", false) || !environment.child("Weather").child("Sun")) {
+      time.warning("the time of day does not move the sun",
+                   "give the sun's angles in <Sun>, and new ones when they change");
+    }
+  }
   if (const Element weather = environment.child("Weather")) read_weather(weather, action);
   if (const Element road = environment.child("RoadCondition")) {
-    action.friction_scale = road.number("frictionScaleFactor", 0.0);
+    action.friction_scale = road.number("frictionScaleFactor", 0.0, 100.0);
     // The standard's precipitation says what falls, and nothing says what lies.
     for (const Element& property : road.child("Properties").children("Property"))
       if (property.text("name") == "septet:snowCover")

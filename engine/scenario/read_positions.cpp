@@ -58,11 +58,7 @@ Relative read_offset(Reading& reading, const Element& element) {
   return position;
 }
 
-}  // namespace
-
-Position read_position(Reading& reading, const Element& parent) {
-  const Element position = parent.required("Position");
-  if (!position) return {};
+Position read_kind(Reading& reading, const Element& position) {
   if (const Element found = position.child("LanePosition")) return read_lane(reading, found);
   if (const Element found = position.child("RelativeLanePosition"))
     return read_relative_lane(reading, found);
@@ -85,6 +81,16 @@ Position read_position(Reading& reading, const Element& parent) {
   if (position.all_children().empty())
     position.error("it is empty", "add a position such as <LanePosition>");
   return {};
+}
+
+}  // namespace
+
+Position read_position(Reading& reading, const Element& parent) {
+  const Element position = parent.required("Position");
+  if (!position) return {};
+  Position found = read_kind(reading, position);
+  if (reading.checking) reading.positions.emplace_back(position, found);
+  return found;
 }
 
 }  // namespace septet::scenario

@@ -124,16 +124,19 @@ Act read_act(Reading& reading, const Element& element) {
 }
 
 void read_init(Reading& reading, const Element& actions) {
-  auto& init = reading.scenario.init;
+  const auto add = [&](EntityIndex entity, ActionVariant what, const Element& action) {
+    reading.scenario.init.push_back({entity, std::move(what), action.where()});
+    reading.init_elements.push_back(action);
+  };
   for (const Element& global : actions.children("GlobalAction"))
-    init.push_back({no_entity, read_global_action(reading, global)});
+    add(no_entity, read_global_action(reading, global), global);
   for (const Element& user : actions.children("UserDefinedAction"))
-    init.push_back({no_entity, read_user_defined_action(reading, user)});
+    add(no_entity, read_user_defined_action(reading, user), user);
   for (const Element& entry : actions.children("Private")) {
     const EntityIndex entity = read_entity_reference(reading, entry);
     for (const Element& action : entry.children("PrivateAction")) {
       ActionVariant what = read_private_action(reading, action);
-      if (entity != no_entity) init.push_back({entity, std::move(what)});
+      if (entity != no_entity) add(entity, std::move(what), action);
     }
   }
 }

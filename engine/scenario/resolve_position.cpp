@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
@@ -158,6 +160,39 @@ struct Resolve {
 std::optional<Placement> resolve_position(const road::RoadNetwork& network,
                                           const ScenarioState& state, const Position& position) {
   return std::visit(Resolve{network, state}, position);
+}
+
+std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network,
+                        const ScenarioState& state, const Position& position) {
+  const auto off_road = [&](const std::string& id, double s_m) -> std::string {
+    const auto index = road::find_road(network, id);
+    if (!index) return fmt::format("no road has the id \"{}\"", id);
+    const double length_m = network.roads[*index].length_m;
+    if (s_m <= length_m + 1e-6) return {};
+    return fmt::format("s = {} m lies beyond road {}, which is {:.3f} m long", s_m, id, length_m);
+  };
+  if (const auto* lane = std::get_if<LaneCoordinates>(&position)) {
+    if (std::string off = off_road(lane->road, lane->s_m); !off.empty()) return off;
+    return fmt::format("road {} has no lane {} at s = {} m", lane->road, lane->lane, lane->s_m);
+  }
+  if (const auto* at = std::get_if<RoadCoordinates>(&position)) {
+    if (std::string off = off_road(at->road, at->s_m); !off.empty()) return off;
+    return fmt::format("no lane of road {} lies at s = {} m, t = {} m", at->road, at->s_m, at->t_m);
+  }
+  if (std::holds_alternative<std::monostate>(position))
+    return "this kind of position is not supported";
+  return std::visit(
+      [&](const auto& relative) -> std::string {
+        if constexpr (requires { relative.entity; }) {
+          if (relative.entity == no_entity) return "it is relative to nobody";
+          const std::string& name = scenario.entities[relative.entity].name;
+          const bool placed = state.entities[relative.entity].active;
+          return placed ? fmt::format("so far from {} there is no lane", name)
+                        : fmt::format("it is relative to {}, which has no place itself", name);
+        }
+        return "there is no lane";
+      },
+      position);
 }
 
 double lateral_t_m(const road::RoadNetwork& network, const road::LanePosition& lane) {

@@ -2,6 +2,7 @@
 /// From a position as the file gives it to a place on the road and in the world.
 
 #include <optional>
+#include <string>
 
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/scenario_state.hpp"
@@ -22,6 +23,10 @@ struct Placement {
 /// an entity that has no position. Stations beyond a road's end go on along its lanes.
 std::optional<Placement> resolve_position(const road::RoadNetwork& network,
                                           const ScenarioState& state, const Position& position);
+
+/// Why resolve_position finds no place for a position, for messages: "road 7 has no lane -5 at s = 12".
+std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network,
+                        const ScenarioState& state, const Position& position);
 
 /// t of an entity on its road.
 double lateral_t_m(const road::RoadNetwork& network, const road::LanePosition& lane);

@@ -70,6 +70,7 @@ struct Story {
 struct InitAction {
   EntityIndex entity = no_entity;
   ActionVariant what;
+  std::string where;  ///< "file:line, <element>", for messages.
 };
 
 struct Scenario {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace septet::scenario {
 struct Reading {
   const ScenarioFiles& files;
   Scenario scenario;
+  std::unordered_map<std::string, EntityIndex> entities;  ///< By name.
   std::vector<std::shared_ptr<XmlFile>> xml_files;  ///< The scenario first, then catalogs.
   std::vector<std::pair<std::string, std::string>> catalog_locations;  ///< Element name, folder.
   /// Catalogs by name: their <Catalog> elements. Filled on the first reference to a catalog.
@@ -26,6 +28,9 @@ struct Reading {
   /// A catalog is checked: what its entries name is elsewhere.
   bool names_are_elsewhere = false;
   std::vector<Element> used_entries;  ///< Entries of catalogs that were referred to.
+  std::vector<Element> init_elements;  ///< Of each action in Scenario::init.
+  /// Every position of the file, for what can be said of it once the road is known.
+  std::vector<std::pair<Element, Position>> positions;
   ElementIndex next_element = 1;      ///< Of the storyboard element to be read next.
   std::vector<std::string>
       element_types;  ///< Of each storyboard element, in the words of the standard.
@@ -57,6 +62,9 @@ BoundingBox read_bounding_box(const Element& parent);
 
 /// The position inside `parent`, an element of the standard's type Position.
 Position read_position(Reading& reading, const Element& parent);
+
+/// Opens the scenario's road and finds what of the scenario is not on it.
+void check_on_road(Reading& reading, const Element& logic_file);
 
 /// The attribute `rule`.
 Rule read_rule(const Element& element);

@@ -66,7 +66,8 @@ void read_definition(Reading& reading, const Element& root) {
   read_catalog_locations(reading, root.child("CatalogLocations"));
   const Element roads = root.required("RoadNetwork");
   const char* name_road = "add <LogicFile filepath=\"….xodr\"/>";
-  if (const Element logic = roads.child("LogicFile"))
+  const Element logic = roads.child("LogicFile");
+  if (logic)
     reading.scenario.road_file = logic.text("filepath");
   else if (roads && reading.checking)
     roads.warning("it names no road, so that the scenario cannot be driven", name_road);
@@ -76,6 +77,7 @@ void read_definition(Reading& reading, const Element& root) {
   roads.child("SceneGraphFile").ignore();
   read_entities(reading, root.required("Entities"));
   if (const Element storyboard = root.required("Storyboard")) read_storyboard(reading, storyboard);
+  if (reading.checking && logic) check_on_road(reading, logic);
 }
 
 struct Outcome {

@@ -1,5 +1,6 @@
 #include "engine/scenario/scenario_xml.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -28,14 +29,49 @@ std::string shown(std::string_view text) {
   return text.size() > 60 ? result + "…" : result;
 }
 
+/// Where the text stops being UTF-8.
+std::optional<std::size_t> find_broken_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[at]);
+    const std::size_t length = lead < 0x80                  ? 1
+                               : lead >= 0xC2 && lead < 0xE0 ? 2
+                               : (lead & 0xF0) == 0xE0       ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    if (length == 0 || at + length > text.size()) return at;
+    for (std::size_t i = 1; i < length; ++i) {
+      if ((static_cast<unsigned char>(text[at + i]) & 0xC0) != 0x80) return at;
+    }
+    at += length;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::shared_ptr<XmlFile> parse_xml(std::string_view text, std::string name) {
   auto file = std::make_shared<XmlFile>(text, std::move(name));
-  const auto result = file->document.load_buffer(text.data(), text.size());
-  if (!result)
+  // As a fragment, so that what stands beside the root is seen.
+  const auto result = file->document.load_buffer(text.data(), text.size(),
+                                                 pugi::parse_default | pugi::parse_fragment);
+  const pugi::xml_node root = file->document.document_element();
+  if (!result) {
     file->findings.error_at(result.offset, fmt::format("this is not XML: {}", result.description()),
                             "repair the file");
+  } else if (!root) {
+    file->findings.error_at(0, "this is not XML: there is no element", "repair the file");
+  }
+  for (const pugi::xml_node node : file->document.children()) {
+    const bool beside = node.type() == pugi::node_element || node.type() == pugi::node_pcdata;
+    if (!beside || node == root) continue;
+    file->findings.error_at(node.offset_debug(), "this stands beside the root element",
+                            "keep one root and nothing beside it");
+    break;
+  }
+  if (const auto bad = find_broken_utf8(text); result.encoding == pugi::encoding_utf8 && bad) {
+    file->findings.warning_at(static_cast<std::ptrdiff_t>(*bad), "these bytes are not UTF-8",
+                              "save the file as UTF-8, or name its encoding in the first line");
+  }
   return file;
 }
 
@@ -194,26 +230,28 @@ std::string Element::parameter_name(const char* attribute) const {
 
 double Element::number(const char* attribute, double low, double high) const {
   const std::string text_value = text(attribute);
-  if (text_value.empty()) return std::isfinite(low) ? low : 0.0;
+  const double harmless = std::clamp(0.0, low, high);
+  if (text_value.empty()) return harmless;
   const auto parsed = parse_number(text_value);
   if (!parsed) {
     error(fmt::format("{}: {}", attribute, parsed.error().what), parsed.error().remedy);
-    return std::isfinite(low) ? low : 0.0;
+    return harmless;
   }
   if (*parsed >= low && *parsed <= high) return *parsed;
   error(fmt::format("{}=\"{}\" is out of its range", attribute, shown(text_value)),
         std::isfinite(high) ? fmt::format("give a value from {} to {}", low, high)
                             : fmt::format("give a value of at least {}", low));
-  return std::isfinite(low) ? low : high;
+  return harmless;
 }
 
 double Element::number_or(const char* attribute, double fallback, double low, double high) const {
   return value(attribute).value_or("").empty() ? fallback : number(attribute, low, high);
 }
 
-std::optional<double> Element::optional_number(const char* attribute) const {
+std::optional<double> Element::optional_number(const char* attribute, double low,
+                                               double high) const {
   if (!has(attribute)) return std::nullopt;
-  return number(attribute);
+  return number(attribute, low, high);
 }
 
 int Element::integer(const char* attribute, int low, int high) const {
@@ -235,6 +273,10 @@ bool Element::required_boolean(const char* attribute, bool fallback) const {
 }
 
 std::string Element::content() const { return pugi::xml_node(node_).text().as_string(); }
+
+std::string Element::where() const {
+  return file_ != nullptr ? file_->findings.where(pugi::xml_node(node_)) : std::string();
+}
 
 void Element::error(std::string what, std::string remedy) const {
   if (file_ != nullptr)

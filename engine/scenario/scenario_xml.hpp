@@ -67,7 +67,8 @@ class Element {
   double number(const char* attribute, double low = -unbounded, double high = unbounded) const;
   double number_or(const char* attribute, double fallback, double low = -unbounded,
                    double high = unbounded) const;
-  std::optional<double> optional_number(const char* attribute) const;
+  std::optional<double> optional_number(const char* attribute, double low = -unbounded,
+                                        double high = unbounded) const;
   int integer(const char* attribute, int low, int high) const;
   bool boolean_or(const char* attribute, bool fallback) const;
   /// The same where the standard demands the attribute: without it, a warning names the fallback.
@@ -109,6 +110,8 @@ class Element {
   void report_unread() const;
   bool operator==(const Element& other) const { return node_ == other.node_; }
 
+  /// "name:line, <element>", as errors say it.
+  std::string where() const;
   void error(std::string what, std::string remedy) const;
   void warning(std::string what, std::string remedy) const;
 

@@ -8,6 +8,7 @@
 #include "engine/core/check.hpp"
 #include "engine/scenario/condition_evaluation.hpp"
 #include "engine/scenario/entity_motion.hpp"
+#include "engine/scenario/resolve_position.hpp"
 #include "engine/scenario/start_action.hpp"
 
 namespace septet::scenario {
@@ -265,6 +266,33 @@ class Step {
   std::vector<PendingAction> pending_;
 };
 
+/// Init's teleports. Where one entity's position hangs on another's, theirs may stand in any order.
+Expected<void> place_at_start(const Scenario& scenario, const road::RoadNetwork& network,
+                              ScenarioState& state, StepResult& result) {
+  std::vector<const InitAction*> waiting;
+  for (const InitAction& action : scenario.init) {
+    const auto* teleport = std::get_if<TeleportAction>(&action.what);
+    if (teleport == nullptr || std::holds_alternative<std::monostate>(teleport->position)) continue;
+    waiting.push_back(&action);
+  }
+  for (std::size_t before = waiting.size() + 1; waiting.size() < before;) {
+    before = waiting.size();
+    std::erase_if(waiting, [&](const InitAction* action) {
+      const auto& position = std::get<TeleportAction>(action->what).position;
+      if (!resolve_position(network, state, position)) return false;
+      start_action(scenario, network, action->what, no_element, {action->entity}, state, result);
+      return true;
+    });
+  }
+  if (waiting.empty()) return {};
+  const InitAction& action = *waiting.front();
+  return failure(
+      fmt::format("{} cannot be put on the road: {}", scenario.entities[action.entity].name,
+                  why_nowhere(scenario, network, state,
+                              std::get<TeleportAction>(action.what).position)),
+      action.where, "name a place that the OpenDRIVE file has");
+}
+
 }  // namespace
 
 Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network,
@@ -275,24 +303,29 @@ Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::Roa
   state.conditions.resize(scenario.condition_count);
   if (external != no_entity) state.entities[external].external = true;
   // Positions first: a speed or a lane may hang on where another entity is.
-  for (const bool positions : {true, false}) {
-    for (const InitAction& action : scenario.init) {
-      const auto* teleport = std::get_if<TeleportAction>(&action.what);
-      if ((teleport != nullptr) != positions) continue;
-      std::vector<EntityIndex> actors;
-      if (action.entity != no_entity) actors.push_back(action.entity);
-      start_action(scenario, network, action.what, no_element, actors, state, result);
-      if (teleport == nullptr || state.entities[action.entity].active) continue;
-      if (std::holds_alternative<std::monostate>(teleport->position)) continue;
-      return failure(fmt::format("the position of {} is not on the road",
-                                 scenario.entities[action.entity].name),
-                     "Init", "name a road, lane and station that the OpenDRIVE file has");
-    }
+  if (auto placed = place_at_start(scenario, network, state, result); !placed)
+    return tl::unexpected(placed.error());
+  for (const InitAction& action : scenario.init) {
+    if (std::holds_alternative<TeleportAction>(action.what)) continue;
+    std::vector<EntityIndex> actors;
+    if (action.entity != no_entity) actors.push_back(action.entity);
+    start_action(scenario, network, action.what, no_element, actors, state, result);
   }
   for (EntityState& entity : state.entities) {
     entity.velocity_mps = entity.world_from_entity.orientation * Vec3(entity.speed_mps, 0.0, 0.0);
   }
   return state;
+}
+
+Error why_without_place(const Scenario& scenario, EntityIndex entity) {
+  const std::string& name = scenario.entities[entity].name;
+  for (const InitAction& action : scenario.init) {
+    if (action.entity != entity || !std::holds_alternative<TeleportAction>(action.what)) continue;
+    return {fmt::format("{} is put at a position of a kind that is not supported", name),
+            action.where, "put it at a LanePosition, RoadPosition or WorldPosition"};
+  }
+  return {fmt::format("nothing puts {} anywhere", name), "Init",
+          "give it a TeleportAction in <Init>"};
 }
 
 StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,

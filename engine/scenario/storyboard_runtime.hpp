@@ -44,6 +44,10 @@ struct StepResult {
 Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network,
                                        EntityIndex external, StepResult& result);
 
+/// Why Init leaves an entity without a place: it has no TeleportAction, or one to a position that is
+/// not supported.
+Error why_without_place(const Scenario& scenario, EntityIndex entity);
+
 /// Tells the scenario where an external entity is now.
 void place_external(const road::RoadNetwork& network, EntityIndex entity,
                     const RigidTransform& world_from_entity, const Vec3& velocity_mps,

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/math/incremental_turn.hpp"
-#include "sim-client/film/shot.hpp"
+#include "engine/film_script/shot.hpp"
 
 namespace septet::film {
 

@@ -7,7 +7,7 @@
 #include "engine/scene/resolve.hpp"
 #include "logging/recorded_scene.hpp"
 #include "sim-client/film/camera.hpp"
-#include "sim-client/film/film_script.hpp"
+#include "engine/film_script/film_script.hpp"
 #include "sim-client/film/session_instants.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/picture_writer.hpp"

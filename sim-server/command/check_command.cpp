@@ -1,13 +1,21 @@
 #include "sim-server/command/check_command.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <ostream>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/core/parse_toml.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/film_script/film_script.hpp"
+#include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
+#include "logging/session_reader.hpp"
 
 namespace septet::server {
 namespace {
@@ -15,31 +23,119 @@ namespace {
 using road::Finding;
 using road::Severity;
 
-std::vector<Finding> check_file(const std::filesystem::path& file) {
-  const auto text = read_regular_file(file);
-  if (!text) return {{Severity::error, 0, text.error()}};
+/// What is wrong with one file, and what kind of file it was taken for.
+struct Checked {
+  std::string file, kind;
+  std::vector<Finding> findings;
+
+  std::size_t count(Severity severity) const { return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity)); }
+};
+
+/// The line in "file:12, <element>"; 0 where there is none.
+int line_in(const std::string& where, const std::string& file) {
+  if (!where.starts_with(file + ":")) return 0;
+  return std::atoi(where.c_str() + file.size() + 1);
+}
+
+template <class Value>
+void add_error(const Expected<Value>& result, Checked& checked) {
+  if (result) return;
+  checked.findings.push_back({Severity::error, line_in(result.error().where, checked.file), result.error()});
+}
+
+void check_toml(const std::string& text, Checked& checked) {
+  const auto keys = top_keys_of_toml(text, checked.file);
+  const auto has = [&](const char* key) { return keys && std::ranges::find(*keys, key) != keys->end(); };
+  checked.kind = !keys ? "TOML" : has("shot") ? "film script" : has("body") ? "vehicle" : "rig";
+  if (!keys)
+    add_error(keys, checked);
+  else if (has("shot"))
+    add_error(film::read_script(text, checked.file), checked);
+  else if (has("body"))
+    add_error(vehicle::read_vehicle(text, checked.file), checked);
+  else
+    add_error(rig::read_rig(text, checked.file), checked);
+}
+
+void check_session(Checked& checked) {
+  checked.kind = "session";
+  const auto session = logging::SessionReader::open(checked.file);
+  add_error(session, checked);
+  if (!session) return;
+  add_error(session->check_integrity(), checked);
+  const auto span = session->time_span_s();
+  add_error(span, checked);
+  const auto warn = [&](const char* what, const char* remedy) {
+    checked.findings.push_back({Severity::warning, 0, {what, checked.file, remedy}});
+  };
+  if (span && !*span) warn("it holds no snapshot", "expect nothing to be shown of it");
+  if (!session->ended_cleanly()) warn("its drive was interrupted", "expect the last tenth of a second to be missing");
+}
+
+Checked check_file(const std::string& name) {
+  Checked checked{name, "", {}};
+  const std::filesystem::path file(name);
   const auto extension = file.extension();
-  if (extension == ".xodr") return road::check_opendrive(*text, file.string());
-  if (extension == ".xosc") return scenario::check_scenario(*text, file.string(), scenario::files_in(file.parent_path().string()));
-  if (extension == ".toml") {
-    if (const auto rig = rig::read_rig(*text, file.string()); !rig) return {{Severity::error, 0, rig.error()}};
-    return {};
+  if (extension == ".sqlite") {
+    check_session(checked);
+    return checked;
   }
-  return {{Severity::error, 0, {"it is neither .xodr, .xosc nor .toml", file.string(), "check roads, scenarios and rigs"}}};
+  if (extension != ".xodr" && extension != ".xosc" && extension != ".toml") {
+    checked.kind = "unknown";
+    checked.findings.push_back({Severity::error, 0, {"it is neither .xodr, .xosc, .toml nor .sqlite", name, "check roads, scenarios, rigs, vehicles, film scripts or sessions"}});
+    return checked;
+  }
+  checked.kind = extension == ".xodr" ? "road" : extension == ".xosc" ? "scenario" : "TOML";
+  const auto text = read_regular_file(file);
+  add_error(text, checked);
+  if (!text) return checked;
+  if (extension == ".xodr") checked.findings = road::check_opendrive(*text, name);
+  if (extension == ".xosc") checked.findings = scenario::check_scenario(*text, name, scenario::files_in(file.parent_path().string()));
+  if (extension == ".toml") check_toml(*text, checked);
+  return checked;
+}
+
+const char* word(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
+
+void print_lines(const std::vector<Checked>& all, std::size_t errors, std::size_t warnings, std::ostream& out) {
+  for (const Checked& checked : all)
+    for (const Finding& finding : checked.findings) out << word(finding.severity) << ": " << describe(finding.error) << "\n";
+  out << fmt::format("{} files, {} errors, {} warnings\n", all.size(), errors, warnings);
+}
+
+void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t warnings, std::ostream& out) {
+  using Json = nlohmann::ordered_json;
+  Json files = Json::array();
+  for (const Checked& checked : all) {
+    Json findings = Json::array();
+    for (const Finding& finding : checked.findings) {
+      const Error& error = finding.error;
+      Json line = finding.line > 0 ? Json(finding.line) : Json(nullptr);
+      findings.push_back({{"severity", word(finding.severity)}, {"line", std::move(line)}, {"what", error.what}, {"where", error.where}, {"remedy", error.remedy}, {"rule", finding.rule.empty() ? Json(nullptr) : Json(finding.rule)}});
+    }
+    files.push_back({{"file", checked.file},
+                     {"kind", checked.kind},
+                     {"errors", checked.count(Severity::error)},
+                     {"warnings", checked.count(Severity::warning)},
+                     {"findings", std::move(findings)}});
+  }
+  const Json answer = {{"format", "septet check"}, {"version", 1}, {"errors", errors}, {"warnings", warnings}, {"files", std::move(files)}};
+  // Names from files may be anything; JSON is UTF-8.
+  out << answer.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
 }
 
 }  // namespace
 
-int run_check(const std::vector<std::string>& files) {
+int run_check(const CheckOptions& options, std::ostream& out) {
+  std::vector<Checked> all;
   std::size_t errors = 0, warnings = 0;
-  for (const auto& file : files)
-    for (const auto& finding : check_file(file)) {
-      const bool error = finding.severity == Severity::error;
-      ++(error ? errors : warnings);
-      fmt::print("{}: {}\n", error ? "error" : "warning", describe(finding.error));
-    }
-  fmt::print("{} files, {} errors, {} warnings\n", files.size(), errors, warnings);
-  return errors == 0 ? 0 : 1;
+  for (const auto& file : options.files) {
+    const Checked& checked = all.emplace_back(check_file(file));
+    errors += checked.count(Severity::error);
+    warnings += checked.count(Severity::warning);
+  }
+  (options.json ? print_json : print_lines)(all, errors, warnings, out);
+  return errors + (options.strict ? warnings : 0) == 0 ? 0 : 1;
 }
 
 }  // namespace septet::server

@@ -7,6 +7,8 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include "engine/core/parse_toml.hpp"
+
 namespace septet::vehicle {
 namespace {
 
@@ -49,7 +51,8 @@ class Entries {
     if (!value) fail("is missing", path, "give one of the words in vehicles/README.md");
     return value.value_or("");
   }
-  void table(std::string_view path, Table& out) {
+  /// Points whose y lies in a range, beyond which nothing that anybody builds is found.
+  void table(std::string_view path, Table& out, double low, double high) {
     const toml::table* entry = find(path);
     if (!entry) return;
     const toml::array* xs = (*entry)["x"].as_array();
@@ -62,6 +65,12 @@ class Entries {
       const auto x = (*xs)[i].value<double>(), y = (*ys)[i].value<double>();
       if (!x || !y || !std::isfinite(*x) || !std::isfinite(*y))
         return fail(fmt::format("point {} is not a number", i + 1), path, "give numbers only");
+      if (std::abs(*x) > 1e4)
+        return fail(fmt::format("x is {} at point {}, outside ±10000", *x, i + 1), path,
+                    "correct the value or its unit");
+      if (*y < low || *y > high)
+        return fail(fmt::format("is {} at point {}, outside {} to {}", *y, i + 1, low, high), path,
+                    "correct the value or its unit");
       out.x[i] = *x;
       out.y[i] = *y;
       if (i > 0 && out.x[i] <= out.x[i - 1])
@@ -72,7 +81,7 @@ class Entries {
   void list(std::string_view path, std::array<double, PowertrainParameters::most_gears>& out,
             int& count) {
     Table gears;
-    table(path, gears);
+    table(path, gears, 0.1, 30);
     count = static_cast<int>(std::min(gears.count, out.size()));
     for (int i = 0; i < count; ++i) out[i] = gears.y[i];
   }
@@ -142,15 +151,15 @@ void read_suspension(Entries& in, const std::string& axle, SuspensionParameters&
   in.flag(at("rigid_axle"), out.rigid_axle);
   in.number(at("unsprung_mass_kg"), out.unsprung_mass_kg, 10, 500);
   in.number(at("wheel_inertia_kgm2"), out.wheel_inertia_kgm2, 0.3, 50);
-  in.table(at("spring_force_n"), out.spring_force_n);
-  in.table(at("damper_force_n"), out.damper_force_n);
+  in.table(at("spring_force_n"), out.spring_force_n, -2e5, 2e5);
+  in.table(at("damper_force_n"), out.damper_force_n, -2e5, 2e5);
   in.number(at("anti_roll_npm"), out.anti_roll_npm, -1e5, 2e5);
-  in.table(at("camber_rad"), out.camber_rad);
-  in.table(at("toe_rad"), out.toe_rad);
-  in.table(at("contact_lateral_slope"), out.contact_lateral_slope);
-  in.table(at("contact_longitudinal_slope"), out.contact_longitudinal_slope);
-  in.table(at("centre_lateral_slope"), out.centre_lateral_slope);
-  in.table(at("centre_longitudinal_slope"), out.centre_longitudinal_slope);
+  in.table(at("camber_rad"), out.camber_rad, -1, 1);
+  in.table(at("toe_rad"), out.toe_rad, -1, 1);
+  in.table(at("contact_lateral_slope"), out.contact_lateral_slope, -2, 2);
+  in.table(at("contact_longitudinal_slope"), out.contact_longitudinal_slope, -2, 2);
+  in.table(at("centre_lateral_slope"), out.centre_lateral_slope, -2, 2);
+  in.table(at("centre_longitudinal_slope"), out.centre_longitudinal_slope, -2, 2);
   in.number(at("toe_out_by_lateral_force_radpn"), out.toe_out_by_lateral_force_radpn, -1e-5, 1e-5);
   in.number(at("steer_by_aligning_torque_radpnm"), out.steer_by_aligning_torque_radpnm, 0, 1e-3);
   in.number(at("contact_by_lateral_force_mpn"), out.contact_by_lateral_force_mpn, 0, 1e-4);
@@ -228,12 +237,12 @@ void read_steering(Entries& in, SteeringParameters& steering) {
   in.number("steering.rack_damping_nmsprad", steering.rack_damping_nmsprad, 0.1, 100);
   in.number("steering.friction_nm", steering.friction_nm, 0, 20);
   in.number("steering.centring_nmprad", steering.centring_nmprad, 0, 2000);
-  in.table("steering.assistance", steering.assistance);
+  in.table("steering.assistance", steering.assistance, 0, 1);
 }
 
 void read_engine(Entries& in, PowertrainParameters& p) {
-  in.table("powertrain.full_torque_nm", p.full_torque_nm);
-  in.table("powertrain.closed_torque_nm", p.closed_torque_nm);
+  in.table("powertrain.full_torque_nm", p.full_torque_nm, 0, 5e3);
+  in.table("powertrain.closed_torque_nm", p.closed_torque_nm, -5e3, 0);
   in.whole("powertrain.cylinders", p.cylinders, 1, 16);
   in.number("powertrain.engine_inertia_kgm2", p.engine_inertia_kgm2, 0.02, 10);
   in.number("powertrain.idle_radps", p.idle_radps, 30, 200);
@@ -250,8 +259,8 @@ void read_engine(Entries& in, PowertrainParameters& p) {
   in.number("powertrain.downshift_open_radps", p.downshift_open_radps, 20, 2000);
   in.number("powertrain.clutch_capacity_nm", p.clutch_capacity_nm, 10, 5000);
   if (p.transmission != Transmission::automatic) return;
-  in.table("powertrain.converter_capacity", p.converter_capacity);
-  in.table("powertrain.converter_ratio", p.converter_ratio);
+  in.table("powertrain.converter_capacity", p.converter_capacity, -1, 1);
+  in.table("powertrain.converter_ratio", p.converter_ratio, 0, 10);
   in.whole("powertrain.lowest_lockup_gear", p.lowest_lockup_gear, 0, 8);
   in.number("powertrain.lockup_speed_radps", p.lockup_speed_radps, 0, 2000);
 }
@@ -287,15 +296,10 @@ void read_brakes(Entries& in, BrakeParameters& brakes) {
 }  // namespace
 
 Expected<VehicleParameters> read_vehicle(std::string_view text, std::string_view name) {
-  toml::table root;
-  try {
-    root = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    return failure(fmt::format("is not TOML: {}", error.description()),
-                   fmt::format("{}:{}", name, error.source().begin.line), "correct the line");
-  }
+  const auto root = parse_toml(text, name);
+  if (!root) return tl::unexpected(root.error());
   VehicleParameters parameters;
-  Entries in(root, name);
+  Entries in(*root, name);
   read_body(in, parameters.body);
   read_suspension(in, "front", parameters.suspension[0]);
   read_suspension(in, "rear", parameters.suspension[1]);

@@ -130,4 +130,95 @@ TEST_CASE("an attribute that the standard demands is missed with the value that 
   }
 }
 
+TEST_CASE("check opens the road and names who cannot use it") {
+  const std::string text = scenario_text(one_car, "");
+  CHECK(findings_text(text) == "");
+  CHECK(findings_text(text, files_of({})).find("error test.xosc:1, <LogicFile>: the road test.xodr: No such file") == 0);
+  CHECK(findings_text(text, files_of({{"test.xodr", "no road"}})).find("error test.xosc:1, <LogicFile>: the road cannot be used") == 0);
+}
+
+TEST_CASE("check finds positions that the road does not have") {
+  const auto placed = [](const std::string& position) {
+    return findings_text(with(scenario_text(one_car, ""), R"(<LanePosition roadId="R" laneId="-1" s="10.000000"/>)", position));
+  };
+  CHECK(placed(R"(<LanePosition roadId="R" laneId="-3" s="2000"/>)") == "");
+  CHECK(placed(R"(<LanePosition roadId="Q" laneId="-1" s="10"/>)").find("no road has the id \"Q\"") != std::string::npos);
+  CHECK(placed(R"(<LanePosition roadId="R" laneId="-4" s="10"/>)").find("road R has no lane -4 at s = 10 m") != std::string::npos);
+  CHECK(placed(R"(<LanePosition roadId="R" laneId="0" s="10"/>)").find("road R has no lane 0") != std::string::npos);
+  CHECK(placed(R"(<LanePosition roadId="R" laneId="-1" s="2001"/>)").find("lies beyond road R, which is 2000.000 m long") != std::string::npos);
+  CHECK(placed(R"(<RelativeLanePosition entityRef="B" dLane="-9" ds="5"/>)").find("so far from B there is no lane") != std::string::npos);
+  CHECK(placed(R"(<WorldPosition x="10" y="500"/>)").find("warning test.xosc:1, <PrivateAction>: A begins beside every lane") == 0);
+  // In a condition as well.
+  const std::string reached =
+      R"(<ReachPositionCondition tolerance="1"><Position><LanePosition roadId="R" laneId="-5" s="9"/></Position></ReachPositionCondition>)";
+  CHECK(findings_text(scenario_text(one_car, story_text(event_text("e", speed_text(1), trigger_text(of_entity_text("A", reached))))))
+            .find("road R has no lane -5") != std::string::npos);
+}
+
+TEST_CASE("positions may hang on each other in any order but not in a ring") {
+  const std::string relative =
+      R"(<PrivateAction><TeleportAction><Position><RelativeLanePosition entityRef="B" dLane="0" ds="5"/></Position></TeleportAction></PrivateAction>)";
+  CHECK(findings_text(scenario_text(private_text("A", relative) + private_text("B", place_text(-1, 20)), "")) == "");
+  const std::string ring = findings_text(scenario_text(
+      private_text("A", relative) + private_text("B", with(relative, "\"B\"", "\"A\"")), ""));
+  CHECK(ring.find("A cannot be put on the road: it is relative to B, which has no place itself") != std::string::npos);
+}
+
+TEST_CASE("what is taken in another way than it is written is named") {
+  const std::string plain = scenario_text(one_car + private_text("A", speed_text(10)), "");
+  CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"0.000000\" followingMode=\"follow\"/>")).find("warning") == 0);
+  CHECK(findings_text(with(plain, "value=\"0.000000\"/>", "value=\"0.000000\" followingMode=\"position\"/>")) == "");
+  const auto weather = [&](const std::string& time, const std::string& sun) {
+    return findings_text(scenario_text(
+        "<GlobalAction><EnvironmentAction><Environment name=\"e\">" + time + "<Weather>" + sun +
+            "</Weather></Environment></EnvironmentAction></GlobalAction>" + one_car,
+        ""));
+  };
+  const std::string still = R"(<TimeOfDay animation="false" dateTime="2026-01-01T12:00:00"/>)";
+  const std::string sun = R"(<Sun azimuth="1" elevation="0.5" illuminance="10000"/>)";
+  CHECK(weather(still, sun) == "");
+  CHECK(weather(still, "").find("warning test.xosc:1, <TimeOfDay>") == 0);
+  CHECK(weather(with(still, "false", "true"), sun).find("warning test.xosc:1, <TimeOfDay>") == 0);
+  const auto measured = [&](const std::string& system) {
+    return findings_text(scenario_text(
+        one_car, story_text(event_text("e", speed_text(1),
+                                       trigger_text(of_entity_text(
+                                           "A", "<RelativeDistanceCondition entityRef=\"B\" relativeDistanceType=\"longitudinal\" coordinateSystem=\"" +
+                                                    system + "\" freespace=\"true\" rule=\"lessThan\" value=\"5\"/>"))))));
+  };
+  CHECK(measured("world") == "");
+  CHECK(measured("trajectory").find("warning test.xosc:1, <RelativeDistanceCondition>: coordinateSystem") == 0);
+}
+
+TEST_CASE("numbers that nothing in the world has are errors") {
+  const std::string whole = scenario_text(
+      R"(<GlobalAction><EnvironmentAction><Environment name="e"><Weather temperature="290"><Sun azimuth="1" elevation="0.5" illuminance="10000"/>)"
+      R"(<Precipitation precipitationIntensity="2" precipitationType="rain"/></Weather><RoadCondition frictionScaleFactor="1"/></Environment></EnvironmentAction></GlobalAction>)" +
+          one_car + private_text("A", speed_text(10)),
+      "");
+  CHECK(findings_text(whole) == "");
+  for (const auto& [good, bad] : std::vector<std::pair<std::string, std::string>>{
+           {"temperature=\"290\"", "temperature=\"-5\""},
+           {"illuminance=\"10000\"", "illuminance=\"-1e11\""},
+           {"Intensity=\"2\"", "Intensity=\"1e11\""},
+           {"ScaleFactor=\"1\"", "ScaleFactor=\"1e9\""},
+           {"Speed value=\"10.000000\"", "Speed value=\"1e12\""},
+           {"length=\"4.6\"", "length=\"1e11\""}}) {
+    CAPTURE(bad);
+    const std::string found = findings_text(with(whole, good, bad));
+    CHECK(found.find("error test.xosc:1") == 0);
+    CHECK(found.find("out of its range") != std::string::npos);
+  }
+  CHECK(findings_text(with(whole, "length=\"4.6\"", "length=\"0\"")).find("the box holds nothing") != std::string::npos);
+}
+
+TEST_CASE("what is no clean XML is named") {
+  const std::string text = scenario_text(one_car, "");
+  CHECK(findings_text(text + "\n<OpenSCENARIO/>").find("error test.xosc:2: this stands beside the root element") == 0);
+  CHECK(findings_text(text + "\nrubbish").find("this stands beside the root element") != std::string::npos);
+  CHECK(findings_text(text + "\n<!-- a comment -->\n") == "");
+  CHECK(findings_text(with(text, "author=\"\"", "author=\"M\xFCller\"")).find("warning test.xosc:1: these bytes are not UTF-8") == 0);
+  CHECK(findings_text(with(text, "author=\"\"", "author=\"Müller\"")) == "");
+}
+
 }  // namespace septet::scenario

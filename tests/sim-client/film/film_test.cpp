@@ -6,7 +6,7 @@
 
 #include "engine/math/spherical_interpolation.hpp"
 #include "sim-client/film/camera.hpp"
-#include "sim-client/film/film_script.hpp"
+#include "engine/film_script/film_script.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::film {
@@ -221,6 +221,7 @@ TEST_CASE("a wrong script is refused with one message that names the line and th
       {shot + "place = 3\n", 4, "write { x_m"},
       {shot + "place = { x_m = 1, y_m = 2 }\n", 4, "add z_m"},
       {shot + "place = { x_m = 1, y_m = 2, z_m = 3 }\nbearings = \"vehicle\"\n", 5, "leave bearings out"},
+      {shot + "place = { x_m = 1, y_m = 2, z_m = 3 }\nparticipant = \"nearest\"\n", 5, "leave one of them out"},
       {shot + "[[shot.turn]]\nsigma = 1.5\n", 5, "give a number from -1 to 1"},
       {shot + "[[shot.turn]]\nuntil_s = 6\n", 5, "at most the shot's to_s"},
       {shot + "[[shot.turn]]\n[[shot.turn]]\n", 5, "later than"},

@@ -1,10 +1,10 @@
 #pragma once
-/// Which shots a film has: read from a file (FILM.md), or a film of a whole session without one. Pure.
+/// Which shots a film has: read from a file (sim-client/film/FILM.md), or a film of a whole session without one. Pure.
 
 #include <string_view>
 
 #include "engine/core/expected.hpp"
-#include "sim-client/film/shot.hpp"
+#include "engine/film_script/shot.hpp"
 
 namespace septet::film {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a film shows: shots, each a stretch of the session seen by one camera. Plain data; FILM.md is the file's format.
+/// What a film shows: shots, each a stretch of the session seen by one camera. Plain data; sim-client/film/FILM.md is the file's format.
 ///
 /// The camera hangs on a pivot, a participant or a fixed place, `distance_m` behind it as it looks: at 0 it looks around from
 /// there, through the participant's eyes; further away it looks at the pivot and orbits it as it turns. Its head pans and

@@ -1,8 +1,9 @@
-#include "sim-client/film/film_script.hpp"
+#include "engine/film_script/film_script.hpp"
 
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include "engine/core/parse_toml.hpp"
 #include "engine/rig/table_reader.hpp"
 
 namespace septet::film {
@@ -58,6 +59,8 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   shot.participant = reader.get_string("participant", shot.participant);
   if (const toml::table* place = reader.get_table("place")) shot.place_m = read_place(*place, file, error);
   else if (table.contains("place")) reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
+  if (shot.place_m && table.contains("participant"))
+    reader.report("participant", "a shot hangs on a participant or on a place, not on both", "leave one of them out");
   shot.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
   shot.bearings = static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world"}));
   if (shot.place_m && shot.bearings == Bearings::vehicle)
@@ -80,7 +83,7 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
 }  // namespace
 
 Expected<Script> read_script(std::string_view text, std::string_view name) {
-  const auto document = rig::parse_toml(text, name);
+  const auto document = parse_toml(text, name);
   if (!document) return tl::unexpected(document.error());
   Error error;
   TableReader reader(*document, name, "film", error);

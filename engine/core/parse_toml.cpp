@@ -1,0 +1,79 @@
+#include "engine/core/parse_toml.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+namespace septet {
+namespace {
+
+constexpr int most_parts = 16;
+
+/// Steps over a string that begins at `at`; the place behind its end.
+std::size_t behind_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string threefold(3, quote);
+  const bool many_lines = text.substr(at, 3) == threefold;
+  at += many_lines ? 3 : 1;
+  while (at < text.size()) {
+    if (quote == '"' && text[at] == '\\') {
+      at += 2;
+    } else if (many_lines && text.substr(at, 3) == threefold) {
+      return at + 3;
+    } else if (!many_lines && (text[at] == quote || text[at] == '\n')) {
+      return at + 1;
+    } else {
+      ++at;
+    }
+  }
+  return text.size();
+}
+
+/// The place of the first key of more parts than anybody needs; npos: there is none. Numbers count as keys of two parts.
+std::size_t find_long_key(std::string_view text) {
+  int parts = 1;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = behind_string(text, at);
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    const bool of_key = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == ' ' || c == '\t';
+    if (c == '.' && ++parts > most_parts) return at;
+    if (c != '.' && !of_key) parts = 1;
+    ++at;
+  }
+  return text.npos;
+}
+
+}  // namespace
+
+Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
+  if (const auto at = find_long_key(text); at != text.npos) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    return failure(fmt::format("a key has more than {} parts", most_parts), fmt::format("{}:{}", file, line), "write a shorter key");
+  }
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    return failure(fmt::format("is not TOML: {}", error.description()), fmt::format("{}:{}", file, error.source().begin.line),
+                   "correct the TOML there");
+  }
+}
+
+Expected<std::vector<std::string>> top_keys_of_toml(std::string_view text, std::string_view file) {
+  return parse_toml(text, file).map([](const toml::table& table) {
+    std::vector<std::string> keys;
+    for (const auto& [key, node] : table) keys.emplace_back(key.str());
+    return keys;
+  });
+}
+
+}  // namespace septet

@@ -1,0 +1,48 @@
+#include "engine/core/parse_toml.hpp"
+
+#include <doctest/doctest.h>
+#include <toml++/toml.h>
+
+using namespace septet;
+
+namespace {
+/// "a.a.a…" of so many parts.
+std::string dotted(std::size_t parts) {
+  std::string key = "a";
+  for (std::size_t i = 1; i < parts; ++i) key += i % 3 ? ".a" : " . \"a\"";
+  return key;
+}
+}  // namespace
+
+TEST_CASE("a key of too many parts is refused with its line and whatever it is good for") {
+  for (const std::string& text : {dotted(100'000) + " = 1\n", "[" + dotted(100'000) + "]\n", "[[" + dotted(100'000) + "]]\n",
+                                  "x = { " + dotted(100'000) + " = 1 }\n", dotted(17) + " = 1\n"}) {
+    const auto table = parse_toml("# line 1\n" + text, "hostile.toml");
+    REQUIRE_FALSE(table.has_value());
+    CHECK(describe(table.error()) == "hostile.toml:2: a key has more than 16 parts. write a shorter key.");
+  }
+}
+
+TEST_CASE("what only looks like a key of many parts is read") {
+  const std::string many = dotted(100);
+  const auto table = parse_toml("# " + many + "\ntext = '" + dotted(20) + "'\nwords = \"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a\\\"a.a.\"\n" +
+                                    "long = '''\n" + many + "'''\n" + dotted(16) + " = 1\nnumbers = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, " +
+                                    "11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5]\n",
+                                "good.toml");
+  REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
+  CHECK(table->size() == 5);
+  CHECK((*table)["numbers"].as_array()->size() == 18);
+}
+
+TEST_CASE("text that is no TOML is refused with its line") {
+  const auto table = parse_toml("a = 1\nb = \n", "broken.toml");
+  REQUIRE_FALSE(table.has_value());
+  CHECK(table.error().where == "broken.toml:2");
+  for (const std::string text : {"\"", "a = \"\\", "a = '''", "'''''", "\\", "a = \"\"\""}) CHECK_FALSE(parse_toml(text, "x").has_value());
+}
+
+TEST_CASE("the keys at the top say what a file describes") {
+  const auto keys = top_keys_of_toml("name = 'x'\n[body]\nmass = 1\n[[shot]]\n", "x.toml");
+  REQUIRE(keys.has_value());
+  CHECK(*keys == std::vector<std::string>{"body", "name", "shot"});
+}
