@@ -19,7 +19,7 @@ TEST_CASE("a key of too many parts is refused with its line and whatever it is g
                                   "x = { " + dotted(100'000) + " = 1 }\n", dotted(17) + " = 1\n"}) {
     const auto table = parse_toml("# line 1\n" + text, "hostile.toml");
     REQUIRE_FALSE(table.has_value());
-    CHECK(describe(table.error()) == "hostile.toml:2: a key has more than 16 parts. write a shorter key.");
+    CHECK(describe(table.error()) == "hostile.toml:2: a key has more than 16 parts; write a shorter key");
   }
 }
 
