@@ -11,8 +11,6 @@
 namespace septet::server {
 namespace {
 
-constexpr double free_again_s = 1.0;  // Until a further contact with a barrier is another crash.
-
 std::vector<debris::MountedPart> parts_of(const Participant& participant, const debris::Box& box) {
   switch (vehicle_models()[participant.model].kind) {
     case ParticipantKind::car:
@@ -31,33 +29,47 @@ debris::CrashBody body_of(const Participant& participant, const MountedParts& pa
   return body;
 }
 
-/// The driver's car against another body. Answers the closing speed, 0 where they do not touch or drift apart.
-double crash_with(const Participant& car, debris::CrashBody other, const debris::ContactWorld& world, CrashMemory& memory,
-                  debris::State& debris, Random& random, CrashOutcome& outcome, std::vector<debris::MountedPart>* left) {
-  const bool barrier = std::isinf(other.mass_kg);
-  debris::Crash blow;
-  blow.first = body_of(car, memory.parts);
-  blow.second = std::move(other);
-  const auto contact = contact_of(blow.first.box, blow.second.box);
-  if (!contact) return 0.0;
-  blow.point_m = contact->point_m;
-  blow.normal = contact->normal;
-  if (barrier) {
-    // A stretch of barrier has no ends: it is only ever met from its sides.
-    const RigidTransform& stretch = blow.second.box.world_from_box;
-    const Vec3 side = stretch.orientation * Vec3(0.0, 1.0, 0.0);
-    blow.normal = glm::dot(blow.first.box.world_from_box.position_m - stretch.position_m, side) < 0.0 ? -side : side;
-  }
-  const double closing = glm::dot(blow.second.box.velocity_mps - blow.first.box.velocity_mps, blow.normal);
-  if (closing < debris::least_crash_speed_mps) return 0.0;
+void throw_parts(const Participant& car, debris::Crash& blow, const debris::ContactWorld& world, CrashMemory& memory,
+                 debris::State& debris, Random& random, CrashOutcome& outcome) {
   const debris::CrashReport report = debris::crash(debris, blow, world, random);
   ++outcome.crashes;
   outcome.pieces += static_cast<int>(report.pieces.size());
-  const double own = blow.first.mass_kg, common = barrier ? own : own * blow.second.mass_kg / (own + blow.second.mass_kg);
-  outcome.impulse_on_driver_ns += blow.normal * (common * closing) + blow.first.impulse_ns;
+  outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   memory.parts[car.id] = std::move(blow.first.parts);
-  if (left) *left = std::move(blow.second.parts);
-  return closing;
+}
+
+void crash_with_vehicle(const Participant& car, const Participant& other, const debris::ContactWorld& world, CrashMemory& memory,
+                        debris::State& debris, Random& random, CrashOutcome& outcome) {
+  debris::Crash blow;
+  blow.first = body_of(car, memory.parts);
+  blow.second = body_of(other, memory.parts);
+  const auto contact = contact_of(blow.first.box, blow.second.box);
+  if (!contact) return;
+  blow.point_m = contact->point_m;
+  blow.normal = contact->normal;
+  const double closing = glm::dot(blow.second.box.velocity_mps - blow.first.box.velocity_mps, blow.normal);
+  if (closing < debris::least_crash_speed_mps) return;
+  const double common = blow.first.mass_kg * blow.second.mass_kg / (blow.first.mass_kg + blow.second.mass_kg);
+  outcome.impulse_on_driver_ns += blow.normal * (common * closing);
+  throw_parts(car, blow, world, memory, debris, random, outcome);
+  memory.parts[other.id] = std::move(blow.second.parts);
+}
+
+/// With the motion that the car had at the first touch; its hull has taken the blow itself.
+void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch, const debris::ContactWorld& world,
+                         CrashMemory& memory, debris::State& debris, Random& random, CrashOutcome& outcome) {
+  if (touch.closing_speed_mps < debris::least_crash_speed_mps) return;
+  debris::Crash blow;
+  blow.first = body_of(car, memory.parts);
+  blow.first.box.angular_velocity_radps = touch.angular_velocity_radps;
+  blow.first.box.velocity_mps = touch.velocity_mps;
+  blow.point_m = touch.point_m;
+  blow.normal = touch.normal;
+  constexpr double half_m = 0.5;  // So much of it is hit.
+  blow.second.box.world_from_box = {touch.point_m - half_m * touch.normal,
+                                    orientation_from_angles(std::atan2(touch.normal.y, touch.normal.x), 0.0, 0.0)};
+  blow.second.box.half_size_m = Vec3(half_m);
+  throw_parts(car, blow, world, memory, debris, random, outcome);
 }
 
 }  // namespace
@@ -107,38 +119,19 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
   return contact;
 }
 
-CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
-                             const std::vector<debris::Box>& barriers, const debris::ContactWorld& world, double step_s,
+CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver, const debris::ContactWorld& world,
                              CrashMemory& memory, debris::State& debris, Random& random) {
   CrashOutcome outcome;
   const auto find = [&](ParticipantId id) { return std::ranges::find(participants, id, &Participant::id); };
   const auto car = find(driver);
   if (car == participants.end()) return outcome;
-  for (const ParticipantId id : memory.struck_by_driver) {
-    const auto other = find(id);
-    if (other == participants.end()) continue;
-    std::vector<debris::MountedPart> left;
-    if (crash_with(*car, body_of(*other, memory.parts), world, memory, debris, random, outcome, &left) > 0.0)
-      memory.parts[id] = std::move(left);
-  }
+  for (const ParticipantId id : memory.struck_by_driver)
+    if (const auto other = find(id); other != participants.end())
+      crash_with_vehicle(*car, *other, world, memory, debris, random, outcome);
+  for (const vehicle::HullTouch& touch : memory.struck_standing)
+    crash_with_standing(*car, touch, world, memory, debris, random, outcome);
   memory.struck_by_driver.clear();
-
-  const debris::Box own = body_box(*car);
-  bool touches = false;
-  for (const debris::Box& barrier : barriers) {
-    if (!contact_of(own, barrier)) continue;
-    touches = true;
-    if (memory.at_barrier) break;
-    debris::CrashBody body;
-    body.box = barrier;
-    outcome.barrier_closing_mps = crash_with(*car, std::move(body), world, memory, debris, random, outcome, nullptr);
-    if (outcome.barrier_closing_mps > 0.0) {
-      memory.at_barrier = true;
-      break;
-    }
-  }
-  memory.barrier_contact_s = touches ? 0.0 : memory.barrier_contact_s + step_s;
-  if (memory.barrier_contact_s > free_again_s) memory.at_barrier = false;
+  memory.struck_standing.clear();
   return outcome;
 }
 

@@ -2,13 +2,14 @@
 /// Crashes as the effects see them: who touched whom, along which normal, and what broke off.
 ///
 /// Vehicles are boxes. The first tick of a contact is the crash; parts that broke off are remembered, so that no car loses
-/// the same bumper twice. The driver's car takes the blow (a plastic one along the normal); everybody else is moved by
-/// traffic or by the storyboard.
+/// the same bumper twice. The driver's car takes the blow of another vehicle here (a plastic one along the normal), and that
+/// of what stands beside the road in vehicle::advance_hull; everybody else is moved by traffic or by the storyboard.
 
 #include <map>
 #include <vector>
 
 #include "engine/effects/debris/crash.hpp"
+#include "engine/physics/vehicle/hull.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::server {
@@ -18,15 +19,13 @@ using MountedParts = std::map<ParticipantId, std::vector<debris::MountedPart>>;
 
 struct CrashMemory {
   std::vector<ParticipantId> struck_by_driver;  ///< Since the effects' last step, as they were met: for the next one.
+  std::vector<vehicle::HullTouch> struck_standing;  ///< Likewise, of what stands beside the road.
   MountedParts parts;
-  double barrier_contact_s = 0.0;  ///< For how long the driver's car has been free of barriers; 0 while it touches one.
-  bool at_barrier = false;
 };
 
 struct CrashOutcome {
   int crashes = 0;
   int pieces = 0;
-  double barrier_closing_mps = 0.0;  ///< Of a crash into a barrier in this step; 0 without one.
   Vec3 impulse_on_driver_ns{0.0};
 };
 
@@ -40,9 +39,8 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
 
 double vehicle_mass_kg(const Participant& participant);
 
-/// Works out the crashes of the driver's car: with the vehicles that `memory` names, and with the barriers given.
-CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
-                             const std::vector<debris::Box>& barriers, const debris::ContactWorld& world, double step_s,
+/// Works out the crashes of the driver's car that `memory` names.
+CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver, const debris::ContactWorld& world,
                              CrashMemory& memory, debris::State& debris, Random& random);
 
 }  // namespace septet::server

@@ -74,6 +74,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
   model->roads = std::move(*roads);
   if (const auto buildable = scenery::check_world_size(model->roads); !buildable)
     return failure(buildable.error().what, road_source->name, buildable.error().remedy);
+  model->obstacles = std::make_shared<const roadside::Obstacles>(model->roads, seed);
 
   const auto car_source = take("vehicle", drive.rig.car.vehicle);
   if (!car_source) return tl::unexpected(car_source.error());

@@ -7,53 +7,24 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
 
 namespace septet::server {
 namespace {
 
-constexpr double stretch_m = 8.0;        // Of barrier, as one box.
-constexpr double barrier_reach_m = 7.0;  // Across the road.
+constexpr double standing_reach_m = 7.0;  // Of debris, to what stands beside the road.
 
 Vec3 middle_of(const debris::Piece& piece) {
   return 0.5 * (debris::from_eigen(piece.body.position_m.front()) + debris::from_eigen(piece.body.position_m.back()));
 }
 
-struct Wall {
-  road::RoadIndex road = 0;
-  long stretch = 0;
-  double t_m = 0.0, thickness_m = 0.0, height_m = 0.0;
-  auto key() const { return std::tuple(road, stretch, t_m); }
-};
-
-void append_walls(const road::Road& road, const road::RoadPosition& at, long stretch, std::vector<Wall>& walls) {
-  const double s = (static_cast<double>(stretch) + 0.5) * stretch_m;
-  if (s < 0.0 || s > road.length_m) return;
-  const auto add = [&](double t, double thickness, double height) {
-    if (std::abs(t - at.t_m) < barrier_reach_m) walls.push_back({at.road, stretch, t, thickness, height});
-  };
-  for (const road::RoadObject& object : road.objects) {
-    if (object.type != "barrier") continue;
-    for (const road::ObjectRepeat& repeat : object.repeats) {
-      if (s < repeat.s_m || s > repeat.s_m + repeat.length_m) continue;
-      const double share = repeat.length_m > 0.0 ? (s - repeat.s_m) / repeat.length_m : 0.0;
-      add(std::lerp(repeat.t_start_m, repeat.t_end_m, share), std::max(0.1, std::lerp(repeat.width_start_m, repeat.width_end_m, share)),
-          std::lerp(repeat.height_start_m, repeat.height_end_m, share));
-    }
-  }
-  for (const road::RoadStructure& structure : road.structures) {
-    if (structure.kind != road::RoadStructure::Kind::tunnel || s < structure.s_m || s > structure.s_m + structure.length_m) continue;
-    const road::RoadExtent extent = road::road_extent(road, s);
-    for (const double t : {extent.left_t_m + 0.8, extent.right_t_m - 0.8, 0.0}) add(t, t == 0.0 ? 0.7 : 0.6, 6.0);
-  }
-}
-
-debris::Box box_of(const road::RoadNetwork& roads, const Wall& wall) {
-  const double s = (static_cast<double>(wall.stretch) + 0.5) * stretch_m;
+/// An obstacle as a box; the endless reach as far up and down as the place needs.
+debris::Box box_of(const Obstacle& obstacle, double at_z_m) {
+  const double low = std::max(obstacle.low_m, at_z_m - 20.0), high = std::min(obstacle.high_m, at_z_m + 20.0);
+  const Vec2 along = obstacle.to_m - obstacle.from_m, middle = 0.5 * (obstacle.from_m + obstacle.to_m);
   debris::Box box;
-  box.world_from_box = road::world_from_road(road::evaluate(roads, {wall.road, s, wall.t_m}));
-  box.world_from_box.position_m.z += 0.5 * wall.height_m;
-  box.half_size_m = {0.5 * stretch_m + 0.05, 0.5 * wall.thickness_m, 0.5 * wall.height_m};
+  box.world_from_box = {Vec3(middle, 0.5 * (low + high)), orientation_from_angles(std::atan2(along.y, along.x), 0.0, 0.0)};
+  box.half_size_m = {0.5 * glm::length(along) + obstacle.radius_m, obstacle.radius_m, std::max(0.05, 0.5 * (high - low))};
   box.friction = 0.5;
   return box;
 }
@@ -158,19 +129,17 @@ std::vector<Vec3> moving_places(const debris::State& debris) {
   return places;
 }
 
-std::vector<debris::Box> barrier_boxes(const road::RoadNetwork& roads, const std::vector<Vec3>& places, const road::RoadPosition* hint) {
-  std::vector<Wall> walls;
-  for (const Vec3& place : places) {
-    const auto at = road::locate(roads, {place.x, place.y}, hint, 30.0);
-    if (!at) continue;
-    const auto stretch = static_cast<long>(std::floor(at->position.s_m / stretch_m));
-    for (const long k : {stretch - 1, stretch, stretch + 1}) append_walls(roads.roads[at->position.road], at->position, k, walls);
-  }
-  std::ranges::sort(walls, {}, &Wall::key);
-  const auto repeated = std::unique(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.key() == b.key(); });
-  walls.erase(repeated, walls.end());
+std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, const std::vector<Vec3>& places) {
+  if (!obstacles) return {};
+  std::vector<std::pair<Obstacle, double>> standing;
+  for (const Vec3& place : places)
+    for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m)) standing.emplace_back(obstacle, place.z);
+  const auto key = [](const auto& entry) { return std::tuple(entry.first.run, entry.first.from_m.x, entry.first.from_m.y); };
+  std::ranges::stable_sort(standing, {}, key);
+  const auto repeated = std::ranges::unique(standing, {}, key);
+  standing.erase(repeated.begin(), repeated.end());
   std::vector<debris::Box> boxes;
-  for (const Wall& wall : walls) boxes.push_back(box_of(roads, wall));
+  for (const auto& [obstacle, z] : standing) boxes.push_back(box_of(obstacle, z));
   return boxes;
 }
 

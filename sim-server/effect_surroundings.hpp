@@ -1,5 +1,5 @@
 #pragma once
-/// What debris meets besides itself: the road's surface, vehicles, barriers and tunnel walls, as planes and boxes.
+/// What debris meets besides itself: the road's surface, vehicles, and what stands beside the road, as planes and boxes.
 
 #include <vector>
 
@@ -18,9 +18,8 @@ std::vector<debris::Box> vehicle_boxes(const EffectsWorld& world, const debris::
 /// Places of debris that moves: where barriers matter.
 std::vector<Vec3> moving_places(const debris::State& debris);
 
-/// Barriers, guard rails, parapets and tunnel walls within seven metres across the road of any of the places, in stretches
-/// of eight metres.
-std::vector<debris::Box> barrier_boxes(const road::RoadNetwork& roads, const std::vector<Vec3>& places, const road::RoadPosition* hint);
+/// What stands beside the road within seven metres of any of the places; nothing without `obstacles`.
+std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, const std::vector<Vec3>& places);
 
 /// A vehicle's body as a box, from its ground clearance to its roof; bonnet and windscreen of cars and vans are one slope.
 debris::Box body_box(const Participant& participant);

@@ -45,8 +45,6 @@ void add_to_hash(const debris::State& debris, StateHash& hash) {
       for (int c = 0; c < 3; ++c) hash.add(shard.position_m[c]);
 }
 
-const road::RoadPosition* hint_of(const EffectsState& state) { return state.surface_hint ? &*state.surface_hint : nullptr; }
-
 std::vector<EffectOffer> debris_offers(const debris::State& debris) {
   std::vector<EffectOffer> offers;
   const auto still = [](const debris::Shard& shard) { return shard.velocity_mps == Vec3(0.0); };
@@ -94,9 +92,9 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
                      from.angular_velocity_radps, state.random);
 }
 
-bool effects_are_still(const road::RoadNetwork& roads, const Vec3& driver_m, const EffectsState& state) {
+bool effects_are_still(const EffectsState& state) {
   return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
-         state.crashes.struck_by_driver.empty() && !state.fires.smoke && barrier_boxes(roads, {driver_m}, hint_of(state)).empty();
+         state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke;
 }
 
 EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
@@ -106,13 +104,10 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   debris::ContactWorld contacts;
   contacts.ground = [&](double x_m, double y_m) { return surface_below(world.roads, world.ground_friction, x_m, y_m, state); };
   int driver_box = -1;
-  std::vector<Vec3> places = moving_places(state.debris);
-  const auto driver = std::ranges::find(world.participants, world.driver, &Participant::id);
-  if (driver != world.participants.end()) places.push_back(body_box(*driver).world_from_box.position_m);
-  const std::vector<debris::Box> barriers = barrier_boxes(world.roads, places, hint_of(state));
-  report.crashes = advance_crashes(world.participants, world.driver, barriers, contacts, step_s, state.crashes, state.debris, state.random);
+  report.crashes = advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);
   contacts.boxes = vehicle_boxes(world, state.debris, driver_box);
-  contacts.boxes.insert(contacts.boxes.end(), barriers.begin(), barriers.end());
+  const std::vector<debris::Box> standing = standing_boxes(world.obstacles, moving_places(state.debris));
+  contacts.boxes.insert(contacts.boxes.end(), standing.begin(), standing.end());
   const debris::Report stepped = debris::advance_debris(state.debris, contacts, step_s);
   report.fractures = stepped.fractures;
   report.bad_numbers = stepped.bad_numbers;

@@ -16,6 +16,7 @@
 
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/roadside/obstacles.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/scenario_state.hpp"
 #include "engine/world/snapshot.hpp"
@@ -44,6 +45,7 @@ struct EffectsState {
 /// What the stage sees of the world.
 struct EffectsWorld {
   const road::RoadNetwork& roads;
+  const roadside::Obstacles* obstacles = nullptr;  ///< What stands beside the roads; none without.
   const std::vector<Participant>& participants;  ///< Ascending id, as they are at `tick`.
   const Environment& environment;
   ParticipantId driver = 0;
@@ -70,8 +72,8 @@ std::optional<debris::Part> part_of_name(std::string_view name);
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
            EffectsState& state);
 
-/// Nothing would change: the stage may be skipped. `driver_m`: middle of the driver's car.
-bool effects_are_still(const road::RoadNetwork& roads, const Vec3& driver_m, const EffectsState& state);
+/// Nothing would change: the stage may be skipped.
+bool effects_are_still(const EffectsState& state);
 
 /// All keyframes as a snapshot carries them, ascending id.
 std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state);

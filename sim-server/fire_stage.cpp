@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
-#include "engine/scenery/tunnel_shape.hpp"
+#include "engine/roadside/tunnel_shape.hpp"
 #include "sim-server/effect_surroundings.hpp"
 
 namespace septet::server {
@@ -29,7 +29,7 @@ const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
 
 /// Height of the tube's inside over the road at t; none outside of it. `left`: the tube with positive t.
 double clear_height_m(const road::Road& road, double s_m, double t_m, bool left) {
-  using namespace scenery::tunnel_shape;
+  using namespace roadside::tunnel_shape;
   const road::RoadExtent extent = road::road_extent(road, s_m);
   const double from_middle = left ? t_m : -t_m;
   const double to_wall = (left ? extent.left_t_m : -extent.right_t_m) + wall_clear_m - from_middle;

@@ -47,11 +47,32 @@ vehicle::Ground ground_below(const SimulationModel& model, SimulationState& stat
   return ground;
 }
 
+/// What the hull met, for the log and for the debris.
+void note_hull(const vehicle::HullReport& report, SimulationState& state, std::vector<SimulationEvent>& events) {
+  constexpr double least_mps = 0.5;  // Less is leaning on it.
+  state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(), report.begun.end());
+  for (const vehicle::HullTouch& touch : report.over) {
+    const double delta_v_mps = glm::length(touch.delta_v_mps);
+    if (touch.closing_speed_mps < least_mps && delta_v_mps < least_mps) continue;
+    ++state.diagnostics.collisions;
+    events.push_back({"collision", std::nullopt,
+                      fmt::format("{} closing_speed_mps={:.2f} delta_v_mps={:.2f}", name_of(touch.kind), touch.closing_speed_mps, delta_v_mps)});
+  }
+}
+
 vehicle::VehicleOutputs advance_car(const SimulationModel& model, const DriverInput& input, SimulationState& state,
                                     std::vector<SimulationEvent>& events) {
   const auto ground = ground_below(model, state);
   const std::uint32_t bad_before = state.car.bad_numbers;
-  for (int i = 0; i < car_steps; ++i) vehicle::advance_vehicle(model.car, input, ground, tick_s / car_steps, state.car);
+  const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
+  const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m), vehicle::hull_reach_m(model.car) + on_the_way_m)
+                                         : std::vector<Obstacle>{};
+  vehicle::HullReport met;
+  for (int i = 0; i < car_steps; ++i) {
+    vehicle::advance_vehicle(model.car, input, ground, tick_s / car_steps, state.car);
+    vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
+  }
+  note_hull(met, state, events);
   if (state.car.bad_numbers != bad_before) {
     state.diagnostics.bad_numbers += state.car.bad_numbers - bad_before;
     events.push_back({"bad_number", driver_participant, "the car was reset"});
@@ -218,18 +239,14 @@ void note_visibility(const SimulationState& state, std::vector<SimulationEvent>&
 
 void run_effects(const SimulationModel& model, const vehicle::VehicleOutputs& car, SimulationState& state, std::vector<SimulationEvent>& events) {
   if (state.tick % effects_step_ticks != 0) return;
-  if (effects_are_still(model.roads, state.car.world_from_body.position_m, state.effects)) return;
+  if (effects_are_still(state.effects)) return;
   const Environment& weather = state.scenario.environment;
   const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
   const auto participants = participants_now(model, state, car);
   const EffectsReport report = advance_effects(
-      {model.roads, participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
+      {model.roads, model.obstacles.get(), participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
   state.car.velocity_mps += report.impulse_on_driver_ns / model.car.body.mass_kg;
   note_visibility(state, events);
-  if (report.crashes.barrier_closing_mps > 0.0) {
-    ++state.diagnostics.collisions;
-    events.push_back({"collision", std::nullopt, fmt::format("barrier closing_speed_mps={:.2f}", report.crashes.barrier_closing_mps)});
-  }
   if (report.crashes.pieces > 0) events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
   if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
   if (report.bad_numbers > 0) {
@@ -289,6 +306,7 @@ std::uint64_t hash_state(const SimulationState& state) {
   StateHash hash;
   hash.add(state.tick);
   vehicle::hash_state(hash, state.car);
+  vehicle::hash_hull(hash, state.hull);
   scenario::add_to_hash(state.scenario, hash);
   state.traffic->add_to_hash(hash);
   hash.add(state.effects.hash);

@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/physics/vehicle/hull.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/roadside/obstacles.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/traffic/traffic_engine.hpp"
@@ -33,12 +35,14 @@ struct SimulationModel {
   scenario::Scenario scenario;
   scenario::EntityIndex driver_entity = scenario::no_entity;  ///< Whom the scenario calls its driver's car.
   vehicle::VehicleParameters car;
+  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
   std::uint64_t seed = 1;
 };
 
 struct SimulationState {
   Tick tick = 0;
   vehicle::VehicleState car;
+  vehicle::HullState hull;
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
   std::optional<road::RoadPosition> car_road;
   scenario::ScenarioState scenario;

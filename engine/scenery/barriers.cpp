@@ -3,7 +3,7 @@
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
-#include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/barrier_lines.hpp"
 #include "engine/scenery/far_road.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
@@ -14,23 +14,15 @@ namespace {
 using geometry::MeshBuilder;
 using geometry::PathFrame;
 
-struct Line {
-  double s0_m, s1_m, t0_m, t1_m;
-  double t_at(double s) const {
-    return s1_m > s0_m ? std::lerp(t0_m, t1_m, (s - s0_m) / (s1_m - s0_m)) : t0_m;
-  }
-};
+using roadside::BarrierForm;
+using roadside::BesideLine;
 
 /// Frames along a line within a tile; right is −t, up is off the surface, the origin on the
 /// surface.
-std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const Line& line,
-                              double step_m) {
+std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile,
+                              const BesideLine& line, double step_m) {
   std::vector<PathFrame> path;
-  RoadTile part = tile;
-  part.s0_m = std::max(tile.s0_m, line.s0_m);
-  part.s1_m = std::min(tile.s1_m, line.s1_m);
-  if (part.s1_m - part.s0_m < 0.5) return path;
-  for (const double s : stations(part, step_m)) {
+  for (const double s : roadside::stations(tile, line, step_m)) {
     const double t = line.t_at(s);
     const glm::vec3 p = world.roads.local(tile, s, t);
     const glm::vec3 left = world.roads.local(tile, s, t + 1.0) - p;
@@ -100,19 +92,22 @@ struct BarrierPen {
   const RoadTile& tile;
   MeshBuilder near, posts;
 
-  void draw(const road::RoadObject& object, const Line& line) {
-    const bool left = line.t0_m > 0.0;
-    const auto path = frames(world, tile, line, 10.0);
-    if (object.subtype == "jerseyBarrier") {
-      extrude_into(near, Ground::concrete, jersey, path, true);
-    } else if (object.subtype == "railing") {
-      draw_parapet(path);
-    } else if (!tile.in_tunnel) {
-      // Traffic is on the side of the axis.
-      extrude_into(near, Ground::metal, left ? rail_left_sheet(false) : rail_left_sheet(true), path,
-                   true);
-      add_posts(posts, frames(world, tile, line, 4.0), Ground::metal_dark,
-                {-0.05f, left ? 0.0f : -0.1f, -0.4f}, {0.05f, left ? 0.1f : 0.0f, 0.72f});
+  void draw(const roadside::Barrier& barrier) {
+    const bool left = barrier.line.t0_m > 0.0;
+    const auto path = frames(world, tile, barrier.line, roadside::barrier_step_m);
+    switch (barrier.form) {
+      case BarrierForm::jersey:
+        extrude_into(near, Ground::concrete, jersey, path, true);
+        break;
+      case BarrierForm::railing:
+        draw_parapet(path);
+        break;
+      case BarrierForm::rail:
+        // Traffic is on the side of the axis.
+        extrude_into(near, Ground::metal, rail_left_sheet(!left), path, true);
+        add_posts(posts, frames(world, tile, barrier.line, 4.0), Ground::metal_dark,
+                  {-0.05f, left ? 0.0f : -0.1f, -0.4f}, {0.05f, left ? 0.1f : 0.0f, 0.72f});
+        break;
     }
   }
 
@@ -149,34 +144,20 @@ struct BarrierPen {
 };
 
 /// Reflecting posts every 50 m behind the rail, a kilometre board every 500 m.
-void add_delineators(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
-  const road::Road& road = world.roads.road(tile.road);
-  for (double s = std::ceil(tile.s0_m / 50.0) * 50.0; s < tile.s1_m; s += 50.0) {
-    const road::RoadExtent extent = road::road_extent(road, s);
-    for (const double side : {1.0, -1.0}) {
-      const double t = (side > 0 ? extent.left_t_m : extent.right_t_m) + side * 1.2;
-      const std::vector<PathFrame> path = frames(world, tile, {s - 0.5, s + 0.5, t, t}, 2.0);
-      if (path.empty()) continue;
-      const std::vector<PathFrame> one{path.front()};
-      add_posts(builder, one, Ground::post, {-0.05f, -0.06f, -0.3f}, {0.05f, 0.06f, 1.05f});
-      add_posts(builder, one, Ground::metal_dark, {-0.055f, -0.065f, 0.72f},
-                {0.055f, 0.065f, 0.95f});
-      add_posts(builder, one, Ground::reflector, {-0.06f, -0.03f, 0.76f}, {0.06f, 0.03f, 0.91f});
-    }
+void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
+  for (const BesideLine& line : roadside::marker_posts(world.roads, tile)) {
+    const std::vector<PathFrame> path = frames(world, tile, line, roadside::marker_post_step_m);
+    if (path.empty()) continue;
+    const std::vector<PathFrame> one{path.front()};
+    add_posts(builder, one, Ground::post, {-0.05f, -0.06f, -0.3f}, {0.05f, 0.06f, 1.05f});
+    add_posts(builder, one, Ground::metal_dark, {-0.055f, -0.065f, 0.72f}, {0.055f, 0.065f, 0.95f});
+    add_posts(builder, one, Ground::reflector, {-0.06f, -0.03f, 0.76f}, {0.06f, 0.03f, 0.91f});
   }
 }
 
-/// Stretches of wall between the motorway and the few houses.
 void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
-  const road::Road& road = world.roads.road(tile.road);
-  if (road.types.empty() || road.types.front().type != "motorway" || road.length_m < 2000.0) return;
-  constexpr std::array<std::array<double, 3>, 3> walls{
-      {{1900.0, 2450.0, 1.0}, {4500.0, 4900.0, -1.0}, {5350.0, 5750.0, 1.0}}};
-  for (const auto& [from, to, side] : walls) {
-    if (to > road.length_m) continue;
-    const road::RoadExtent extent = road::road_extent(road, from);
-    const double t = side > 0 ? extent.left_t_m + 2.6 : extent.right_t_m - 2.6;
-    const auto path = frames(world, tile, {from, to, t, t}, 8.0);
+  for (const BesideLine& line : roadside::noise_walls(world.roads, tile)) {
+    const auto path = frames(world, tile, line, roadside::noise_wall_step_m);
     constexpr std::array<glm::vec2, 4> panel{
         {{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, 3.6f}, {-0.09f, 3.6f}}};
     extrude_into(builder, Ground::noise_wall, panel, path, true);
@@ -184,43 +165,24 @@ void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadT
   }
 }
 
-/// Calls `visit` with every barrier of the tile's road and the line that it follows.
-template <class Visit>
-void for_each_barrier(const WorldContext& world, const RoadTile& tile, const Visit& visit) {
-  const double length = world.roads.road(tile.road).length_m;
-  for (const road::RoadObject& object : world.roads.road(tile.road).objects) {
-    if (object.type != "barrier") continue;
-    for (const road::ObjectRepeat& repeat : object.repeats) {
-      Line line{repeat.s_m, repeat.s_m + repeat.length_m, repeat.t_start_m, repeat.t_end_m};
-      // What runs to a loose end of the road runs on with it.
-      if (line.s0_m < 0.01) line.s0_m = world.roads.begin_m(tile.road);
-      if (line.s1_m > length - 0.01) line.s1_m = world.roads.end_m(tile.road);
-      visit(object, line);
-    }
-  }
-}
-
 }  // namespace
 
 void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
                        double step_m) {
-  for_each_barrier(world, tile, [&](const road::RoadObject& object, const Line& line) {
-    const bool rail = object.subtype == "guardRail";
-    if (rail && tile.in_tunnel) return;
+  for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) {
     constexpr std::array<glm::vec2, 4> wall{
         {{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
-    extrude_into(builder, Ground::far_concrete, rail ? rail_simple : wall,
-                 frames(world, tile, line, step_m), true);
-  });
+    extrude_into(builder, Ground::far_concrete,
+                 barrier.form == BarrierForm::rail ? rail_simple : wall,
+                 frames(world, tile, barrier.line, step_m), true);
+  }
 }
 
 void build_barriers(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     BarrierPen pen{world, tile, {}, {}};
-    for_each_barrier(world, tile, [&](const road::RoadObject& object, const Line& line) {
-      pen.draw(object, line);
-    });
-    if (!tile.in_tunnel && !tile.on_bridge) add_delineators(pen.posts, world, tile);
+    for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) pen.draw(barrier);
+    add_marker_posts(pen.posts, world, tile);
     MeshBuilder wall;
     add_noise_wall(wall, world, tile);
     add_tile_mesh(world, tile, "barriers", pen.near.mesh(), 0.0f, road_near_m, true);

@@ -1,10 +1,9 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "engine/roadside/buildings.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -13,16 +12,20 @@ namespace {
 
 using geometry::MeshBuilder;
 
-struct HouseSize {
-  float length, width, eaves, ridge;
+using roadside::BuildingKind;
+
+struct HouseLook {
+  float eaves, ridge;
   Ground wall, roof;
 };
 
 /// Walls with one window every four metres, a saddle roof with eaves, its chimney.
-void add_house(MeshBuilder& builder, const HouseSize& s, float x0, float y0) {
-  const float l = s.length / 2, w = s.width / 2, foot = -1.5f;
+void add_house(MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& s) {
+  const auto length = static_cast<float>(block.length_m), width = static_cast<float>(block.width_m),
+             x0 = static_cast<float>(block.x_m), y0 = static_cast<float>(block.y_m);
+  const float l = length / 2, w = width / 2, foot = -1.5f;
   const auto at = [&](float x, float y, float z) { return glm::vec3(x0 + x, y0 + y, z); };
-  const float nu = std::round(s.length / 4), nw = std::round(s.width / 4),
+  const float nu = std::round(length / 4), nw = std::round(width / 4),
               nv = std::round(s.eaves / 2.8f), low = 1.5f / 2.8f;
   builder.material = index_of(s.wall);
   const auto wall = [&](const glm::vec3& a, const glm::vec3& b, float windows) {
@@ -53,25 +56,28 @@ void add_house(MeshBuilder& builder, const HouseSize& s, float x0, float y0) {
 
 geometry::PolygonMesh farm(bool red) {
   MeshBuilder builder;
-  add_house(
-      builder,
-      {12, 8, 5.4f, 8.6f, red ? Ground::facade_red : Ground::facade_white, Ground::roof_tiles}, 0,
-      0);
-  add_house(builder, {26, 11, 4.8f, 10.0f, Ground::planks, Ground::roof_dark}, 26, 18);
-  add_house(builder, {9, 6, 2.7f, 4.8f, Ground::facade_red, Ground::roof_tiles}, -16, 14);
+  const std::array<HouseLook, 3> looks{
+      {{5.4f, 8.6f, red ? Ground::facade_red : Ground::facade_white, Ground::roof_tiles},
+       {4.8f, 10.0f, Ground::planks, Ground::roof_dark},
+       {2.7f, 4.8f, Ground::facade_red, Ground::roof_tiles}}};
+  const auto blocks = roadside::house_blocks(BuildingKind::red_farm);
+  for (std::size_t i = 0; i < looks.size(); ++i) add_house(builder, blocks[i], looks[i]);
   return builder.take();
 }
 
 geometry::PolygonMesh church() {
   MeshBuilder builder;
-  add_house(builder, {22, 10, 7.5f, 13.0f, Ground::facade_white, Ground::roof_dark}, 0, 0);
+  const auto blocks = roadside::house_blocks(BuildingKind::church);
+  add_house(builder, blocks[0], {7.5f, 13.0f, Ground::facade_white, Ground::roof_dark});
+  const auto& tower = blocks[1];
+  const glm::vec2 middle(tower.x_m, tower.y_m), half(tower.length_m / 2, tower.width_m / 2);
   builder.material = index_of(Ground::facade_white);
-  builder.append(geometry::box({-16.0f, -3.2f, -1.5f}, {-9.6f, 3.2f, 19.0f}), glm::mat4(1.0f),
-                 true);
+  builder.append(geometry::box(glm::vec3(middle - half, -1.5f), glm::vec3(middle + half, 19.0f)),
+                 glm::mat4(1.0f), true);
   builder.material = index_of(Ground::roof_dark);
   const std::array<geometry::LathePoint, 3> spire{{{5.0f, 19.0f}, {1.6f, 24.0f}, {0.0f, 36.0f}}};
   glm::mat4 to(1.0f);
-  to[3] = glm::vec4(-12.8f, 0, 0, 1);
+  to[3] = glm::vec4(middle, 0, 1);
   builder.append(geometry::lathe(spire, 4), to, true);
   return builder.take();
 }
@@ -85,30 +91,13 @@ void build_buildings(const WorldContext& world) {
     meshes[i].default_edge_crease = geometry::crease_sharp;
     shapes[i] = add_shape(world.builder, i < 2 ? "farm" : "church", meshes[i], world.palette);
   }
-  Random random(world.seed, 3);
-  int since_church = 4;
-  for (road::RoadIndex index = 0; index < world.roads.network().roads.size(); ++index)
-    for (double s = world.roads.begin_m(index) + 150.0; s < world.roads.end_m(index);
-         s += random.uniform(260.0, 620.0)) {
-      const double side = random.uniform() < 0.5 ? 1.0 : -1.0,
-                   t = side * random.uniform(120.0, 420.0),
-                   turn = random.uniform(0, 2 * std::numbers::pi);
-      const Vec2 p(world.roads.point(index, s, t));
-      const Nearest near = world.terrain.nearest(p);
-      if (!near.found || near.outside_m < 75.0 || world.terrain.woodland(p) > 0.02) continue;
-      const double z = world.terrain.height_m(p, near);
-      // Not on a slope.
-      if (std::abs(world.terrain.height_m(p + Vec2(25, 0)) - z) +
-              std::abs(world.terrain.height_m(p + Vec2(0, 25)) - z) >
-          4.5)
-        continue;
-      const bool is_church = ++since_church > 8;
-      if (is_church) since_church = 0;
-      Placement placement;
-      placement.parent_from_object = {Vec3(p, z), glm::angleAxis(turn, Vec3(0, 0, 1))};
-      placement.visible_to_m = 3500.0f;
-      place(world.builder, "building", shapes[is_church ? 2 : random.below(2)], placement);
-    }
+  for (const roadside::Building& building :
+       roadside::placed_buildings(world.roads, world.terrain, world.seed)) {
+    Placement placement;
+    placement.parent_from_object = building.world_from_building;
+    placement.visible_to_m = 3500.0f;
+    place(world.builder, "building", shapes[static_cast<std::size_t>(building.kind)], placement);
+  }
 }
 
 }  // namespace septet::scenery

@@ -5,6 +5,7 @@
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "engine/roadside/obstacles.hpp"
 #include "engine/scenery/sign_faces.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
@@ -22,10 +23,13 @@ void add_bar(MeshBuilder& builder, Ground ground, const glm::vec3& low, const gl
 }
 
 /// Two legs, one in the central reserve, and a lattice beam over all lanes. x along the road.
-geometry::PolygonMesh frame_mesh(float half_width) {
+geometry::PolygonMesh frame_mesh(double width_m) {
   MeshBuilder builder;
-  for (const float y : {-half_width, 0.0f, half_width})
+  const auto half_width = static_cast<float>(width_m / 2);
+  for (const double leg : roadside::gantry_legs_m(width_m)) {
+    const auto y = static_cast<float>(leg);
     add_bar(builder, Ground::metal, {-0.28f, y - 0.2f, -1.5f}, {0.28f, y + 0.2f, beam_high_m});
+  }
   for (const float x : {-0.45f, 0.45f})
     for (const float z : {beam_low_m, beam_high_m - 0.14f})
       add_bar(builder, Ground::metal, {x - 0.07f, -half_width, z},
@@ -135,7 +139,7 @@ void build_gantries(const WorldContext& world) {
       if (object.type != "gantry") continue;
       Shape& frame = frames[static_cast<int>(std::lround(object.width_m * 10))];
       if (frame.geometry == scene::no_node) {
-        geometry::PolygonMesh mesh = frame_mesh(static_cast<float>(object.width_m / 2));
+        geometry::PolygonMesh mesh = frame_mesh(object.width_m);
         mesh.default_edge_crease = geometry::crease_sharp;
         frame = add_shape(world.builder, "gantry", mesh, world.palette);
       }

@@ -7,6 +7,7 @@
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/roadside/plants.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -16,9 +17,9 @@ namespace {
 using geometry::lattice_random;
 using geometry::MeshBuilder;
 
-constexpr double tile_m = 512.0, middle_tile_m = 1024.0;
-constexpr double near_cell_m = tile_m / 24, middle_cell_m = tile_m / 6,
-                 far_cell_m = land_tile_m / 16;
+constexpr double tile_m = roadside::land_tile_m, middle_tile_m = roadside::middle_land_tile_m;
+constexpr double near_cell_m = roadside::land_cell_m, middle_cell_m = roadside::middle_land_cell_m,
+                 far_cell_m = roadside::far_land_cell_m;
 constexpr float middle_until_m = 7000.0f;
 constexpr double ring_drop_m = 0.35;  ///< A tile overlaps its neighbours by one cell, sunk by this.
 constexpr double texture_m = 6.0;
@@ -118,9 +119,7 @@ class LandGrid {
 
   bool is_wood(int x, int y) const {
     const Vec2 middle = corner_ + (Vec2(x, y) + 0.5) * cell_;
-    if (world_.terrain.woodland(middle) < 0.5) return false;
-    const Nearest near = world_.terrain.nearest(middle);
-    return !near.found || near.outside_m > 42.0 + cell_ * 0.7;
+    return roadside::is_wood(world_.terrain, middle, cell_);
   }
 
   /// The crowns of a wood as one bumpy roof with sides.
@@ -210,7 +209,7 @@ void build_plain(const WorldContext& world, const LandGrid& grid, const Vec3& or
 }
 
 void build_tile(const WorldContext& world, const Vec2& corner) {
-  if (world.terrain.distance_m(corner + Vec2(tile_m / 2)) > 640.0) {
+  if (world.terrain.distance_m(corner + Vec2(tile_m / 2)) > roadside::land_within_m) {
     const LandGrid grid(world, corner, tile_m, middle_cell_m);
     build_plain(world, grid, grid.origin(), 0.0f, middle_until_m);
     return;
@@ -230,7 +229,7 @@ void build_tile(const WorldContext& world, const Vec2& corner) {
 }
 
 void build_middle_tile(const WorldContext& world, const Vec2& corner) {
-  if (world.terrain.distance_m(corner + Vec2(middle_tile_m / 2)) > 1150.0) {
+  if (world.terrain.distance_m(corner + Vec2(middle_tile_m / 2)) > roadside::middle_land_within_m) {
     const LandGrid grid(world, corner, middle_tile_m, middle_cell_m);
     build_plain(world, grid, grid.origin(), 0.0f, middle_until_m);
     return;
@@ -267,7 +266,7 @@ void build_land(const WorldContext& world) {
     const Vec2 corner = Vec2(square) * land_tile_m;
     const double distance = world.terrain.distance_m(corner + Vec2(land_tile_m / 2));
     if (distance > farthest_m) continue;
-    if (distance > 2900.0) {
+    if (distance > roadside::far_land_from_m) {
       const LandGrid grid(world, corner, land_tile_m, far_cell_m);
       build_plain(world, grid, grid.origin(), 0.0f, all_m);
       continue;

@@ -9,6 +9,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/road/road_network.hpp"
+#include "engine/roadside/road_shape.hpp"
 #include "engine/scene/builder.hpp"
 
 namespace septet::scenery {
@@ -16,7 +17,7 @@ namespace septet::scenery {
 struct RoadWorldOptions {
   bool vegetation = true;
   bool buildings = true;
-  double overrun_m = 1500.0;  ///< How far loose ends of roads run on.
+  double overrun_m = roadside::usual_overrun_m;  ///< How far loose ends of roads run on.
 };
 
 /// Whether the world around the roads can be built in reasonable time and memory: as much land,

@@ -1,14 +1,13 @@
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "engine/roadside/plants.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -18,8 +17,10 @@ namespace {
 using geometry::LathePoint;
 using geometry::MeshBuilder;
 
-enum class Kind { oak, birch, spruce, bush };
-constexpr int kind_count = 4;
+using roadside::Tree;
+using Kind = roadside::TreeKind;
+using roadside::trunk_radius_m;
+constexpr int kind_count = roadside::tree_kind_count;
 constexpr float tree_near_m = 100.0f;
 
 void add_trunk(MeshBuilder& builder, Ground bark, float radius, float height) {
@@ -68,17 +69,17 @@ geometry::PolygonMesh near_tree(Kind kind, std::uint64_t seed) {
   MeshBuilder builder;
   switch (kind) {
     case Kind::oak:
-      add_trunk(builder, Ground::bark, 0.32f, 6.0f);
+      add_trunk(builder, Ground::bark, static_cast<float>(trunk_radius_m(kind)), 6.0f);
       add_crown(builder, Ground::leaves_oak, {0.6f, 0.3f, 6.6f}, {3.9f, 3.7f, 3.2f}, seed);
       add_crown(builder, Ground::leaves_oak, {-1.0f, -0.6f, 8.6f}, {2.9f, 3.1f, 2.4f}, seed + 1);
       break;
     case Kind::birch:
-      add_trunk(builder, Ground::bark_birch, 0.16f, 9.0f);
+      add_trunk(builder, Ground::bark_birch, static_cast<float>(trunk_radius_m(kind)), 9.0f);
       add_crown(builder, Ground::leaves_birch, {0, 0, 6.6f}, {2.3f, 2.2f, 3.2f}, seed);
       add_crown(builder, Ground::leaves_birch, {0.3f, -0.2f, 10.4f}, {1.7f, 1.6f, 2.6f}, seed + 1);
       break;
     case Kind::spruce: {
-      add_trunk(builder, Ground::bark, 0.22f, 5.0f);
+      add_trunk(builder, Ground::bark, static_cast<float>(trunk_radius_m(kind)), 5.0f);
       builder.material = index_of(Ground::needles);
       constexpr int tiers = 6, sides = 8;
       for (int i = 0; i < tiers; ++i) {
@@ -127,12 +128,13 @@ geometry::PolygonMesh far_tree(Kind kind) {
   return builder.take();
 }
 
-class TreePlanter {
+/// The shapes of all kinds, and what is placed of them.
+class TreePen {
  public:
-  TreePlanter(const WorldContext& world) : world_(world), random_(world.seed, 2) {
+  explicit TreePen(const WorldContext& world) : world_(world) {
     for (int k = 0; k < kind_count; ++k) {
       const auto kind = static_cast<Kind>(k);
-      for (int variant = 0; variant < variants; ++variant)
+      for (int variant = 0; variant < roadside::tree_variant_count; ++variant)
         near_[k][variant] = add_shape(
             world.builder, "tree near",
             near_tree(kind, world.seed + 100 + static_cast<std::uint64_t>(k * 10 + variant)),
@@ -141,70 +143,30 @@ class TreePlanter {
     }
   }
 
-  void plant(Kind kind, const Vec2& p, double z) {
-    const double turn = random_.uniform(0, 2 * std::numbers::pi), size = random_.uniform(0.75, 1.2);
+  void draw(const Tree& tree) {
     Placement placement;
-    placement.parent_from_object = {Vec3(p, z - 0.1), glm::angleAxis(turn, Vec3(0, 0, 1))};
-    placement.scale = glm::vec3(static_cast<float>(size));
-    const int k = static_cast<int>(kind);
-    placement.visible_to_m = kind == Kind::bush ? 70.0f : tree_near_m;
-    place(world_.builder, "tree", near_[k][random_.below(variants)], placement);
+    placement.parent_from_object = {tree.foot_m, glm::angleAxis(tree.turn_rad, Vec3(0, 0, 1))};
+    placement.scale = glm::vec3(static_cast<float>(tree.size));
+    const int k = static_cast<int>(tree.kind);
+    placement.visible_to_m = tree.kind == Kind::bush ? 70.0f : tree_near_m;
+    place(world_.builder, "tree", near_[k][tree.variant], placement);
     placement.visible_from_m = placement.visible_to_m;
-    placement.visible_to_m = kind == Kind::bush ? 420.0f : 1900.0f;
+    placement.visible_to_m = tree.kind == Kind::bush ? 420.0f : 1900.0f;
     placement.casts_shadow = false;
     place(world_.builder, "tree", far_[k], placement);
   }
 
-  /// Singles and groups on meadows, bushes along the verges, the fringe of woods.
-  void plant_tile(const Vec2& corner, double side_m) {
-    constexpr double step = 16.0;
-    for (double y = 0; y < side_m; y += step)
-      for (double x = 0; x < side_m; x += step) {
-        const Vec2 p = corner + Vec2(x + random_.uniform(0, step), y + random_.uniform(0, step));
-        const double chance = random_.uniform(), choice = random_.uniform();
-        const Nearest near = world_.terrain.nearest(p);
-        if (!near.found || near.outside_m < 11.0 || near.outside_m > 330.0 ||
-            world_.terrain.is_kept_clear(near) || world_.terrain.is_at_portal(near))
-          continue;
-        const double wood = world_.terrain.woodland(p),
-                     group = geometry::fractal_noise(p.x / 95.0, p.y / 95.0, 2, world_.seed + 9);
-        double density =
-            0.012 + (group > 0.28 ? 0.20 : 0.0) + (wood > 0.02 && wood < 0.98 ? 0.38 : 0.0);
-        if (wood > 0.5 && near.outside_m < 55.0)
-          density = 0.55;  // The wood's edge towards the road.
-        if (wood > 0.5 && near.outside_m > 75.0) density = 0.05;  // Its inside is one canopy.
-        if (near.outside_m < 22.0) density *= 0.55;
-        if (chance > density) continue;
-        const bool conifers =
-            geometry::fractal_noise(p.x / 300.0, p.y / 300.0, 2, world_.seed + 11) > 0.05;
-        Kind kind = choice < 0.14 ? Kind::bush
-                    : conifers    ? (choice < 0.75 ? Kind::spruce : Kind::birch)
-                                  : (choice < 0.62 ? Kind::oak : Kind::birch);
-        if (near.outside_m < 17.0) kind = Kind::bush;
-        plant(kind, p, world_.terrain.height_m(p, near));
-      }
-  }
-
  private:
-  static constexpr int variants = 2;
   const WorldContext& world_;
-  Random random_;
-  std::array<std::array<Shape, variants>, kind_count> near_;
+  std::array<std::array<Shape, roadside::tree_variant_count>, kind_count> near_;
   std::array<Shape, kind_count> far_;
 };
 
 }  // namespace
 
 void build_trees(const WorldContext& world) {
-  TreePlanter planter(world);
-  constexpr double side = 256.0, reach = 650.0, margin = 350.0;
-  const Vec2 first = glm::floor((world.terrain.low_m() - margin) / side),
-             end = glm::ceil((world.terrain.high_m() + margin) / side);
-  for (const glm::i64vec2& square : world.terrain.squares_near(side, reach)) {
-    const Vec2 at(square), corner = at * side;
-    if (at.x < first.x || at.y < first.y || at.x >= end.x || at.y >= end.y) continue;
-    if (world.terrain.distance_m(corner + Vec2(side / 2)) < reach) planter.plant_tile(corner, side);
-  }
+  TreePen pen(world);
+  for (const Tree& tree : roadside::planted_trees(world.terrain, world.seed)) pen.draw(tree);
 }
 
 }  // namespace septet::scenery

@@ -5,7 +5,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/road/lane_geometry.hpp"
-#include "engine/scenery/tunnel_shape.hpp"
+#include "engine/roadside/tunnel_shape.hpp"
 #include "engine/scenery/world_context.hpp"
 #include "engine/scenery/world_finish.hpp"
 
@@ -14,9 +14,7 @@ namespace {
 
 using geometry::MeshBuilder;
 
-using namespace tunnel_shape;
-constexpr double portal_out_m =
-    46.0;  ///< How far the portal's wing walls reach beyond the asphalt.
+using namespace roadside::tunnel_shape;
 
 /// Up and across: the inside of one tube from the foot of its outer wall over the ceiling to the
 /// foot of the wall in the middle. `edge` is the asphalt's edge.

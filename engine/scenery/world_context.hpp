@@ -3,11 +3,19 @@
 
 #include <cstdint>
 
+#include "engine/roadside/road_shape.hpp"
+#include "engine/roadside/plants.hpp"
+#include "engine/roadside/terrain.hpp"
 #include "engine/scenery/palette.hpp"
-#include "engine/scenery/road_shape.hpp"
-#include "engine/scenery/terrain.hpp"
 
 namespace septet::scenery {
+
+using roadside::Nearest;
+using roadside::RoadShape;
+using roadside::RoadTile;
+using roadside::squares_near;
+using roadside::stations;
+using roadside::Terrain;
 
 struct WorldContext {
   scene::SceneBuilder& builder;
@@ -36,7 +44,7 @@ inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::
 /// How far the precise tiles of the road are seen from their middle, and how far anything is.
 inline constexpr float road_near_m = 380.0f, land_near_m = 800.0f, all_m = 14000.0f;
 /// How far the land reaches beyond the roads, and the side of its squares.
-inline constexpr double land_reach_m = 5200.0, land_tile_m = 2048.0;
+inline constexpr double land_reach_m = 5200.0, land_tile_m = roadside::far_land_tile_m;
 
 void build_pavement(const WorldContext& world);  ///< Asphalt, repairs, markings.
 void build_far_road(const WorldContext& world);  ///< All of the road's parts, simplified.

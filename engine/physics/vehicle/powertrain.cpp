@@ -8,6 +8,7 @@ namespace septet::vehicle {
 namespace {
 
 constexpr double reverse_inhibit_mps = 2.0;
+constexpr double winding_s = 0.02;  // Of the driveline: a jolt of about 7 Hz when the clutch bites.
 
 /// Shares of the drive torque; they are also the weights of the wheels' speeds in the
 /// differentials.
@@ -28,8 +29,7 @@ double engine_torque_nm(const PowertrainParameters& powertrain, double pedal, do
   const double speed = state.engine_radps;
   if (!state.engine_running) {
     state.engine_torque_nm = 0.0;
-    return std::max(powertrain.closed_torque_nm.held(speed),
-                    -speed * powertrain.engine_inertia_kgm2 / dt_s);
+    return 0.0;  // Its friction is in spin_stalled.
   }
   const double idle =
       std::clamp((1.03 * powertrain.idle_radps - speed) / (0.2 * powertrain.idle_radps), 0.0, 0.7);
@@ -45,12 +45,31 @@ double engine_torque_nm(const PowertrainParameters& powertrain, double pedal, do
 }
 
 /// Friction clutch of limited capacity between the engine and a shaft of `shaft_inertia`; implicit,
-/// as it is stiff.
+/// as it is stiff. `wound_nm`: the torque that the driveline holds without slip.
 double clutch_torque_nm(double capacity_nm, double engine_nm, double slip_radps,
-                        double engine_inertia, double shaft_inertia, double dt_s) {
+                        double engine_inertia, double shaft_inertia, double dt_s,
+                        double wound_nm = 0.0) {
   const double mobility = dt_s * (1.0 / engine_inertia + 1.0 / shaft_inertia);
-  const double closing_nm = 0.8 * (slip_radps + dt_s * engine_nm / engine_inertia) / mobility;
+  const double closing_nm =
+      wound_nm + 0.8 * (slip_radps + dt_s * engine_nm / engine_inertia) / mobility;
   return std::clamp(closing_nm, -capacity_nm, capacity_nm);
+}
+
+/// What a standing engine holds: friction, and the compression of a cylinder. Assumed: 15 N m for each, so that 90 N m
+/// turn a three-litre six over, of the order of what its starter needs.
+double standing_torque_nm(const PowertrainParameters& powertrain) {
+  return 15.0 * powertrain.cylinders - powertrain.closed_torque_nm.held(0.0);
+}
+
+/// Speed of an engine that does not run, after one step with `load_nm` taken from it. Its friction only slows it. It is never
+/// said to turn backwards, as nothing behind it asks.
+double spin_stalled(const PowertrainParameters& powertrain, double engine_radps, double load_nm,
+                    double dt_s) {
+  const double friction_nm = engine_radps < 1.0 ? standing_torque_nm(powertrain)
+                                                : -powertrain.closed_torque_nm.held(engine_radps);
+  const double free_radps = engine_radps - dt_s * load_nm / powertrain.engine_inertia_kgm2;
+  const double most_radps = dt_s * friction_nm / powertrain.engine_inertia_kgm2;
+  return std::max(0.0, free_radps - std::clamp(free_radps, -most_radps, most_radps));
 }
 
 struct Coupling {
@@ -137,9 +156,13 @@ std::array<double, wheel_count> advance_powertrain(const VehicleParameters& para
 
   Coupling coupling;
   if (powertrain.transmission == Transmission::manual) {
-    const double capacity = powertrain.clutch_capacity_nm * clutch_closed(powertrain, input, state);
-    coupling.engine_nm = coupling.input_nm = clutch_torque_nm(
-        capacity, engine_nm, slip_radps, powertrain.engine_inertia_kgm2, shaft_inertia, dt_s);
+    double capacity = powertrain.clutch_capacity_nm * clutch_closed(powertrain, input, state);
+    if (!state.engine_running && state.engine_radps < 1.0)  // More turns it over.
+      capacity = std::min(capacity, standing_torque_nm(powertrain));
+    coupling.engine_nm = coupling.input_nm =
+        clutch_torque_nm(capacity, engine_nm, slip_radps, powertrain.engine_inertia_kgm2,
+                         shaft_inertia, dt_s, state.clutch_nm);
+    state.clutch_nm += (coupling.input_nm - state.clutch_nm) * dt_s / (winding_s + dt_s);
   } else if (ratio != 0.0) {
     coupling = converter(powertrain, state.engine_radps, input_radps);
     const bool locked = !shifting && powertrain.lowest_lockup_gear > 0 &&
@@ -153,8 +176,12 @@ std::array<double, wheel_count> advance_powertrain(const VehicleParameters& para
       coupling.input_nm += lock_nm;
     }
   }
-  state.engine_radps += dt_s * (engine_nm - coupling.engine_nm) / powertrain.engine_inertia_kgm2;
-  state.engine_radps = std::max(state.engine_radps, 0.0);
+  if (state.engine_running)
+    state.engine_radps = std::max(
+        0.0, state.engine_radps +
+                 dt_s * (engine_nm - coupling.engine_nm) / powertrain.engine_inertia_kgm2);
+  else
+    state.engine_radps = spin_stalled(powertrain, state.engine_radps, coupling.engine_nm, dt_s);
   stall_or_start(powertrain, input, state);
 
   const bool driving = coupling.input_nm * input_radps >= 0.0;

@@ -22,7 +22,7 @@ void hash_state(StateHash& hash, const VehicleState& state) {
   hash.add(state.steering.column_rad);
   const PowertrainState& powertrain = state.powertrain;
   for (const double part : {powertrain.engine_radps, powertrain.engine_torque_nm,
-                            powertrain.shift_s, powertrain.since_shift_s})
+                            powertrain.clutch_nm, powertrain.shift_s, powertrain.since_shift_s})
     hash.add(part);
   hash.add(int{powertrain.engine_running});
   hash.add(powertrain.gear);

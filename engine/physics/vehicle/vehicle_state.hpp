@@ -35,6 +35,7 @@ struct PowertrainState {
   double engine_radps = 0.0;
   double engine_torque_nm = 0.0;
   bool engine_running = true;
+  double clutch_nm = 0.0;     ///< Wound up in the driveline behind a closed clutch.
   std::int8_t gear = 0;       ///< Engaged: −1 reverse, 0 neutral, 1…
   std::int8_t next_gear = 0;  ///< Equal to `gear` unless a shift is going on.
   double shift_s = 0.0;       ///< Time into the shift.

@@ -5,16 +5,17 @@
 #include <doctest/doctest.h>
 
 #include "engine/core/hash.hpp"
+#include "engine/roadside/terrain.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scenery/road_shape.hpp"
-#include "engine/scenery/terrain.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 namespace septet::scenery {
 namespace {
 
 using road::motorway;
+using roadside::RoadShape;
+using roadside::Terrain;
 
 struct Encoded {
   std::size_t bytes = 0;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
@@ -97,4 +99,56 @@ TEST_CASE("reverse is refused while the car rolls forward") {
   input.brake = 0.5;
   drive(car, input, level_ground(), 6.0, state);
   CHECK(outputs(car, state).gear == -1);
+}
+
+TEST_CASE("a car that rolled back on a steep hill is pulled up it again in its gear") {
+  for (const bool automatic : {true, false}) {
+    CAPTURE(automatic);
+    const VehicleParameters car = automatic ? read_car("volvo-s80") : manual_car();
+    const double slope_rad = -std::atan(0.20);
+    const Ground hill = sloping_ground(slope_rad);
+    const RigidTransform uphill{Vec3(0.0), orientation_from_angles(0.0, slope_rad, 0.0)};
+    VehicleState state = standstill(car, uphill);
+    drive(car, in_gear(1, 0.0, 1.0), hill, 0.5, state);  // Clutch down: the gear goes in, the car rolls.
+    DriverInput rolling = in_gear(1, 0.0, 1.0);
+    if (automatic) rolling.selector = GearSelector::drive;
+    while (outputs(car, state).speed_mps > -4.0 && state.bad_numbers == 0) {
+      rolling.parking_brake = false;
+      drive(car, rolling, hill, 0.1, state);
+    }
+    CHECK(outputs(car, state).gear == 1);
+    DriverInput full = in_gear(1, 1.0, 1.0);
+    if (automatic) full.selector = GearSelector::drive;
+    drive(car, full, hill, 0.5, state);
+    full.clutch = 0.45;
+    drive(car, full, hill, 6.0, state);
+    CHECK(outputs(car, state).speed_mps > 3.0);
+  }
+}
+
+TEST_CASE("a stalled engine holds the car on a hill in gear until it is turned over") {
+  const VehicleParameters car = manual_car();
+  for (const double direction : {1.0, -1.0})
+    for (const double grade : {0.05, 0.10, 0.30}) {
+      CAPTURE(grade);
+      CAPTURE(direction);
+      const double slope_rad = -direction * std::atan(grade);
+      const Ground hill = sloping_ground(slope_rad);
+      VehicleState state = standstill(car, {Vec3(0.0), orientation_from_angles(0.0, slope_rad, 0.0)});
+      DriverInput input = in_gear(1, 0.0, 1.0);
+      input.brake = 1.0;
+      drive(car, input, hill, 0.5, state);
+      input.clutch = 0.0;
+      drive(car, input, hill, 1.0, state);
+      REQUIRE(!state.powertrain.engine_running);
+      input.brake = 0.0;
+      drive(car, input, hill, 3.0, state);
+      const Vec3 settled_m = state.world_from_body.position_m;
+      drive(car, input, hill, 10.0, state);
+      const double way_m = glm::length(state.world_from_body.position_m - settled_m);
+      if (grade < 0.2)
+        CHECK(way_m < 0.02);
+      else
+        CHECK(way_m > 1.0);
+    }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The roads as the scenery sees them: evaluated anywhere, carried on straight beyond loose ends,
+/// The roads with what stands beside them: evaluated anywhere, carried on straight beyond loose ends,
 /// and cut into tiles.
 
 #include <vector>
@@ -9,7 +9,7 @@
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
 
-namespace septet::scenery {
+namespace septet::roadside {
 
 /// A stretch of one road with one lane section and one kind of surroundings. Its frame lies in its
 /// middle on the reference line, x along the road, z up.
@@ -21,6 +21,9 @@ struct RoadTile {
 
   double middle_m() const { return 0.5 * (s0_m + s1_m); }
 };
+
+/// How far a road that is linked to nothing runs on.
+inline constexpr double usual_overrun_m = 1500.0;
 
 class RoadShape {
  public:
@@ -55,4 +58,4 @@ class RoadShape {
 /// Evenly spaced stations of a tile, both ends included, at most `step_m` apart.
 std::vector<double> stations(const RoadTile& tile, double step_m);
 
-}  // namespace septet::scenery
+}  // namespace septet::roadside

@@ -1,9 +1,9 @@
-#include "engine/scenery/road_shape.hpp"
+#include "engine/roadside/road_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace septet::scenery {
+namespace septet::roadside {
 
 RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m)
     : network_(network), overrun_m_(overrun_m) {}
@@ -92,4 +92,4 @@ std::vector<double> stations(const RoadTile& tile, double step_m) {
   return result;
 }
 
-}  // namespace septet::scenery
+}  // namespace septet::roadside

@@ -1,4 +1,4 @@
-#include "engine/scenery/terrain.hpp"
+#include "engine/roadside/terrain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "engine/geometry/noise.hpp"
 #include "engine/road/lane_geometry.hpp"
 
-namespace septet::scenery {
+namespace septet::roadside {
 namespace {
 
 constexpr double sample_step_m = 20.0, cell_m = 128.0;
@@ -48,7 +48,7 @@ std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double s
   return squares;
 }
 
-Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : roads_(roads), seed_(seed) {
+Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed) {
   const road::RoadNetwork& network = roads.network();
   for (road::RoadIndex index = 0; index < network.roads.size(); ++index) {
     const double begin = roads.begin_m(index), length = roads.end_m(index) - begin;
@@ -64,6 +64,7 @@ Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : roads_(roads), se
       high_m_ = glm::max(high_m_, Vec2(p.position_m));
     }
     for (const road::RoadStructure& structure : network.roads[index].structures) {
+      structures_.push_back({index, structure.s_m, structure.s_m + structure.length_m});
       if (structure.kind == road::RoadStructure::Kind::tunnel) {
         tunnels_.push_back({index, structure.s_m, structure.s_m + structure.length_m});
         continue;
@@ -137,7 +138,7 @@ double Terrain::distance_m(const Vec2& p) const {
 std::vector<glm::i64vec2> Terrain::squares_near(double side_m, double within_m) const {
   std::vector<Vec2> places;
   for (const Sample& sample : coarse_) places.emplace_back(sample.position_m);
-  return scenery::squares_near(places, side_m, within_m);
+  return roadside::squares_near(places, side_m, within_m);
 }
 
 double Terrain::height_m(const Vec2& p, const Nearest& near) const {
@@ -186,8 +187,8 @@ double Terrain::height_m(const Vec2& p, const Nearest& near) const {
 
 bool Terrain::is_kept_clear(const Nearest& near) const {
   if (!near.found || near.outside_m > 30.0) return false;
-  for (const road::RoadStructure& structure : roads_.road(near.road).structures)
-    if (near.s_m > structure.s_m - 30.0 && near.s_m < structure.s_m + structure.length_m + 30.0)
+  for (const Mouth& structure : structures_)
+    if (near.road == structure.road && near.s_m > structure.s0_m - 30.0 && near.s_m < structure.s1_m + 30.0)
       return true;
   return false;
 }
@@ -205,4 +206,4 @@ double Terrain::woodland(const Vec2& p) const {
   return smooth_step(0.10, 0.22, geometry::fractal_noise(p.x / 420.0, p.y / 420.0, 3, seed_ + 2));
 }
 
-}  // namespace septet::scenery
+}  // namespace septet::roadside

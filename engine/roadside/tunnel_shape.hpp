@@ -1,11 +1,14 @@
 #pragma once
-/// The tubes of a road tunnel across the road, one to either side of its axis: what is drawn, and what smoke fills.
+/// The tubes of a road tunnel across the road, one to either side of its axis: what is drawn, what cars
+/// run against, and what smoke fills.
 
-namespace septet::scenery::tunnel_shape {
+namespace septet::roadside::tunnel_shape {
 
 inline constexpr double wall_clear_m = 0.5;    ///< From the asphalt's edge to the wall.
 inline constexpr double middle_wall_m = 0.35;  ///< Half the thickness of the wall between the tubes.
 /// Heights over the road: of the ceiling, and of its lower edge along the wall; the ceiling slopes over `haunch_width_m`.
 inline constexpr double ceiling_m = 6.6, haunch_m = 5.0, haunch_width_m = 1.9;
 
-}  // namespace septet::scenery::tunnel_shape
+inline constexpr double portal_out_m = 46.0;  ///< How far a portal's wing walls reach beyond the asphalt.
+
+}  // namespace septet::roadside::tunnel_shape

@@ -11,9 +11,9 @@
 
 #include <glm/ext/vector_int2_sized.hpp>
 
-#include "engine/scenery/road_shape.hpp"
+#include "engine/roadside/road_shape.hpp"
 
-namespace septet::scenery {
+namespace septet::roadside {
 
 /// Where a point lies relative to the nearest road.
 struct Nearest {
@@ -29,6 +29,7 @@ class Terrain {
  public:
   static constexpr double reach_m = 500.0;
 
+  /// Keeps nothing of `roads`.
   Terrain(const RoadShape& roads, std::uint64_t seed);
 
   double height_m(const Vec2& p) const { return height_m(p, nearest(p)); }
@@ -44,7 +45,7 @@ class Terrain {
   /// Share of woodland at p, 0 to 1.
   double woodland(const Vec2& p) const;
 
-  /// scenery::squares_near of all roads.
+  /// roadside::squares_near of all roads.
   std::vector<glm::i64vec2> squares_near(double side_m, double within_m) const;
 
   Vec2 low_m() const { return low_m_; }
@@ -76,12 +77,11 @@ class Terrain {
   using Cell = std::pair<std::int64_t, std::int64_t>;
   void look_in(const Cell& cell, const Vec2& p, Nearest& best) const;
 
-  const RoadShape& roads_;
   std::uint64_t seed_;
   std::vector<Sample> samples_, coarse_;
   std::map<Cell, std::vector<std::uint32_t>> cells_;
   std::vector<Valley> valleys_;
-  std::vector<Mouth> tunnels_;
+  std::vector<Mouth> structures_, tunnels_;  ///< All of them; those that are tunnels.
   Vec2 low_m_{1e9}, high_m_{-1e9};
 };
 
@@ -94,4 +94,4 @@ std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double s
 /// 0 below `low`, 1 above `high`, smooth between.
 double smooth_step(double low, double high, double x);
 
-}  // namespace septet::scenery
+}  // namespace septet::roadside

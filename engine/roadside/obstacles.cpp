@@ -1,0 +1,296 @@
+#include "engine/roadside/obstacles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/barrier_lines.hpp"
+#include "engine/roadside/buildings.hpp"
+#include "engine/roadside/plants.hpp"
+#include "engine/roadside/tunnel_shape.hpp"
+
+namespace septet::roadside {
+namespace {
+
+constexpr double cell_m = 32.0;
+constexpr double endless_m = 1e6;
+constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Numbers of what is not in the list.
+
+/// What a kind is made of. Friction of painted sheet metal, chosen: 0.3 on steel, 0.45 on concrete and bark.
+struct Make {
+  double radius_m, height_m, friction, yielding_kg;
+};
+Make make_of(ObstacleKind kind) {
+  switch (kind) {
+    case ObstacleKind::guard_rail: return {0.08, 0.75, 0.30, 0.0};
+    case ObstacleKind::concrete_barrier: return {0.20, 0.90, 0.45, 0.0};
+    case ObstacleKind::parapet: return {0.16, 1.20, 0.35, 0.0};
+    case ObstacleKind::noise_wall: return {0.16, 3.60, 0.45, 0.0};
+    case ObstacleKind::tunnel_wall: return {0.05, tunnel_shape::haunch_m, 0.45, 0.0};
+    case ObstacleKind::portal: return {0.45, 9.0, 0.45, 0.0};
+    case ObstacleKind::gantry_leg: return {0.28, 8.0, 0.30, 0.0};
+    case ObstacleKind::marker_post: return {0.06, 1.05, 0.20, 3.0};  // A plastic tube.
+    case ObstacleKind::tree: return {0.20, endless_m, 0.45, 0.0};
+    case ObstacleKind::bush: return {0.80, endless_m, 0.20, 40.0};
+    case ObstacleKind::house: return {0.05, endless_m, 0.45, 0.0};
+  }
+  return {0.1, 1.0, 0.4, 0.0};
+}
+
+class Builder {
+ public:
+  explicit Builder(std::vector<Obstacle>& obstacles) : obstacles_(obstacles) {}
+
+  void point(ObstacleKind kind, const Vec3& foot_m, double radius_m) { add(kind, run_++, foot_m, foot_m, radius_m); }
+
+  /// A run of straight stretches; what joins within it is closed.
+  void line(ObstacleKind kind, const std::vector<Vec3>& points_m) {
+    if (points_m.size() < 2) return;
+    for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
+      Obstacle& stretch = add(kind, run_, points_m[i], points_m[i + 1], make_of(kind).radius_m);
+      stretch.open_from = i == 0;
+      stretch.open_to = i + 2 == points_m.size();
+    }
+    ++run_;
+  }
+
+ private:
+  Obstacle& add(ObstacleKind kind, std::uint32_t run, const Vec3& from_m, const Vec3& to_m, double radius_m) {
+    const Make make = make_of(kind);
+    Obstacle obstacle;
+    obstacle.kind = kind;
+    obstacle.run = run;
+    obstacle.from_m = Vec2(from_m);
+    obstacle.to_m = Vec2(to_m);
+    obstacle.radius_m = radius_m;
+    obstacle.low_m = make.height_m < endless_m ? std::min(from_m.z, to_m.z) - 0.3 : -endless_m;
+    obstacle.high_m = std::max(from_m.z, to_m.z) + make.height_m;
+    obstacle.friction = make.friction;
+    obstacle.yielding_kg = make.yielding_kg;
+    return obstacles_.emplace_back(obstacle);
+  }
+
+  std::vector<Obstacle>& obstacles_;
+  std::uint32_t run_ = 0;
+};
+
+/// Joins what goes on from one tile to the next.
+class LineJoiner {
+ public:
+  LineJoiner(Builder& builder, ObstacleKind kind) : builder_(builder), kind_(kind) {}
+  ~LineJoiner() { flush(); }
+
+  void add(const std::vector<Vec3>& points_m) {
+    if (points_m.empty()) return;
+    if (!points_.empty() && glm::distance(points_.back(), points_m.front()) > 0.05) flush();
+    points_.insert(points_.end(), points_m.begin() + (points_.empty() ? 0 : 1), points_m.end());
+  }
+
+ private:
+  void flush() {
+    builder_.line(kind_, points_);
+    points_.clear();
+  }
+
+  Builder& builder_;
+  ObstacleKind kind_;
+  std::vector<Vec3> points_;
+};
+
+std::vector<Vec3> points(const RoadShape& roads, const RoadTile& tile, const BesideLine& line, double step_m) {
+  std::vector<Vec3> result;
+  for (const double s : stations(tile, line, step_m)) result.push_back(roads.point(tile.road, s, line.t_at(s)));
+  return result;
+}
+
+ObstacleKind kind_of(BarrierForm form) {
+  switch (form) {
+    case BarrierForm::jersey: return ObstacleKind::concrete_barrier;
+    case BarrierForm::railing: return ObstacleKind::parapet;
+    case BarrierForm::rail: break;
+  }
+  return ObstacleKind::guard_rail;
+}
+
+void add_barriers(const RoadShape& roads, const std::vector<RoadTile>& tiles, Builder& builder) {
+  for (const BarrierForm form : {BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing}) {
+    std::size_t most = 0;
+    const auto lines = [&](const RoadTile& tile) {
+      std::vector<BesideLine> result;
+      for (const Barrier& barrier : barriers(roads, tile))
+        if (barrier.form == form) result.push_back(barrier.line);
+      return result;
+    };
+    for (const RoadTile& tile : tiles) most = std::max(most, lines(tile).size());
+    for (std::size_t k = 0; k < most; ++k) {  // One line is one run along all tiles of its road.
+      LineJoiner joiner(builder, kind_of(form));
+      for (const RoadTile& tile : tiles)
+        if (const auto own = lines(tile); k < own.size()) joiner.add(points(roads, tile, own[k], barrier_step_m));
+    }
+  }
+}
+
+void add_walls_and_posts(const RoadShape& roads, const std::vector<RoadTile>& tiles, Builder& builder) {
+  LineJoiner walls(builder, ObstacleKind::noise_wall);
+  for (const RoadTile& tile : tiles) {
+    for (const BesideLine& line : noise_walls(roads, tile)) walls.add(points(roads, tile, line, noise_wall_step_m));
+    for (const BesideLine& line : marker_posts(roads, tile))
+      if (const auto foot = points(roads, tile, line, marker_post_step_m); !foot.empty())
+        builder.point(ObstacleKind::marker_post, foot.front(), make_of(ObstacleKind::marker_post).radius_m);
+  }
+}
+
+void add_tunnels(const RoadShape& roads, const std::vector<RoadTile>& tiles, Builder& builder) {
+  using namespace tunnel_shape;
+  for (int wall = -1; wall <= 1; ++wall) {
+    LineJoiner joiner(builder, ObstacleKind::tunnel_wall);
+    for (const RoadTile& tile : tiles) {
+      if (!tile.in_tunnel) continue;
+      std::vector<Vec3> line;
+      for (const double s : stations(tile, 20.0)) {
+        const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s);
+        const double t = wall > 0 ? extent.left_t_m + wall_clear_m : wall < 0 ? extent.right_t_m - wall_clear_m : 0.0;
+        line.push_back(roads.point(tile.road, s, t));
+      }
+      joiner.add(line);
+    }
+  }
+  const double half = make_of(ObstacleKind::portal).radius_m;
+  for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index)
+    for (const road::RoadStructure& tunnel : roads.road(index).structures) {
+      if (tunnel.kind != road::RoadStructure::Kind::tunnel) continue;
+      for (const double mouth : {tunnel.s_m, tunnel.s_m + tunnel.length_m}) {
+        const road::RoadExtent extent = road::road_extent(roads.road(index), mouth);
+        for (const auto& [inner, outer] : {std::pair(extent.left_t_m + wall_clear_m + half, extent.left_t_m + portal_out_m),
+                                           std::pair(extent.right_t_m - wall_clear_m - half, extent.right_t_m - portal_out_m)})
+          builder.line(ObstacleKind::portal, {roads.point(index, mouth, inner), roads.point(index, mouth, outer)});
+      }
+    }
+}
+
+void add_gantries(const RoadShape& roads, Builder& builder) {
+  for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index)
+    for (const road::RoadObject& object : roads.road(index).objects) {
+      if (object.type != "gantry") continue;
+      const road::RoadPoint middle = roads.at(index, object.s_m, object.t_m);
+      const Vec3 left(-std::sin(middle.heading_rad), std::cos(middle.heading_rad), 0.0);
+      for (const double y : gantry_legs_m(object.width_m))
+        builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left, make_of(ObstacleKind::gantry_leg).radius_m);
+    }
+}
+
+void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
+  for (const Tree& tree : planted_trees(terrain, seed))
+    builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
+                  trunk_radius_m(tree.kind) * tree.size);
+  for (const Building& building : placed_buildings(roads, terrain, seed))
+    for (const HouseBlock& block : house_blocks(building.kind)) {
+      const auto corner = [&](double x, double y) {
+        return building.world_from_building * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
+      };
+      builder.line(ObstacleKind::house, {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), corner(-1, -1)});
+    }
+}
+
+std::uint64_t key_of(std::int64_t x, std::int64_t y) {
+  return static_cast<std::uint64_t>(x) << 32 ^ (static_cast<std::uint64_t>(y) & 0xffff'ffffu);
+}
+
+std::int64_t cell_index(double x) { return static_cast<std::int64_t>(std::floor(x / cell_m)); }
+
+template <class Visit>
+void for_each_cell(const Vec2& low, const Vec2& high, const Visit& visit) {
+  for (std::int64_t y = cell_index(low.y); y <= cell_index(high.y); ++y)
+    for (std::int64_t x = cell_index(low.x); x <= cell_index(high.x); ++x) visit(key_of(x, y));
+}
+
+double distance_m(const Obstacle& obstacle, const Vec2& p) {
+  const Vec2 along = obstacle.to_m - obstacle.from_m;
+  const double square = glm::dot(along, along);
+  const double share = square > 0.0 ? std::clamp(glm::dot(p - obstacle.from_m, along) / square, 0.0, 1.0) : 0.0;
+  return glm::distance(p, obstacle.from_m + share * along);
+}
+
+}  // namespace
+
+std::vector<double> gantry_legs_m(double gantry_width_m) { return {-0.5 * gantry_width_m, 0.0, 0.5 * gantry_width_m}; }
+
+Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, double overrun_m)
+    : seed_(seed), terrain_(RoadShape(network, overrun_m), seed) {
+  const RoadShape roads(network, overrun_m);
+  const std::vector<RoadTile> tiles = roads.tiles(160.0);
+  Builder builder(obstacles_);
+  add_barriers(roads, tiles, builder);
+  add_walls_and_posts(roads, tiles, builder);
+  add_tunnels(roads, tiles, builder);
+  add_gantries(roads, builder);
+  add_land(roads, terrain_, seed, builder);
+  close_ends();
+  index();
+  for (road::RoadIndex road = 0; road < network.roads.size(); ++road)
+    for (double s = roads.begin_m(road); s < roads.end_m(road); s += 12.0) {
+      const road::RoadExtent extent = road::road_extent(network.roads[road], s);
+      for (double t = extent.right_t_m; t <= extent.left_t_m; t += 12.0) {
+        const Vec3 p = roads.point(road, s, t);
+        treeless_.insert(key_of(cell_index(p.x), cell_index(p.y)));
+      }
+    }
+}
+
+/// A rail that goes on as another one, of the next road or of another make, has no end to run into.
+void Obstacles::close_ends() {
+  struct End {
+    Vec2 at, outwards;
+    bool* open;
+  };
+  std::vector<End> ends;
+  for (Obstacle& obstacle : obstacles_) {
+    if (obstacle.from_m == obstacle.to_m) continue;
+    const Vec2 along = glm::normalize(obstacle.to_m - obstacle.from_m);
+    if (obstacle.open_from) ends.push_back({obstacle.from_m, -along, &obstacle.open_from});
+    if (obstacle.open_to) ends.push_back({obstacle.to_m, along, &obstacle.open_to});
+  }
+  std::ranges::sort(ends, {}, [](const End& end) { return end.at.x; });
+  constexpr double near_m = 0.75, straight = 0.9;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < ends.size() && ends[k].at.x - ends[i].at.x < near_m; ++k)
+      if (glm::distance(ends[i].at, ends[k].at) < near_m && glm::dot(ends[i].outwards, ends[k].outwards) < -straight)
+        *ends[i].open = *ends[k].open = false;
+}
+
+void Obstacles::index() {
+  for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
+    const Obstacle& obstacle = obstacles_[i];
+    for_each_cell(glm::min(obstacle.from_m, obstacle.to_m) - obstacle.radius_m, glm::max(obstacle.from_m, obstacle.to_m) + obstacle.radius_m,
+                  [&](std::uint64_t key) { cells_[key].push_back(i); });
+  }
+}
+
+std::vector<Obstacle> Obstacles::near(const Vec2& p, double reach_m) const {
+  std::vector<Obstacle> found;
+  std::vector<std::uint32_t> numbers;
+  bool may_be_wood = false;
+  for_each_cell(p - reach_m, p + reach_m, [&](std::uint64_t key) {
+    may_be_wood |= !treeless_.contains(key);
+    const auto cell = cells_.find(key);
+    if (cell == cells_.end()) return;
+    for (const std::uint32_t i : cell->second)
+      if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m) numbers.push_back(i);
+  });
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  for (const std::uint32_t i : numbers) found.push_back(obstacles_[i]);
+  if (may_be_wood)
+    for (const Stem& stem : wood_stems(terrain_, seed_, p, reach_m)) {
+      const Make make = make_of(ObstacleKind::tree);
+      found.push_back({.kind = ObstacleKind::tree, .run = stem_runs | stem.number, .from_m = stem.middle_m, .to_m = stem.middle_m,
+                       .radius_m = stem.radius_m, .low_m = -endless_m, .high_m = endless_m, .friction = make.friction});
+    }
+  return found;
+}
+
+}  // namespace septet::roadside

@@ -1,0 +1,172 @@
+#include "engine/physics/vehicle/hull.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/engine/physics/vehicle/car.hpp"
+
+using namespace septet;
+using namespace septet::vehicle;
+
+namespace {
+
+Obstacle wall(const Vec2& from_m, const Vec2& to_m) {
+  return {.kind = ObstacleKind::guard_rail, .from_m = from_m, .to_m = to_m, .radius_m = 0.08, .low_m = -0.3, .high_m = 0.75, .friction = 0.3};
+}
+
+Obstacle trunk(const Vec2& at_m, double radius_m, double yielding_kg = 0.0) {
+  return {.kind = ObstacleKind::tree, .from_m = at_m, .to_m = at_m, .radius_m = radius_m, .low_m = -1.0, .high_m = 10.0, .yielding_kg = yielding_kg};
+}
+
+struct Drive {
+  VehicleState state;
+  HullState hull;
+  HullReport report;
+  double deepest_m = 0.0, most_mps2 = 0.0;
+};
+
+/// From the origin of the vehicle frame with this heading and speed, rolling free.
+Drive drive_into(const std::vector<Obstacle>& obstacles, const Vec2& origin_m, double heading_rad, double speed_mps, double time_s) {
+  static const VehicleParameters car = read_car("volvo-s80");
+  DriverInput input;
+  input.selector = GearSelector::neutral;
+  Drive result;
+  result.state = standstill(car, {Vec3(origin_m, 0.0), orientation_from_angles(heading_rad, 0.0, 0.0)}, speed_mps);
+  for (int i = 0; i < static_cast<int>(time_s * 1000.0); ++i) {
+    advance_vehicle(car, input, level_ground(), 0.001, result.state);
+    advance_hull(car, obstacles, 0.001, result.state, result.hull, result.report);
+    for (const HullTouch& touch : result.hull.touches) result.deepest_m = std::max(result.deepest_m, touch.depth_m);
+    result.most_mps2 = std::max(result.most_mps2, glm::length(result.state.whole_acceleration_mps2));
+  }
+  REQUIRE(result.state.bad_numbers == 0);
+  return result;
+}
+
+double heading_rad(const VehicleState& state) {
+  const Vec3 forward = state.world_from_body.orientation * Vec3(1, 0, 0);
+  return std::atan2(forward.y, forward.x);
+}
+
+}  // namespace
+
+TEST_CASE("a car that runs into a wall crushes as far as its speed says and hardly comes back") {
+  const Obstacle across = wall({4.5, -20.0}, {4.5, 20.0});
+  for (const double speed : {2.0, 8.0, 15.0}) {
+    CAPTURE(speed);
+    const Drive drive = drive_into({across}, {0.0, 0.0}, 0.0, speed, 0.8 / speed + 0.5);
+    CHECK(drive.deepest_m == doctest::Approx(speed / 23.5).epsilon(0.05));  // C = V/ω.
+    REQUIRE(drive.report.over.size() == 1);
+    const HullTouch& blow = drive.report.over.front();
+    CHECK(blow.closing_speed_mps == doctest::Approx(speed).epsilon(0.05));
+    CHECK(blow.delta_v_mps.x < -speed);         // All of it, and a little rebound,
+    CHECK(blow.delta_v_mps.x > -1.6 * speed);
+    CHECK(drive.state.velocity_mps.x < 0.0);
+    CHECK(std::abs(heading_rad(drive.state)) < 0.02);
+  }
+}
+
+TEST_CASE("restitution falls with the speed") {
+  double last = 1.0;
+  for (const double speed : {1.0, 3.0, 8.0, 15.0}) {
+    const Drive drive = drive_into({wall({4.5, -20.0}, {4.5, 20.0})}, {0.0, 0.0}, 0.0, speed, 0.8 / speed + 0.5);
+    REQUIRE(drive.report.over.size() == 1);
+    const double restitution = -drive.report.over.front().delta_v_mps.x / drive.report.over.front().closing_speed_mps - 1.0;
+    CHECK(restitution < last);
+    CHECK(restitution > 0.1);
+    last = restitution;
+  }
+  CHECK(last < 0.25);
+}
+
+TEST_CASE("nothing is driven through at any speed and angle") {
+  for (const double speed : {5.0, 30.0, 60.0})
+    for (const double degrees : {5.0, 20.0, 45.0, 70.0, 90.0, -10.0}) {
+      CAPTURE(speed);
+      CAPTURE(degrees);
+      // Towards a wall along x at y = 3, from 6 m before it.
+      const double heading = degrees * 3.14159265 / 180.0;
+      const Drive drive = drive_into({wall({-400.0, 3.0}, {900.0, 3.0})}, {0.0, -2.0}, heading, speed, 3.0);
+      CHECK(drive.state.world_from_body.position_m.y < 3.0);
+      const Vec2 ahead(std::cos(heading), std::sin(heading));
+      for (const double beside : {0.0, 0.4, -0.7}) {
+        const Vec2 at = 8.0 * ahead + beside * Vec2(-ahead.y, ahead.x);
+        const Drive trunk_drive = drive_into({trunk(at, 0.1)}, {0.0, 0.0}, heading, speed, 8.0 / speed + 0.3);
+        if (std::abs(beside) < 0.6)
+          CHECK(glm::dot(Vec2(trunk_drive.state.world_from_body.position_m), ahead) < 8.0);
+        else  // A corner may be torn past it, for a price.
+          CHECK(glm::length(trunk_drive.state.velocity_mps) < 0.8 * speed);
+      }
+    }
+}
+
+TEST_CASE("a car slides along a rail and is neither held nor thrown") {
+  for (const double speed : {10.0, 30.0, 60.0})
+    for (const double degrees : {2.0, 5.0, 10.0, 20.0}) {
+      CAPTURE(speed);
+      CAPTURE(degrees);
+      const double heading = degrees * 3.14159265 / 180.0;
+      const Drive drive = drive_into({wall({-100.0, 3.0}, {900.0, 3.0})}, {0.0, 1.4}, heading, speed, 3.0);
+      const double along = speed * std::cos(heading), into = speed * std::sin(heading);
+      CHECK(drive.state.velocity_mps.x > along - 2.2 * into);  // Coulomb's share of the blow, and what the yaw takes up.
+      CHECK(drive.state.velocity_mps.x < along + 0.1);
+      CHECK(drive.state.velocity_mps.y > -0.6 * into - 0.5);
+      CHECK(drive.report.begun.size() == 1);
+    }
+}
+
+TEST_CASE("a rail of many stretches is the same as one") {
+  std::vector<Obstacle> stretches;
+  for (int k = 0; k < 50; ++k) {
+    Obstacle stretch = wall({10.0 * k - 100.0, 3.0}, {10.0 * k - 90.0, 3.0});
+    stretch.open_from = k == 0;
+    stretch.open_to = k == 49;
+    stretches.push_back(stretch);
+  }
+  const Drive many = drive_into(stretches, {0.0, 0.0}, 0.25, 25.0, 2.0);
+  const Drive one = drive_into({wall({-100.0, 3.0}, {400.0, 3.0})}, {0.0, 0.0}, 0.25, 25.0, 2.0);
+  CHECK(glm::length(many.state.world_from_body.position_m - one.state.world_from_body.position_m) < 0.05);
+  CHECK(many.report.begun.size() == 1);
+}
+
+TEST_CASE("a trunk beside the middle turns the car about it") {
+  const Drive left = drive_into({trunk({8.0, 0.6}, 0.2)}, {0.0, 0.0}, 0.0, 15.0, 0.7);
+  const Drive right = drive_into({trunk({8.0, -0.6}, 0.2)}, {0.0, 0.0}, 0.0, 15.0, 0.7);
+  CHECK(heading_rad(left.state) > 0.1);
+  CHECK(heading_rad(right.state) == doctest::Approx(-heading_rad(left.state)).epsilon(0.05));
+}
+
+TEST_CASE("a marker post takes the momentum of its mass and no more") {
+  const Drive drive = drive_into({trunk({8.0, 0.0}, 0.06, 3.0)}, {0.0, 0.0}, 0.0, 30.0, 0.6);
+  static const VehicleParameters car = read_car("volvo-s80");
+  REQUIRE(drive.report.over.size() == 1);
+  CHECK(drive.report.over.front().delta_v_mps.x == doctest::Approx(-30.0 * 3.0 / (car.body.mass_kg + 3.0)).epsilon(0.02));
+  CHECK(drive.state.velocity_mps.x > 29.0);
+  CHECK(*std::ranges::max_element(drive.hull.crush_m) == 0.0);
+}
+
+TEST_CASE("the end of a rail is met and what is too low or too high is not") {
+  const Drive end = drive_into({wall({10.0, 0.2}, {60.0, 0.2})}, {0.0, 0.0}, 0.0, 15.0, 0.8);
+  CHECK(end.report.begun.size() == 1);
+  CHECK(end.state.velocity_mps.x < 2.0);
+  Obstacle bridge = wall({10.0, -20.0}, {10.0, 20.0});
+  bridge.low_m = 4.5;
+  bridge.high_m = 6.0;
+  Obstacle kerb = wall({10.0, -20.0}, {10.0, 20.0});
+  kerb.high_m = 0.12;
+  CHECK(drive_into({bridge, kerb}, {0.0, 0.0}, 0.0, 15.0, 1.0).report.begun.empty());
+}
+
+TEST_CASE("a blow takes energy and gives none") {
+  for (const double degrees : {10.0, 40.0, 80.0})
+    for (const double beside : {-0.8, 0.0, 0.5}) {
+      static const VehicleParameters car = read_car("volvo-s80");
+      const double heading = degrees * 3.14159265 / 180.0;
+      const Drive drive = drive_into({wall({-100.0, 3.0}, {100.0, 3.0}), trunk({12.0, 1.0 + beside}, 0.2)}, {0.0, 0.0}, heading, 20.0, 1.5);
+      CHECK(mechanical_energy_j(car, drive.state) <
+            mechanical_energy_j(car, standstill(car, {}, 20.0)));
+      CHECK(drive.most_mps2 < 800.0);
+    }
+}
