@@ -20,6 +20,8 @@ struct KeyStates {
   bool hazard_lights = false, low_beam = false;  ///< Each press switches.
   bool high_beam = false, horn = false;          ///< While held.
   bool look_left = false, look_right = false;    ///< While held.
+
+  bool operator==(const KeyStates&) const = default;
 };
 
 struct KeyboardSettings {

@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "car-io/driving_keys.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
 #include "sim-server/command/film_command.hpp"
+#include "sim-server/command/list_command.hpp"
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/command/rig_command.hpp"
@@ -22,8 +24,8 @@ namespace {
 
 /// Options that `drive` and `replay` share.
 void add_drive_options(CLI::App& command, DriveOptions& options) {
-  command.add_option("--rig", options.rig, "Rig: a file or a name (seven-screens, three-monitors, desktop)");
-  command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside");
+  command.add_option("--rig", options.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
+  command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside")->default_str("out/latest");
   command.add_option("--seconds", options.seconds, "Simulated seconds to run")->check(CLI::Range(0.0, 1e6));
   command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
 }
@@ -37,14 +39,16 @@ int run(int argc, char** argv) {
   });
   int status = 0;
 
+  app.option_defaults()->always_capture_default();
   DriveOptions drive;
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
   add_drive_options(*drive_command, drive);
-  drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name below scenarios/");
+  drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name of septet list scenarios");
   drive_command->add_option("--seed", drive.seed, "Seed of everything random");
-  drive_command->add_option("--driver", drive.driver, "Which simulated driver (plain, novice, experienced, tired)");
+  drive_command->add_option("--driver", drive.driver, "A simulated driver of septet list drivers drives")->default_str("whom the rig names");
   drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
   drive_command->add_flag("--no-screens", drive.no_screens, "Server and car only, as fast as it goes");
+  drive_command->footer(car_io::driving_keys_text());
   drive_command->callback([&] { status = run_drive(drive); });
 
   DriveOptions replay;
@@ -66,7 +70,7 @@ int run(int argc, char** argv) {
   std::filesystem::path report_out;
   auto* report_command = app.add_subcommand("report", "Write report.html for a session");
   report_command->add_option("session", session, "Session file")->required();
-  report_command->add_option("--out", report_out, "Where to write (default: report.html beside the session)");
+  report_command->add_option("--out", report_out, "Where to write")->default_str("report.html beside the session");
   report_command->callback([&] { status = run_report(session, report_out); });
 
   auto* road_command = app.add_subcommand("road", "Questions to a road file");
@@ -94,7 +98,7 @@ int run(int argc, char** argv) {
   std::string car = "volvo-s80";
   auto* vehicle_test = vehicle_command->add_subcommand("test", "Run a standard manoeuvre: figures, time series and a plot");
   vehicle_test->add_option("--manoeuvre", track.manoeuvre, "steady-circle, step-steer, double-lane-change, sine-with-dwell, stop, coast-down, acceleration or all")->required();
-  vehicle_test->add_option("--vehicle", car, "Parameter file, or a name below vehicles/");
+  vehicle_test->add_option("--vehicle", car, "Vehicle file, or a name of septet list vehicles");
   vehicle_test->add_option("--out", track.out, "Folder for the files; without it the figures are only printed");
   vehicle_test->callback([&] {
     const auto file = find_resource(car, "vehicles", ".toml");
@@ -115,6 +119,11 @@ int run(int argc, char** argv) {
   traffic_diagram->add_option("--seed", diagram.seed, "Of vehicles and drivers")->capture_default_str();
   traffic_diagram->add_option("--out", diagram.out, "Folder for the files; without it the figures are only printed");
   traffic_diagram->callback([&] { status = run_traffic_diagram(diagram); });
+
+  std::string kind;
+  auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
+  list_command->add_option("kind", kind, "What of")->required()->check(CLI::IsMember(listed_kinds()));
+  list_command->callback([&] { status = run_list(kind); });
 
   CheckOptions check;
   auto* check_command = app.add_subcommand("check", "Say what is wrong with files; exit status 1: a file has an error");

@@ -4,15 +4,14 @@
 #include <array>
 
 #include <GLFW/glfw3.h>
+#include <fmt/core.h>
 
 namespace septet::render {
 namespace {
 
-constexpr std::array<int, 26> glfw_keys{
-    GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_SPACE, GLFW_KEY_ENTER, GLFW_KEY_ESCAPE,
-    GLFW_KEY_TAB, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_E, GLFW_KEY_F,
-    GLFW_KEY_H, GLFW_KEY_L, GLFW_KEY_M, GLFW_KEY_Q, GLFW_KEY_R, GLFW_KEY_S, GLFW_KEY_W, GLFW_KEY_X, GLFW_KEY_Z,
-    GLFW_KEY_COMMA, GLFW_KEY_PERIOD, GLFW_KEY_F11};
+constexpr std::array<int, key_count> glfw_keys{
+    GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD, GLFW_KEY_A, GLFW_KEY_D,
+    GLFW_KEY_E, GLFW_KEY_F, GLFW_KEY_H, GLFW_KEY_L, GLFW_KEY_Q, GLFW_KEY_S, GLFW_KEY_W, GLFW_KEY_X, GLFW_KEY_F1, GLFW_KEY_ESCAPE};
 
 std::string glfw_error() {
   const char* text = nullptr;
@@ -25,6 +24,7 @@ std::string glfw_error() {
 struct Window::Glfw {
   GLFWwindow* window = nullptr;
   bool initialised = false;
+  bool touched = false;
   ~Glfw() {
     if (window) glfwDestroyWindow(window);
     if (initialised) glfwTerminate();
@@ -47,22 +47,37 @@ Expected<Window> Window::open(const WindowOptions& options) {
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   GLFWmonitor* monitor = nullptr;
   int width = static_cast<int>(options.width), height = static_cast<int>(options.height);
-  if (options.full_screen_on) {
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    if (*options.full_screen_on >= static_cast<std::uint32_t>(count))
-      return failure("there are " + std::to_string(count) + " displays, not one with index " +
-                         std::to_string(*options.full_screen_on), "display", "connect it, or name another display");
-    monitor = monitors[*options.full_screen_on];
-    // The display keeps its own resolution and rate.
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  const std::uint32_t wanted = options.monitor.value_or(0);
+  const bool is_there = wanted < static_cast<std::uint32_t>(count);
+  if (options.full_screen) {
+    if (!is_there)
+      return failure(fmt::format("there are {} monitors, and none with index {}", count, wanted), "display", "connect it, or name another monitor in the rig");
+    monitor = monitors[wanted];
+    // The monitor keeps its own resolution and rate.
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
     width = mode->width;
     height = mode->height;
     glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
   }
+  const bool placed = !options.full_screen && options.monitor && count > 0;
+  glfwWindowHint(GLFW_VISIBLE, placed ? GLFW_FALSE : GLFW_TRUE);
   glfw->window = glfwCreateWindow(width, height, options.title.c_str(), monitor, nullptr);
   if (!glfw->window) return failure("no window can be opened: " + glfw_error(), "display", "use --virtual");
+  if (placed) {
+    int left = 0, top = 0;
+    glfwGetMonitorWorkarea(monitors[is_there ? wanted : 0], &left, &top, nullptr, nullptr);
+    const int step = is_there ? 0 : 48 * static_cast<int>(wanted);
+    glfwSetWindowPos(glfw->window, left + step, top + step);
+    glfwShowWindow(glfw->window);
+  }
+  glfwSetInputMode(glfw->window, GLFW_STICKY_KEYS, GLFW_TRUE);
+  glfwSetWindowUserPointer(glfw->window, glfw.get());
+  glfwSetKeyCallback(glfw->window, [](GLFWwindow* window, int key, int, int action, int) {
+    if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ESCAPE) static_cast<Glfw*>(glfwGetWindowUserPointer(window))->touched = true;
+  });
   if (monitor) glfwSetInputMode(glfw->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
   return Window(std::move(glfw));
 }
@@ -72,6 +87,7 @@ bool Window::should_close() const { return glfwWindowShouldClose(glfw_->window);
 bool Window::is_down(Key key) const {
   return glfwGetKey(glfw_->window, glfw_keys[static_cast<std::size_t>(key)]) == GLFW_PRESS;
 }
+bool Window::was_touched() const { return glfw_->touched; }
 
 std::optional<Gamepad> Window::gamepad() const {
   for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
@@ -105,6 +121,12 @@ std::uint32_t Window::height() const {
   int width = 0, height = 0;
   glfwGetFramebufferSize(glfw_->window, &width, &height);
   return static_cast<std::uint32_t>(height);
+}
+
+std::array<int, 2> Window::place() const {
+  std::array<int, 2> corner{};
+  glfwGetWindowPos(glfw_->window, &corner[0], &corner[1]);
+  return corner;
 }
 
 void* Window::handle() const { return glfw_->window; }

@@ -4,24 +4,22 @@
 ///
 /// All calls come from the program's main thread.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "engine/core/expected.hpp"
+#include "engine/world/key.hpp"
 
 namespace septet::render {
 
 struct WindowOptions {
   std::string title = "Septet";
   std::uint32_t width = 1280, height = 720;
-  std::optional<std::uint32_t> full_screen_on;  ///< Index of the display; nothing: a window.
-};
-
-enum class Key : std::uint8_t {
-  left, right, up, down, space, enter, escape, tab, left_shift, left_control,
-  a, d, e, f, h, l, m, q, r, s, w, x, z, comma, period, f11,
+  std::optional<std::uint32_t> monitor;  ///< Index; nothing: the first for a full screen, for a window where the system likes.
+  bool full_screen = false;              ///< Cover the monitor, in its own resolution and rate.
 };
 
 /// The first gamepad: sticks in [−1, 1] (right and down positive), triggers in [0, 1].
@@ -33,6 +31,8 @@ struct Gamepad {
 
 class Window {
  public:
+  /// A window whose monitor is not there stands on the first one, each further index a little lower and to the right, so that the
+  /// windows of a rig do not hide each other. A full screen without its monitor is an error.
   static Expected<Window> open(const WindowOptions& options);
   Window(Window&&) noexcept;
   Window& operator=(Window&&) noexcept;
@@ -41,11 +41,17 @@ class Window {
   /// Takes what the system has to say; call it once a frame.
   void poll();
   bool should_close() const;
+  /// Down now, or pressed and let go again since it was last asked for: who draws slowly misses no key.
   bool is_down(Key key) const;
+  /// Whether any key but F1 and Escape has been pressed since the window opened.
+  bool was_touched() const;
   std::optional<Gamepad> gamepad() const;
   /// Size of the picture, pixels.
   std::uint32_t width() const;
   std::uint32_t height() const;
+
+  /// Upper left corner of the picture on the desktop, pixels.
+  std::array<int, 2> place() const;
 
   /// The GLFWwindow, for the renderer's surface.
   void* handle() const;

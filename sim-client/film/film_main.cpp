@@ -69,11 +69,12 @@ int run(int argc, char** argv) {
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("septet: {}; septet film --help shows the options\n", error.what());
   });
+  app.option_defaults()->always_capture_default();
   app.add_option("session", options.session, "Session file of a drive")->required();
-  app.add_option("--shots", options.shots, "Script with the film's shots");
-  app.add_option("--out", options.out, "New or empty folder for the pictures (default: film, beside the session)");
+  app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
+  app.add_option("--out", options.out, "New or empty folder for the pictures")->default_str("film, beside the session");
   app.add_option("--fps", options.frames_per_second, "Frames a second")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
-  app.add_option("--size", "Of a picture, in pixels (default: 1280x720)")->each([&](const std::string& text) {
+  app.add_option("--size", "Of a picture, in pixels")->type_name("WIDTHxHEIGHT")->default_str("1280x720")->each([&](const std::string& text) {
     if (const auto problem = read_size(text, options); !problem.empty()) throw CLI::ValidationError(problem);
   });
   app.add_flag("--software", options.software, "Draw without a graphics card, pixel for pixel as off-screen screens do");

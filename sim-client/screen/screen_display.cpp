@@ -10,6 +10,8 @@ class VirtualDisplay final : public Display {
   render::Renderer& renderer() override { return renderer_; }
   bool poll_closed() override { return false; }
   std::optional<DriverInput> controls(double, double) override { return std::nullopt; }
+  bool is_touched() const override { return false; }
+  bool take_keys_request() override { return false; }
   bool paces_itself() const override { return false; }
 
  private:

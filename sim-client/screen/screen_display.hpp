@@ -16,7 +16,7 @@ struct DisplayOptions {
   std::uint32_t width_px = 0, height_px = 0;
   bool is_virtual = false;
   bool full_screen = false;
-  int monitor = 0;
+  std::optional<std::uint32_t> monitor;
   bool validation = false;
   std::string title;
 };
@@ -29,8 +29,12 @@ class Display {
   virtual render::Renderer& renderer() = 0;
   /// Handles what the window system has to say; true once the person has closed the window.
   virtual bool poll_closed() = 0;
-  /// What keyboard or gamepad say, for a rig whose car is one; nothing for an off-screen display.
+  /// What keyboard or gamepad say, for a rig whose car is one; nothing before they are touched, and for an off-screen display.
   virtual std::optional<DriverInput> controls(double now_s, double speed_mps) = 0;
+  /// Whether keyboard or gamepad have been touched since the display opened.
+  virtual bool is_touched() const = 0;
+  /// Whether the person has asked for the table of keys (F1) since the last call.
+  virtual bool take_keys_request() = 0;
   /// Presenting waits for the display's refresh.
   virtual bool paces_itself() const = 0;
 };

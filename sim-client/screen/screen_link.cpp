@@ -1,5 +1,7 @@
 #include "sim-client/screen/screen_link.hpp"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "engine/core/printable.hpp"
@@ -35,6 +37,10 @@ void ScreenLink::pump(double now_s) {
     }
   }
   if (auto text = connection_.look(lane_, is_welcome_, now_s)) messages_.push_back(std::move(*text));
+  const double listened_s = pumped_s_ ? std::min(now_s - *pumped_s_, longest_step_s) : 0.0;
+  pumped_s_ = now_s;
+  const bool heard = state() == net::ClientState::connected && lane_.silence_s() <= 0.0;
+  unheard_s_ = heard ? 0.0 : unheard_s_ + listened_s;
   pump_scene();
   receive_ticks(now_s);
   tell_of_forgeries(now_s);

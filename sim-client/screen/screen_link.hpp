@@ -41,8 +41,9 @@ class ScreenLink {
 
   /// Whether the server is there now. Lost: the last ticks stay in the history.
   net::ClientState state() const { return lane_.state(); }
-  /// Whether the server has been silent for as long as a driver should not mistake for a standstill.
-  bool server_is_gone() const { return state() == net::ClientState::lost || lane_.silence_s() > gone_after_s; }
+  /// Whether the server has been silent for as long as a driver should not mistake for a standstill. Time in which nobody
+  /// pumped hardly counts: a screen that draws for seconds is dropped by the server, and finds it again at once.
+  bool server_is_gone() const { return unheard_s_ > gone_after_s; }
   const std::optional<control::Welcome>& welcome() const { return welcome_; }
   /// Counts the server's welcomes: a new one may bring another rig and other times.
   std::uint32_t welcomes() const { return welcomes_; }
@@ -71,7 +72,8 @@ class ScreenLink {
   std::uint64_t refused_ticks() const { return refused_ticks_; }
 
  private:
-  static constexpr double gone_after_s = 1.0;  ///< A living server answers four pings in it.
+  static constexpr double gone_after_s = 1.0;    ///< A living server answers four pings in it.
+  static constexpr double longest_step_s = 0.1;  ///< From one pump to the next, as far as it counts as listening.
   static constexpr double refused_for_s = 5.0;
   void on_connected();
   void on_control(std::span<const std::byte> bytes);
@@ -91,6 +93,8 @@ class ScreenLink {
   std::uint32_t welcomes_ = 0;
   std::optional<Error> refusal_;
   bool finished_ = false;
+  std::optional<double> pumped_s_;
+  double unheard_s_ = 0.0;  ///< For how long this end has listened and heard nothing.
   bool scene_arrived_ = false;
   bool is_welcome_ = false;  ///< On this connection.
   std::uint64_t refused_ticks_ = 0;

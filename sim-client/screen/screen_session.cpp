@@ -13,9 +13,11 @@
 #include "engine/scene/resolve.hpp"
 #include "sim-client/frame/client_frame.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
+#include "sim-client/frame/instruments.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/screen/frame_times.hpp"
+#include "sim-client/screen/picture_rate.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
 
@@ -57,6 +59,8 @@ class Session {
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
   void say_goodbye();
+  /// Instruments, and on the screen ahead what the driver is to read.
+  void add_driver_texts(render::FrameInput& input, const Snapshot& snapshot);
   void wait(double seconds);
 
   const ScreenOptions& options_;
@@ -72,11 +76,15 @@ class Session {
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   FrameTimes frame_times_;
+  PictureRate picture_rate_;
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
   frame::EffectsDrawing effects_;
   double lost_drawn_s_ = 0.0;
+  static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
+  std::optional<bool> keys_shown_;  ///< By the driver's keys; nothing: none has been pressed.
+  bool was_touched_ = false;
   float last_frame_ms_ = 0.0f;
 };
 
@@ -105,7 +113,8 @@ Expected<void> Session::take_welcome() {
       wait(0.001);
     }
   });
-  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen, options_.monitor,
+  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen,
+                                options_.monitor,
                                 options_.validation, "Septet " + screen_->name});
   receiving.request_stop();
   receiving.join();
@@ -130,6 +139,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
   effects_.add_to(input);
   if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
+  else add_driver_texts(input, snapshot);
   if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
   last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
   return {};
@@ -137,6 +147,18 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
 
 void Session::take_effects(const Snapshot& snapshot) {
   effects_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
+}
+
+void Session::add_driver_texts(render::FrameInput& input, const Snapshot& snapshot) {
+  const auto add = [&](const std::vector<render::OverlayText>& texts) { input.overlay.insert(input.overlay.end(), texts.begin(), texts.end()); };
+  add(frame::instruments(snapshot, rig_, *screen_));
+  if (!options_.is_virtual)
+    if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe"))) input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
+  if (!frame::has_instruments(rig_, *screen_)) return;
+  const bool unasked = rig_.car.source == rig::CarSource::keyboard && !options_.is_virtual && snapshot.simulated_time_s < keys_shown_for_s;
+  if (display_->take_keys_request()) keys_shown_ = !keys_shown_.value_or(unasked);
+  else if (display_->is_touched() && !std::exchange(was_touched_, true)) keys_shown_ = false;
+  if (keys_shown_.value_or(unasked)) add(frame::key_table(*screen_));
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
@@ -178,6 +200,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   const auto shown = frame::show(link_.history(), *frame::playout_time_s(link_.history(), frame::frame_number(*server_s)), tick_s);
   take_effects(shown.snapshot);
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
+  picture_rate_.add(now_s);
   last_shown_ = shown.snapshot;
   ++frames_;
   if (!shown.on_tick) ++frames_off_tick_;

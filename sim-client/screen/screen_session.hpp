@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "engine/core/expected.hpp"
@@ -16,8 +17,8 @@ struct ScreenOptions {
   std::filesystem::path keys;     ///< Folder with NAME.key and server.public.
   std::filesystem::path pictures; ///< Where pictures of whole ticks go (TICK.png); empty: none are kept.
   bool is_virtual = false;        ///< Off-screen, on the software rasteriser.
-  bool full_screen = false;
-  int monitor = 0;                ///< Which monitor, full screen.
+  bool full_screen = false;       ///< Also where the rig does not say so.
+  std::optional<std::uint32_t> monitor;  ///< Instead of the rig's.
   bool validation = false;
 };
 

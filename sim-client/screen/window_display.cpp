@@ -1,30 +1,12 @@
-#include "car-io/keyboard_driver.hpp"
+#include <cmath>
+#include <utility>
+
+#include "car-io/driving_keys.hpp"
 #include "engine/render/window.hpp"
 #include "sim-client/screen/screen_display.hpp"
 
 namespace septet::screen {
 namespace {
-
-using render::Key;
-
-car_io::KeyStates keys_of(const render::Window& window) {
-  const auto down = [&](Key key) { return window.is_down(key); };
-  car_io::KeyStates keys;
-  keys.left = down(Key::left) || down(Key::a);
-  keys.right = down(Key::right) || down(Key::d);
-  keys.accelerate = down(Key::up) || down(Key::w);
-  keys.brake = down(Key::down) || down(Key::s);
-  keys.parking_brake = down(Key::space);
-  keys.indicator_left = down(Key::comma);
-  keys.indicator_right = down(Key::period);
-  keys.hazard_lights = down(Key::x);
-  keys.low_beam = down(Key::l);
-  keys.high_beam = down(Key::f);
-  keys.horn = down(Key::h);
-  keys.look_left = down(Key::q);
-  keys.look_right = down(Key::e);
-  return keys;
-}
 
 car_io::GamepadState gamepad_of(const render::Gamepad& pad) {
   car_io::GamepadState state;
@@ -40,6 +22,13 @@ car_io::GamepadState gamepad_of(const render::Gamepad& pad) {
   return state;
 }
 
+/// Whether a hand is on the gamepad.
+bool is_held(const render::Gamepad& pad) {
+  constexpr float clearly = 0.3f;
+  return std::abs(pad.left_x) > clearly || std::abs(pad.right_x) > clearly || pad.left_trigger > clearly || pad.right_trigger > clearly ||
+         pad.a || pad.b || pad.x || pad.y || pad.left_bumper || pad.right_bumper;
+}
+
 class WindowDisplay final : public Display {
  public:
   WindowDisplay(std::unique_ptr<render::Window> window, render::Renderer renderer)
@@ -48,14 +37,26 @@ class WindowDisplay final : public Display {
   render::Renderer& renderer() override { return renderer_; }
   bool poll_closed() override {
     window_->poll();
+    const bool keys_key = window_->is_down(Key::f1);
+    keys_asked_for_ = keys_asked_for_ || (keys_key && !keys_key_was_down_);
+    keys_key_was_down_ = keys_key;
+    const auto pad = window_->gamepad();
+    touched_ = touched_ || window_->was_touched() || (pad && is_held(*pad));
     return window_->should_close() || window_->is_down(Key::escape);
   }
   std::optional<DriverInput> controls(double now_s, double speed_mps) override {
     const double dt_s = last_s_ ? now_s - *last_s_ : 0.0;
     last_s_ = now_s;
+    if (!touched_) return std::nullopt;
     if (const auto pad = window_->gamepad()) return car_io::advance(gamepad_, gamepad_of(*pad), speed_mps, dt_s);
-    return car_io::advance(keyboard_, keys_of(*window_), speed_mps, dt_s);
+    const auto keys = car_io::key_states([&](Key key) { return window_->is_down(key); });
+    if (keys != car_io::KeyStates{}) used_s_ = now_s;
+    const DriverInput input = car_io::advance(keyboard_, keys, speed_mps, dt_s);
+    // Of a rig's windows the one that is typed into drives; the others are silent, once what they held has been let go.
+    return now_s - used_s_ < let_go_after_s ? std::optional(input) : std::nullopt;
   }
+  bool is_touched() const override { return touched_; }
+  bool take_keys_request() override { return std::exchange(keys_asked_for_, false); }
   bool paces_itself() const override { return true; }
 
  private:
@@ -63,7 +64,10 @@ class WindowDisplay final : public Display {
   render::Renderer renderer_;
   car_io::KeyboardDriver keyboard_;
   car_io::GamepadDriver gamepad_;
+  static constexpr double let_go_after_s = 2.0;
   std::optional<double> last_s_;
+  double used_s_ = -let_go_after_s;
+  bool touched_ = false, keys_asked_for_ = false, keys_key_was_down_ = false;
 };
 
 }  // namespace
@@ -73,7 +77,8 @@ Expected<std::unique_ptr<Display>> open_window(const DisplayOptions& options, re
   window_options.title = options.title;
   window_options.width = options.width_px;
   window_options.height = options.height_px;
-  if (options.full_screen) window_options.full_screen_on = static_cast<std::uint32_t>(options.monitor);
+  window_options.monitor = options.monitor;
+  window_options.full_screen = options.full_screen;
   auto opened = render::Window::open(window_options);
   if (!opened) return tl::unexpected(opened.error());
   auto window = std::make_unique<render::Window>(std::move(*opened));

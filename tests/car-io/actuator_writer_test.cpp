@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Waits for what another thread does; generous, as it only costs time where it fails.
 bool comes_true(const std::function<bool()>& condition) {
-  for (const auto end = Clock::now() + std::chrono::seconds(5); Clock::now() < end;) {
+  for (const auto end = Clock::now() + std::chrono::minutes(5); Clock::now() < end;) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

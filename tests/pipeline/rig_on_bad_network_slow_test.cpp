@@ -153,6 +153,35 @@ TEST_CASE("screens hold their last tick while the server is gone and return by t
   check_flawless(present(rig, 1.0), 7 * 59);
 }
 
+TEST_CASE("a screen that draws for seconds never takes its server for gone and one whose server is gone does") {
+  SimulatedRig rig({.screens = 1});
+  rig.run_for(1.0);
+  auto& screen = rig.screen(0);
+  bool dropped = false;
+  for (const double drawing_s : {0.6, 0.6, 1.5, 0.6, 6.0, 0.6, 0.6, 6.0, 1.0, 1.0}) {
+    screen.hung = true;
+    rig.run_for(drawing_s);
+    screen.hung = false;
+    CAPTURE(drawing_s);
+    for (int i = 0; i < 3; ++i) {
+      rig.advance_1ms();
+      CHECK_FALSE(screen.link->server_is_gone());
+    }
+    dropped = dropped || screen.link->state() == net::ClientState::lost;
+  }
+  CHECK(dropped);  // The server has given it up meanwhile.
+  rig.run_for(1.0);
+  CHECK(screen.link->state() == net::ClientState::connected);
+  rig.stop_server();
+  rig.run_for(0.5);
+  CHECK_FALSE(screen.link->server_is_gone());
+  rig.run_for(1.0);
+  CHECK(screen.link->server_is_gone());
+  rig.start_server();
+  rig.run_for(1.0);
+  CHECK_FALSE(screen.link->server_is_gone());
+}
+
 TEST_CASE("bytes per tick do not grow with the number of screens") {
   double bytes_per_tick[3] = {};
   const std::size_t counts[3] = {1, 7, 21};

@@ -53,29 +53,49 @@ void destroy_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulka
   destroy_image(memory, pass.atlas);
 }
 
-bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts) {
-  const bool all_there = std::all_of(texts.begin(), texts.end(),
-                                     [&](const OverlayText& text) { return find_line(pass, text).has_value(); });
-  if (all_there) return false;
+namespace {
+
+void clear(OverlayPass& pass) {
   pass.lines.clear();
   pass.pixels = image::Image(atlas_width, atlas_height, {255, 255, 255, 0});
-  std::uint32_t y = 0;
-  for (const OverlayText& text : texts) {
-    if (find_line(pass, text)) continue;
-    OverlayPass::Line line{text.text, text.height_px, y, 0, 0};
-    const double size_px = text.height_px * em_per_line;
-    line.height = static_cast<std::uint32_t>(std::ceil(std::clamp(text.height_px, 4.0f, 200.0f)));
-    if (y + line.height + padding > atlas_height) {
-      pass.lines.push_back(line);  // No room: the line is known, and empty.
-      continue;
-    }
-    const double baseline = y + 0.5 * (text.height_px + pass.font.capital_height_px(size_px));
-    pass.font.draw(pass.pixels, padding, std::round(baseline), text.text, size_px, {255, 255, 255, 255});
-    line.width = std::min<std::uint32_t>(
-        atlas_width, static_cast<std::uint32_t>(std::ceil(pass.font.width_px(text.text, size_px))) + 2 * padding);
-    pass.lines.push_back(line);
-    y += line.height + padding;
+  pass.shelf_x = pass.shelf_y = pass.shelf_height = 0;
+}
+
+/// False where the atlas has no room left for it.
+bool add_line(OverlayPass& pass, const OverlayText& text) {
+  const double size_px = text.height_px * em_per_line;
+  OverlayPass::Line line{.text = text.text, .height_px = text.height_px};
+  line.height = static_cast<std::uint32_t>(std::ceil(std::clamp(text.height_px, 4.0f, 200.0f)));
+  line.width = std::min<std::uint32_t>(
+      atlas_width, static_cast<std::uint32_t>(std::ceil(pass.font.width_px(text.text, size_px))) + 2 * padding);
+  if (pass.shelf_x + line.width > atlas_width) {
+    pass.shelf_y += pass.shelf_height;
+    pass.shelf_x = pass.shelf_height = 0;
   }
+  if (pass.shelf_y + line.height > atlas_height) return false;
+  line.x = pass.shelf_x;
+  line.y = pass.shelf_y;
+  const double baseline = line.y + 0.5 * (text.height_px + pass.font.capital_height_px(size_px));
+  pass.font.draw(pass.pixels, line.x + padding, std::round(baseline), text.text, size_px, {255, 255, 255, 255});
+  pass.shelf_x += line.width + padding;
+  pass.shelf_height = std::max(pass.shelf_height, line.height + padding);
+  pass.lines.push_back(std::move(line));
+  return true;
+}
+
+}  // namespace
+
+bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts) {
+  const auto is_new = [&](const OverlayText& text) { return !find_line(pass, text).has_value(); };
+  if (std::ranges::none_of(texts, is_new)) return false;
+  if (pass.lines.empty()) clear(pass);
+  const auto add_new = [&] { return std::ranges::all_of(texts, [&](const OverlayText& text) { return !is_new(text) || add_line(pass, text); }); };
+  if (add_new()) return true;
+  // Full of texts that nobody shows any more.
+  clear(pass);
+  if (add_new()) return true;
+  for (const OverlayText& text : texts)  // What finds no room even so is known, and empty.
+    if (is_new(text)) pass.lines.push_back({.text = text.text, .height_px = text.height_px});
   return true;
 }
 
@@ -127,8 +147,8 @@ void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vect
     const float margin = std::round(0.35f * text.height_px);
     if (text.background.a > 0.0f)
       draw_quad(x - margin, y - 2.0f, w + 2.0f * margin, h + 4.0f, glm::vec4(0.0f), text.background, 0.0f);
-    const float top = static_cast<float>(line.y) / atlas_height;
-    draw_quad(x, y, w, h, {0.0f, top, w / atlas_width, top + h / atlas_height}, text.color, 1.0f);
+    const float left = static_cast<float>(line.x) / atlas_width, top = static_cast<float>(line.y) / atlas_height;
+    draw_quad(x, y, w, h, {left, top, left + w / atlas_width, top + h / atlas_height}, text.color, 1.0f);
   }
   vkCmdEndRendering(commands);
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// Draws lines of text, and the boxes behind them, over the finished picture.
 ///
-/// Lines are rasterised on the CPU (engine/image) into one atlas, which is uploaded again only when a text changes.
+/// Lines are rasterised on the CPU (engine/image) into one atlas, which is uploaded again only when there is a new text; it is
+/// begun anew when it is full.
 
 #include <string>
 #include <vector>
@@ -19,10 +20,12 @@ struct OverlayPass {
   struct Line {
     std::string text;
     float height_px = 0.0f;
-    std::uint32_t y = 0, width = 0, height = 0;
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;
   };
   std::vector<Line> lines;
   image::Image pixels;
+  /// Where the next line goes: lines stand side by side on shelves as high as their highest.
+  std::uint32_t shelf_x = 0, shelf_y = 0, shelf_height = 0;
 };
 
 void create_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory,

@@ -128,7 +128,7 @@ TEST_CASE("feedback of the server turns the fan of the device") {
   rig.port.plug();
   rig.run_for(0.5);
   double fan = 0.0;
-  for (int i = 0; i < 500 && fan < 0.59; ++i) {
+  for (int i = 0; i < 50000 && fan < 0.59; ++i) {
     rig.remote->feedback = control::CarFeedback{static_cast<Tick>(i + 1), 0.6f, 0.2f, 30.0f, 0.0f};
     rig.run_for(0.01);
     std::this_thread::sleep_for(

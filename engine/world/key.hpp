@@ -1,0 +1,17 @@
+#pragma once
+/// The keys of a keyboard that Septet reads, by where they lie on a US keyboard.
+
+#include <cstdint>
+#include <string_view>
+
+namespace septet {
+
+enum class Key : std::uint8_t {
+  arrow_up, arrow_down, arrow_left, arrow_right, space, comma, full_stop, a, d, e, f, h, l, q, s, w, x, f1, escape,
+};
+inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::escape) + 1;
+
+/// As people call it: "Arrow up", "Full stop", "W".
+std::string_view name_of(Key key);
+
+}  // namespace septet

@@ -1,0 +1,27 @@
+#pragma once
+/// What the driver reads on a screen where no real car shows it: speed, gear, indicators; and which keys drive.
+///
+/// Pure: lines of text for a frame's overlay, in pixels of the screen.
+
+#include <string>
+#include <vector>
+
+#include "engine/render/frame_input.hpp"
+#include "engine/rig/rig.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::frame {
+
+/// Whether no real car shows the driver its instruments, and this is the screen that stands ahead.
+bool has_instruments(const rig::Rig& rig, const rig::Screen& screen);
+
+/// Speed and gear below the driver's look ahead, indicators at both sides, a stalled engine underneath. Nothing on other screens.
+std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
+
+/// The table of keys in the middle of the screen.
+std::vector<render::OverlayText> key_table(const rig::Screen& screen);
+
+/// A modest line at the upper edge of the screen.
+render::OverlayText top_line(std::string text, const rig::Screen& screen);
+
+}  // namespace septet::frame

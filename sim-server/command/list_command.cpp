@@ -1,0 +1,81 @@
+#include "sim-server/command/list_command.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/core.h>
+
+#include "engine/core/regular_file.hpp"
+#include "engine/scenario/scenario_reader.hpp"
+#include "sim-server/resources.hpp"
+
+namespace septet::server {
+namespace {
+
+struct Entry {
+  std::string name, description;
+};
+
+/// The first sentence of the comment that a TOML file begins with.
+std::string first_comment(const std::string& text) {
+  std::string comment;
+  for (std::size_t begin = 0, end; begin < text.size() && text[begin] == '#'; begin = end + 1) {
+    end = std::min(text.find('\n', begin), text.size());
+    comment += (comment.empty() ? "" : " ") + text.substr(std::min(begin + 2, end), end - std::min(begin + 2, end));
+  }
+  for (std::size_t stop = comment.find(". "); stop != std::string::npos; stop = comment.find(". ", stop + 1))
+    if (stop > 0 && comment[stop - 1] != '.') return comment.substr(0, stop + 1);
+  return comment;
+}
+
+Expected<std::vector<Entry>> entries_of(const std::string& kind) {
+  std::vector<Entry> entries;
+  if (kind == "drivers")
+    return std::vector<Entry>{{"plain", "An ordinary driver"},
+                              {"novice", "Looks less often and longer, keeps more distance, reacts later"},
+                              {"experienced", "Looks often and shortly, keeps the lane closely, reacts early"},
+                              {"tired", "Corrects late and slowly, so that the lane is kept loosely"}};
+  const bool scenarios = kind == "scenarios";
+  const auto data = data_folder();
+  if (!data) return tl::unexpected(data.error());
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(*data / kind, ignored)) names.insert(entry.path().stem().string());
+  for (const auto& name : names) {
+    const auto file = find_resource(name, kind, scenarios ? ".xosc" : ".toml");
+    if (!file) continue;  // Something else that lies there.
+    const auto text = read_regular_file(*file);
+    if (!text) return tl::unexpected(text.error());
+    Entry entry{name, ""};
+    if (!scenarios) {
+      entry.description = first_comment(*text);
+    } else {
+      const auto scenario = scenario::read_scenario(*text, file->string(), scenario::files_in(file->parent_path().string()));
+      entry.description = scenario ? scenario->header.description : "cannot be read: " + describe(scenario.error());
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+}  // namespace
+
+const std::vector<std::string>& listed_kinds() {
+  static const std::vector<std::string> kinds{"scenarios", "rigs", "vehicles", "drivers"};
+  return kinds;
+}
+
+int run_list(const std::string& kind) {
+  const auto entries = entries_of(kind);
+  if (!entries) {
+    fmt::print(stderr, "septet: {}\n", describe(entries.error()));
+    return 1;
+  }
+  std::size_t width = 0;
+  for (const auto& entry : *entries) width = std::max(width, entry.name.size());
+  for (const auto& entry : *entries) fmt::print("{:<{}}  {}\n", entry.name, width, entry.description);
+  return 0;
+}
+
+}  // namespace septet::server

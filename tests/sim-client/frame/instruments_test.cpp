@@ -1,0 +1,79 @@
+#include "sim-client/frame/instruments.hpp"
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "car-io/driving_keys.hpp"
+#include "tests/shipped_files.hpp"
+
+namespace septet::frame {
+namespace {
+
+rig::Rig shipped_rig(const std::string& name) { return *rig::read_rig(shipped_text("rigs/" + name + ".toml"), name); }
+
+Snapshot driving(double speed_mps, int gear, Lamps lamps = {}, double engine_radps = 200.0) {
+  Snapshot snapshot;
+  snapshot.participants.push_back({.id = 1, .lamps = lamps});
+  snapshot.driver_car.participant = 1;
+  snapshot.driver_car.speed_mps = speed_mps;
+  snapshot.driver_car.gear = static_cast<std::int8_t>(gear);
+  snapshot.driver_car.engine_radps = engine_radps;
+  return snapshot;
+}
+
+Lamps lit(Lamp lamp) {
+  Lamps lamps;
+  lamps.set(lamp, true);
+  return lamps;
+}
+
+bool says(const std::vector<render::OverlayText>& texts, const std::string& text) {
+  return std::ranges::any_of(texts, [&](const auto& line) { return line.text == text; });
+}
+
+}  // namespace
+
+TEST_CASE("speed and gear are those of the snapshot") {
+  const rig::Rig rig = shipped_rig("desktop");
+  const rig::Screen& screen = rig.screens[0];
+  CHECK(says(instruments(driving(30.0, 5), rig, screen), "108 km/h   5"));
+  CHECK(says(instruments(driving(0.0, 0), rig, screen), "0 km/h   N"));
+  CHECK(says(instruments(driving(-2.5, -1), rig, screen), "9 km/h   R"));
+  CHECK(instruments(driving(30.0, 5), rig, screen).size() == 1);
+}
+
+TEST_CASE("warning lamps show what is on") {
+  const rig::Rig rig = shipped_rig("desktop");
+  const rig::Screen& screen = rig.screens[0];
+  CHECK(says(instruments(driving(10.0, 2, lit(Lamp::indicator_left)), rig, screen), "◀"));
+  CHECK_FALSE(says(instruments(driving(10.0, 2, lit(Lamp::indicator_left)), rig, screen), "▶"));
+  CHECK(says(instruments(driving(10.0, 2, lit(Lamp::indicator_right)), rig, screen), "▶"));
+  CHECK(says(instruments(driving(0.0, 1, {}, 0.0), rig, screen), "engine stalled"));
+}
+
+TEST_CASE("only a screen ahead where no real car stands has instruments") {
+  for (const char* name : {"desktop", "three-monitors", "seven-screens"}) {
+    const rig::Rig rig = shipped_rig(name);
+    for (const auto& screen : rig.screens) {
+      CAPTURE(screen.name);
+      CHECK(instruments(driving(30.0, 5), rig, screen).empty() == (screen.name != "desktop"));
+    }
+  }
+}
+
+TEST_CASE("the table of keys has every key and stays on the screen") {
+  rig::Screen screen;
+  for (const auto& [width_px, height_px] : {std::pair{1280u, 747u}, {1920u, 1080u}, {3840u, 2160u}, {640u, 458u}}) {
+    screen.width_px = width_px;
+    screen.height_px = height_px;
+    const auto texts = key_table(screen);
+    for (const auto& key : car_io::driving_keys()) {
+      CHECK(says(texts, car_io::names_of_keys(key)));
+      CHECK(says(texts, key.does));
+    }
+    CHECK(texts.back().y_px + texts.back().height_px < 0.85f * static_cast<float>(height_px));
+  }
+}
+
+}  // namespace septet::frame
