@@ -149,6 +149,12 @@ Expected<SessionReader> SessionReader::open(const std::filesystem::path& path) {
 const SessionInfo& SessionReader::info() const { return state_->info; }
 bool SessionReader::ended_cleanly() const { return state_->ended_cleanly; }
 
+Expected<std::uint64_t> SessionReader::missing_ticks() const {
+  return state_->database
+      .query_integer("SELECT ifnull(max(tick) + 1, 0) - count(*) FROM snapshots WHERE tick >= 0")
+      .map([](std::int64_t missing) { return static_cast<std::uint64_t>(missing); });
+}
+
 Expected<std::optional<std::pair<double, double>>> SessionReader::time_span_s() const {
   std::pair<double, double> span;
   for (const auto& [sql, value] :

@@ -53,6 +53,8 @@ class SessionReader {
   const SessionInfo& info() const;
   /// Whether the writer closed the file itself.
   bool ended_cleanly() const;
+  /// Ticks from 0 to the newest that have no snapshot: gaps of early builds, or rows that somebody removed.
+  Expected<std::uint64_t> missing_ticks() const;
   /// Simulated time of the first and last snapshot; nothing where there is none.
   Expected<std::optional<std::pair<double, double>>> time_span_s() const;
 

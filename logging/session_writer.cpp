@@ -272,7 +272,7 @@ std::optional<Tick> SessionWriter::committed_tick() const {
   return tick < 0 ? std::nullopt : std::optional(static_cast<Tick>(tick));
 }
 
-Expected<void> SessionWriter::finish() {
+Expected<void> SessionWriter::finish(const std::map<std::string, std::string>& meta) {
   state_->stop();
   if (state_->is_finished) return {};
   state_->is_finished = true;
@@ -282,6 +282,8 @@ Expected<void> SessionWriter::finish() {
   }
   const Database& database = state_->database;
   auto done = database.execute("BEGIN");
+  for (const auto& [key, value] : meta)
+    if (done) done = insert_meta(database, key, value);
   if (done) done = insert_meta(database, "ended", "1");
   if (done && state_->previous)
     done = insert_meta(database, "ended_simulated_time_s",

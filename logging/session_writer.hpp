@@ -14,8 +14,10 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "engine/core/expected.hpp"
 #include "engine/world/taken_snapshot.hpp"
@@ -58,10 +60,10 @@ class SessionWriter {
   /// Tick of the newest snapshot that is safely in the file.
   std::optional<Tick> committed_tick() const;
 
-  /// Writes the rest, marks the clean end and leaves one file without side files. Answers the error
-  /// that ended the recording where `take_error` has not. The writer drops every record from then
-  /// on.
-  Expected<void> finish();
+  /// Writes the rest, adds rows to `meta`, marks the clean end and leaves one file without side
+  /// files. Answers the error that ended the recording where `take_error` has not. The writer loses
+  /// every record from then on.
+  Expected<void> finish(const std::map<std::string, std::string>& meta = {});
 
  private:
   struct State;

@@ -2,20 +2,25 @@
 
 #include "engine/core/printable.hpp"
 #include "sim-server/car_motion.hpp"
+#include "sim-server/natural_end.hpp"
 
 namespace septet::server {
 
 Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
-                                                      DriverSeat seat, SessionLog* log) {
+                                                      DriverSeat seat) {
   auto state = initial_state(*model, std::move(traffic));
   if (!state) return tl::unexpected(state.error());
-  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), log, std::move(*state)));
+  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), std::move(*state)));
 }
 
-LiveDrive::LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state)
-    : model_(std::move(model)), seat_(std::move(seat)), log_(log), state_(std::move(state)) {
+LiveDrive::LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SimulationState state)
+    : model_(std::move(model)), seat_(std::move(seat)), state_(std::move(state)) {
   newest_ = memory_.share(capture_snapshot(*model_, state_));
-  if (log_) log_->record_tick(newest_, {});
+}
+
+void LiveDrive::log_to(SessionLog& log) {
+  log_ = &log;
+  log_->record_tick(newest_, {});
 }
 
 logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
@@ -49,6 +54,7 @@ void LiveDrive::move_actuators() {
 }
 
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
+  if (end_) return std::shared_ptr<const TakenSnapshot>();
   if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
   std::vector<SimulationEvent> events;
@@ -56,15 +62,20 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   move_actuators();
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));
+    end_ = logging::DriveEnd::traffic_lost;
     return tl::unexpected(std::move(*error));
   }
   if (log_) {
     // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
-    if (auto error = log_->take_error()) return tl::unexpected(std::move(*error));
+    if (auto error = log_->take_error()) {
+      end_ = logging::DriveEnd::log_failed;
+      return tl::unexpected(std::move(*error));
+    }
     log_->record_input(std::move(input));
     log_->record_tick(newest_, events);
     if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));
   }
+  end_ = natural_end(*model_, state_);
   return newest_;
 }
 

@@ -31,29 +31,33 @@ struct DriverSeat {
 
 class LiveDrive final : public TickSource {
  public:
-  /// `log` may be null and outlives the drive otherwise.
+  /// The drive as it stands at tick 0.
   static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
-                                                    DriverSeat seat, SessionLog* log);
+                                                    DriverSeat seat);
+  /// From here on everything is logged, tick 0 first. `log` outlives the drive.
+  void log_to(SessionLog& log);
 
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  logging::DriveEnd end() const override { return end_.value_or(logging::DriveEnd::failed); }
   double tick_rate_hz() const override { return server::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_->snapshot(); }
 
  private:
-  LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SessionLog* log, SimulationState state);
+  LiveDrive(std::shared_ptr<const SimulationModel> model, DriverSeat seat, SimulationState state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
   void move_actuators();
   void tell(const std::string& what);
 
   std::shared_ptr<const SimulationModel> model_;
   DriverSeat seat_;
-  SessionLog* log_;
+  SessionLog* log_ = nullptr;
   SimulationState state_;
   DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
+  std::optional<logging::DriveEnd> end_;
   std::vector<std::string> messages_;
 };
 

@@ -12,6 +12,7 @@ class ReplaySource final : public TickSource {
   static Expected<std::unique_ptr<ReplaySource>> start(const logging::SessionReader& session, double from_s);
 
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  logging::DriveEnd end() const override { return logging::DriveEnd::session_end; }
   double tick_rate_hz() const override { return tick_rate_hz_; }
 
  private:

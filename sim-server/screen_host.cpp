@@ -164,6 +164,8 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     ++screen->frames;
   } else if (const auto* controls = std::get_if<Controls>(&message)) {
     if (options_.drivers.contains(screen->name)) controls_ = controls->input;
+  } else if (const auto* quit = std::get_if<Quit>(&message)) {
+    end_requested_ = quit->by_escape ? logging::DriveEnd::escape : logging::DriveEnd::window_closed;
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
   }
@@ -185,6 +187,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   screen->client = client;
   screen->expected = screen->scene_arrived = screen->has_presented = screen->left_behind = false;
   ++screen->joined;
+  screen->connected_s.push_back(simulated_time_s());
   screen->joined_s = now_s;
   screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->snapshot().tick);
   baselines_.join(client, now_s);
@@ -250,6 +253,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     tell(client, fmt::format("screen {} left: {}", screen->name, reason), now_s);
     screen->client.reset();
     screen->scene_arrived = false;
+    if (!is_finishing_) screen->left_s.push_back(simulated_time_s());
   }
   clients_.erase(known);
 }
@@ -289,6 +293,7 @@ void ScreenHost::leave_behind(Tick tick) {
   for (HostedScreen& screen : screens_) {
     if (keeps_up(screen, tick)) continue;
     screen.left_behind = true;
+    screen.left_behind_s.push_back(simulated_time_s());
     messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
   }
 }
@@ -296,6 +301,7 @@ void ScreenHost::leave_behind(Tick tick) {
 std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }
 
 void ScreenHost::finish(const std::string& reason) {
+  is_finishing_ = true;
   for (const auto& screen : screens_)
     if (screen.client) send(*screen.client, Finish{reason});
   if (car_client_) send(*car_client_, Finish{reason});

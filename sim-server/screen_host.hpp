@@ -23,6 +23,7 @@
 #include "engine/replication/replication_server.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
+#include "logging/drive_end.hpp"
 #include "sim-server/playout_planner.hpp"
 #include "sim-server/remote_car.hpp"
 
@@ -56,6 +57,7 @@ struct HostedScreen {
   std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
+  std::vector<double> connected_s, left_s, left_behind_s;  ///< When, in simulated time.
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
 
   bool live() const { return client.has_value(); }
@@ -92,6 +94,8 @@ class ScreenHost {
   bool all_presented(Tick tick) const;
   /// Who has not shown the tick is not waited for again before it shows one.
   void leave_behind(Tick tick);
+  /// Whether the person at one of the screens has ended the drive, and how.
+  std::optional<logging::DriveEnd> end_requested() const { return end_requested_; }
   /// The newest controls that a screen with keyboard or gamepad has sent, once.
   std::optional<DriverInput> take_controls();
   void finish(const std::string& reason);
@@ -120,6 +124,7 @@ class ScreenHost {
   void on_disconnected(net::ClientId client, const std::string& reason, double now_s);
   void send_unicast_to_the_deaf(double now_s);
   HostedScreen* screen_of(net::ClientId client);
+  double simulated_time_s() const { return sent_.empty() ? 0.0 : sent_.back()->snapshot().simulated_time_s; }
   void send(net::ClientId client, const control::ControlMessage& message);
 
   ScreenHostOptions options_;
@@ -135,9 +140,11 @@ class ScreenHost {
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::optional<DriverInput> controls_;
+  std::optional<logging::DriveEnd> end_requested_;
   std::optional<net::ClientId> car_client_;
   net::ChannelCounters told_;  ///< What the operator has been told of.
   double told_s_ = 0.0;
+  bool is_finishing_ = false;
   std::size_t last_tick_bytes_ = 0;
   std::vector<std::string> messages_;
 };

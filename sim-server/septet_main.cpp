@@ -26,7 +26,7 @@ namespace {
 void add_drive_options(CLI::App& command, DriveOptions& options) {
   command.add_option("--rig", options.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
   command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside")->default_str("out/latest");
-  command.add_option("--seconds", options.seconds, "Simulated seconds to run")->check(CLI::Range(0.0, 1e6));
+  command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until the scenario ends or somebody stops it (default: 0 in a window, 30 off-screen)")->check(CLI::Range(0.0, 1e6));
   command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
 }
 
@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
   app.set_version_flag("--version", std::string(version));
   app.require_subcommand(1);
+  app.footer("Exit status: 0 finished, 1 failed, 2 wrong use, 3 a drive or replay that somebody stopped before its end.");
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
     return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
   });

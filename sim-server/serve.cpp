@@ -7,14 +7,47 @@
 namespace septet::server {
 namespace {
 
-/// The loop's parts share these.
+using logging::DriveEnd;
+
+/// The loop's parts share these. A part returns once `result.end` says why, or where it has nothing more to do.
 struct Loop {
   TickSource& source;
+  const ServeEnvironment& environment;
+  std::uint64_t ticks;
+  double started_s;
+  ServeResult result = {};
+
+  void report(std::string what) {
+    environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), environment.now_s() - started_s,
+                        std::move(what)});
+  }
+  /// The next tick; nothing at the end, with the reason in the result.
+  std::shared_ptr<const TakenSnapshot> take_tick(const std::optional<DriverInput>& controls) {
+    auto snapshot = source.next(controls);
+    for (const auto& text : source.take_messages()) (environment.show ? environment.show : environment.message)(text);
+    if (!snapshot) result.error = std::move(snapshot.error());
+    if (!snapshot || !*snapshot) {
+      result.end = source.end();
+      return nullptr;
+    }
+    ++result.ticks;
+    result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
+    result.state_hash = (*snapshot)->snapshot().state_hash;
+    return std::move(*snapshot);
+  }
+  /// Whether somebody, or the clock, wants the drive to end; the result says who.
+  bool is_over(const std::optional<DriveEnd>& by_a_screen) {
+    const auto asked = environment.end_requested();
+    if (!asked && !by_a_screen && (ticks == 0 || result.ticks < ticks)) return false;
+    result.end = asked ? *asked : by_a_screen.value_or(DriveEnd::time_over);
+    return true;
+  }
+};
+
+/// A loop with screens.
+struct ScreenLoop : Loop {
   ScreenHost& host;
   const ServeOptions& options;
-  const ServeEnvironment& environment;
-  double started_s;
-  ServeResult result;
 
   void pump() {
     if (environment.changed_list)
@@ -22,13 +55,9 @@ struct Loop {
     host.pump(environment.now_s());
     for (const auto& text : host.take_messages()) environment.message(text);
   }
-  void report(std::string what) {
-    environment.report({result.simulated_s, static_cast<double>(options.ticks) / source.tick_rate_hz(),
-                        environment.now_s() - started_s, std::move(what)});
-  }
-  bool done() const { return environment.stop_requested() || (options.ticks != 0 && result.ticks >= options.ticks); }
+  bool is_over() { return Loop::is_over(host.end_requested()); }
 
-  /// Pumps until `satisfied` or out of patience; false in the latter case. `every_s` runs `nudge` now and then.
+  /// Pumps until `satisfied`, out of patience or `is_over`; false in the latter cases. `every_s` runs `nudge` now and then.
   template <class Condition, class Nudge>
   bool pump_until(Condition satisfied, double patience_s, double every_s, Nudge nudge) {
     const double begun_s = environment.now_s();
@@ -37,7 +66,7 @@ struct Loop {
       pump();
       if (satisfied()) return true;
       const double now_s = environment.now_s();
-      if (now_s - begun_s > patience_s || environment.stop_requested()) return false;
+      if (now_s - begun_s > patience_s || is_over()) return false;
       if (now_s - nudged_s > every_s) {
         nudged_s = now_s;
         nudge();
@@ -45,22 +74,11 @@ struct Loop {
       environment.wait(host.has_backlog() ? 0.0 : 0.005);
     }
   }
-
-  Expected<std::shared_ptr<const TakenSnapshot>> take_tick() {
-    auto snapshot = source.next(host.take_controls());
-    for (const auto& text : source.take_messages())
-      if (environment.show) environment.show(text);
-    if (snapshot && *snapshot) {
-      ++result.ticks;
-      result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
-      result.state_hash = (*snapshot)->snapshot().state_hash;
-    }
-    return snapshot;
-  }
 };
 
-/// All who belong to the rig are there, or the operator does without them. Simulated time begins after that.
-Expected<void> wait_for_screens(Loop& loop) {
+/// All who belong to the rig are there, or the operator or patience does without those who are not. Simulated time begins after that.
+/// In lockstep there is no drive where not one screen came.
+bool wait_for_screens(ScreenLoop& loop) {
   const auto missing = [&] { return fmt::format("{}", fmt::join(loop.host.missing(), ", ")); };
   const double patience_s = loop.options.lockstep ? loop.options.patience_s : loop.options.wait_for_screens_s;
   const bool can_go = loop.environment.told_to_go != nullptr;
@@ -69,37 +87,40 @@ Expected<void> wait_for_screens(Loop& loop) {
     loop.pump_until([&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
                     [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
   loop.started_s = loop.environment.now_s();
-  if (patience_s <= 0.0 || loop.host.all_ready() || loop.environment.stop_requested()) return {};
-  if (loop.options.lockstep && !told_to_go())
-    return failure(fmt::format("no answer within {:.0f} s from: {}", patience_s, missing()), "screens",
-                   "look into their logs, and check that they run and reach this machine");
+  if (patience_s <= 0.0 || loop.host.all_ready()) return true;
+  if (loop.is_over()) return false;
+  if (loop.options.lockstep && !told_to_go() && loop.host.missing().size() == loop.host.screens().size()) {
+    loop.result.end = DriveEnd::no_screens;
+    loop.result.error = Error{fmt::format("no answer within {:.0f} s from: {}", patience_s, missing()), "screens",
+                              "look into their logs, and check that they run and reach this machine"};
+    return false;
+  }
   loop.environment.message("the drive begins without " + missing());
-  return {};
+  return true;
 }
 
-Expected<void> run_lockstep(Loop& loop) {
-  if (auto ready = wait_for_screens(loop); !ready) return ready;
-  while (!loop.done()) {
-    const auto snapshot = loop.take_tick();
-    if (!snapshot) return tl::unexpected(snapshot.error());
-    if (!*snapshot) break;
-    const Tick tick = (*snapshot)->snapshot().tick;
+void run_lockstep(ScreenLoop& loop) {
+  if (!wait_for_screens(loop)) return;
+  while (!loop.is_over()) {
+    const auto snapshot = loop.take_tick(loop.host.take_controls());
+    if (!snapshot) return;
+    const Tick tick = snapshot->snapshot().tick;
     if (tick % loop.options.draw_every_ticks != 0) continue;
-    loop.host.publish(*snapshot, loop.environment.now_s());
+    loop.host.publish(snapshot, loop.environment.now_s());
+    const double asked_s = loop.environment.now_s();
     const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,
                                           [&] { loop.host.repeat_newest(); });
-    if (!together && !loop.environment.stop_requested()) loop.host.leave_behind(tick);
+    if (!together && loop.environment.now_s() - asked_s > loop.options.lockstep_patience_s) loop.host.leave_behind(tick);
     loop.report("driving");
   }
-  return {};
 }
 
-Expected<void> run_real_time(Loop& loop) {
-  if (auto ready = wait_for_screens(loop); !ready) return ready;
+void run_real_time(ScreenLoop& loop) {
+  if (!wait_for_screens(loop)) return;
   const double tick_s = 1.0 / loop.source.tick_rate_hz();
   double due_s = loop.environment.now_s();
   double reported_s = due_s;
-  while (!loop.done()) {
+  while (!loop.is_over()) {
     loop.pump();
     const double now_s = loop.environment.now_s();
     if (now_s < due_s) {
@@ -112,31 +133,39 @@ Expected<void> run_real_time(Loop& loop) {
       due_s = now_s;
     }
     due_s += tick_s;
-    const auto snapshot = loop.take_tick();
-    if (!snapshot) return tl::unexpected(snapshot.error());
-    if (!*snapshot) break;
-    loop.host.publish(*snapshot, now_s);
+    const auto snapshot = loop.take_tick(loop.host.take_controls());
+    if (!snapshot) return;
+    loop.host.publish(snapshot, now_s);
     if (now_s - reported_s > 0.5) {
       reported_s = now_s;
       loop.report("driving");
     }
   }
-  return {};
 }
 
 }  // namespace
 
-Expected<ServeResult> serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
-                            const ServeEnvironment& environment) {
-  Loop loop{source, host, options, environment, environment.now_s(), {}};
-  auto outcome = options.lockstep ? run_lockstep(loop) : run_real_time(loop);
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const ServeEnvironment& environment) {
+  ScreenLoop loop{{source, environment, options.ticks, environment.now_s()}, host, options};
+  options.lockstep ? run_lockstep(loop) : run_real_time(loop);
   loop.result.wall_s = environment.now_s() - loop.started_s;
   // Whatever happened, the screens hear that it is over and say what they have seen.
-  host.finish(outcome ? "the drive is over" : outcome.error().what);
-  const ServeEnvironment farewell{environment.now_s, environment.wait, [] { return false; }, environment.report, environment.message};
-  Loop last{source, host, options, farewell, loop.started_s, {}};
-  last.pump_until([&] { return host.all_reported(); }, 10.0, 1.0, [] {});
-  if (!outcome) return tl::unexpected(outcome.error());
+  host.finish(loop.result.error ? loop.result.error->what : std::string(text_of(loop.result.end)));
+  const double asked_s = environment.now_s();
+  do {
+    loop.pump();
+    environment.wait(host.has_backlog() ? 0.0 : 0.005);
+  } while (!host.all_reported() && environment.now_s() - asked_s < 10.0);
+  return loop.result;
+}
+
+ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment) {
+  Loop loop{source, environment, ticks, environment.now_s()};
+  while (!loop.is_over(std::nullopt)) {
+    if (!loop.take_tick(std::nullopt)) break;
+    if (loop.result.ticks % 120 == 0) loop.report("driving");
+  }
+  loop.result.wall_s = environment.now_s() - loop.started_s;
   return loop.result;
 }
 

@@ -2,14 +2,17 @@
 /// The server's loop: one snapshot per tick from the source, to all screens.
 ///
 /// In lockstep simulated time is all there is: every n-th tick is sent and the next one is not taken before all live screens
-/// have shown it. In real time a tick is due every 1/rate seconds whatever the screens do.
+/// have shown it. In real time a tick is due every 1/rate seconds whatever the screens do. However it ends, the screens are told
+/// and the result says why.
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "engine/core/expected.hpp"
 #include "engine/net/udp_socket.hpp"
+#include "logging/drive_end.hpp"
 #include "sim-server/screen_host.hpp"
 #include "sim-server/tick_source.hpp"
 
@@ -34,7 +37,7 @@ struct ServeEnvironment {
   std::function<double()> now_s;
   /// Sleeps until something arrives or the time has passed.
   std::function<void(double seconds)> wait;
-  std::function<bool()> stop_requested;
+  std::function<std::optional<logging::DriveEnd>()> end_requested;  ///< By the operator.
   std::function<void(const Progress&)> report;
   /// What has happened, for the console and the log.
   std::function<void(const std::string&)> message;
@@ -47,6 +50,8 @@ struct ServeEnvironment {
 };
 
 struct ServeResult {
+  logging::DriveEnd end = logging::DriveEnd::failed;
+  std::optional<Error> error;  ///< Where the end is one.
   std::uint64_t ticks = 0;
   double simulated_s = 0.0;
   double wall_s = 0.0;
@@ -54,7 +59,9 @@ struct ServeResult {
   std::uint64_t state_hash = 0;
 };
 
-Expected<ServeResult> serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
-                            const ServeEnvironment& environment);
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const ServeEnvironment& environment);
+
+/// The same without screens: there is nobody to wait for, and ticks follow each other as fast as they are computed.
+ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment);
 
 }  // namespace septet::server

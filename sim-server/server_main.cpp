@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   app.add_option("--keys", options.keys, "Folder with server.key and allowed-clients")->required();
   app.add_option("--replay", options.replay, "Show this session instead of driving");
   app.add_option("--from", options.replay_from_s, "Simulated second to begin the replay at");
-  app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until stopped");
+  app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until the scenario ends or somebody stops it")->check(CLI::Range(0.0, 1e6))->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--driver", options.driver, "Which simulated driver");
   app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
@@ -45,8 +45,8 @@ int main(int argc, char** argv) {
       if (!scenario) return fail(scenario.error());
       options.scenario = scenario->string();
     }
-    if (const auto outcome = server::run_server(options); !outcome) return fail(outcome.error());
-    return 0;
+    const auto end = server::run_server(options);
+    return end ? exit_status(*end) : fail(end.error());
   } catch (const std::exception& error) {
     return fail({error.what(), "", ""});
   }

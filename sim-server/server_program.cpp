@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -26,13 +27,24 @@
 #include "sim-server/replay_source.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/serve.hpp"
+#include "sim-server/stop_signal.hpp"
 #include "sim-server/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-void on_signal(int) { stop_requested = 1; }
+/// What a signal means for the drive.
+std::optional<logging::DriveEnd> end_by_signal() {
+  const auto signal = stop_signal();
+  if (!signal) return std::nullopt;
+  obey_stop_signal();
+  switch (*signal) {
+    case SIGINT: return logging::DriveEnd::interrupted;
+    case SIGHUP: return logging::DriveEnd::hung_up;
+    case SIGUSR1: return logging::DriveEnd::no_screens;
+    default: return logging::DriveEnd::terminated;
+  }
+}
 
 double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -145,11 +157,10 @@ struct Drive {
   LoadedDrive loaded;
   scene::Store store;
   std::optional<logging::SessionReader> session;  ///< Of a replay.
-  DriverSeat seat;                                ///< Of a drive.
-  std::unique_ptr<traffic::TrafficEngine> traffic;  ///< Of a drive, until its source has it.
   std::optional<SessionLog> log;                  ///< Of a drive.
   std::shared_ptr<RemoteCar> remote_car;          ///< Of a drive whose car is on another machine.
   std::unique_ptr<TickSource> source;
+  LiveDrive* live = nullptr;                      ///< The source, of a drive.
 };
 
 Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
@@ -181,14 +192,17 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
   auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
   if (!seat) return tl::unexpected(seat.error());
-  drive.seat = std::move(*seat);
+  drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());
-  drive.traffic = std::move(*traffic);
+  auto source = LiveDrive::start(drive.loaded.model, std::move(*traffic), std::move(*seat));
+  if (!source) return tl::unexpected(source.error());
+  drive.live = source->get();
+  drive.source = std::move(*source);
   return {};
 }
 
-/// Begins the log and the simulation, once everything that could be missing is there: a failed start leaves no file behind.
+/// Begins the log, once everything that could be missing is there: a failed start leaves no file behind.
 Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
@@ -197,59 +211,48 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
   drive.log->record_scene(drive.store);
-  drive.remote_car = drive.seat.remote;
-  auto source = LiveDrive::start(drive.loaded.model, std::move(drive.traffic), std::move(drive.seat), &*drive.log);
-  if (!source) return tl::unexpected(source.error());
-  drive.source = std::move(*source);
+  drive.live->log_to(*drive.log);
   return {};
 }
 
-/// Without screens there is nobody to wait for: ticks follow each other as fast as they are computed.
-Expected<ServeResult> run_headless(TickSource& source, std::uint64_t ticks, ProgressLine& progress) {
-  ServeResult result;
-  const double begun_s = monotonic_s();
-  while (!stop_requested && (ticks == 0 || result.ticks < ticks)) {
-    const auto snapshot = source.next(std::nullopt);
-    if (!snapshot) return tl::unexpected(snapshot.error());
-    if (!*snapshot) break;
-    ++result.ticks;
-    result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
-    result.state_hash = (*snapshot)->snapshot().state_hash;
-    result.wall_s = monotonic_s() - begun_s;
-    if (result.ticks % 120 == 0) progress.show({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), result.wall_s, "driving"});
-  }
-  return result;
+/// Closes the log and writes summary and report. A log that cannot be closed is the drive's end, unless something else was.
+void finish_log(const ServerOptions& options, const std::string& rig, SessionLog& log, ServeResult& result,
+                const std::vector<HostedScreen>& screens, ProgressLine& progress) {
+  const auto failed = [&](const Error& error) {
+    if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
+    progress.message(fmt::format("septet-server: {}", describe(error)));
+    if (exit_status(result.end) == logging::failed_status) return;
+    result.end = logging::DriveEnd::log_failed;
+    result.error = error;
+  };
+  if (const auto finished = log.finish(log.outcome(result, screens)); !finished) failed(finished.error());
+  const auto written =
+      write_results(options.out, std::filesystem::path(options.scenario).stem().string(), rig, options.seed, log.outcome(result, screens));
+  if (!written) failed(written.error());
+}
+
+/// Standard output is for whoever started this program: what it may not miss. Not fmt::print, which throws where that one has gone.
+void announce(const std::string& line) {
+  std::fputs((line + '\n').c_str(), stdout);
+  std::fflush(stdout);
 }
 
 }  // namespace
 
-Expected<void> run_server(const ServerOptions& options) {
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGINT, on_signal);
+Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
+  survive_failed_writes();
   ProgressLine progress;
   Drive drive;
   auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
-  if (!prepared) return prepared;
+  if (!prepared) return tl::unexpected(prepared.error());
   const rig::Rig& rig = drive.loaded.rig;
   std::optional<Endpoint> endpoint;
+  std::optional<ScreenHostOptions> for_screens;
   if (!options.no_screens) {
     auto opened = open_endpoint(options, rig);
     if (!opened) return tl::unexpected(opened.error());
     endpoint.emplace(std::move(*opened));
-  }
-  if (options.replay.empty())
-    if (auto begun = begin_drive(options, drive); !begun) return begun;
-  const auto ticks = static_cast<std::uint64_t>(options.seconds * drive.source->tick_rate_hz() + 0.5);
-
-  Expected<ServeResult> result;
-  std::vector<HostedScreen> screens;
-  if (!endpoint) {
-    fmt::print("ready 0\n");
-    std::fflush(stdout);
-    result = run_headless(*drive.source, ticks, progress);
-  } else {
-    Sockets& sockets = endpoint->sockets;
-    ScreenHostOptions host_options{.identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)};
+    ScreenHostOptions& host_options = for_screens.emplace(ScreenHostOptions{.identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)});
     host_options.welcome = {.rig = drive.loaded.source("rig"), .lockstep = options.lockstep, .tick_rate_hz = drive.source->tick_rate_hz(),
                             .picture_every_ticks = static_cast<std::uint32_t>(drive.source->tick_rate_hz())};
     host_options.max_datagram_bytes = rig.network.max_payload_bytes;
@@ -261,18 +264,36 @@ Expected<void> run_server(const ServerOptions& options) {
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
     host_options.drivers = drivers_of(rig);
     host_options.car = drive.remote_car;
-    if (auto chosen = choose_transport(rig.network, sockets, options.any_port, host_options.welcome, progress); !chosen) return chosen;
-    ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(host_options));
-    fmt::print("ready {}\n", sockets.lane.local_address().port);
-    std::fflush(stdout);
+    if (auto chosen = choose_transport(rig.network, endpoint->sockets, options.any_port, host_options.welcome, progress); !chosen)
+      return tl::unexpected(chosen.error());
+  }
+  // From here on there is something to be ended in order.
+  catch_stop_signals();
+  if (options.replay.empty())
+    if (auto begun = begin_drive(options, drive); !begun) return tl::unexpected(begun.error());
+  const auto ticks = static_cast<std::uint64_t>(options.seconds * drive.source->tick_rate_hz() + 0.5);
 
-    ServeEnvironment environment;
-    environment.now_s = monotonic_s;
+  ServeEnvironment environment;
+  environment.now_s = monotonic_s;
+  environment.end_requested = end_by_signal;
+  environment.report = [&](const Progress& now) { progress.show(now); };
+  environment.message = [&](const std::string& text) {
+    progress.message(text);
+    if (drive.log) drive.log->record_message("screen", text);
+  };
+  ServeResult result;
+  std::vector<HostedScreen> screens;
+  if (!endpoint) {
+    announce("ready 0");
+    result = run_headless(*drive.source, ticks, environment);
+  } else {
+    Sockets& sockets = endpoint->sockets;
+    ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
+    announce(fmt::format("ready {}", sockets.lane.local_address().port));
     environment.wait = [&](double seconds) {
       const net::UdpSocket* waiting[] = {&sockets.lane};
       net::wait_readable(waiting, seconds);
     };
-    environment.stop_requested = [] { return stop_requested != 0; };
     GoWord go;
     environment.told_to_go = [&] { return go.said(); };
     net::AllowedClientsWatch watch(options.keys / "allowed-clients");
@@ -284,22 +305,15 @@ Expected<void> run_server(const ServerOptions& options) {
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
     environment.show = [&](const std::string& text) { progress.message(text); };
-    environment.report = [&](const Progress& now) { progress.show(now); };
-    environment.message = [&](const std::string& text) {
-      progress.message(text);
-      if (drive.log) drive.log->record_message("screen", text);
-    };
     const double wait_s = options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
     result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks, .wait_for_screens_s = wait_s}, environment);
     screens = host.screens();
   }
   progress.close();
-  if (!drive.log) return result ? Expected<void>{} : tl::unexpected(result.error());
-  // What was driven is kept, also where the end was an error.
-  auto finished = drive.log->finish();
-  if (!result) return tl::unexpected(result.error());
-  if (!finished) return finished;
-  return write_results(options.out, std::filesystem::path(options.scenario).stem().string(), rig.name, options.seed, *result, screens);
+  if (result.error) progress.message(fmt::format("septet-server: {}", describe(*result.error)));
+  if (drive.log) finish_log(options, rig.name, *drive.log, result, screens, progress);
+  announce(fmt::format("ended {} {}", name_of(result.end), drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
+  return result.end;
 }
 
 }  // namespace septet::server

@@ -2,11 +2,16 @@
 /// `septet-server` from reading its files to writing its results.
 
 #include "engine/core/expected.hpp"
+#include "logging/drive_end.hpp"
 #include "sim-server/server_options.hpp"
 
 namespace septet::server {
 
-/// Prints "ready PORT" to standard output once screens may connect, progress and messages to standard error.
-Expected<void> run_server(const ServerOptions& options);
+/// Prints "ready PORT" to standard output once screens may connect, and at the end "ended NAME TEXT" (logging/drive_end.hpp);
+/// progress and messages go to standard error. An error: nothing was driven, and nothing is left behind. Once the drive has
+/// begun, whatever ends it: the log is closed, summary and report are written, and the answer says why.
+///
+/// A signal ends the program at once while it still reads its files, and the drive in order afterwards.
+Expected<logging::DriveEnd> run_server(const ServerOptions& options);
 
 }  // namespace septet::server

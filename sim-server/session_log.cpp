@@ -1,5 +1,6 @@
 #include "sim-server/session_log.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -10,6 +11,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "logging/input_hash.hpp"
 #include "logging/report/report.hpp"
 #include "logging/report/summary.hpp"
 #include "logging/session_reader.hpp"
@@ -40,6 +42,7 @@ Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const
   info.files = drive.sources;
   info.other["driver"] = drive.rig.car.driver;
   info.other["traffic"] = traffic;
+  info.other["compiler"] = __VERSION__;
   logging::WriterOptions options;
   // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
@@ -78,6 +81,57 @@ std::optional<std::string> SessionLog::take_warning() {
   return fmt::format("log: the disk is too slow for this drive, which has waited {:.1f} s for it so far; nothing is lost", waited_s);
 }
 
+void SessionLog::record_input(logging::InputRecord input) {
+  logging::add_to_hash(input, inputs_hash_);
+  writer_.record(std::move(input));
+}
+
+logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const {
+  logging::DriveOutcome outcome;
+  outcome.end = result.end;
+  if (result.error) outcome.error = describe(*result.error);
+  outcome.ticks = result.ticks;
+  outcome.simulated_s = result.simulated_s;
+  outcome.wall_s = result.wall_s;
+  outcome.state_hash = result.state_hash;
+  outcome.inputs_hash = inputs_hash_.value();
+  outcome.late_ticks = result.late_ticks;
+  outcome.lost_records = writer_.lost_records();
+  outcome.log_waited_s = writer_.waited_s();
+  for (const HostedScreen& screen : screens) {
+    logging::ScreenOutcome seen;
+    const auto report = screen.report.value_or(control::ScreenReport{});
+    seen.name = screen.name;
+    seen.frames = std::max(screen.frames, report.frames);  // The host's count knows all lives, the screen's own loses none on the way.
+    seen.frames_off_tick = report.frames_off_tick;
+    seen.datagrams_lost = report.datagrams_lost;
+    seen.datagrams_repaired = report.datagrams_repaired;
+    seen.refused_ticks = report.refused_ticks;
+    seen.frame_ms_p50 = report.frame_ms_p50;
+    seen.frame_ms_p99 = report.frame_ms_p99;
+    seen.submit_ms_p50 = report.submit_ms_p50;
+    seen.submit_ms_p99 = report.submit_ms_p99;
+    seen.connected_s = screen.connected_s;
+    seen.left_s = screen.left_s;
+    seen.left_behind_s = screen.left_behind_s;
+    seen.has_reported = screen.report.has_value();
+    outcome.screens.push_back(std::move(seen));
+  }
+  return outcome;
+}
+
+Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
+  return writer_.finish({{"ended_why", std::string(name_of(outcome.end))}, {"outcome", to_json(outcome)}});
+}
+
+std::string SessionLog::ending(const ServeResult& result) const {
+  std::string text = fmt::format("the drive ended after {:.1f} s: {}", result.simulated_s, text_of(result.end));
+  if (const auto lost = writer_.lost_records(); lost > 0) text += fmt::format("; the log lacks the last {} records", lost);
+  if (real_time_ && writer_.waited_s() >= 0.1)
+    text += fmt::format("; the disk was too slow and made the drive wait for {:.1f} s", writer_.waited_s());
+  return text;
+}
+
 void SessionLog::record_message(const std::string& kind, const std::string& text) {
   writer_.record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
 }
@@ -114,30 +168,14 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
 }
 
 Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
-                             const ServeResult& result, const std::vector<HostedScreen>& screens) {
+                             const logging::DriveOutcome& outcome) {
   const auto reader = logging::SessionReader::open(out / "session.sqlite");
-  if (!reader) return tl::unexpected(reader.error());
-  const auto samples = reader->samples();
-  if (!samples) return tl::unexpected(samples.error());
-  const auto measures = logging::compute_drive_measures(*samples);
-  logging::DriveSummary summary;
-  summary.scenario = scenario;
-  summary.rig = rig;
-  summary.seed = seed;
-  summary.ticks = result.ticks;
-  summary.simulated_s = result.simulated_s;
-  summary.wall_s = result.wall_s;
-  summary.state_hash = result.state_hash;
-  summary.lateral_position_mean_m = measures.lateral_position.mean_m;
-  summary.lateral_position_sd_m = measures.lateral_position.sd_m;
-  summary.lane_changes = measures.lane_changes.size();
-  for (const auto& screen : screens) {
-    const auto report = screen.report.value_or(control::ScreenReport{});
-    summary.screens.push_back({screen.name, report.frames, report.frames_off_tick, report.datagrams_lost, report.datagrams_repaired,
-                               report.frame_ms_p50, report.frame_ms_p99});
-  }
+  const auto log = reader.and_then(logging::summarise_log);
+  logging::DriveSummary summary{.scenario = scenario, .rig = rig, .seed = seed, .outcome = outcome, .log = {}};
+  if (log) summary.log = *log;
   if (auto written = logging::write_summary(out / "summary.json", summary); !written) return written;
-  return logging::write_report(*reader, out / "report.html");
+  if (!log) return tl::unexpected(log.error());
+  return logging::write_report(*reader, out / "report.html", outcome);
 }
 
 }  // namespace septet::server

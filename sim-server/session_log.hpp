@@ -6,9 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/hash.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/scene/store.hpp"
 #include "logging/drive_observer.hpp"
+#include "logging/outcome.hpp"
 #include "logging/session_writer.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/serve.hpp"
@@ -21,7 +23,7 @@ class SessionLog {
                                      const std::string& traffic, bool real_time);
 
   void record_scene(const scene::Store& store);
-  void record_input(logging::InputRecord input) { writer_.record(std::move(input)); }
+  void record_input(logging::InputRecord input);
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<SimulationEvent>& events);
   void record_message(const std::string& kind, const std::string& text);
@@ -30,8 +32,12 @@ class SessionLog {
   std::optional<std::string> take_warning();
   double waited_s() const { return writer_.waited_s(); }
 
-  /// Closes the file.
-  Expected<void> finish() { return writer_.finish(); }
+  /// What is known of the drive now that it has ended.
+  logging::DriveOutcome outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const;
+  /// Closes the file; it says what became of the drive.
+  Expected<void> finish(const logging::DriveOutcome& outcome);
+  /// The end in a line: why, when, and what of the log whoever drove should know.
+  std::string ending(const ServeResult& result) const;
 
  private:
   SessionLog(logging::SessionWriter writer, std::shared_ptr<const SimulationModel> model, bool real_time)
@@ -42,6 +48,7 @@ class SessionLog {
   bool real_time_;
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
+  StateHash inputs_hash_;
   Tick tick_ = 0;
   double simulated_time_s_ = 0.0;
 };
@@ -49,8 +56,8 @@ class SessionLog {
 /// The nearest participant ahead in the driver's lane, within 250 m.
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
 
-/// summary.json and report.html beside the session file.
+/// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
 Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
-                             const ServeResult& result, const std::vector<HostedScreen>& screens);
+                             const logging::DriveOutcome& outcome);
 
 }  // namespace septet::server

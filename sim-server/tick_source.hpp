@@ -9,6 +9,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/taken_snapshot.hpp"
+#include "logging/drive_end.hpp"
 
 namespace septet::server {
 
@@ -17,6 +18,8 @@ class TickSource {
   virtual ~TickSource() = default;
   /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
   virtual Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
+  /// Why `next` has given nothing, or an error.
+  virtual logging::DriveEnd end() const = 0;
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }

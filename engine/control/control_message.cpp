@@ -32,7 +32,8 @@ template <class Visitor> void fields(Controls& m, Visitor& v) {
 }
 template <class Visitor> void fields(Finish& m, Visitor& v) { v(m.reason); }
 template <class Visitor> void fields(ScreenReport& m, Visitor& v) {
-  v(m.frames); v(m.frames_off_tick); v(m.datagrams_lost); v(m.datagrams_repaired); v(m.frame_ms_p50); v(m.frame_ms_p99);
+  v(m.frames); v(m.frames_off_tick); v(m.datagrams_lost); v(m.datagrams_repaired); v(m.refused_ticks);
+  v(m.frame_ms_p50); v(m.frame_ms_p99); v(m.submit_ms_p50); v(m.submit_ms_p99);
 }
 template <class Visitor> void fields(CarHello& m, Visitor& v) { v(m.protocol); }
 template <class Visitor> void fields(CarWelcome& m, Visitor& v) { v.text(m.rig, max_rig_text); }
@@ -40,6 +41,7 @@ template <class Visitor> void fields(CarReport& m, Visitor& v) { v(m.number); v(
 template <class Visitor> void fields(CarFeedback& m, Visitor& v) {
   v(m.tick); v(m.fan); v(m.vibration); v(m.vibration_hz); v(m.steering);
 }
+template <class Visitor> void fields(Quit& m, Visitor& v) { v(m.by_escape); }
 
 struct Put {
   ByteWriter writer;

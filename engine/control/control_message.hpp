@@ -76,7 +76,9 @@ struct ScreenReport {
   std::uint64_t frames = 0;
   std::uint64_t frames_off_tick = 0;  ///< Frames that showed another tick than they should have.
   std::uint64_t datagrams_lost = 0, datagrams_repaired = 0;
-  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;
+  std::uint64_t refused_ticks = 0;                      ///< That arrived and could not be read.
+  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;       ///< From picture to picture.
+  float submit_ms_p50 = 0.0f, submit_ms_p99 = 0.0f;     ///< Of that, until the picture was handed to the device.
 };
 
 /// septet-car → server, first of all.
@@ -103,8 +105,13 @@ struct CarFeedback {
   float steering = 0.0f;  ///< Positive turns to the left.
 };
 
+/// Screen → server: the person at this screen wants the drive to end. It is answered by Finish.
+struct Quit {
+  bool by_escape = false;  ///< By the Escape key; otherwise by closing the window.
+};
+
 using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport, CarHello,
-                                    CarWelcome, CarReport, CarFeedback>;
+                                    CarWelcome, CarReport, CarFeedback, Quit>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

@@ -13,6 +13,9 @@
 
 namespace septet::logging {
 
+/// Statistics of fewer samples (30 s) are no figure to compare with anything, and say so.
+inline constexpr std::size_t few_samples = 300;
+
 struct MeasureSettings {
   LaneChangeSettings lane_changes;
   LateralPositionSettings lateral_position;

@@ -28,13 +28,57 @@ const SourceFile* find_file(const SessionInfo& info, std::string_view role) {
   return found == info.files.end() ? nullptr : &*found;
 }
 
+/// How the drive ended, and what whoever uses its figures has to know.
+std::string ending(const ReportData& data) {
+  std::string html;
+  const auto warn = [&](const std::string& text) { html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(text)); };
+  if (const auto& outcome = data.outcome) {
+    html += fmt::format("<p>Ended after {:.1f} s of simulated time, {:.1f} s of wall time: {} (<code>{}</code>).</p>\n", outcome->simulated_s,
+                        outcome->wall_s, escaped(text_of(outcome->end)), name_of(outcome->end));
+    if (!outcome->error.empty()) warn(outcome->error);
+    if (outcome->late_ticks > 0)
+      warn(fmt::format("{} of {} ticks began late: the machine was too slow for real time, and the simulation slowed down.", outcome->late_ticks,
+                       outcome->ticks));
+    if (outcome->lost_records > 0) warn(fmt::format("The log lacks the last {} records.", outcome->lost_records));
+  }
+  if (!data.ended_cleanly)
+    warn("The recording has no clean end: the program was stopped while it drove. What is here is what was safely written.");
+  if (data.missing_ticks > 0) warn(fmt::format("The log has gaps: {} ticks are missing.", data.missing_ticks));
+  return html;
+}
+
+std::string moments(const std::vector<double>& times_s) {
+  std::string text;
+  for (const double time_s : times_s) text += fmt::format("{}{:.1f}", text.empty() ? "" : ", ", time_s);
+  return text.empty() ? "–" : text + " s";
+}
+
+std::string screen_table(const ReportData& data) {
+  if (!data.outcome || data.outcome->screens.empty()) return "";
+  std::string html =
+      "<h2>Screens</h2>\n<table><tr><th>Screen</th><th>Pictures</th><th>Off tick</th><th>Ticks lost / repaired / refused</th>"
+      "<th>Picture to picture, median / 99 %</th><th>Connected</th><th>Left or died</th><th>Left behind</th></tr>\n";
+  for (const ScreenOutcome& screen : data.outcome->screens) {
+    std::string row = fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td>", escaped(screen.name), screen.frames);
+    row += screen.has_reported
+               ? fmt::format("<td class=\"value\">{}</td><td class=\"value\">{} / {} / {}</td><td class=\"value\">{:.1f} / {:.1f} ms</td>",
+                             screen.frames_off_tick, screen.datagrams_lost, screen.datagrams_repaired, screen.refused_ticks, screen.frame_ms_p50,
+                             screen.frame_ms_p99)
+               : std::string("<td colspan=\"3\">was not there at the end</td>");
+    for (const auto* times : {&screen.connected_s, &screen.left_s, &screen.left_behind_s}) row += fmt::format("<td>{}</td>", moments(*times));
+    html += row + "</tr>\n";
+  }
+  return html + "</table>\n<p class=\"soft\">From picture to picture everything is in it: drawing, device, display and, in lockstep, the wait for the others.</p>\n";
+}
+
 std::string head(const ReportData& data, const DriveMeasures& measures) {
   const SessionInfo& info = data.info;
   const SourceFile* scenario = find_file(info, "scenario");
   const SourceFile* rig = find_file(info, "rig");
+  const auto stem = [](const SourceFile& file) { return std::filesystem::path(file.name).stem().string(); };
   std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">",
-                                 escaped(scenario ? scenario->name : "A drive"));
-  if (rig) html += fmt::format("Rig {} · ", escaped(rig->name));
+                                 escaped(scenario ? stem(*scenario) : "A drive"));
+  if (rig) html += fmt::format("Rig {} · ", escaped(stem(*rig)));
   if (!info.participant.empty()) html += fmt::format("driver {} · ", escaped(info.participant));
   if (!info.started_utc.empty()) html += fmt::format("started {} · ", escaped(info.started_utc));
   for (const auto& [name, seed] : info.seeds)
@@ -42,18 +86,16 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   html += fmt::format("Septet {}{}{}</p>\n", escaped(info.septet_version),
                       info.git_revision.empty() ? "" : " at ",
                       escaped(info.git_revision.substr(0, 12)));
-  if (!data.ended_cleanly)
-    html +=
-        "<p class=\"warning\">The recording has no clean end: the program was stopped while it "
-        "drove. What is here is what was "
-        "safely written.</p>\n";
+  html += ending(data);
   const auto& position = measures.lateral_position;
   html += "<div class=\"tiles\">\n";
   html += tile(fmt::format("{:.1f}", measures.duration_s), "s", "simulated time");
   html += tile(fmt::format("{:.2f}", measures.distance_m / 1000.0), "km", "driven");
   html += tile(fmt::format("{:.0f}", measures.speed_mean_mps * 3.6), "km/h", "mean speed");
+  const bool is_few = position.samples > 0 && position.samples < few_samples;
   html += tile(position.samples ? fmt::format("{:.2f}", position.sd_m) : "–", "m",
-               "SD of lateral position");
+               is_few ? fmt::format("SD of lateral position, of only {} samples", position.samples)
+                      : std::string("SD of lateral position"));
   html += tile(fmt::format("{}", measures.lane_changes.size()), "", "lane changes");
   html += tile(fmt::format("{}", measures.glances.size()), "", "mirror glances");
   return html + "</div>\n";
@@ -190,8 +232,16 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
   if (!events) return tl::unexpected(events.error());
   auto answers = reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
-  return ReportData{reader.info(),      reader.ended_cleanly(), std::move(*samples),
-                    std::move(*events), std::move(*answers),    {}};
+  const auto missing = reader.missing_ticks();
+  if (!missing) return tl::unexpected(missing.error());
+  ReportData data{.info = reader.info(), .ended_cleanly = reader.ended_cleanly(), .outcome = {}, .missing_ticks = *missing,
+                  .samples = std::move(*samples), .events = std::move(*events), .answers = std::move(*answers), .settings = {}};
+  if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
+    auto outcome = read_outcome(row->second);
+    if (!outcome) return tl::unexpected(outcome.error());
+    data.outcome = std::move(*outcome);
+  }
+  return data;
 }
 
 std::string to_html(const ReportData& data) {
@@ -202,7 +252,7 @@ std::string to_html(const ReportData& data) {
   else
     body += speed_chart(data, measures) + lateral_position_chart(data, measures) +
             histogram_chart(measures) + measure_table(measures, data.settings);
-  body += event_table(data.events) + answer_table(data.answers);
+  body += screen_table(data) + event_table(data.events) + answer_table(data.answers);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">\n"
@@ -211,9 +261,11 @@ std::string to_html(const ReportData& data) {
       report_style, body);
 }
 
-Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path) {
-  const auto data = read_report_data(reader);
+Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path,
+                            const std::optional<DriveOutcome>& outcome) {
+  auto data = read_report_data(reader);
   if (!data) return tl::unexpected(data.error());
+  if (!data->outcome) data->outcome = outcome;
   return write_text_file(path, to_html(*data));
 }
 

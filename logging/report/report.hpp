@@ -3,10 +3,12 @@
 /// them is defined.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "logging/outcome.hpp"
 #include "logging/report/drive_measures.hpp"
 #include "logging/session_reader.hpp"
 
@@ -15,6 +17,8 @@ namespace septet::logging {
 struct ReportData {
   SessionInfo info;
   bool ended_cleanly = true;
+  std::optional<DriveOutcome> outcome;  ///< Nothing where the file does not say.
+  std::uint64_t missing_ticks = 0;
   std::vector<Sample> samples;
   std::vector<Event> events;
   std::vector<QuestionnaireRecord> answers;
@@ -26,6 +30,8 @@ Expected<ReportData> read_report_data(const SessionReader& reader);
 /// The whole page.
 std::string to_html(const ReportData& data);
 
-Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path);
+/// `outcome`: where the file does not hold it, because it could not be closed.
+Expected<void> write_report(const SessionReader& reader, const std::filesystem::path& path,
+                            const std::optional<DriveOutcome>& outcome = std::nullopt);
 
 }  // namespace septet::logging

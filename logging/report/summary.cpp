@@ -1,53 +1,58 @@
 #include "logging/report/summary.hpp"
 
-#include <cmath>
-
-#include <fmt/core.h>
-
+#include "logging/outcome_json.hpp"
 #include "logging/report/text_file.hpp"
 
 namespace septet::logging {
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      json += {'\\', c};
-    else if (static_cast<unsigned char>(c) < 0x20)
-      json += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    else
-      json += c;
-  }
-  return json + '"';
-}
+Json optional_number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
-/// The shortest digits that read back as the same number.
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "null";
+void add_measures(const DriveMeasures& m, Json& json) {
+  const LateralPositionStatistics& position = m.lateral_position;
+  const bool kept_lane = position.samples > 0;
+  json["distance_m"] = number(m.distance_m);
+  json["speed_mps"] = {{"mean", number(m.speed_mean_mps)}, {"sd", number(m.speed_sd_mps)}, {"largest", number(m.speed_largest_mps)}};
+  json["lateral_position_m"] = {{"mean", kept_lane ? number(position.mean_m) : Json(nullptr)},
+                                {"sd", kept_lane ? number(position.sd_m) : Json(nullptr)},
+                                {"samples", position.samples},
+                                {"few_samples", position.samples < few_samples},
+                                {"left_out_lane_change", position.excluded_lane_change},
+                                {"left_out_off_lane", position.excluded_off_lane}};
+  json["lateral_position_histogram"] = {{"counts", m.histogram.counts},
+                                        {"right_of_lane", m.histogram.underflow},
+                                        {"left_of_lane", m.histogram.overflow},
+                                        {"off_every_lane", m.histogram.off_lane}};
+  json["time_headway_s"] = {{"median", optional_number(m.time_headway_median_s)},
+                            {"smallest", optional_number(m.time_headway_smallest_s)},
+                            {"following_s", number(m.following_s)}};
+  json["lane_changes"] = m.lane_changes.size();
+  json["mirror_glances"] = m.glances.size();
 }
 
 }  // namespace
 
+Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
+  const auto missing = reader.missing_ticks();
+  if (!missing) return tl::unexpected(missing.error());
+  const auto samples = reader.samples();
+  if (!samples) return tl::unexpected(samples.error());
+  const auto events = reader.events();
+  if (!events) return tl::unexpected(events.error());
+  DriveSummary::FromLog log{*missing, compute_drive_measures(*samples), {}};
+  for (const Event& event : *events) ++log.events[event.kind];
+  return log;
+}
+
 std::string to_json(const DriveSummary& s) {
-  std::string screens;
-  for (const ScreenSummary& screen : s.screens) {
-    screens += fmt::format(
-        "{}\n    {{\"name\": {}, \"frames\": {}, \"frames_off_tick\": {}, \"datagrams_lost\": {}, "
-        "\"datagrams_repaired\": {}, \"frame_ms_p50\": {}, \"frame_ms_p99\": {}}}",
-        screens.empty() ? "" : ",", quoted(screen.name), screen.frames, screen.frames_off_tick,
-        screen.datagrams_lost, screen.datagrams_repaired, number(screen.frame_ms_p50),
-        number(screen.frame_ms_p99));
+  Json json = {{"version", summary_version}, {"scenario", s.scenario}, {"rig", s.rig}, {"seed", s.seed}};
+  json.update(json_of(s.outcome));
+  json["log"]["missing_ticks"] = s.log ? Json(s.log->missing_ticks) : Json(nullptr);
+  if (s.log) {
+    add_measures(s.log->measures, json);
+    json["events"] = s.log->events;
   }
-  return fmt::format(
-      "{{\n  \"scenario\": {},\n  \"rig\": {},\n  \"seed\": {},\n  \"ticks\": {},\n  "
-      "\"simulated_s\": {},\n"
-      "  \"wall_s\": {},\n  \"state_hash\": \"{:016x}\",\n  \"lateral_position_m\": {{\"mean\": "
-      "{}, \"sd\": {}}},\n"
-      "  \"lane_changes\": {},\n  \"screens\": [{}{}]\n}}\n",
-      quoted(s.scenario), quoted(s.rig), s.seed, s.ticks, number(s.simulated_s), number(s.wall_s),
-      s.state_hash, number(s.lateral_position_mean_m), number(s.lateral_position_sd_m),
-      s.lane_changes, screens, s.screens.empty() ? "" : "\n  ");
+  return text_of(json);
 }
 
 Expected<void> write_summary(const std::filesystem::path& path, const DriveSummary& summary) {

@@ -27,8 +27,9 @@ class Display {
   virtual ~Display() = default;
 
   virtual render::Renderer& renderer() = 0;
-  /// Handles what the window system has to say; true once the person has closed the window.
-  virtual bool poll_closed() = 0;
+  /// Handles what the window system has to say; whether the person wants to leave, and how.
+  enum class Leaving : std::uint8_t { no, closed, escape };
+  virtual Leaving poll_leaving() = 0;
   /// What keyboard or gamepad say, for a rig whose car is one; nothing before they are touched, and for an off-screen display.
   virtual std::optional<DriverInput> controls(double now_s, double speed_mps) = 0;
   /// Whether keyboard or gamepad have been touched since the display opened.

@@ -135,6 +135,7 @@ void ScreenLink::report(ScreenReport report) {
   const auto& counters = ticks_.counters();
   report.datagrams_lost = counters.lost;
   report.datagrams_repaired = counters.repaired;
+  report.refused_ticks = refused_ticks_;
   send(report, net::Reliability::reliable);
 }
 

@@ -55,6 +55,7 @@ class Session {
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
   Expected<void> draw(const Snapshot& snapshot, std::optional<std::string> message);
+  void count_frame();
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
@@ -75,7 +76,8 @@ class Session {
   frame::ScreenViews views_;
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
-  FrameTimes frame_times_;
+  FrameTimes frame_times_, submit_times_;
+  std::optional<double> last_picture_s_;
   PictureRate picture_rate_;
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
@@ -85,7 +87,7 @@ class Session {
   static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
   std::optional<bool> keys_shown_;  ///< By the driver's keys; nothing: none has been pressed.
   bool was_touched_ = false;
-  float last_frame_ms_ = 0.0f;
+  float last_submit_ms_ = 0.0f;
 };
 
 Expected<void> Session::take_welcome() {
@@ -141,8 +143,19 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
   else add_driver_texts(input, snapshot);
   if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
-  last_frame_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
+  last_submit_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
   return {};
+}
+
+/// After each picture. Whoever started this program hears of the first.
+void Session::count_frame() {
+  const double now_s = monotonic_s();
+  if (last_picture_s_) frame_times_.add(1e3 * (now_s - *last_picture_s_));
+  last_picture_s_ = now_s;
+  submit_times_.add(last_submit_ms_);
+  if (frames_++ != 0) return;
+  std::fputs("showing\n", stdout);
+  std::fflush(stdout);
 }
 
 void Session::take_effects(const Snapshot& snapshot) {
@@ -179,12 +192,11 @@ Expected<void> Session::draw_lockstep() {
   if (auto drawn = draw(newest.snapshot, std::nullopt); !drawn) return drawn;
   last_shown_ = newest.snapshot;
   drawn_tick_ = tick;
-  ++frames_;
+  count_frame();
   const std::uint32_t every = link_.welcome()->picture_every_ticks;
   if (every != 0 && tick % every == 0)
     if (auto kept = keep_picture(tick); !kept) return kept;
-  frame_times_.add(last_frame_ms_);
-  link_.send(control::Presented{tick, last_frame_ms_}, net::Reliability::reliable);
+  link_.send(control::Presented{tick, last_submit_ms_}, net::Reliability::reliable);
   return {};
 }
 
@@ -202,21 +214,21 @@ Expected<void> Session::draw_real_time(double now_s) {
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
   picture_rate_.add(now_s);
   last_shown_ = shown.snapshot;
-  ++frames_;
+  count_frame();
   if (!shown.on_tick) ++frames_off_tick_;
-  frame_times_.add(last_frame_ms_);
-  link_.send(control::Presented{shown.tick, last_frame_ms_}, net::Reliability::unreliable);
+  link_.send(control::Presented{shown.tick, last_submit_ms_}, net::Reliability::unreliable);
   const std::uint32_t every = link_.welcome()->picture_every_ticks;
   if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))
     if (auto kept = keep_picture(shown.tick); !kept) return kept;
   drawn_tick_ = shown.tick;
   if (auto controls = display_->controls(now_s, shown.snapshot.driver_car.speed_mps))
     link_.send(control::Controls{*controls}, net::Reliability::unreliable);
-  if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_frame_ms_);
+  if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_submit_ms_);
   return {};
 }
 
 Expected<void> Session::draw_lost(double now_s) {
+  last_picture_s_.reset();
   // The last picture is held, and says what has happened; ten times a second is enough for a still picture.
   if (!last_shown_ || now_s - lost_drawn_s_ < 0.1) {
     wait(0.01);
@@ -245,8 +257,13 @@ void Session::say_goodbye() {
     std::fputs(fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances\n", options_.name,
                            frames_, last.triangles, last.shadow_triangles, last.draws, last.instances).c_str(), stderr);
   }
-  link_.report({frames_, frames_off_tick_, 0, 0, static_cast<float>(frame_times_.percentile_ms(0.5)),
-                static_cast<float>(frame_times_.percentile_ms(0.99))});
+  const auto percentile = [](const FrameTimes& times, double fraction) { return static_cast<float>(times.percentile_ms(fraction)); };
+  control::ScreenReport report{.frames = frames_, .frames_off_tick = frames_off_tick_};
+  report.frame_ms_p50 = percentile(frame_times_, 0.5);
+  report.frame_ms_p99 = percentile(frame_times_, 0.99);
+  report.submit_ms_p50 = percentile(submit_times_, 0.5);
+  report.submit_ms_p99 = percentile(submit_times_, 0.99);
+  link_.report(report);
   const double until_s = monotonic_s() + 1.0;
   while (monotonic_s() < until_s && link_.state() == net::ClientState::connected) {
     link_.pump(monotonic_s());
@@ -256,6 +273,7 @@ void Session::say_goodbye() {
 }
 
 Expected<void> Session::run() {
+  std::optional<double> quit_s;
   while (!stop_requested) {
     const double now_s = monotonic_s();
     link_.pump(now_s);
@@ -269,7 +287,13 @@ Expected<void> Session::run() {
     Expected<void> drawn;
     if (link_.welcome()) drawn = take_welcome();
     if (drawn && display_) {
-      if (display_->poll_closed()) break;
+      const Display::Leaving leaving = display_->poll_leaving();
+      if (leaving != Display::Leaving::no && !quit_s) {
+        quit_s = now_s;
+        link_.send(control::Quit{leaving == Display::Leaving::escape}, net::Reliability::reliable);
+      }
+      // The server ends the drive and says so; one that is not there does not answer.
+      if (quit_s && (now_s - *quit_s > 2.0 || link_.server_is_gone())) break;
       if (link_.server_is_gone()) drawn = draw_lost(now_s);
       else if (link_.welcome()->lockstep) drawn = draw_lockstep();
       else drawn = draw_real_time(now_s);
@@ -287,6 +311,7 @@ Expected<void> run_screen(const ScreenOptions& options) {
   std::signal(SIGTERM, on_signal);
   std::signal(SIGINT, on_signal);
   std::signal(SIGHUP, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // A picture that grows over a limit is an error and not this screen's end.
   const auto identity = net::load_identity(options.keys / (options.name + ".key"));
   if (!identity) return tl::unexpected(identity.error());
   const auto server_key = net::load_public_key(options.keys / "server.public");

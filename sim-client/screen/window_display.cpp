@@ -35,14 +35,15 @@ class WindowDisplay final : public Display {
       : window_(std::move(window)), renderer_(std::move(renderer)) {}
 
   render::Renderer& renderer() override { return renderer_; }
-  bool poll_closed() override {
+  Leaving poll_leaving() override {
     window_->poll();
     const bool keys_key = window_->is_down(Key::f1);
     keys_asked_for_ = keys_asked_for_ || (keys_key && !keys_key_was_down_);
     keys_key_was_down_ = keys_key;
     const auto pad = window_->gamepad();
     touched_ = touched_ || window_->was_touched() || (pad && is_held(*pad));
-    return window_->should_close() || window_->is_down(Key::escape);
+    if (window_->should_close()) return Leaving::closed;
+    return window_->is_down(Key::escape) ? Leaving::escape : Leaving::no;
   }
   std::optional<DriverInput> controls(double now_s, double speed_mps) override {
     const double dt_s = last_s_ ? now_s - *last_s_ : 0.0;

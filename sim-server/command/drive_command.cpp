@@ -1,7 +1,9 @@
 #include "sim-server/command/drive_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -12,17 +14,22 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
+#include "logging/drive_end.hpp"
 #include "sim-server/child_process.hpp"
 #include "sim-server/panorama_file.hpp"
 #include "sim-server/resources.hpp"
+#include "sim-server/stop_signal.hpp"
 #include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;  // Written by the signal handler: the one thing it may do.
-void on_interrupt(int) { interrupted = 1; }
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+/// Not fmt::print, which throws where the terminal has gone.
+void say(const std::string& line) { std::fputs((line + '\n').c_str(), stderr); }
 
 bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
@@ -83,35 +90,71 @@ class DriveFolder {
   fs::path path_, aside_;
 };
 
-struct RunningScreen {
-  std::string name;
-  ChildOptions options;
-  std::optional<ChildProcess> process;
-  int starts = 0;
+/// A screen's program, which is started again whenever it dies: the others never notice, and it is back within a second. One
+/// that dies again and again before it shows a picture is tried more and more rarely.
+class RunningScreen {
+ public:
+  RunningScreen(std::string name, ChildOptions options) : name_(std::move(name)), options_(std::move(options)) {}
+
+  void keep_running() {
+    if (!process_) return start();
+    if (process_->read_line(0ms) == "showing") {
+      has_shown_ = true;
+      deaths_ = 0;
+    }
+    const auto exit = process_->poll();
+    if (!exit || exit->code == 0 || Clock::now() < next_start_) return;
+    if (!is_told_) {
+      is_told_ = true;
+      ++deaths_;
+      const auto pause = deaths_ == 1 ? 0ms : std::min(100ms * (1 << std::min(deaths_, 10)), 10'000ms);
+      next_start_ = Clock::now() + pause;
+      const std::string how = exit->signal != 0 ? fmt::format("was ended by signal {}", exit->signal) : fmt::format("ended with status {}", exit->code);
+      say(fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how, pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
+                      options_.log.string()));
+      return;
+    }
+    start();
+  }
+  /// It has died three times and never shown a picture.
+  bool is_hopeless() const { return !has_shown_ && deaths_ >= 3; }
+  bool is_running() { return process_ && !process_->poll(); }
+  const ChildOptions& options() const { return options_; }
+
+ private:
+  void start() {
+    is_told_ = false;
+    auto process = ChildProcess::start(options_);
+    if (process) {
+      process_ = std::move(*process);
+      return;
+    }
+    ++deaths_;
+    say(describe(process.error()));
+  }
+
+  std::string name_;
+  ChildOptions options_;
+  std::optional<ChildProcess> process_;
+  bool has_shown_ = false, is_told_ = false;
+  int deaths_ = 0;  ///< Since it last showed a picture.
+  Clock::time_point next_start_{};
 };
 
-/// A screen that died is started again, a few times: the others never noticed, and it is back within a second.
-Expected<void> keep_running(RunningScreen& screen) {
-  if (screen.process) {
-    const auto exit = screen.process->poll();
-    if (!exit || exit->code == 0) return {};
-    if (exit->code > 0)
-      return failure(fmt::format("screen {} ended with status {}", screen.name, exit->code), screen.options.log.string(), "its log says why");
-    fmt::print(stderr, "\nscreen {} was ended by signal {}; starting it again\n", screen.name, exit->signal);
-  }
-  if (++screen.starts > 5)
-    return failure(fmt::format("screen {} died five times", screen.name), screen.options.log.string(), "its log says why");
-  auto process = ChildProcess::start(screen.options);
-  if (!process) return tl::unexpected(process.error());
-  screen.process = std::move(*process);
-  return {};
+/// The last line of a text file.
+std::string last_line_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last;
 }
 
 ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
   ChildOptions server;
   server.program = (program_folder() / "septet-server").string();
   server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
-                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", options.seconds), "--any-port", "--wait-for-screens", "60"};
+                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", *options.seconds), "--any-port", "--wait-for-screens", "60"};
   const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
   if (options.replay.empty()) add({"--scenario", options.scenario, "--traffic", options.traffic});
   else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
@@ -121,25 +164,43 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   return server;
 }
 
-RunningScreen screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
-  RunningScreen running;
-  running.name = screen.name;
-  running.options.program = (program_folder() / "septet-screen").string();
-  running.options.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
-                               "--pictures", (options.out / "screens" / screen.name).string()};
-  running.options.log = options.out / "screens" / (screen.name + ".log");
+ChildOptions screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
+  ChildOptions running;
+  running.program = (program_folder() / "septet-screen").string();
+  running.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
+                       "--pictures", (options.out / "screens" / screen.name).string()};
+  running.log = options.out / "screens" / (screen.name + ".log");
   if (options.virtual_screens) {
-    running.options.arguments.push_back("--virtual");
+    running.arguments.push_back("--virtual");
     // Seven processes share the cores already: further threads of the software rasteriser only get in each other's way.
-    if (!std::getenv("LP_NUM_THREADS")) running.options.environment["LP_NUM_THREADS"] = "0";
+    if (!std::getenv("LP_NUM_THREADS")) running.environment["LP_NUM_THREADS"] = "0";
   }
   return running;
 }
 
-enum class Outcome { driven, gave_up };  ///< Gave up: the server has said why.
+/// How server and screens have ended.
+struct Ending {
+  bool driven = false;  ///< There is something to look at.
+  int status = logging::failed_status;
+  std::string text;  ///< The last line; empty where the server has said all.
+};
+
+/// What the server's "ended NAME TEXT" says, and what its exit tells without it.
+Ending ending_of(const ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
+  if (last_words) {
+    const auto text = last_words->find(' ', std::string_view("ended ").size());
+    return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1)};
+  }
+  if (exit.signal != 0 && stop_signal() && !was_ready) return {false, logging::stopped_status, "stopped before the drive began"};
+  if (exit.signal != 0)
+    return {was_ready, logging::failed_status, fmt::format("the server was ended by signal {}; what it had logged is in the session file", exit.signal)};
+  if (exit.code == 127) return {false, logging::failed_status, "the server does not start; check that septet-server lies beside septet"};
+  return {was_ready, logging::failed_status, ""};
+}
 
 /// Server and screens from start to end.
-Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
+Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
+  catch_stop_signals();
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
   const auto keys = make_keys(clients);
@@ -147,55 +208,66 @@ Expected<Outcome> run_processes(const DriveOptions& options, const fs::path& rig
   auto server = ChildProcess::start(server_options(options, rig_file, keys->path()));
   if (!server) return tl::unexpected(server.error());
 
-  // The server says on its standard output which port it got, once it has read and built everything.
-  std::optional<std::string> port;
-  while (!port && !server->poll() && !interrupted)
-    if (const auto line = server->read_line(std::chrono::milliseconds(100)); line && line->starts_with("ready "))
-      port = line->substr(6);
-  if (!port && server->poll() && server->poll()->code == 1) return Outcome::gave_up;
+  // The server says on its standard output which port it got, once it has read and built everything, and why the drive has ended.
   std::vector<RunningScreen> screens;
   const std::string ip = rig.network.interface_address.empty() ? "127.0.0.1" : rig.network.interface_address;
-  if (port && !options.no_screens)
-    for (const auto& screen : rig.screens) screens.push_back(screen_options(options, screen, ip + ':' + *port, keys->path()));
-
-  Expected<void> outcome;
-  while (outcome && !server->poll()) {
-    for (auto& screen : screens)
-      if (outcome) outcome = keep_running(screen);
-    if (interrupted) {
-      server->send_signal(SIGTERM);
-      interrupted = 0;
+  std::optional<std::string> last_words;
+  bool was_ready = false, has_forwarded = false, has_given_up = false;
+  const auto listen = [&](std::chrono::milliseconds patience) {
+    const auto line = server->read_line(patience);
+    if (!line) return false;
+    if (line->starts_with("ended ")) last_words = *line;
+    if (!line->starts_with("ready ")) return true;
+    was_ready = true;
+    if (!options.no_screens)
+      for (const auto& screen : rig.screens) screens.emplace_back(screen.name, screen_options(options, screen, ip + ':' + line->substr(6), keys->path()));
+    return true;
+  };
+  while (!server->poll()) {
+    listen(20ms);
+    if (const auto signal = stop_signal(); signal && !std::exchange(has_forwarded, true)) {
+      obey_stop_signal();
+      server->send_signal(*signal);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (!last_words && !has_given_up)
+      for (auto& screen : screens) screen.keep_running();
+    if (!screens.empty() && std::ranges::all_of(screens, &RunningScreen::is_hopeless) && !std::exchange(has_given_up, true)) {
+      const fs::path& log = screens.front().options().log;
+      say(fmt::format("septet: no screen can be started; {} says: {}", log.string(), last_line_of(log)));
+      server->send_signal(SIGUSR1);
+    }
   }
-  if (!outcome) {
-    server->stop();
-    return tl::unexpected(outcome.error());
-  }
+  while (!last_words && listen(0ms)) {}
   // The screens have had Finish and their reports are in; whoever still runs is not waited for long.
-  for (int i = 0; i < 250; ++i) {
-    bool running = false;
-    for (auto& screen : screens) running = running || (screen.process && !screen.process->poll());
-    if (!running) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  const auto exit = *server->poll();
-  if (exit.signal != 0) return failure(fmt::format("the server was ended by signal {}", exit.signal), "septet-server", "what it had logged is in the session file");
-  if (exit.code == 1) return Outcome::gave_up;
-  if (exit.code != 0) return failure(fmt::format("the server ended with status {}", exit.code), "septet-server", "check that it lies beside septet");
-  return Outcome::driven;
+  for (int i = 0; i < 250 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i) std::this_thread::sleep_for(20ms);
+  return ending_of(*server->poll(), last_words, was_ready);
 }
 
 int fail(const Error& error) {
-  fmt::print(stderr, "septet: {}\n", describe(error));
-  return 1;
+  say(fmt::format("septet: {}", describe(error)));
+  return logging::failed_status;
+}
+
+/// What there is to look at after a drive.
+Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig) {
+  const auto tell = [](const fs::path& file, const std::string& what) { std::fputs(fmt::format("{}: {}\n", file.string(), what).c_str(), stdout); };
+  Expected<void> done;
+  if (options.virtual_screens && !options.no_screens) {
+    done = write_panorama(options.out, rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
+    if (done)
+      tell(options.out / "panorama.png", fmt::format("what the driver saw, all screens of one tick; each screen once a second is in {}", (options.out / "screens").string()));
+  }
+  const fs::path session = options.out / "session.sqlite";
+  std::error_code ignored;
+  if (fs::exists(options.out / "report.html", ignored)) tell(options.out / "report.html", "speed, lateral position and its histogram");
+  if (fs::exists(session, ignored)) tell(session, fmt::format("the whole drive; show it again with: septet replay {}", session.string()));
+  return done;
 }
 
 }  // namespace
 
 int run_drive(DriveOptions options) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  survive_failed_writes();
   if (!has_display()) options.virtual_screens = true;
   if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
   const auto rig_file = find_resource(options.rig, "rigs", ".toml");
@@ -209,7 +281,7 @@ int run_drive(DriveOptions options) {
     if (!scenario) return fail(scenario.error());
     options.scenario = scenario->string();
   }
-  if (options.virtual_screens && options.seconds <= 0.0 && options.replay.empty()) options.seconds = 30.0;
+  if (!options.seconds) options.seconds = (options.virtual_screens || options.no_screens) && options.replay.empty() ? seconds_unless_told : 0.0;
   if (options.out.empty()) {
     const auto data = data_folder();
     if (!data) return fail(data.error());
@@ -218,22 +290,17 @@ int run_drive(DriveOptions options) {
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return fail(folder.error());
   options.out = folder->path();
-  const auto outcome = run_processes(options, *rig_file, *rig);
-  if (!outcome || *outcome == Outcome::gave_up) folder->undo();
-  if (!outcome) return fail(outcome.error());
-  if (*outcome == Outcome::gave_up) return 1;
-  if (!folder->aside().empty()) fmt::print(stderr, "The earlier drive is in {}\n", folder->aside().string());
-
-  if (options.virtual_screens && !options.no_screens) {
-    const auto panorama = write_panorama(options.out, *rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
-    if (!panorama) return fail(panorama.error());
-    fmt::print("{}: what the driver saw, all screens of one tick; each screen once a second is in {}\n", (options.out / "panorama.png").string(), (options.out / "screens").string());
+  const auto ending = run_processes(options, *rig_file, *rig);
+  if (!ending || !ending->driven) folder->undo();
+  if (!ending) return fail(ending.error());
+  int status = ending->status;
+  if (ending->driven) {
+    if (!folder->aside().empty()) say(fmt::format("The earlier drive is in {}", folder->aside().string()));
+    const auto shown = show_results(options, *rig);
+    if (!shown && status == logging::finished_status) status = fail(shown.error());
   }
-  if (options.replay.empty()) {
-    fmt::print("{}: speed, lateral position and its histogram\n", (options.out / "report.html").string());
-    fmt::print("{}: the whole drive; show it again with: septet replay {}\n", (options.out / "session.sqlite").string(), (options.out / "session.sqlite").string());
-  }
-  return 0;
+  if (!ending->text.empty()) std::fputs((ending->text + '\n').c_str(), status == logging::failed_status && !ending->driven ? stderr : stdout);
+  return status;
 }
 
 }  // namespace septet::server

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace septet::server {
@@ -11,7 +12,7 @@ struct DriveOptions {
   std::string scenario = "motorway-ambulance";  ///< A file, a folder, or a name below scenarios/.
   std::string rig;                              ///< A file, or a name below rigs/; empty: by whether there is a display.
   std::filesystem::path out;                    ///< Empty: out/latest.
-  double seconds = 0.0;                         ///< Simulated; 0: 30 s where nobody drives, else until the driver stops.
+  std::optional<double> seconds;                ///< Simulated; 0: until the scenario ends or somebody stops it.
   std::uint64_t seed = 1;
   bool virtual_screens = false;
   std::string driver;           ///< Which simulated driver; empty: the rig's.
@@ -21,8 +22,11 @@ struct DriveOptions {
   bool no_screens = false;  ///< Server and car only.
 };
 
-/// Runs the whole drive; answers the exit status. Prints progress to standard error, and at the end three lines on what there
-/// is to look at to standard output.
+/// Of a drive that is not told how long to last, off-screen. One in a window, and a replay, last as for `--seconds 0`.
+inline constexpr double seconds_unless_told = 30.0;
+
+/// Runs the whole drive; answers the exit status (logging/drive_end.hpp). Prints progress to standard error, and at the end to
+/// standard output what there is to look at and, in the last line, why the drive has ended.
 int run_drive(DriveOptions options);
 
 }  // namespace septet::server

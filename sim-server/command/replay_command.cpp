@@ -1,27 +1,66 @@
 #include "sim-server/command/replay_command.hpp"
 
+#include <cmath>
+
 #include <fmt/core.h>
 
+#include "logging/input_hash.hpp"
+#include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/traffic_choice.hpp"
+#include "sim-server/version.hpp"
 
 namespace septet::server {
 namespace {
 
-struct Verified {
-  std::uint64_t ticks = 0;
-};
+tl::unexpected<Error> refused(const std::filesystem::path& file, const std::string& what, const std::string& remedy) {
+  return failure(what, file.string(), remedy);
+}
 
-Expected<Verified> verify(const std::filesystem::path& file) {
+/// What the log says of the controls at the tick that its inputs were made into, beside what its inputs say now.
+bool is_altered(const DriverInput& input, const DriverCar& car) {
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6; };
+  return differ(input.steering_wheel_rad, car.steering_wheel_rad) || differ(input.accelerator, car.accelerator) ||
+         differ(input.brake, car.brake) || differ(input.clutch, car.clutch);
+}
+
+/// Whether the inputs are those that were driven with, by the hash that the log ends with; nothing where it was not closed.
+Expected<std::optional<bool>> are_original(const logging::SessionInfo& info, const std::vector<logging::InputRecord>& inputs) {
+  const auto row = info.other.find("outcome");
+  if (row == info.other.end()) return std::optional<bool>();
+  const auto outcome = logging::read_outcome(row->second);
+  if (!outcome) return tl::unexpected(outcome.error());
+  StateHash hash;
+  for (const auto& input : inputs) logging::add_to_hash(input, hash);
+  return std::optional(hash.value() == outcome->inputs_hash);
+}
+
+/// Why a tick does not give the recorded hash, as far as the log tells.
+std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
+  if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
+  const auto compiler = info.other.find("compiler");
+  if (info.git_revision != SEPTET_REVISION || info.septet_version != version || (compiler != info.other.end() && compiler->second != __VERSION__))
+    return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one", info.septet_version,
+                       info.git_revision.empty() ? "an unknown revision" : info.git_revision, version, SEPTET_REVISION);
+  return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since its revision, or the "
+         "processor's arithmetic differs";
+}
+
+/// How many ticks were run again and agree. Ticks that are not both an input and a snapshot prove nothing and are not counted;
+/// where one is missing in between, that is the verdict.
+Expected<std::uint64_t> verify(const std::filesystem::path& file) {
   const auto session = logging::SessionReader::open(file);
   if (!session) return tl::unexpected(session.error());
-  const auto drive = load_drive(session->info());
-  if (!drive) return tl::unexpected(drive.error());
   const auto inputs = session->inputs();
   if (!inputs) return tl::unexpected(inputs.error());
+  if (inputs->empty()) return refused(file, "the session holds no driver inputs: there is nothing to verify", "give a session that was driven");
+  const auto original = are_original(session->info(), *inputs);
+  if (!original) return tl::unexpected(original.error());
   auto recorded = session->snapshots();
   if (!recorded) return tl::unexpected(recorded.error());
+  const auto drive = load_drive(session->info());
+  if (!drive) return tl::unexpected(drive.error());
   const auto& other = session->info().other;
   const auto engine = other.find("traffic");
   auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
@@ -29,41 +68,58 @@ Expected<Verified> verify(const std::filesystem::path& file) {
   auto state = initial_state(*drive->model, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
 
-  Verified result;
+  const auto gap = [&](const char* what) {
+    return refused(file, fmt::format("the {} of tick {} is missing: the log has a gap", what, state->tick),
+                   "only what lies before a gap can be run again");
+  };
+  DriverInput input;
+  /// Whether there is a snapshot of the state's tick, with this hash.
   const auto compare = [&](std::uint64_t hash) -> Expected<bool> {
     const auto snapshot = recorded->next();
     if (!snapshot) return tl::unexpected(snapshot.error());
     if (!*snapshot) return false;
-    if ((*snapshot)->tick != state->tick || (*snapshot)->state_hash != hash)
-      return failure(fmt::format("tick {} gives state hash {:016x}, recorded is {:016x} of tick {}", state->tick, hash,
-                                 (*snapshot)->state_hash, (*snapshot)->tick),
-                     file.string(), "it was recorded by another build, or on a processor whose arithmetic differs");
-    return true;
+    if ((*snapshot)->tick != state->tick) return gap("snapshot");
+    if ((*snapshot)->state_hash == hash) return true;
+    return refused(file, fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash, (*snapshot)->state_hash),
+                   cause_of(session->info(), original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
   };
-  auto go_on = compare(hash_state(*state));
+  const auto first = compare(hash_state(*state));
+  if (!first) return tl::unexpected(first.error());
+  if (!*first) return refused(file, "the session holds no snapshots: there is nothing to compare with", "give a session that was driven");
+  std::uint64_t ticks = 0;
   std::vector<SimulationEvent> events;
-  for (const auto& input : *inputs) {
-    if (!go_on) return tl::unexpected(go_on.error());
-    if (!*go_on) break;
+  for (const auto& next : *inputs) {
+    input = next.input;
     events.clear();
-    const Snapshot snapshot = server_step(*drive->model, input.input, *state, events);
+    const Snapshot snapshot = server_step(*drive->model, input, *state, events);
     if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
-    go_on = compare(snapshot.state_hash);
-    ++result.ticks;
+    if (next.tick != state->tick) return gap("driver input");
+    const auto agrees = compare(snapshot.state_hash);
+    if (!agrees) return tl::unexpected(agrees.error());
+    if (!*agrees) break;  // The log was cut off between an input and its snapshot.
+    ++ticks;
   }
-  if (!go_on) return tl::unexpected(go_on.error());
-  return result;
+  const auto more = recorded->next();
+  if (!more) return tl::unexpected(more.error());
+  if (*more) {
+    ++state->tick;
+    return gap("driver input");
+  }
+  if (ticks == 0) return refused(file, "no tick has both an input and a snapshot: there is nothing to compare", "give a session that was driven");
+  if (!original->value_or(true))
+    return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees", "use an unaltered copy");
+  return ticks;
 }
 
 }  // namespace
 
 int run_verify(const std::filesystem::path& session) {
-  const auto result = verify(session);
-  if (!result) {
-    fmt::print(stderr, "septet: {}\n", describe(result.error()));
+  const auto ticks = verify(session);
+  if (!ticks) {
+    fmt::print(stderr, "septet: {}\n", describe(ticks.error()));
     return 1;
   }
-  fmt::print("{} ticks run again: every state hash agrees\n", result->ticks);
+  fmt::print("{} ticks run again: every state hash agrees\n", *ticks);
   return 0;
 }
 

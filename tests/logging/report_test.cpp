@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include "logging/drive_observer.hpp"
 #include "logging/report/chart.hpp"
@@ -50,37 +51,82 @@ ReportData example_drive() {
   return data;
 }
 
+DriveOutcome example_outcome() {
+  DriveOutcome outcome{.end = DriveEnd::window_closed, .error = "", .ticks = 3600, .simulated_s = 30.0, .wall_s = 41.25, .state_hash = 0xabc,
+                       .inputs_hash = 0xdef, .late_ticks = 3, .lost_records = 4, .log_waited_s = 1.5, .screens = {}};
+  outcome.screens = {{.name = "ahead-1", .frames = 450, .refused_ticks = 6, .frame_ms_p50 = 21.5, .frame_ms_p99 = std::nan(""),
+                      .connected_s = {0.0, 12.5}, .left_s = {11.0}, .left_behind_s = {}, .has_reported = true},
+                     {.name = "rear-2", .frames = 0, .connected_s = {0.0}, .left_s = {3.0}, .left_behind_s = {}}};
+  return outcome;
+}
+
 }  // namespace
 
-TEST_CASE("the summary holds exactly the keys that scripts rely on") {
-  DriveSummary summary{
-      .scenario = "motorway \"ambulance\"",
-      .rig = "seven-screens",
-      .seed = 7,
-      .ticks = 3600,
-      .simulated_s = 30.0,
-      .wall_s = 41.25,
-      .state_hash = 0xabc,
-      .lateral_position_mean_m = -0.05,
-      .lateral_position_sd_m = std::nan(""),
-      .lane_changes = 2,
-      .screens = {{"ahead-1", 450, 1, 2, 3, 21.5, 30.0}, {"rear-2", 450, 0, 0, 0, 20.0, 29.0}}};
-  CHECK(to_json(summary) == R"({
-  "scenario": "motorway \"ambulance\"",
-  "rig": "seven-screens",
-  "seed": 7,
-  "ticks": 3600,
-  "simulated_s": 30,
-  "wall_s": 41.25,
-  "state_hash": "0000000000000abc",
-  "lateral_position_m": {"mean": -0.05, "sd": null},
-  "lane_changes": 2,
-  "screens": [
-    {"name": "ahead-1", "frames": 450, "frames_off_tick": 1, "datagrams_lost": 2, "datagrams_repaired": 3, "frame_ms_p50": 21.5, "frame_ms_p99": 30},
-    {"name": "rear-2", "frames": 450, "frames_off_tick": 0, "datagrams_lost": 0, "datagrams_repaired": 0, "frame_ms_p50": 20, "frame_ms_p99": 29}
-  ]
+TEST_CASE("the summary says how the drive ended and what its screens saw and its measures in figures") {
+  DriveSummary summary{.scenario = "motorway \"ambulance\"", .rig = "seven-screens", .seed = 7, .outcome = example_outcome(), .log = {}};
+  const ReportData drive = example_drive();
+  summary.log = DriveSummary::FromLog{2, compute_drive_measures(drive.samples), {{"collision", 1}}};
+  const auto json = nlohmann::json::parse(to_json(summary));
+  CHECK(json["version"] == 1);
+  CHECK(json["scenario"] == "motorway \"ambulance\"");
+  CHECK(json["ended"] == "window_closed");
+  CHECK(json["exit_status"] == 3);
+  CHECK(json["error"].is_null());
+  CHECK(json["state_hash"] == "0000000000000abc");
+  CHECK(json["late_ticks"] == 3);
+  CHECK(json["log"]["lost_records"] == 4);
+  CHECK(json["log"]["missing_ticks"] == 2);
+  CHECK(json["log"]["waited_s"] == 1.5);
+  CHECK(json["screens"][0]["connected_s"] == std::vector{0.0, 12.5});
+  CHECK(json["screens"][0]["left_s"] == std::vector{11.0});
+  CHECK(json["screens"][0]["refused_ticks"] == 6);
+  CHECK(json["screens"][0]["frame_ms_p99"].is_null());  // Not a number.
+  CHECK(json["lateral_position_histogram"]["counts"].size() == 21);
+  std::size_t counted = 0;
+  for (const auto& bin : json["lateral_position_histogram"]["counts"]) counted += bin.get<std::size_t>();
+  CHECK(counted == 6000);
+  CHECK(json["speed_mps"]["mean"].get<double>() == doctest::Approx(summary.log->measures.speed_mean_mps));
+  CHECK(json["time_headway_s"]["median"].get<double>() == doctest::Approx(*summary.log->measures.time_headway_median_s));
+  CHECK(json["lateral_position_m"]["few_samples"] == false);
+  CHECK(json["events"]["collision"] == 1);
+  // Every key is explained.
+  std::ifstream in(std::string(SEPTET_SOURCE_DIR) + "/logging/report/SUMMARY.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const auto& [key, value] : json.items()) CHECK_MESSAGE(page.find("`" + key) != std::string::npos, key);
+  for (const auto& [key, value] : json["screens"][0].items()) CHECK_MESSAGE(page.find("." + key) != std::string::npos, key);
+
+  summary.log.reset();  // A log that was deleted.
+  const auto poor = nlohmann::json::parse(to_json(summary));
+  CHECK(poor["log"]["missing_ticks"].is_null());
+  CHECK_FALSE(poor.contains("speed_mps"));
 }
-)");
+
+TEST_CASE("an outcome reads back as it was written and anything else is refused") {
+  const DriveOutcome outcome = example_outcome();
+  const auto back = read_outcome(to_json(outcome));
+  REQUIRE(back.has_value());
+  CHECK(to_json(*back) == to_json(outcome));
+  CHECK(back->end == DriveEnd::window_closed);
+  for (const std::string text : {"", "{}", "[1]", "nonsense", "{\"ended\": \"nonsense\"}", "{\"ended\": 3}"}) CHECK_FALSE(read_outcome(text).has_value());
+}
+
+TEST_CASE("the report says how the drive ended and what went wrong and which figures are of few samples and names no folder") {
+  ReportData data = example_drive();
+  data.info.files = {{"scenario", "/home/somebody/motorway.xosc", ""}, {"rig", "/home/somebody/three.toml", ""}};
+  data.outcome = example_outcome();
+  data.missing_ticks = 2;
+  std::string html = to_html(data);
+  CHECK(html.find("<h1>motorway</h1>") != std::string::npos);
+  CHECK(html.find("/home") == std::string::npos);
+  CHECK(html.find("a screen's window was closed") != std::string::npos);
+  CHECK(html.find("3 of 3600 ticks began late") != std::string::npos);
+  CHECK(html.find("2 ticks are missing") != std::string::npos);
+  CHECK(html.find("0.0, 12.5 s") != std::string::npos);       // The first screen came back.
+  CHECK(html.find("was not there at the end") != std::string::npos);  // The second one did not.
+  CHECK(html.find("of only") == std::string::npos);
+  data.samples.resize(4);
+  html = to_html(data);
+  CHECK(html.find("of only 4 samples") != std::string::npos);
 }
 
 TEST_CASE("the report shows the charts and one mark per lane change and needs no other file") {

@@ -170,6 +170,16 @@ TEST_CASE("a full queue makes whoever records wait and says for how long and los
   CHECK(all_ticks(reader).size() == 200);
 }
 
+TEST_CASE("ticks without a snapshot are counted from tick 0") {
+  const TemporaryFolder folder;
+  SessionWriter writer = must_create(folder / "session.sqlite");
+  for (const Tick tick : {2, 3, 7}) writer.record(taken(drive_snapshot(tick)));
+  REQUIRE(writer.finish({{"ended_why", "escape"}}));
+  const SessionReader reader = must_open(folder / "session.sqlite");
+  CHECK(reader.missing_ticks().value() == 5);
+  CHECK(reader.info().other.at("ended_why") == "escape");
+}
+
 TEST_CASE("a file that is deleted or replaced while it is written ends the recording at the next commit") {
   for (const bool is_replaced : {false, true}) {
     CAPTURE(is_replaced);

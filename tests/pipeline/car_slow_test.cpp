@@ -22,7 +22,7 @@ TEST_CASE("septet-car is let in by its key and learns from the server which devi
     auto process = start("septet-car", {"--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / (name + "-car.err"));
     const int code = exit_code(process, 5s);
     server.send_signal(SIGTERM);
-    CHECK(exit_code(server, 20s) == 0);
+    CHECK(exit_code(server, 20s) == 3);
     return code;
   };
 

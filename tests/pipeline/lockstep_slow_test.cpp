@@ -17,6 +17,7 @@ class Circles final : public server::TickSource {
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>&) override {
     return std::make_shared<const TakenSnapshot>(circling_vehicles(++tick_, 20));
   }
+  logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
   double tick_rate_hz() const override { return 120.0; }
 
  private:
@@ -38,10 +39,11 @@ class LockstepRig {
                                                  each_ms();
                                                  for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
                                                },
-                                               [] { return false; }, [](const server::Progress&) {}, [this](const std::string& text) { messages.push_back(text); }};
-    auto served = server::serve(circles, rig.host(), {.lockstep = true, .draw_every_ticks = draw_every_ticks, .ticks = static_cast<std::uint64_t>(120.0 * seconds), .lockstep_patience_s = patience_s}, environment);
-    REQUIRE(served.has_value());
-    return *served;
+                                               [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [this](const std::string& text) { messages.push_back(text); }};
+    const auto served = server::serve(circles, rig.host(), {.lockstep = true, .draw_every_ticks = draw_every_ticks, .ticks = static_cast<std::uint64_t>(120.0 * seconds), .lockstep_patience_s = patience_s}, environment);
+    REQUIRE_FALSE(served.error.has_value());
+    CHECK(served.end == logging::DriveEnd::time_over);
+    return served;
   }
 
   SimulatedRig rig;

@@ -85,6 +85,8 @@ TEST_CASE("a SUMO that is killed ends the drive with one message and the log is 
   INFO(error);
   CHECK(error.find("SUMO has gone") != std::string::npos);
   CHECK(snapshots_in(out / "session.sqlite") > 1);
+  CHECK(text_of(out / "summary.json").find("\"ended\": \"traffic_lost\"") != std::string::npos);
+  CHECK(text_of(out / "report.html").find("SUMO has gone") != std::string::npos);
 }
 
 }  // namespace septet::pipeline

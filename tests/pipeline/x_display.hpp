@@ -1,5 +1,5 @@
 #pragma once
-/// A display without a monitor, for the programs that open windows.
+/// A display without a monitor, for the programs that open windows, and a hand that closes them.
 
 #include <map>
 #include <string>
@@ -11,23 +11,15 @@ namespace septet::pipeline {
 /// An Xvfb on a display number of its own choice; it ends with this object.
 class XDisplay {
  public:
-  XDisplay() : server_(start_server()) {
-    const auto number = server_.read_line(60s);
-    REQUIRE(number.has_value());
-    name_ = ":" + *number;
-  }
+  XDisplay();
   std::map<std::string, std::string> environment() const { return {{"DISPLAY", name_}}; }
+  /// Whether there is a window of this title.
+  bool has_window(const std::string& title) const;
+  /// Asks the window to close, as a window manager does for its owner.
+  void close_window(const std::string& title) const;
+  void press_escape(const std::string& title) const;
 
  private:
-  static server::ChildProcess start_server() {
-    auto process = server::ChildProcess::start({.program = "/usr/bin/Xvfb",
-                                                .arguments = {"-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"},
-                                                .environment = {},
-                                                .log = "/dev/null"});
-    REQUIRE(process.has_value());
-    return std::move(*process);
-  }
-
   server::ChildProcess server_;
   std::string name_;
 };

@@ -17,7 +17,7 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
   DriverSeat seat;
   seat.actuators.fan_full_speed_mps = 70.0;
   sit_at_device(seat, port.opener(), {});
-  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat), nullptr);
+  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
   DriverInput input;
   input.accelerator = 1.0;
@@ -48,7 +48,7 @@ TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on
   port.plug();
   DriverSeat seat;
   sit_at_device(seat, port.opener(), {});
-  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat), nullptr);
+  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
   DriverInput input;
   const auto drive_for = [&](int ticks) {

@@ -1,0 +1,23 @@
+#pragma once
+/// The signals that end a drive in order, and those that must not end it out of order.
+
+#include <optional>
+
+namespace septet::server {
+
+/// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program, and SIGUSR1, by which `septet drive`
+/// says that no screen can be started. SIGHUP stays ignored where it was (nohup). Called once what is started has to be
+/// ended in order: before, a signal ends the program at once, however stuck it is.
+void catch_stop_signals(unsigned patience_s = 30);
+
+/// The first of them that has come, or nothing.
+std::optional<int> stop_signal();
+
+/// Guards the time between the first signal and the moment at which it is obeyed: a program that does not look at
+/// `stop_signal` within `patience_s` is stuck and is ended by SIGALRM. Call this once the end is under way.
+void obey_stop_signal();
+
+/// A full pipe or file is an error of whoever writes, and not this program's end: SIGPIPE and SIGXFSZ are ignored.
+void survive_failed_writes();
+
+}  // namespace septet::server

@@ -1,0 +1,192 @@
+#include <sys/stat.h>
+
+#include <csignal>
+
+#include "logging/session_reader.hpp"
+#include "tests/pipeline/process_rig.hpp"
+#include "tests/pipeline/x_display.hpp"
+
+namespace septet::pipeline {
+namespace {
+
+/// The meta row that says why the drive ended; "none" where the log cannot be read or does not say.
+std::string why(const fs::path& out) {
+  const auto session = logging::SessionReader::open(out / "session.sqlite");
+  if (!session || !session->info().other.contains("ended_why")) return "none";
+  return session->info().other.at("ended_why");
+}
+
+bool is_driving(const fs::path& out) {
+  std::error_code ignored;
+  if (!fs::exists(out / "session.sqlite", ignored)) return false;
+  const auto session = logging::SessionReader::open(out / "session.sqlite");
+  const auto span = session ? session->time_span_s() : Expected<std::optional<std::pair<double, double>>>();
+  return span && *span && (*span)->second > 0.1;
+}
+
+std::vector<std::string> headless(const fs::path& out, const std::string& seconds) {
+  return {"drive", "--no-screens", "--seconds", seconds, "--out", out.string()};
+}
+
+std::size_t entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// The last line of what a program has said on its standard output, once it has ended.
+std::string last_words(server::ChildProcess& process) {
+  std::string last;
+  while (const auto line = process.read_line(1s)) last = *line;
+  return last;
+}
+
+void check_results(const fs::path& out) {
+  CHECK(fs::exists(out / "summary.json"));
+  CHECK(fs::exists(out / "report.html"));
+}
+
+}  // namespace
+
+TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time is over and says so") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "short");
+  for (const auto& entry : fs::directory_iterator(fs::path(SEPTET_SOURCE_DIR) / "scenarios/motorway-ambulance"))
+    fs::copy(entry.path(), folder / "short" / entry.path().filename(), fs::copy_options::recursive);
+  const fs::path scenario = folder / "short" / "motorway-ambulance.xosc";
+  std::string text = text_of(scenario);
+  const std::string distance = "TraveledDistanceCondition value=\"8500\"";
+  const auto at = text.rfind(distance);
+  REQUIRE(at != std::string::npos);
+  write_text(scenario, text.replace(at, distance.size(), "TraveledDistanceCondition value=\"50\""));
+  auto arguments = headless(folder / "out", "0");
+  arguments.insert(arguments.end(), {"--scenario", scenario.string()});
+  auto drive = start("septet", arguments, folder / "err");
+  REQUIRE(exit_code(drive, 120s) == 0);
+  CHECK(last_words(drive).find("StopTrigger") != std::string::npos);
+  CHECK(why(folder / "out") == "stop_trigger");
+  check_results(folder / "out");
+
+  auto timed = start("septet", headless(folder / "timed", "0.5"), folder / "err");
+  REQUIRE(exit_code(timed, 120s) == 0);
+  CHECK(last_words(timed).find("time") != std::string::npos);
+  CHECK(why(folder / "timed") == "time_over");
+}
+
+TEST_CASE("a signal ends a drive in order with its own reason and status 3 and no key stays behind") {
+  std::signal(SIGHUP, SIG_DFL);  // Also where the tests run under nohup.
+  for (const auto& [signal, name] : {std::pair(SIGINT, "interrupted"), std::pair(SIGTERM, "terminated"), std::pair(SIGHUP, "hung_up")}) {
+    CAPTURE(name);
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "tmp");
+    // Zero seconds: until it is stopped.
+    auto drive = start("septet", headless(folder / "out", "0"), folder / "err", {{"TMPDIR", folder / "tmp"}});
+    REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+    CHECK(entries(folder / "tmp") == 1);
+    drive.send_signal(signal);
+    const int code = exit_code(drive, 60s);
+    INFO(text_of(folder / "err"));
+    CHECK(code == 3);
+    CHECK(why(folder / "out") == name);
+    check_results(folder / "out");
+    CHECK(entries(folder / "tmp") == 0);
+  }
+}
+
+TEST_CASE("a server that still reads its files is ended at once by a signal") {
+  std::signal(SIGHUP, SIG_DFL);
+  const TemporaryFolder folder;
+  const fs::path keys = make_keys(folder / "keys", "");
+  fs::remove(keys / "allowed-clients");
+  REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // Nobody ever writes into it.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    CAPTURE(signal);
+    auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()}, folder / "err");
+    CHECK_FALSE(server.read_line(1s).has_value());
+    server.send_signal(signal);
+    REQUIRE(becomes_true([&] { return server.poll().has_value(); }, 60s));
+    CHECK(server.poll()->signal == signal);
+    CHECK_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST_CASE("a killed drive takes its server along and the next one removes its keys") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "tmp");
+  const std::map<std::string, std::string> place{{"TMPDIR", folder / "tmp"}};
+  auto drive = start("septet", headless(folder / "out", "0"), folder / "err", place);
+  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+  drive.send_signal(SIGKILL);
+  // The server hears of it and ends in order.
+  CHECK(becomes_true([&] { return why(folder / "out") == "terminated"; }, 60s));
+  CHECK(entries(folder / "tmp") == 1);
+  CHECK(run("septet", headless(folder / "next", "0.1"), folder / "next.err", place).code == 0);
+  CHECK(entries(folder / "tmp") == 0);
+}
+
+TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limit of its size too") {
+  const TemporaryFolder folder;
+  auto drive = start("septet", headless(folder / "out", "0"), folder / "err");
+  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+  fs::remove(folder / "out" / "session.sqlite");
+  CHECK(exit_code(drive, 60s) == 1);
+  CHECK(text_of(folder / "err").find("deleted") != std::string::npos);
+  CHECK(last_words(drive).find("the log cannot be written") != std::string::npos);
+
+  // 30 MB: the world is in, and a minute of the drive.
+  auto limited = start("/bin/sh", {"-c", fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --seconds 0 --out '{}'",
+                                                     (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
+                       folder / "limited.err");
+  CHECK(exit_code(limited, 120s) == 1);
+  const std::string said = text_of(folder / "limited.err");
+  INFO(said);
+  CHECK(said.find("limited/session.sqlite") != std::string::npos);
+  CHECK(run("septet", {"replay", "--verify", (folder / "limited" / "session.sqlite").string()}, folder / "verify.err").code == 0);
+}
+
+TEST_CASE("closing the window ends the drive and so does Escape") {
+  const TemporaryFolder folder;
+  const XDisplay display;
+  write_text(folder / "small.toml", small_rig(1));
+  for (const std::string end : {"window_closed", "escape"}) {
+    CAPTURE(end);
+    const fs::path out = folder / end;
+    auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err", display.environment());
+    REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; }, 120s));
+    end == "escape" ? display.press_escape("Septet a") : display.close_window("Septet a");
+    const int code = exit_code(drive, 60s);
+    INFO(text_of(folder / "err"));
+    CHECK(code == 3);
+    CHECK(why(out) == end);
+    check_results(out);
+  }
+}
+
+TEST_CASE("a screen that fails is tried again and costs the others nothing and where none can start the drive says so") {
+  const TemporaryFolder folder;
+  const XDisplay display;
+  write_text(folder / "small.toml", small_rig(2));
+  const fs::path out = folder / "out";
+  auto drive = start("septet", {"drive", "--seconds", "4", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err",
+                     display.environment());
+  REQUIRE(becomes_true([&] { return fs::exists(out / "screens"); }, 30s));
+  write_text(out / "screens" / "b", "a file where the screen wants its folder");
+  const int code = exit_code(drive, 120s);
+  const std::string said = text_of(folder / "err");
+  INFO(said);
+  CHECK(code == 0);
+  CHECK(said.find("screen b ended with status 1") != std::string::npos);
+  CHECK(newest_picture(out / "screens" / "a") > 0);
+  CHECK(why(out) == "time_over");
+  check_results(out);
+
+  auto blind = start("septet", {"drive", "--seconds", "300", "--rig", (folder / "small.toml").string(), "--out", (folder / "blind").string()},
+                     folder / "blind.err", {{"DISPLAY", ":4711"}});
+  CHECK(exit_code(blind, 120s) == 1);
+  const std::string complaint = text_of(folder / "blind.err");
+  INFO(complaint);
+  CHECK(complaint.find("no screen can be started") != std::string::npos);
+  CHECK(complaint.find("screens/a.log") != std::string::npos);
+  CHECK(last_words(blind).find("no screen could be started") != std::string::npos);
+  CHECK(why(folder / "blind") == "no_screens");
+}
+
+}  // namespace septet::pipeline

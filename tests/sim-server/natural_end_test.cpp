@@ -1,0 +1,52 @@
+#include "sim-server/natural_end.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/road/plan_curve.hpp"
+#include "engine/road/road_locate.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+
+TEST_CASE("a car that is more than ten metres beyond the last road's end is beyond it and one at a joint of two roads is not") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const road::RoadNetwork& roads = drive.model->roads;
+  int open_ends = 0, joints = 0;
+  for (road::RoadIndex index = 0; index < roads.roads.size(); ++index) {
+    const road::Road& road = roads.roads[index];
+    const road::PlanPoint end = road::evaluate_plan(road.plan, road.length_m);
+    const bool is_open = road.successor.road == road::no_index && road.successor.junction == road::no_index;
+    ++(is_open ? open_ends : joints);
+    const road::RoadPosition at_end{index, road.length_m, 0.0};
+    CHECK_FALSE(is_beyond_road_end(roads, at_end, end.position_m + 9.0 * end.direction));
+    CHECK(is_beyond_road_end(roads, at_end, end.position_m + 11.0 * end.direction) == is_open);
+    // Beside the road, however far, is not beyond its end.
+    CHECK_FALSE(is_beyond_road_end(roads, {index, 0.5 * road.length_m, 0.0}, end.position_m + 11.0 * end.direction));
+  }
+  CHECK(open_ends > 0);
+  MESSAGE(open_ends << " ends of roads are open, " << joints << " are not");
+}
+
+TEST_CASE("a drive ends where the car leaves the end of the road and where the storyboard stops") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  auto state = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+  REQUIRE(state.has_value());
+  std::vector<SimulationEvent> events;
+  server_step(*drive.model, {}, *state, events);
+  CHECK_FALSE(natural_end(*drive.model, *state).has_value());
+  REQUIRE(state->car_road.has_value());
+  const road::RoadIndex index = state->car_road->road;
+  const road::Road& road = drive.model->roads.roads[index];
+  const road::PlanPoint end = road::evaluate_plan(road.plan, road.length_m);
+  // The car drives off the end: 30 m/s for a second.
+  state->car.world_from_body.position_m = Vec3(end.position_m + 2.0 * end.direction, state->car.world_from_body.position_m.z);
+  state->car.velocity_mps = Vec3(30.0 * end.direction, 0.0);
+  state->car_road = road::RoadPosition{index, road.length_m, 0.0};
+  int ticks = 0;
+  while (!natural_end(*drive.model, *state) && ++ticks < 120) server_step(*drive.model, {}, *state, events);
+  CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::road_end);
+  state->scenario.finished = true;
+  CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::stop_trigger);
+}
+
+}  // namespace septet::server

@@ -1,0 +1,57 @@
+#include "sim-server/stop_signal.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include <doctest/doctest.h>
+
+namespace septet::server {
+namespace {
+
+/// Exit status, or minus the signal, of a process that does `what` and is sent `signal` once it is ready.
+template <class What>
+int end_of(int signal, What what) {
+  int ready[2];
+  REQUIRE(::pipe(ready) == 0);
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    catch_stop_signals(1);
+    (void)!::write(ready[1], "r", 1);
+    ::_exit(what());
+  }
+  char byte;
+  REQUIRE(::read(ready[0], &byte, 1) == 1);
+  ::kill(child, signal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+  return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+TEST_CASE("a program that looks ends as it likes and knows which signal it was") {
+  std::signal(SIGHUP, SIG_DFL);  // Also where the tests run under nohup.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
+    CAPTURE(signal);
+    CHECK(end_of(signal, [] {
+      while (!stop_signal()) ::usleep(1000);
+      obey_stop_signal();
+      ::usleep(1'500'000);  // Longer than the patience: what is under way is not cut off.
+      return *stop_signal();
+    }) == signal);
+  }
+}
+
+TEST_CASE("a program that is stuck is ended after its patience") {
+  CHECK(end_of(SIGTERM, [] {
+    for (volatile bool stuck = true; stuck;) {}
+    return 0;
+  }) == -SIGALRM);
+}
+
+}  // namespace septet::server
