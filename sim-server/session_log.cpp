@@ -35,7 +35,7 @@ Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const
                                         const std::string& traffic, bool real_time) {
   logging::SessionInfo info;
   info.septet_version = version;
-  info.git_revision = SEPTET_REVISION;
+  info.git_revision = revision;
   info.started_utc = now_utc();
   info.ticks_per_second = tick_rate_hz;
   info.seeds["drive"] = seed;

@@ -1,8 +1,11 @@
 #pragma once
-/// Septet's version, as in CMakeLists.txt and CHANGELOG.md.
+/// Which Septet this is, as logs and `--version` say.
 
 #include <string_view>
 
 namespace septet::server {
-inline constexpr std::string_view version = SEPTET_VERSION;
-}
+
+extern const std::string_view version;   ///< As in CMakeLists.txt and CHANGELOG.md.
+extern const std::string_view revision;  ///< Of git, short; empty outside a checkout.
+
+}  // namespace septet::server

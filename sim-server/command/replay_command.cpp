@@ -40,9 +40,9 @@ Expected<std::optional<bool>> are_original(const logging::SessionInfo& info, con
 std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
   if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
   const auto compiler = info.other.find("compiler");
-  if (info.git_revision != SEPTET_REVISION || info.septet_version != version || (compiler != info.other.end() && compiler->second != __VERSION__))
+  if (info.git_revision != revision || info.septet_version != version || (compiler != info.other.end() && compiler->second != __VERSION__))
     return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one", info.septet_version,
-                       info.git_revision.empty() ? "an unknown revision" : info.git_revision, version, SEPTET_REVISION);
+                       info.git_revision.empty() ? "an unknown revision" : info.git_revision, version, revision);
   return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since its revision, or the "
          "processor's arithmetic differs";
 }
