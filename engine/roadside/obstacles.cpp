@@ -192,7 +192,9 @@ void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed
       const auto corner = [&](double x, double y) {
         return building.world_from_building * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
       };
-      builder.line(ObstacleKind::house, {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), corner(-1, -1)});
+      const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+      for (std::size_t i = 0; i < corners.size(); ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
+        builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
     }
 }
 
