@@ -36,12 +36,14 @@ image::Image draw(const rig::Screen& screen, const std::vector<render::OverlayTe
   auto renderer = render::Renderer::create({.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});
   REQUIRE(renderer.has_value());
   render::FrameInput input;
+  input.views.push_back({.projection = render::symmetric_view(Vec3(1.35, 0.37, 1.17), 0.0, 0.0, 0.77, 0.52),
+                         .viewport = {0, 0, screen.width_px, screen.height_px}});
   input.overlay = texts;
   REQUIRE(renderer->draw(input).has_value());
   const auto picture = renderer->read_back();
   REQUIRE(picture.has_value());
   if (const char* folder = std::getenv("SEPTET_PICTURES"))
-    CHECK(image::write_png(*picture, std::string(folder) + "/" + name + ".png").has_value());
+    CHECK(image::write_png(std::string(folder) + "/" + name + ".png", *picture).has_value());
   return *picture;
 }
 
