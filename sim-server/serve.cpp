@@ -35,11 +35,17 @@ struct Loop {
     result.state_hash = (*snapshot)->snapshot().state_hash;
     return std::move(*snapshot);
   }
-  /// Whether somebody, or the clock, wants the drive to end; the result says who.
-  bool is_over(const std::optional<DriveEnd>& by_a_screen) {
+  /// Whether somebody wants the drive to end; the result says who.
+  bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
     const auto asked = environment.end_requested();
-    if (!asked && !by_a_screen && (ticks == 0 || result.ticks < ticks)) return false;
-    result.end = asked ? *asked : by_a_screen.value_or(DriveEnd::time_over);
+    if (!asked && !by_a_screen) return false;
+    result.end = asked ? *asked : *by_a_screen;
+    return true;
+  }
+  /// Whether all ticks that were asked for are there; the result says so.
+  bool is_time_over() {
+    if (ticks == 0 || result.ticks < ticks) return false;
+    result.end = DriveEnd::time_over;
     return true;
   }
 };
@@ -55,9 +61,10 @@ struct ScreenLoop : Loop {
     host.pump(environment.now_s());
     for (const auto& text : host.take_messages()) environment.message(text);
   }
-  bool is_over() { return Loop::is_over(host.end_requested()); }
+  bool is_stopped() { return Loop::is_stopped(host.end_requested()); }
+  bool is_over() { return is_stopped() || is_time_over(); }
 
-  /// Pumps until `satisfied`, out of patience or `is_over`; false in the latter cases. `every_s` runs `nudge` now and then.
+  /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. `every_s` runs `nudge` now and then.
   template <class Condition, class Nudge>
   bool pump_until(Condition satisfied, double patience_s, double every_s, Nudge nudge) {
     const double begun_s = environment.now_s();
@@ -66,7 +73,7 @@ struct ScreenLoop : Loop {
       pump();
       if (satisfied()) return true;
       const double now_s = environment.now_s();
-      if (now_s - begun_s > patience_s || is_over()) return false;
+      if (now_s - begun_s > patience_s || is_stopped()) return false;
       if (now_s - nudged_s > every_s) {
         nudged_s = now_s;
         nudge();
@@ -88,7 +95,7 @@ bool wait_for_screens(ScreenLoop& loop) {
                     [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
   loop.started_s = loop.environment.now_s();
   if (patience_s <= 0.0 || loop.host.all_ready()) return true;
-  if (loop.is_over()) return false;
+  if (loop.is_stopped()) return false;
   if (loop.options.lockstep && !told_to_go() && loop.host.missing().size() == loop.host.screens().size()) {
     loop.result.end = DriveEnd::no_screens;
     loop.result.error = Error{fmt::format("no answer within {:.0f} s from: {}", patience_s, missing()), "screens",
@@ -161,7 +168,7 @@ ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& opti
 
 ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment) {
   Loop loop{source, environment, ticks, environment.now_s()};
-  while (!loop.is_over(std::nullopt)) {
+  while (!loop.is_stopped(std::nullopt) && !loop.is_time_over()) {
     if (!loop.take_tick(std::nullopt)) break;
     if (loop.result.ticks % 120 == 0) loop.report("driving");
   }
