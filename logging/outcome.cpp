@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
 #include "logging/outcome_json.hpp"
 
 namespace septet::logging {

@@ -1,7 +1,7 @@
 #pragma once
 /// An outcome as a JSON value, for the two texts that hold it.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "logging/outcome.hpp"
 

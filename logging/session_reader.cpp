@@ -91,6 +91,7 @@ struct SnapshotCursor::State {
   std::string where;
   std::optional<WireSnapshot> previous;
   std::optional<WireSnapshot> ready;  ///< Decoded on the way to the time that was asked for.
+  bool ended = false;                 ///< Another step would begin anew.
 };
 
 SnapshotCursor::SnapshotCursor(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -100,10 +101,12 @@ SnapshotCursor::~SnapshotCursor() = default;
 
 Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
   if (state_->ready) return std::exchange(state_->ready, std::nullopt);
+  if (state_->ended) return std::optional<WireSnapshot>();
   Statement& rows = state_->rows;
-  const auto row = state_->rows.step();
+  const auto row = rows.step();
   if (!row) return tl::unexpected(row.error());
-  if (!*row) return std::optional<WireSnapshot>();
+  state_->ended = !*row;
+  if (state_->ended) return std::optional<WireSnapshot>();
   const auto tick = static_cast<Tick>(rows.integer(0));
   const auto damaged = [&](std::string_view what) {
     return failure(fmt::format("snapshot {} is damaged: {}", tick, what), state_->where,
@@ -115,12 +118,17 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
   if (header->tick != tick)
     return damaged(fmt::format("its bytes are those of tick {}", header->tick));
   const auto& previous = state_->previous;
+  if (header->baseline && *header->baseline < tick && (!previous || previous->rest.tick < *header->baseline))
+    return failure(fmt::format("the snapshot of tick {} is missing: the log has a gap", *header->baseline), state_->where,
+                   "replay up to the tick before it, or use a copy of the file");
   if (header->baseline && (!previous || previous->rest.tick != *header->baseline))
     return damaged(fmt::format("it is a difference to tick {}, which is not the row before",
                                *header->baseline));
   auto snapshot = decode_snapshot(bytes, header->baseline ? &*previous : nullptr);
   if (!snapshot) return damaged(snapshot.error().what);
   state_->previous = *snapshot;
+  // The row's own hash is the one that was recorded for comparison; whoever altered it has altered the session.
+  snapshot->rest.state_hash = static_cast<std::uint64_t>(rows.integer(2));
   return std::optional(std::move(*snapshot));
 }
 
@@ -190,11 +198,11 @@ Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) 
                              after->value_or(std::numeric_limits<std::int64_t>::max()));
   if (!at) return tl::unexpected(at.error());
   const auto target = static_cast<Tick>(at->value_or(0));
-  auto rows = database.prepare("SELECT tick, data FROM snapshots WHERE tick >= ? ORDER BY tick");
+  auto rows = database.prepare("SELECT tick, data, state_hash FROM snapshots WHERE tick >= ? ORDER BY tick");
   if (!rows) return tl::unexpected(rows.error());
   rows->bind(1, first);
   SnapshotCursor cursor(std::make_unique<SnapshotCursor::State>(
-      SnapshotCursor::State{std::move(*rows), database.where(), {}, {}}));
+      SnapshotCursor::State{std::move(*rows), database.where(), {}, {}, false}));
   for (;;) {
     auto snapshot = cursor.next_wire();
     if (!snapshot) return tl::unexpected(snapshot.error());

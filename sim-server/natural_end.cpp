@@ -16,8 +16,9 @@ std::optional<logging::DriveEnd> natural_end(const SimulationModel& model, const
 
 bool is_beyond_road_end(const road::RoadNetwork& roads, const road::RoadPosition& place, const Vec2& world_m) {
   const road::Road& road = roads.roads[place.road];
-  const bool at_end = place.s_m >= road.length_m;
-  if (!at_end && place.s_m > 0.0) return false;
+  constexpr double at_m = 0.01;  // A place beyond the end is told as the end of the geometry, which need not be the length to the last bit.
+  const bool at_end = place.s_m >= road.length_m - at_m;
+  if (!at_end && place.s_m > at_m) return false;
   const road::RoadLink& link = at_end ? road.successor : road.predecessor;
   if (link.road != road::no_index || link.junction != road::no_index) return false;
   const road::PlanPoint end = road::evaluate_plan(road.plan, at_end ? road.length_m : 0.0);

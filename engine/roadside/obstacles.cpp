@@ -284,7 +284,7 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double reach_m) const {
       if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m) numbers.push_back(i);
   });
   std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());  // Not std::ranges::unique: clang 14 cannot compile it.
   for (const std::uint32_t i : numbers) found.push_back(obstacles_[i]);
   if (may_be_wood)
     for (const Stem& stem : wood_stems(terrain_, seed_, p, reach_m)) {

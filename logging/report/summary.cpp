@@ -1,5 +1,7 @@
 #include "logging/report/summary.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "logging/outcome_json.hpp"
 #include "logging/report/text_file.hpp"
 

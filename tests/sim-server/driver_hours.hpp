@@ -177,11 +177,14 @@ inline DriveWatch watch_drive(const std::string& scenario, const std::string& dr
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
   auto seat = open_driver_seat(rig::Car{}, driver, seed, loaded.model);
   REQUIRE(seat.has_value());
-  auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat), nullptr);
+  auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
   REQUIRE(drive.has_value());
   DriveWatch watch(fmt::format("{} {} seed {}", scenario, driver, seed));
-  while (watch.record.time_s < seconds - 1e-6 && !watch.has_collided() && (*drive)->next(std::nullopt))
+  while (watch.record.time_s < seconds - 1e-6 && !watch.has_collided()) {
+    const auto tick = (*drive)->next(std::nullopt);
+    if (!tick || !*tick) break;  // The end of the road.
     watch.see((*drive)->newest());
+  }
   return watch;
 }
 

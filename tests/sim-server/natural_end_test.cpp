@@ -1,5 +1,8 @@
 #include "sim-server/natural_end.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "engine/road/plan_curve.hpp"
@@ -34,16 +37,30 @@ TEST_CASE("a drive ends where the car leaves the end of the road and where the s
   std::vector<SimulationEvent> events;
   server_step(*drive.model, {}, *state, events);
   CHECK_FALSE(natural_end(*drive.model, *state).has_value());
-  REQUIRE(state->car_road.has_value());
-  const road::RoadIndex index = state->car_road->road;
-  const road::Road& road = drive.model->roads.roads[index];
+  // Where a road ends without a successor, in the lane beside the barrier in the middle, the car drives off the end: 30 m/s for a second.
+  const road::RoadNetwork& roads = drive.model->roads;
+  const auto open_end = std::ranges::find_if(roads.roads, [](const road::Road& road) {
+    return road.successor.road == road::no_index && road.successor.junction == road::no_index;
+  });
+  REQUIRE(open_end != roads.roads.end());
+  const auto index = static_cast<road::RoadIndex>(open_end - roads.roads.begin());
+  const road::Road& road = *open_end;
   const road::PlanPoint end = road::evaluate_plan(road.plan, road.length_m);
-  // The car drives off the end: 30 m/s for a second.
-  state->car.world_from_body.position_m = Vec3(end.position_m + 2.0 * end.direction, state->car.world_from_body.position_m.z);
+  const Vec2 beside_m = end.position_m + 8.0 * Vec2(end.direction.y, -end.direction.x);
+  const auto ground = road::surface_at(roads, beside_m - 0.1 * end.direction);
+  REQUIRE(ground.has_value());
+  const double yaw_rad = std::atan2(end.direction.y, end.direction.x);
+  state->car.world_from_body.orientation = glm::angleAxis(yaw_rad, Vec3(0.0, 0.0, 1.0));
+  state->car.world_from_body.position_m = Vec3(beside_m + 2.0 * end.direction, ground->height_m + 0.6);
   state->car.velocity_mps = Vec3(30.0 * end.direction, 0.0);
   state->car_road = road::RoadPosition{index, road.length_m, 0.0};
   int ticks = 0;
-  while (!natural_end(*drive.model, *state) && ++ticks < 120) server_step(*drive.model, {}, *state, events);
+  while (!natural_end(*drive.model, *state) && ++ticks < 120) {
+    server_step(*drive.model, {}, *state, events);
+    state->scenario.finished = false;  // The storyboard stops near the road's end too.
+  }
+  INFO("on road " << (state->car_road ? static_cast<int>(state->car_road->road) : -1) << " of " << index << " at " << (state->car_road ? state->car_road->s_m : 0.0) << " of "
+                  << road.length_m << ", ahead " << glm::dot(Vec2(state->car.world_from_body.position_m) - end.position_m, end.direction));
   CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::road_end);
   state->scenario.finished = true;
   CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::stop_trigger);
