@@ -63,7 +63,8 @@ Element with_outside_parameters(const Element& root, const std::vector<Parameter
       root.child("ParameterDeclarations").children("ParameterDeclaration");
   for (const Element& declaration : declarations)
     names += (names.empty() ? "" : ", ") + declaration.text("name");
-  for (const auto& [name, value] : assigned) {
+  for (const auto& parameter : assigned) {
+    const std::string& name = parameter.first;  // clang 14 cannot capture a structured binding.
     const auto is_it = [&](const Element& declaration) { return declaration.text("name") == name; };
     if (std::none_of(declarations.begin(), declarations.end(), is_it)) {
       root.error(fmt::format("the scenario has no parameter named \"{}\"", name.substr(0, 60)),

@@ -28,7 +28,7 @@ void effects_tick(benchmark::State& bench, const char* name, int seconds_before)
   const auto loaded = load_drive(DriveFiles{scenario->string(), rig->string(), 1});
   SEPTET_CHECK(loaded.has_value(), "{}", describe(loaded.error()));
   auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded->model);
-  auto drive = LiveDrive::start(loaded->model, traffic::own_traffic(loaded->model->roads, 1), std::move(*seat), nullptr);
+  auto drive = LiveDrive::start(loaded->model, traffic::own_traffic(loaded->model->roads, 1), std::move(*seat));
   for (int tick = 0; tick < 120 * seconds_before; ++tick) SEPTET_CHECK((*drive)->next(std::nullopt).has_value(), "tick {}", tick);
   std::deque<std::shared_ptr<const TakenSnapshot>> sent;
   double bytes = 0.0, most = 0.0, keyframe = 0.0, worst_ms = 0.0;
