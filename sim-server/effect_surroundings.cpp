@@ -136,8 +136,9 @@ std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, co
     for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m)) standing.emplace_back(obstacle, place.z);
   const auto key = [](const auto& entry) { return std::tuple(entry.first.run, entry.first.from_m.x, entry.first.from_m.y); };
   std::ranges::stable_sort(standing, {}, key);
-  const auto repeated = std::ranges::unique(standing, {}, key);
-  standing.erase(repeated.begin(), repeated.end());
+  // Not std::ranges::unique: clang 14 cannot compile it.
+  const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
+  standing.erase(std::unique(standing.begin(), standing.end(), is_same), standing.end());
   std::vector<debris::Box> boxes;
   for (const auto& [obstacle, z] : standing) boxes.push_back(box_of(obstacle, z));
   return boxes;
