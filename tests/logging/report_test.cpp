@@ -92,8 +92,8 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   // Every key is explained.
   std::ifstream in(std::string(SEPTET_SOURCE_DIR) + "/logging/report/SUMMARY.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
-  for (const auto& [key, value] : json.items()) CHECK_MESSAGE(page.find("`" + key) != std::string::npos, key);
-  for (const auto& [key, value] : json["screens"][0].items()) CHECK_MESSAGE(page.find("." + key) != std::string::npos, key);
+  for (const auto& item : json.items()) CHECK_MESSAGE(page.find("`" + item.key()) != std::string::npos, item.key());
+  for (const auto& item : json["screens"][0].items()) CHECK_MESSAGE(page.find("." + item.key()) != std::string::npos, item.key());
 
   summary.log.reset();  // A log that was deleted.
   const auto poor = nlohmann::json::parse(to_json(summary));

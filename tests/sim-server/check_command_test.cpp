@@ -41,7 +41,9 @@ TEST_CASE("every shipped file that check knows passes it as what it is") {
                                                          {"rigs/desktop.toml", "rig"},
                                                          {"scenarios/motorway-ambulance/motorway-ambulance.xosc", "scenario"},
                                                          {"scenarios/motorway-ambulance/motorway.xodr", "road"}};
-  for (const auto& [file, kind] : shipped) {
+  for (const auto& row : shipped) {
+    const char* const file = row.first;
+    const char* const kind = row.second;
     CAPTURE(file);
     const Answer answer = check({(tree / file).string()}, true);
     CHECK(answer.status == 0);

@@ -121,7 +121,8 @@ TEST_CASE("an attribute that the standard demands is missed with the value that 
       {" dynamicsDimension=\"time\"", "time"},
       {" selectTriggeringEntities=\"false\"", "false"},
       {"name=\"group\" maximumExecutionCount=\"1\"", "1"}};
-  for (const auto& [attribute, taken] : demanded) {
+  for (const auto& row : demanded) {
+    const std::string attribute = row.first, taken = row.second;
     CAPTURE(attribute);
     const bool named = attribute.starts_with("name");
     const std::string found = findings_text(with(full, attribute, named ? "name=\"group\"" : ""));
@@ -197,13 +198,15 @@ TEST_CASE("numbers that nothing in the world has are errors") {
           one_car + private_text("A", speed_text(10)),
       "");
   CHECK(findings_text(whole) == "");
-  for (const auto& [good, bad] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& row : std::vector<std::pair<std::string, std::string>>{
            {"temperature=\"290\"", "temperature=\"-5\""},
            {"illuminance=\"10000\"", "illuminance=\"-1e11\""},
            {"Intensity=\"2\"", "Intensity=\"1e11\""},
            {"ScaleFactor=\"1\"", "ScaleFactor=\"1e9\""},
            {"Speed value=\"10.000000\"", "Speed value=\"1e12\""},
            {"length=\"4.6\"", "length=\"1e11\""}}) {
+    const auto& good = row.first;
+    const auto& bad = row.second;
     CAPTURE(bad);
     const std::string found = findings_text(with(whole, good, bad));
     CHECK(found.find("error test.xosc:1") == 0);
