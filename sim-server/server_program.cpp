@@ -281,6 +281,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
     progress.message(text);
     if (drive.log) drive.log->record_message("screen", text);
   };
+  environment.show = [&](const std::string& text) { progress.message(text); };
   ServeResult result;
   std::vector<HostedScreen> screens;
   if (!endpoint) {
@@ -304,7 +305,6 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
                                 : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
-    environment.show = [&](const std::string& text) { progress.message(text); };
     const double wait_s = options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
     result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks, .wait_for_screens_s = wait_s}, environment);
     screens = host.screens();
