@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/piece.hpp"
 #include "engine/road/road_locate.hpp"
 
 namespace septet::server {

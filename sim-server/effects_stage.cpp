@@ -9,6 +9,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "sim-server/effect_surroundings.hpp"
 
 namespace septet::server {
@@ -73,7 +74,7 @@ EffectsState initial_effects(const scenario::Scenario& scenario, const scenario:
     const auto part = part_of_name(entity.type_name);
     if (entity.kind != scenario::EntityKind::misc_object || !part || !storyboard.entities[i].active) continue;
     RigidTransform place = storyboard.entities[i].world_from_entity;
-    const double half = 0.5 * debris::part_recipe(*part).size_m.z();
+    const double half = 0.5 * debris::part_recipe(*part).size_m.z;
     place.position_m += place.orientation * Vec3(0.0, 0.0, half + 0.002);
     debris::spawn_part(state.debris, *part, place, Vec3(0.0), Vec3(0.0), state.random);
     state.debris.pieces.back().asleep = true;
@@ -85,7 +86,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
            EffectsState& state) {
   const auto part = part_of_name(action.part);
   if (!part || !from.active) return;
-  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m, half = 0.5 * debris::part_recipe(*part).size_m.z();
+  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m, half = 0.5 * debris::part_recipe(*part).size_m.z;
   const Quat& turn = from.world_from_entity.orientation;
   const Vec3 place = from.world_from_entity * Vec3(action.x_m, action.y_m, roof + half + 0.02);
   debris::spawn_part(state.debris, *part, {place, turn}, from.velocity_mps - turn * Vec3(action.slide_mps, 0.0, 0.0),

@@ -5,6 +5,7 @@
 
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "sim-server/effect_surroundings.hpp"
 #include "tests/engine/road/road_files.hpp"

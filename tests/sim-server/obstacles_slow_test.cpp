@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/piece.hpp"
 #include "sim-server/traffic_choice.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 

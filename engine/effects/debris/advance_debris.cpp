@@ -9,7 +9,7 @@
 
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
-#include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/physics/elastic/body_measures.hpp"

@@ -18,6 +18,7 @@
 
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/piece.hpp"
 
 namespace septet::debris {
 

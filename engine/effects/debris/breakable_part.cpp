@@ -38,7 +38,7 @@ MaterialData spread_material(const PartRecipe& recipe) {
                                  ? 1.0
                                  : mean_width * mean_width +
                                        (1.0 - recipe.taper) * (1.0 - recipe.taper) / 12.0;
-  const double density = recipe.mass_kg / (recipe.size_m.prod() * area_factor);
+  const double density = recipe.mass_kg / (recipe.size_m.x * recipe.size_m.y * recipe.size_m.z * area_factor);
   const double fill = density / data.elastic.density_kgpm3;
   data.elastic.density_kgpm3 = density;
   data.elastic.young_modulus_pa *= fill;

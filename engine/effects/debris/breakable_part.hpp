@@ -8,8 +8,9 @@
 
 #include <cstdint>
 
-#include <Eigen/Core>
+#include <glm/vec3.hpp>
 
+#include "engine/math/rigid_transform.hpp"
 #include "engine/physics/elastic/elastic_material.hpp"
 
 namespace septet::debris {
@@ -35,8 +36,8 @@ inline constexpr int part_count = 7;
 
 struct PartRecipe {
   Material material;
-  Eigen::Vector3i cells;     ///< Lattice cubes along x, y, z; five tetrahedra each.
-  Eigen::Vector3d size_m;    ///< Outer box; x forward, y left, z up, centred on the part's origin.
+  glm::ivec3 cells;          ///< Lattice cubes along x, y, z; five tetrahedra each.
+  Vec3 size_m;               ///< Outer box; x forward, y left, z up, centred on the part's origin.
   double mass_kg;
   int splinters;             ///< Voronoi cells that it can fall into.
   double taper;              ///< Width of the top over that of the foot.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/step.hpp"
 
 namespace septet::debris {

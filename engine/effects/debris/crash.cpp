@@ -8,6 +8,7 @@
 #include "engine/core/check.hpp"
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 
@@ -23,7 +24,10 @@ Vec3 velocity_at(const Box& box, const Vec3& point_m) {
          glm::cross(box.angular_velocity_radps, point_m - box.world_from_box.position_m);
 }
 
-double part_radius_m(Part part) { return 0.5 * part_recipe(part).size_m.minCoeff(); }
+double part_radius_m(Part part) {
+  const Vec3& size = part_recipe(part).size_m;
+  return 0.5 * std::min({size.x, size.y, size.z});
+}
 
 /// Moves a piece by `shift` without changing its motion.
 void move(Piece& piece, const Vec3& shift) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/core/check.hpp"
+#include "engine/effects/debris/piece.hpp"
 
 namespace septet::debris {
 namespace {

@@ -12,21 +12,10 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/debris/breakable_part.hpp"
 #include "engine/math/rigid_transform.hpp"
-#include "engine/physics/elastic/elastic_body.hpp"
 
 namespace septet::debris {
 
-struct Piece {
-  std::uint32_t id = 0;
-  Part part = Part::bumper;
-  MaterialData material;               ///< Spread over the lattice (breakable_part.hpp).
-  elastic::ElasticBody body;
-  std::vector<int> splinter;           ///< Of each element; faces between two may open.
-  std::vector<double> plastic_strain;  ///< Accumulated, of each element.
-  std::vector<elastic::SurfaceTriangle> surface;
-  double calm_s = 0.0;                 ///< For how long it has hardly moved.
-  bool asleep = false;                 ///< Neither stepped nor broken until something touches it.
-};
+struct Piece;  ///< An elastic piece: piece.hpp, for those who look inside.
 
 /// A rigid splinter of glass, drawn as one triangle.
 struct Shard {
@@ -36,7 +25,15 @@ struct Shard {
   double mass_kg = 0.0;
 };
 
+/// Its special members stand where a piece is whole, so that whoever holds a state need not know what a piece is made of.
 struct State {
+  State();
+  State(const State&);
+  State(State&&) noexcept;
+  State& operator=(const State&);
+  State& operator=(State&&) noexcept;
+  ~State();
+
   std::vector<Piece> pieces;  ///< Ascending id.
   std::vector<Shard> shards;
   std::uint32_t next_id = 1;
@@ -92,8 +89,5 @@ Report advance_debris(State& state, ContactWorld& world, double step_s);
 /// thinner than a centimetre and shards are no obstacle.
 std::optional<double> highest_debris_m(const State& state, double x_m, double y_m,
                                        double radius_m);
-
-inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
-inline Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace septet::debris

@@ -19,6 +19,7 @@
 
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/piece.hpp"
 
 namespace septet::debris {
 

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.hpp"
-#include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/tetrahedral_mesh.hpp"
 
 namespace septet::debris {
@@ -14,10 +14,10 @@ constexpr std::size_t tetrahedra_per_cube = 5;  // One after the other in lattic
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random) {
   const PartRecipe& recipe = part_recipe(part);
-  elastic::TetrahedralMesh mesh = elastic::lattice_mesh(recipe.cells, recipe.size_m);
+  elastic::TetrahedralMesh mesh = elastic::lattice_mesh({recipe.cells.x, recipe.cells.y, recipe.cells.z}, to_eigen(recipe.size_m));
   for (auto& x : mesh.nodes_m) {
-    x -= 0.5 * recipe.size_m;
-    const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z() + 0.5);
+    x -= 0.5 * to_eigen(recipe.size_m);
+    const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z + 0.5);
     x.x() *= width;
     x.y() *= width;
   }
@@ -36,7 +36,7 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
   }
   // What is one cube thick along the car falls apart into whole cubes: a crash presses it flat, it splits across, and the inner
   // faces of a flat cube lie nearly along it.
-  const std::size_t together = recipe.cells.x() == 1 ? tetrahedra_per_cube : 1;
+  const std::size_t together = recipe.cells.x == 1 ? tetrahedra_per_cube : 1;
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (std::size_t k = 0; k < piece.body.elements.size(); ++k) {
     const auto& e = piece.body.elements[k];

@@ -21,10 +21,7 @@ std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m) {
   std::vector<MountedPart> parts;
   const auto& h = half_size_m;
   const Quat straight(1, 0, 0, 0), backwards = glm::angleAxis(std::numbers::pi, Vec3(0, 0, 1));
-  const auto half = [](Part part) {
-    const auto& size = part_recipe(part).size_m;
-    return Vec3(0.5 * size.x(), 0.5 * size.y(), 0.5 * size.z());
-  };
+  const auto half = [](Part part) { return 0.5 * part_recipe(part).size_m; };
   const Vec3 bumper = half(Part::bumper), lamp = half(Part::lamp), door = half(Part::door);
   for (const double end : {1.0, -1.0}) {
     const Quat turn = end > 0 ? straight : backwards;

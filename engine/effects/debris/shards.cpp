@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/contacts.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 
 namespace septet::debris {

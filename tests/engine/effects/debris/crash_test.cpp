@@ -160,7 +160,7 @@ TEST_CASE("concrete and ice and glass break at the blow when thrown flat at a wa
   for (const Part part : {Part::barrier_post, Part::ice_slab, Part::windscreen}) {
     State state;
     Random random(3);
-    const double half = 0.5 * part_recipe(part).size_m.x();
+    const double half = 0.5 * part_recipe(part).size_m.x;
     spawn_part(state, part, {{half + 0.6, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0),
                Vec3(0), random);
     ContactWorld world;  // No ground: what breaks, the wall breaks.

@@ -1,4 +1,5 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/debris/piece.hpp"
 
 #include <doctest/doctest.h>
 

@@ -115,7 +115,7 @@ TEST_CASE("steel flows past its yield stress and keeps volume and part of its ne
 TEST_CASE("a sliding part stops after v squared over two mu g") {
   State state;
   Random random(1);
-  const double half_height = 0.5 * part_recipe(Part::lamp).size_m.z();
+  const double half_height = 0.5 * part_recipe(Part::lamp).size_m.z;
   spawn_part(state, Part::lamp, {{0, 0, half_height}, {1, 0, 0, 0}}, Vec3(0, 3, 0), Vec3(0),
              random);
   ContactWorld world = level_road();

@@ -1,0 +1,33 @@
+#pragma once
+/// An elastic piece of debris: a body of tetrahedra, what it is made of and where it may open.
+///
+/// Apart from debris_state.hpp, because only the debris itself computes with Eigen.
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "engine/effects/debris/breakable_part.hpp"
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/math/rigid_transform.hpp"
+#include "engine/physics/elastic/elastic_body.hpp"
+
+namespace septet::debris {
+
+struct Piece {
+  std::uint32_t id = 0;
+  Part part = Part::bumper;
+  MaterialData material;               ///< Spread over the lattice (breakable_part.hpp).
+  elastic::ElasticBody body;
+  std::vector<int> splinter;           ///< Of each element; faces between two may open.
+  std::vector<double> plastic_strain;  ///< Accumulated, of each element.
+  std::vector<elastic::SurfaceTriangle> surface;
+  double calm_s = 0.0;                 ///< For how long it has hardly moved.
+  bool asleep = false;                 ///< Neither stepped nor broken until something touches it.
+};
+
+inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace septet::debris
