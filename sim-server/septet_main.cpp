@@ -98,10 +98,20 @@ int run(int argc, char** argv) {
   VehicleTestOptions track;
   std::string car = "volvo-s80";
   auto* vehicle_test = vehicle_command->add_subcommand("test", "Run a standard manoeuvre: figures, time series and a plot");
-  vehicle_test->add_option("--manoeuvre", track.manoeuvre, "steady-circle, step-steer, double-lane-change, sine-with-dwell, stop, coast-down, acceleration or all")->required();
+  auto* manoeuvre = vehicle_test->add_option("--manoeuvre", track.manoeuvre, "steady-circle, step-steer, double-lane-change, sine-with-dwell, stop, coast-down, acceleration or all");
   vehicle_test->add_option("--vehicle", car, "Vehicle file, or a name of septet list vehicles");
   vehicle_test->add_option("--out", track.out, "Folder for the files; without it the figures are only printed");
+  auto* inputs = vehicle_test->add_option("--inputs", track.inputs, "Drive these inputs instead: CSV with time_s and any of steering_wheel_deg, accelerator, brake, clutch, gear, parking_brake");
+  inputs->excludes(manoeuvre);
+  double track_speed_kmh = 0.0;
+  vehicle_test->add_option("--speed", track_speed_kmh, "km/h; without it the manoeuvre's usual speed")->check(CLI::Range(0.0, 400.0));
+  vehicle_test->add_option("--friction", track.conditions.friction, "Of the road; without it that for which the tyre is given")->check(CLI::Range(0.01, 3.0));
+  vehicle_test->add_option("--amplitude", track.amplitude_deg, "Degrees of the hand wheel, for step-steer and sine-with-dwell; without it found by the manoeuvre")->check(CLI::Range(-1500.0, 1500.0));
+  vehicle_test->add_option("--esc", track.conditions.stability_control, "on or off: the stability control; without it on for sine-with-dwell and --inputs")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
   vehicle_test->callback([&] {
+    if (track.manoeuvre.empty() && track.inputs.empty()) throw CLI::RequiredError("--manoeuvre or --inputs");
+    track.conditions.speed_mps = track_speed_kmh / 3.6;
     const auto file = find_resource(car, "vehicles", ".toml");
     if (!file) {
       fmt::print(stderr, "septet: {}\n", describe(file.error()));

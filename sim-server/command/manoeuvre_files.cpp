@@ -62,9 +62,15 @@ std::vector<Panel> panels_of(const std::string& manoeuvre) {
 }  // namespace
 
 std::string figures_json(const std::string& vehicle, const ManoeuvreReport& report) {
+  std::string faults;
+  for (const std::string& fault : report.faults) {
+    faults += faults.empty() ? "\"" : ", \"";
+    for (const char c : fault) faults += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    faults += '"';
+  }
   return figures_json(
-      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\"", vehicle,
-                  report.manoeuvre, report.standard),
+      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\",\n  \"faults\": [{}]", vehicle,
+                  report.manoeuvre, report.standard, faults),
       report.figures);
 }
 

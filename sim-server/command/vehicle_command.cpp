@@ -1,11 +1,13 @@
 #include "sim-server/command/vehicle_command.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
+#include "sim-server/command/input_table.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
 #include "sim-server/command/text_files.hpp"
 
@@ -13,6 +15,8 @@ namespace septet::server {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double degrees = 57.29577951308232;
 
 Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
   return read_regular_file(path).and_then([&](const std::string& text) {
@@ -29,30 +33,59 @@ Expected<void> write_report(const VehicleTestOptions& options,
                                         {name + ".svg", manoeuvre_svg(car, report)}});
 }
 
-Expected<void> test_vehicle(const VehicleTestOptions& options) {
+/// Conditions that no test track has are driven, and said so.
+void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio) {
+  const auto warn = [](const char* what, double value, const char* unit, double low, double high) {
+    if (value != 0.0 && !(value >= low && value <= high))
+      fmt::print(stderr, "septet: warning: {} {:g} {} is outside of what is tested, {:g} to {:g}\n", what, value, unit, low, high);
+  };
+  warn("--speed", conditions.speed_mps * 3.6, "km/h", 10.0, 250.0);
+  warn("--friction", conditions.friction, "", 0.05, 1.2);
+  warn("--amplitude", std::abs(conditions.steer_rad) * steering_ratio * degrees, "deg", 1.0, 400.0);
+}
+
+/// Answers whether all figures mean something.
+Expected<bool> test_vehicle(const VehicleTestOptions& options) {
   const auto parameters = load_vehicle(options.vehicle);
   if (!parameters) return tl::unexpected<Error>(parameters.error());
-  std::vector<std::string_view> names{options.manoeuvre};
-  if (options.manoeuvre == "all") names = vehicle::manoeuvre_names();
-  for (const std::string_view name : names) {
-    const auto report = vehicle::run_manoeuvre(name, *parameters, options.conditions);
-    if (!report) return tl::unexpected<Error>(report.error());
-    fmt::print("{} {} ({})\n", options.vehicle.stem().string(), report->manoeuvre,
-               report->standard);
-    for (const Figure& figure : report->figures)
-      fmt::print("  {:<36} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
-    if (options.out.empty()) continue;
-    if (const auto written = write_report(options, *report); !written) return written;
+  vehicle::ManoeuvreOptions conditions = options.conditions;
+  conditions.steer_rad = options.amplitude_deg / degrees / parameters->steering.ratio;
+  warn_of(conditions, parameters->steering.ratio);
+  std::vector<vehicle::ManoeuvreReport> reports;
+  if (!options.inputs.empty()) {
+    const auto rows = read_regular_file(options.inputs).and_then([&](const std::string& text) {
+      return read_input_table(text, options.inputs.filename().string());
+    });
+    if (!rows) return tl::unexpected<Error>(rows.error());
+    reports.push_back(vehicle::drive_inputs(*parameters, conditions, *rows));
+  } else {
+    std::vector<std::string_view> names{options.manoeuvre};
+    if (options.manoeuvre == "all") names = vehicle::manoeuvre_names();
+    for (const std::string_view name : names) {
+      auto report = vehicle::run_manoeuvre(name, *parameters, conditions);
+      if (!report) return tl::unexpected<Error>(report.error());
+      reports.push_back(std::move(*report));
+    }
   }
-  return {};
+  bool sound = true;
+  for (const vehicle::ManoeuvreReport& report : reports) {
+    fmt::print("{} {} ({})\n", options.vehicle.stem().string(), report.manoeuvre, report.standard);
+    for (const Figure& figure : report.figures)
+      fmt::print("  {:<36} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
+    for (const std::string& fault : report.faults) fmt::print("  no valid result: {}\n", fault);
+    sound &= report.faults.empty();
+    if (options.out.empty()) continue;
+    if (const auto written = write_report(options, report); !written) return tl::unexpected<Error>(written.error());
+  }
+  return sound;
 }
 
 }  // namespace
 
 int run_vehicle_test(const VehicleTestOptions& options) {
-  const auto done = test_vehicle(options);
-  if (done) return 0;
-  fmt::print(stderr, "septet: {}\n", describe(done.error()));
+  const auto sound = test_vehicle(options);
+  if (sound) return *sound ? 0 : 2;
+  fmt::print(stderr, "septet: {}\n", describe(sound.error()));
   return 1;
 }
 

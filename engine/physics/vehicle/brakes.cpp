@@ -51,7 +51,7 @@ double traction_cut(const VehicleParameters& parameters, const VehicleState& sta
 }
 
 /// One wheel is braked when the car turns more (outer front) or less (inner rear) than the driver
-/// steers.
+/// steers; a braked car that turns more brakes its inner wheels less, too.
 /// Answers whether it acts.
 bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps,
                                double dt_s, VehicleState& state) {
@@ -74,6 +74,8 @@ bool advance_stability_control(const VehicleParameters& parameters, const Vec3& 
       const bool oversteer = error * direction > 0.0;
       const int outer = direction > 0.0 ? 1 : 0;
       wanted[oversteer ? outer : 2 + (1 - outer)] = std::min(0.6, (oversteer ? 4.0 : 1.5) * excess);
+      // Braked on a road that grips on one side only, the car is turned by its inner wheels: they get less.
+      if (oversteer && state.brakes.pedal > 0.05) wanted[1 - outer] = wanted[3 - outer] = -std::min(1.0, 6.0 * excess);
       acts = true;
     }
   }
@@ -99,7 +101,7 @@ std::array<double, wheel_count> advance_brakes(const VehicleParameters& paramete
   const bool pawl = input.selector == GearSelector::park && std::abs(velocity_mps.x) < 1.0;
   std::array<double, wheel_count> torque_nm{};
   for (int i = 0; i < wheel_count; ++i) {
-    const double pressure = std::min(1.0, controls.pedal + controls.stabilising[i]);
+    const double pressure = std::clamp(controls.pedal + controls.stabilising[i], 0.0, 1.0);
     torque_nm[i] = brakes.full_torque_nm[axle_of(i)] * pressure * (1.0 - controls.release[i]);
     if (input.parking_brake && axle_of(i) == 1) torque_nm[i] += brakes.parking_torque_nm;
     const bool driven = axle_of(i) == 0 ? parameters.powertrain.front_share > 0.0

@@ -14,6 +14,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/core/figure.hpp"
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
+#include "engine/world/driver_input.hpp"
 
 namespace septet::vehicle {
 
@@ -36,6 +37,8 @@ struct ManoeuvreReport {
   std::string standard;
   std::vector<Figure> figures;
   std::vector<ManoeuvreSample> series;
+  /// Why the figures say nothing about the car, or a figure is missing: "60 mph was not reached in 100 s: …".
+  std::vector<std::string> faults;
 
   /// The figure of this name; it must exist.
   double figure(std::string_view name) const;
@@ -47,8 +50,8 @@ struct ManoeuvreOptions {
   double steer_rad =
       0.0;  ///< Amplitude of step steer and sine with dwell; 0: found by the manoeuvre.
   double settle_s = 8.0;  ///< Straight running before the manoeuvre begins.
-  /// Unset: on for the sine with dwell, which is its test, off otherwise. Only where the car has
-  /// one.
+  /// Unset: on for the sine with dwell, which is its test, and for given inputs; off otherwise. Only
+  /// where the car has one.
   std::optional<bool> stability_control;
 };
 
@@ -77,8 +80,21 @@ ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions
 /// Rolling out in neutral (120 km/h) down to 20 km/h.
 ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
-/// Full throttle from rest for 100 s: 0–60 mph, 0–100 km/h and top speed.
+/// Full throttle from rest for 100 s: 0–60 mph, 0–100 km/h and top speed. What was not reached is a fault and no figure.
 ManoeuvreReport acceleration(const VehicleParameters& parameters, const ManoeuvreOptions& options);
+
+/// What the driver does from `time_s` on; between two rows steering wheel and pedals change evenly.
+struct TimedInput {
+  double time_s = 0.0;
+  DriverInput input;
+};
+/// Anybody's own inputs, from settled straight running at options.speed_mps (0: at rest) to the last row's time: the peaks of
+/// what the car does. `rows`: at least two, times ascending.
+ManoeuvreReport drive_inputs(const VehicleParameters& parameters, const ManoeuvreOptions& options,
+                             const std::vector<TimedInput>& rows);
+
+/// Appends what every manoeuvre has to fear: numbers that are not finite, a car that turned over or spun.
+void find_faults(ManoeuvreReport& report);
 
 /// By its name on the command line: steady-circle, step-steer, double-lane-change, sine-with-dwell,
 /// stop, coast-down, acceleration.

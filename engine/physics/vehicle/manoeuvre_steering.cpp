@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 
 // Steady circle (ISO 4138) and step steer (ISO 7401).
@@ -70,7 +72,7 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
     return first_crossing(series, lateral, acceleration, quantity);
   };
   const auto yaw_gain = [](const ManoeuvreSample& s) { return s.yaw_rate_radps / s.steer_rad; };
-  return {
+  ManoeuvreReport report{
       "steady-circle",
       "ISO 4138, constant speed",
       {{"speed", speed_mps * 3.6, "km/h"},
@@ -90,6 +92,10 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
         at(4.0, [](const ManoeuvreSample& s) { return s.steering_torque_nm; }), "N m"},
        {"peak lateral acceleration", peak_mps2, "m/s2"}},
       series};
+  if (peak_mps2 < 4.0)
+    report.faults.push_back(fmt::format(
+        "4 m/s2 was not reached: the most was {:.2f}, so what is said of 2 and 4 m/s2 is the last value", peak_mps2));
+  return report;
 }
 
 ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreOptions& options) {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "engine/core/check.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
@@ -47,6 +49,19 @@ ChassisInput ideal_braking(const ManoeuvreCar& car, double best_slip, double spe
   return chassis;
 }
 
+/// A manoeuvre with the wheel held straight that ends beside its lane was none.
+void require_straight(ManoeuvreReport& report) {
+  constexpr double half_lane_m = 1.75, most_turn_rad = 0.2;
+  double aside_m = 0.0, turn_rad = 0.0;
+  for (const ManoeuvreSample& sample : report.series) {
+    aside_m = std::max(aside_m, std::abs(sample.y_m));
+    turn_rad = std::max(turn_rad, std::abs(sample.heading_rad));
+  }
+  if (turn_rad > most_turn_rad || aside_m > half_lane_m)
+    report.faults.push_back(fmt::format("the car did not go straight: it turned by {:.0f} deg and went {:.1f} m aside",
+                                        turn_rad * 57.29577951308232, aside_m));
+}
+
 }  // namespace
 
 ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
@@ -70,19 +85,25 @@ ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions
     else
       car.advance_with_torques(ideal_braking(car, slip, now.speed_mps));
   }
-  const double distance_m = car.sample().x_m;
+  const ManoeuvreSample last = car.sample();
   // Mean fully developed deceleration, from 80 to 10 % of the speed (UNECE R13-H).
   const double developed_mps2 = (0.64 - 0.01) * entry_mps * entry_mps /
                                 (2.0 * std::max(distance_from_10_m - distance_from_80_m, 1e-9));
-  return {"stop",
-          "ISO 21994",
-          {{"speed", entry_mps * 3.6, "km/h"},
-           {"friction", car.friction(), ""},
-           {"stopping distance", distance_m, "m"},
-           {"stopping time", car.time_s(), "s"},
-           {"mean fully developed deceleration", developed_mps2, "m/s2"},
-           {"lateral deviation", car.sample().y_m, "m"}},
-          car.series()};
+  ManoeuvreReport report{"stop",
+                         "ISO 21994",
+                         {{"speed", entry_mps * 3.6, "km/h"}, {"friction", car.friction(), ""}},
+                         car.series()};
+  if (last.speed_mps < 0.02) {
+    report.figures.push_back({"stopping distance", last.x_m, "m"});
+    report.figures.push_back({"stopping time", car.time_s(), "s"});
+    report.figures.push_back({"mean fully developed deceleration", developed_mps2, "m/s2"});
+  } else {
+    report.faults.push_back(fmt::format("the car did not stop within {:.0f} s: it still goes at {:.1f} km/h",
+                                        car.time_s(), last.speed_mps * 3.6));
+  }
+  report.figures.push_back({"lateral deviation", last.y_m, "m"});
+  require_straight(report);
+  return report;
 }
 
 ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
@@ -100,14 +121,18 @@ ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreO
     if (now.speed_mps < 20.0 / 3.6) break;
     car.advance(0.0);
   }
-  return {"coast-down",
-          "ISO 10521-1, in neutral",
-          {{"speed", speed_mps * 3.6, "km/h"},
-           {"deceleration at 100 km/h", -at_100_mps2, "m/s2"},
-           {"deceleration at 50 km/h", -at_50_mps2, "m/s2"},
-           {"time", car.time_s(), "s"},
-           {"distance", car.sample().x_m, "m"}},
-          car.series()};
+  ManoeuvreReport report{"coast-down", "ISO 10521-1, in neutral", {{"speed", speed_mps * 3.6, "km/h"}}, car.series()};
+  if (speed_mps > 100.0 / 3.6) report.figures.push_back({"deceleration at 100 km/h", -at_100_mps2, "m/s2"});
+  if (speed_mps > 50.0 / 3.6) report.figures.push_back({"deceleration at 50 km/h", -at_50_mps2, "m/s2"});
+  if (car.sample().speed_mps < 20.0 / 3.6) {
+    report.figures.push_back({"time", car.time_s(), "s"});
+    report.figures.push_back({"distance", car.sample().x_m, "m"});
+  } else {
+    report.faults.push_back(fmt::format("20 km/h was not reached in {:.0f} s: the car still goes at {:.1f} km/h, as one without drag does",
+                                        car.time_s(), car.sample().speed_mps * 3.6));
+  }
+  require_straight(report);
+  return report;
 }
 
 ManoeuvreReport acceleration(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
@@ -122,16 +147,28 @@ ManoeuvreReport acceleration(const VehicleParameters& parameters, const Manoeuvr
     car.record();
     car.advance(0.0);
   }
+  ManoeuvreReport report{"acceleration", "full throttle from rest", {}, car.series()};
   const auto speed = [](const ManoeuvreSample& s) { return s.speed_mps; };
   const auto time = [](const ManoeuvreSample& s) { return s.time_s; };
-  const auto& series = car.series();
-  return {"acceleration",
-          "full throttle from rest",
-          {{"0-60 mph", first_crossing(series, speed, sixty_mph_mps, time), "s"},
-           {"0-100 km/h", first_crossing(series, speed, 100.0 / 3.6, time), "s"},
-           {"top speed", series.back().speed_mps * 3.6, "km/h"},
-           {"top speed in mph", series.back().speed_mps * 2.2369362920544, "mph"}},
-          series};
+  const double fastest_mps = std::ranges::max(car.series(), {}, speed).speed_mps, last_mps = car.series().back().speed_mps;
+  const auto reach = [&](const char* figure, const char* name, double speed_mps) {
+    if (fastest_mps >= speed_mps)
+      report.figures.push_back({figure, first_crossing(car.series(), speed, speed_mps, time), "s"});
+    else
+      report.faults.push_back(fmt::format("{} was not reached in {:.0f} s: the fastest was {:.1f} km/h", name, car.time_s(), fastest_mps * 3.6));
+  };
+  reach("0-60 mph", "60 mph", sixty_mph_mps);
+  reach("0-100 km/h", "100 km/h", 100.0 / 3.6);
+  const double gained_mps2 = (last_mps - car.series()[car.series().size() - 501].speed_mps) / 5.0;
+  if (std::abs(gained_mps2) < 0.1) {
+    report.figures.push_back({"top speed", last_mps * 3.6, "km/h"});
+    report.figures.push_back({"top speed in mph", last_mps * 2.2369362920544, "mph"});
+  } else {
+    report.faults.push_back(fmt::format("there is no top speed: after {:.0f} s at {:.1f} km/h the speed still changes by {:.2f} m/s2",
+                                        car.time_s(), last_mps * 3.6, gained_mps2));
+  }
+  require_straight(report);
+  return report;
 }
 
 double ManoeuvreReport::figure(std::string_view name) const {
@@ -166,7 +203,11 @@ Expected<ManoeuvreReport> run_manoeuvre(std::string_view name, const VehiclePara
                                         const ManoeuvreOptions& options) {
   std::string known;
   for (const Entry& entry : entries) {
-    if (entry.name == name) return entry.run(parameters, options);
+    if (entry.name == name) {
+      ManoeuvreReport report = entry.run(parameters, options);
+      find_faults(report);
+      return report;
+    }
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
   return failure("is not a manoeuvre", std::string(name), "use one of " + known);

@@ -156,7 +156,7 @@ VehicleOutputs outputs(const VehicleParameters& parameters, const VehicleState& 
     result.wheel_lift_m[i] = state.wheels[i].travel_m;
     result.wheel_load_n[i] = state.wheels[i].force_n.z;
     result.anti_lock_active |= state.brakes.pedal > 0.05 && state.brakes.release[i] > 0.05;
-    result.stability_control_active |= state.brakes.stabilising[i] > 0.05;
+    result.stability_control_active |= std::abs(state.brakes.stabilising[i]) > 0.05;
   }
   return result;
 }

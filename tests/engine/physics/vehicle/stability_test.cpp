@@ -159,3 +159,40 @@ TEST_CASE("no energy comes from nothing while the driver steers and brakes out o
     CHECK(state.bad_numbers == 0);
   }
 }
+
+namespace {
+
+struct SplitStop {
+  double heading_deg = 0.0, distance_m = 0.0, aside_m = 0.0, at_1_s_deg = 0.0;
+};
+
+/// Full brake from 100 km/h, left wheels on 0.9 and right ones on 0.1, hands off, until 10 km/h or three seconds.
+SplitStop split_stop(bool stability_control, double time_s) {
+  VehicleParameters car = read_car("volvo-s80");
+  car.brakes.stability_control = stability_control;
+  VehicleState state = standstill(car, {}, 100.0 / 3.6);
+  Ground ground = level_ground();
+  for (int i = 0; i < wheel_count; ++i) ground[i].friction = i % 2 == 0 ? 0.9 : 0.1;
+  DriverInput input;
+  input.brake = 1.0;
+  SplitStop result;
+  for (int i = 0; i < static_cast<int>(time_s * 1000.0); ++i) {
+    advance_vehicle(car, input, ground, 0.001, state);
+    const Vec3 forward = state.world_from_body.orientation * Vec3(1, 0, 0);
+    result.heading_deg = std::atan2(forward.y, forward.x) * 57.29577951308232;
+    if (i == 1000) result.at_1_s_deg = result.heading_deg;
+    if (outputs(car, state).speed_mps < 10.0 / 3.6) break;
+  }
+  result.distance_m = state.world_from_body.position_m.x;
+  result.aside_m = state.world_from_body.position_m.y;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("on split friction stability control brakes the wheels that turn the car less") {
+  const SplitStop off = split_stop(false, 2.9), on = split_stop(true, 2.9);
+  MESSAGE("hands off, 2.9 s: " << off.heading_deg << " deg without, " << on.heading_deg << " deg with stability control; after 1 s "
+                               << off.at_1_s_deg << " and " << on.at_1_s_deg);
+  CHECK(std::abs(on.heading_deg) < 0.6 * std::abs(off.heading_deg));
+}
