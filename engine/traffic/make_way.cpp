@@ -1,7 +1,7 @@
 /// Room for emergency vehicles, as the rule of the road asks on motorways: at 300 m drivers hear
 /// and see it, indicate and move aside; those in the left-most lane to the left, all others to the
-/// right, so that a lane opens between the left-most lane and the rest. They hold it and close it
-/// behind.
+/// right, so that a lane opens between the left-most lane and the rest. They hold it until the
+/// emergency vehicle is 80 m ahead, and close it.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@ namespace septet::traffic {
 namespace {
 
 constexpr double heard_at_m = 300.0;
-constexpr double still_beside_m = 4.0;
+/// Behind it the lane stays open this far: another may follow, as the driver does.
+constexpr double kept_open_m = 80.0;
 constexpr double clearance_m = 0.3;
 /// How far over the lane's edge: on to the hard strip beside the left-most lane; not over the
 /// others' lines.
@@ -83,7 +84,7 @@ void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& for
     bool near = false;
     for (const EmergencyVehicle& emergency : emergencies) {
       const double ahead = distance_m(traffic.corridor, emergency.front_x_m, traffic.x_m[i]);
-      if (ahead > heard_at_m + traffic.length_m[i] || ahead < -emergency.length_m - still_beside_m)
+      if (ahead > heard_at_m + traffic.length_m[i] || ahead < -emergency.length_m - kept_open_m)
         continue;
       near = true;
       hear(traffic, i, emergency, dt_s);

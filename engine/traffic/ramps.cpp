@@ -16,7 +16,6 @@ constexpr double ramp_speed_mps = 19.0;
 constexpr double exit_announced_m = 1500.0;
 constexpr double changing_s = 7.0;  ///< Longer than any driver's change of lane.
 constexpr double exit_shown_m = 150.0;  ///< As far as a change of lane goes on into the ramp.
-constexpr std::int32_t nobody_here = -1'000'000;
 
 bool has_road(const Corridor& corridor, road::RoadIndex road) {
   return std::ranges::any_of(corridor.pieces,

@@ -11,19 +11,31 @@ namespace septet::traffic {
 namespace {
 
 constexpr int outside = 0;
-constexpr double rim_m = 60.0;
 constexpr double from_end_m = 30.0;
 
+/// From bumper to bumper, if all of the corridor's vehicles stood evenly in the lanes that go on.
+double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& traffic) {
+  constexpr double usual_length_m = 5.5;
+  int lanes = 0;
+  for (const auto& open : traffic.table.open)
+    lanes += !open.empty() && open.back().end_m == no_leader && open.front().begin_m == -no_leader;
+  const double span = traffic.corridor.closed ? traffic.corridor.length_m : 2.0 * parameters.radius_m;
+  const double number = static_cast<double>(std::max<std::size_t>(traffic.size(), 1));
+  return std::max(1.0, span * std::max(lanes, 1) / number - usual_length_m);
+}
+
+/// Whether somebody at x has room: by speed, where there is that much room at all.
 bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m,
-              double speed_mps) {
+              double speed_mps, double mean_gap) {
+  const auto wanted = [&](double speed) { return std::min(8.0 + 0.8 * speed, 0.45 * mean_gap); };
   std::uint32_t hint = 0;
   const auto [ahead, behind] = neighbours(traffic, lane, x_m, -1, hint);
-  if (gap_to(traffic, x_m, ahead) < 8.0 + 0.8 * speed_mps) return false;
+  if (gap_to(traffic, x_m, ahead) < wanted(speed_mps)) return false;
   if (behind == nullptr) return true;
   LaneEntry own;
   own.x_m = x_m;
   own.length_m = static_cast<float>(length_m);
-  return gap_to(traffic, behind->x_m, &own) > 8.0 + 0.8 * std::max(speed_mps, behind->speed_mps);
+  return gap_to(traffic, behind->x_m, &own) > wanted(std::max(speed_mps, behind->speed_mps));
 }
 
 const VehicleClass& choose_class(const TrafficParameters& parameters, Random& random) {
@@ -58,29 +70,38 @@ int likely_lane(const CorridorTraffic& traffic, std::size_t i, double x_m, Rando
   return lowest + static_cast<int>(random.below(static_cast<std::uint64_t>(highest - lowest + 1)));
 }
 
-bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, Random& random) {
-  if (!traffic.corridor.closed &&
-      (x_m < from_end_m || x_m > traffic.corridor.length_m - from_end_m))
-    return false;
-  const double x = wrap_x(traffic.corridor, x_m);
-  const int lane = likely_lane(traffic, i, x, random);
-  if (lane_end_m(traffic.table, lane, x) < x + 300.0) return false;
-  const double speed = 0.85 * traffic.driver[i].following.desired_speed_mps;
-  if (!clear_at(traffic, lane, x, traffic.length_m[i], speed)) return false;
-  // As fast as the one ahead allows: who comes in does not have to brake at once.
-  auto& entries = traffic.order.lanes[static_cast<std::size_t>(lane)];
-  std::uint32_t hint = 0;
-  const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
-  traffic.x_m[i] = x;
-  traffic.speed_mps[i] =
-      gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
+void put(CorridorTraffic& traffic, std::size_t i, int lane, double x_m) {
+  traffic.x_m[i] = x_m;
   traffic.acceleration_mps2[i] = 0.0;
   traffic.lane[i] = traffic.from_lane[i] = static_cast<std::int16_t>(lane);
   traffic.change_part[i] = 1.0;
-  traffic.lane_end_m[i] = lane_end_m(traffic.table, lane, x);
+  traffic.lane_end_m[i] = lane_end_m(traffic.table, lane, x_m);
   traffic.aside_m[i] = traffic.aside_mps[i] = traffic.aside_target_m[i] = traffic.heard_s[i] = 0.0;
   traffic.making_way[i] = MakingWay::no;
-  insert_entry(entries, entry_of(traffic, i));
+  insert_entry(traffic.order.lanes[static_cast<std::size_t>(lane)], entry_of(traffic, i));
+}
+
+bool within_ends(const CorridorTraffic& traffic, double x_m) {
+  return traffic.corridor.closed ||
+         (x_m >= from_end_m && x_m <= traffic.corridor.length_m - from_end_m);
+}
+
+bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_gap,
+               Random& random) {
+  if (!within_ends(traffic, x_m)) return false;
+  const double x = wrap_x(traffic.corridor, x_m);
+  const int lane = likely_lane(traffic, i, x, random);
+  if (lane_end_m(traffic.table, lane, x) < x + 300.0) return false;
+  const FollowingParameters& following = traffic.driver[i].following;
+  const double speed = std::min(0.85 * following.desired_speed_mps,
+                                idm_equilibrium_speed(following, std::max(3.0, mean_gap)));
+  if (!clear_at(traffic, lane, x, traffic.length_m[i], speed, mean_gap)) return false;
+  // As fast as the one ahead allows: who comes in does not have to brake at once.
+  std::uint32_t hint = 0;
+  const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
+  traffic.speed_mps[i] =
+      gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
+  put(traffic, i, lane, x);
   return true;
 }
 
@@ -171,35 +192,75 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
     refresh_order(traffic, placed_foreign[c]);
     const std::uint32_t wanted = c == 0 ? parameters.count - opposite_count : opposite_count;
     const double middle = middle_x(network, traffic, state);
-    for (std::uint32_t k = 0; k < wanted; ++k) {
+    for (std::uint32_t k = 0; k < wanted; ++k)
       add_random_vehicle(parameters, traffic, next_id++, random);
+    const double mean_gap = mean_gap_m(parameters, traffic);
+    for (std::size_t i = 0; i < traffic.size(); ++i) {
       // A road that is full waits outside, until `recycle` finds room.
       for (int attempt = 0; attempt < 200; ++attempt) {
         const double x = traffic.corridor.closed
                              ? random.uniform(0.0, traffic.corridor.length_m)
                              : middle + random.uniform(-parameters.radius_m, parameters.radius_m);
-        if (try_place(traffic, traffic.size() - 1, x, random)) break;
+        if (try_place(traffic, i, x, mean_gap, random)) break;
       }
     }
   }
   return state;
 }
 
-void recycle(const TrafficParameters& parameters, double middle, double middle_speed_mps,
-             Random& random, CorridorTraffic& traffic) {
+void show_across_rims(const TrafficParameters& parameters, double middle_m,
+                      const CorridorTraffic& traffic, ForeignTraffic& seen) {
   if (traffic.corridor.closed) return;
+  const double span = 2.0 * parameters.radius_m;
+  for (int lane = 1; lane < static_cast<int>(traffic.order.lanes.size()); ++lane) {
+    const LaneEntry *first = nullptr, *last = nullptr;
+    for (const LaneEntry& entry : traffic.order.lanes[static_cast<std::size_t>(lane)]) {
+      if (entry.vehicle < 0 || std::abs(entry.x_m - middle_m) > parameters.radius_m) continue;
+      if (last == nullptr) last = &entry;
+      first = &entry;
+    }
+    const auto show = [&](LaneEntry entry, double shift_m) {
+      entry.x_m += shift_m;
+      entry.vehicle = nobody_here;
+      seen.entries.push_back({lane, entry});
+    };
+    if (last != nullptr && lane_end_m(traffic.table, lane, middle_m) == no_leader)
+      show(*last, span), show(*first, -span);
+  }
+}
+
+void recycle(const TrafficParameters& parameters, double middle, Random& random,
+             CorridorTraffic& traffic) {
+  if (traffic.corridor.closed) return;
+  const double mean_gap = mean_gap_m(parameters, traffic);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     const bool waits = traffic.lane[i] == outside;
-    const bool out = std::abs(traffic.x_m[i] - middle) > parameters.radius_m + rim_m ||
+    const double ahead = traffic.x_m[i] - middle;
+    const bool out = std::abs(ahead) > parameters.radius_m ||
                      traffic.x_m[i] > traffic.corridor.length_m - 20.0;
     if (!waits && !out) continue;
-    if (!waits) take_out(traffic, i);
-    const bool enters_ahead = traffic.driver[i].following.desired_speed_mps < middle_speed_mps;
+    if (!waits) {
+      // On with the same speed in the same lane at the other rim, where its neighbours have seen it.
+      const int lane = traffic.lane[i];
+      const double x = traffic.x_m[i] - std::copysign(2.0 * parameters.radius_m, ahead);
+      const double speed = traffic.speed_mps[i];
+      take_out(traffic, i);
+      std::uint32_t hint = 0;
+      const auto [front, behind] = neighbours(traffic, lane, x, -1, hint);
+      LaneEntry own;
+      own.x_m = x, own.length_m = static_cast<float>(traffic.length_m[i]);
+      if (within_ends(traffic, x) && lane_end_m(traffic.table, lane, x) == no_leader &&
+          gap_to(traffic, x, front) > 2.0 &&
+          (behind == nullptr || gap_to(traffic, behind->x_m, &own) > 2.0)) {
+        traffic.speed_mps[i] = speed;
+        put(traffic, i, lane, x);
+        continue;
+      }
+    }
     for (int attempt = 0; attempt < 4; ++attempt) {
-      const double side = enters_ahead != (attempt >= 2) ? 1.0 : -1.0;
-      if (try_place(traffic, i, middle + side * (parameters.radius_m - random.uniform(0.0, 40.0)),
-                    random))
-        break;
+      const double side = attempt % 2 == 0 ? 1.0 : -1.0;
+      const double x = middle + side * (parameters.radius_m - random.uniform(20.0, 60.0));
+      if (try_place(traffic, i, x, mean_gap, random)) break;
     }
   }
 }
@@ -211,16 +272,16 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
   auto placed_foreign = place_foreign(network, foreign, dt_s, state);
   show_across_mouths(state, placed_foreign);
   const std::size_t directions = state.corridors.size() - state.ramps.size();
-  const double middle_speed_mps = foreign.empty() ? 0.0 : glm::length(foreign.front().velocity_mps);
   for (std::size_t c = 0; c < state.corridors.size(); ++c) {
     CorridorTraffic& traffic = state.corridors[c];
+    const double middle = c < directions ? middle_x(network, traffic, state) : 0.0;
+    if (c < directions) show_across_rims(parameters, middle, traffic, placed_foreign[c]);
     refresh_order(traffic, placed_foreign[c]);
     follow(traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
     change_lanes(parameters, network, state.time_s, dt_s, traffic);
     move(traffic, dt_s);
-    if (c >= directions) continue;
-    recycle(parameters, middle_x(network, traffic, state), middle_speed_mps, random, traffic);
+    if (c < directions) recycle(parameters, middle, random, traffic);
   }
   take_ramps(state);
 }

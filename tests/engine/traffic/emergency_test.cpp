@@ -37,7 +37,7 @@ TEST_CASE("traffic hears the ambulance at 300 m and opens a lane right of the le
   CHECK(aside_left + aside_right == near);
   CHECK(far_aside == 0);
   // Gone: the lane closes.
-  for (int step = 0; step < 200; ++step) advance(parameters, network, {}, 0.05, random, state);
+  for (int step = 0; step < 600; ++step) advance(parameters, network, {}, 0.05, random, state);
   CHECK(std::ranges::all_of(traffic.aside_m, [](double aside) { return aside == 0.0; }));
 }
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/engine/traffic/dense_run.hpp"
+#include "tests/engine/traffic/swarm_run.hpp"
 
 namespace septet::traffic {
 
@@ -20,6 +21,18 @@ TEST_CASE("a thousand vehicle-hours of dense traffic pass without a collision") 
   CHECK(vehicle_hours > 1000.0);
   MESSAGE(hard_braking_s << " s below -6 m/s2 in " << vehicle_hours << " vehicle-hours");
   CHECK(hard_braking_s < 0.02 * vehicle_hours);
+}
+
+TEST_CASE("in ten seeds a driver follows the ambulance half as fast again as dense traffic") {
+  for (std::uint64_t seed = 31; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    const SwarmRun run = follow_ambulance(dense_swarm(), 29.0, 285.0, seed);
+    MESSAGE("traffic " << run.traffic_mps << " m/s, at least " << run.least_near << " near, "
+                       << run.overlaps_with_ambulance << " overlaps with the ambulance");
+    CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
+    CHECK(run.overlaps == 0);
+    CHECK(run.overlaps_with_driver == 0);
+  }
 }
 
 }  // namespace septet::traffic

@@ -7,6 +7,7 @@
 #include "tests/engine/traffic/bodies.hpp"
 #include "tests/engine/traffic/emergency_run.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
+#include "tests/engine/traffic/swarm_run.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
@@ -54,6 +55,18 @@ TEST_CASE("by the exit and the entry vehicles move as cars do") {
     CHECK(most_on_way > 1);
     CHECK(motion.most_sideways_m < 0.005);
     CHECK(motion.most_overturned_rad < 1e-4);
+  }
+}
+
+TEST_CASE("a swarm keeps its density, and a driver follows the ambulance through it") {
+  for (std::uint64_t seed = 31; seed <= 33; ++seed) {
+    CAPTURE(seed);
+    const SwarmRun run = follow_ambulance(dense_swarm(), 29.0, 60.0, seed);
+    MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps);
+    CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
+    CHECK(run.least_near > 100.0);
+    CHECK(run.overlaps == 0);
+    CHECK(run.overlaps_with_driver == 0);
   }
 }
 
