@@ -10,6 +10,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/world/indicator.hpp"
 #include "sim-server/effect_surroundings.hpp"
+#include "sim-server/way_ahead.hpp"
 #include "sim-server/wheel_ground.hpp"
 
 namespace septet::server {
@@ -225,6 +226,8 @@ void advance_storyboard(const SimulationModel& model, const vehicle::VehicleOutp
   const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
   for (const auto& event : step.events)
     events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
+  for (const scenario::EntityIndex entity : step.left)
+    events.push_back({"scenario", first_scripted_participant + entity, fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
   apply_swarms(model, step, car, state);
   apply_effects(model, step, car, state);
 }
@@ -285,6 +288,7 @@ Snapshot server_step(const SimulationModel& model, const DriverInput& input, Sim
   run_effects(model, car, state, events);
   Snapshot snapshot = capture_snapshot(model, state, std::move(old));
   notice_collisions(snapshot, state, events);
+  look_ahead(model, snapshot, state.effects, state.scenario);
   return snapshot;
 }
 

@@ -40,6 +40,10 @@ constexpr auto glance_interval = [](DriverParameters& d) -> double& {
 };
 constexpr auto glance = [](DriverParameters& d) -> double& { return d.mirrors.glance_s; };
 
+constexpr auto in_tracks = [](DriverParameters& d) -> double& {
+  return d.lanes.in_tracks_within_m;
+};
+
 struct Difference {
   double& (*parameter)(DriverParameters&);
   double value;
@@ -64,6 +68,11 @@ constexpr std::initializer_list<Difference> from_tired = {
     // Corrects late and slowly: the lane is kept loosely.
     {frequency, 0.45}, {position_noise, 0.28}, {position_time, 4.0},   {eye_to_hand, 0.30},
     {reaction, 1.2},   {distance_noise, 0.12}, {glance_interval, 20.0}};
+constexpr std::initializer_list<Difference> from_escort = {
+    // An experienced driver on duty: in the ambulance's tracks, through the lane that opens for it.
+    {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05},
+    {time_gap, 1.1},        {reaction, 0.6},        {distance_noise, 0.04},  {glance_interval, 10.0},
+    {glance, 0.55},         {in_tracks, 120.0}};
 
 }  // namespace
 
@@ -71,7 +80,8 @@ Expected<DriverParameters> find_driver(std::string_view name) {
   const Kind kinds[] = {{"plain", {}},
                         {"novice", from_novice},
                         {"experienced", from_experienced},
-                        {"tired", from_tired}};
+                        {"tired", from_tired},
+                        {"escort", from_escort}};
   std::string known;
   for (const Kind& kind : kinds) {
     known += (known.empty() ? "" : ", ") + std::string(kind.name);

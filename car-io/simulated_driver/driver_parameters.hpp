@@ -65,6 +65,7 @@ struct SpeedParameters {
 struct LaneChoiceParameters {
   double threshold_mps2 = 0.25;        ///< Gain for which a change is worth it.
   double follow_ambulance_mps2 = 0.7;  ///< Worth of being in the ambulance's lane.
+  double in_tracks_within_m = 0.0;     ///< How near an ambulance ahead is followed in its tracks; 0: never.
   double keep_out_mps2 = 0.3;          ///< Worth of one lane further from the middle of the road.
   double accepted_gap = 0.5;           ///< Time gap that a change may leave, ahead and behind, over the driver's own.
   double safe_braking_mps2 = 1.5;      ///< The most that a change may ask of anybody.
@@ -105,7 +106,7 @@ struct DriverParameters {
   MirrorParameters mirrors;
 };
 
-/// One of: plain, novice, experienced, tired.
+/// One of: plain, novice, experienced, tired, escort.
 Expected<DriverParameters> find_driver(std::string_view name);
 
 }  // namespace septet::car_io

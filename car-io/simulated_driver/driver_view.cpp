@@ -23,16 +23,19 @@ double to_the_left(const traffic::CorridorPiece& piece, double towards_t_m) {
   return piece.along_s ? towards_t_m : -towards_t_m;
 }
 
+/// Across the road towards +t.
+double sideways_mps(const road::RoadNetwork& network, const road::RoadPosition& position, const Participant& vehicle) {
+  const double along_rad = road::evaluate(network, position).heading_rad;
+  return glm::dot(Vec2(vehicle.velocity_mps), Vec2(-std::sin(along_rad), std::cos(along_rad)));
+}
+
 /// The lanes that a vehicle lies over now or, moving sideways as it does, soon.
 road::LaneRange lanes_taken(const road::RoadNetwork& network, const road::RoadPosition& position,
-                            const Participant& vehicle, const VehicleModel& model) {
+                            const Participant& vehicle, const VehicleModel& model, double sideways_mps) {
   const Vec3 heads = vehicle.world_from_vehicle.orientation * Vec3(1, 0, 0);
   const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m,
                                model.front_m(), model.width_m};
   const road::LaneRange now = road::drivable_lanes_under(network, position, body);
-  const double along_rad = road::evaluate(network, position).heading_rad;
-  const double sideways_mps =
-      glm::dot(Vec2(vehicle.velocity_mps), Vec2(-std::sin(along_rad), std::cos(along_rad)));
   if (std::abs(sideways_mps) < 0.1) return now;
   road::RoadPosition soon_at = position;
   soon_at.t_m += foresight_s * sideways_mps;
@@ -73,6 +76,8 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
   own.x_m = *x_m;
   own.lane = std::abs(location->lanes.lane);
   own.offset_m = to_the_left(traffic::piece_at(corridor, *x_m), location->lanes.offset_m);
+  own.across_m = to_the_left(traffic::piece_at(corridor, *x_m), location->position.t_m);
+  own.half_width_m = model.width_m / 2.0;
   own.speed_mps = snapshot.driver_car.speed_mps;
   own.acceleration_mps2 = glm::dot(body->acceleration_mps2, forward);
   own.front_m = model.front_m();
@@ -98,7 +103,8 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
     const int side = traffic::piece_at(corridor, own.x_m).side;
     if (!location || location->lanes.lane * side <= 0) continue;
     const VehicleModel& model = vehicle_models()[other.model];
-    const road::LaneRange lanes = lanes_taken(network, location->position, other, model);
+    const double sideways = sideways_mps(network, location->position, other);
+    const road::LaneRange lanes = lanes_taken(network, location->position, other, model, sideways);
     if (lanes.empty()) continue;
     const auto x_m = traffic::x_of(network, corridor, location->position, lanes.lowest);
     if (!x_m) continue;
@@ -109,6 +115,11 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
     vehicle.innermost_lane = std::min(std::abs(lanes.lowest), std::abs(lanes.highest));
     vehicle.outermost_lane = std::max(std::abs(lanes.lowest), std::abs(lanes.highest));
     const double ahead_m = traffic::distance_m(corridor, own.x_m, *x_m);
+    const traffic::CorridorPiece& piece = traffic::piece_at(corridor, *x_m);
+    vehicle.x_m = *x_m;
+    vehicle.across_m = to_the_left(piece, location->position.t_m);
+    vehicle.across_soon_m = vehicle.across_m + foresight_s * to_the_left(piece, sideways);
+    vehicle.half_width_m = model.width_m / 2.0;
     vehicle.is_ahead = ahead_m + model.centre_x_m() > (own.front_m - own.rear_m) / 2.0;
     vehicle.gap_m = vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m
                                      : -ahead_m - model.front_m() - own.rear_m;

@@ -22,6 +22,8 @@ struct OwnPlace {
   double x_m = 0.0;  ///< Along the corridor, of the car's origin.
   int lane = 0;
   double offset_m = 0.0;  ///< From the lane's centre, positive to the left.
+  double across_m = 0.0;  ///< From the road's reference line, positive to the left.
+  double half_width_m = 0.9;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;      ///< Forward.
   double front_m = 0.0, rear_m = 0.0;  ///< From the origin to the bumpers.
@@ -31,6 +33,9 @@ struct SeenVehicle {
   ParticipantId id = 0;
   int lane = 0;                           ///< That its middle is in or nearest to.
   int innermost_lane = 0, outermost_lane = 0;  ///< Those that its body lies over, or will within a second.
+  double x_m = 0.0;                       ///< Along the corridor, of its origin.
+  double across_m = 0.0, across_soon_m = 0.0;  ///< As OwnPlace; soon: within a second, moving sideways as it does.
+  double half_width_m = 0.9;
   bool is_ahead = false;
   double gap_m = 0.0;  ///< Bumper to bumper; negative while it is alongside.
   double speed_mps = 0.0;

@@ -13,8 +13,8 @@ namespace {
 constexpr double look_around_interval_s = 0.05;
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
 
-/// A point of the intended path: the lane's centre, or the way between two while changing.
-Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
+/// A point of the lane's centre, or of the way between two while changing.
+Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
                 double ahead_m, double speed_mps) {
   const LaneState& lanes = driver.lanes;
   const traffic::Corridor& corridor = *driver.corridor;
@@ -29,6 +29,21 @@ Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network,
   if (lanes.phase < LanePhase::change) return here;
   const double across = place_across(lanes, speed_mps, ahead_m / std::max(speed_mps, 1.0));
   return here + across * (centre(lanes.target) - here);
+}
+
+/// A point of the intended path: in the lane, or in an ambulance's tracks, or on the way between.
+Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
+                double ahead_m, double speed_mps) {
+  const Vec3 in_lane = lane_point(driver, network, x_m, ahead_m, speed_mps);
+  const double share = share_of_tracks(driver.tracks, ahead_m / std::max(speed_mps, 1.0));
+  if (share == 0.0) return in_lane;
+  const double x = traffic::wrap_x(*driver.corridor, x_m + ahead_m);
+  const traffic::CorridorPiece& piece = traffic::piece_at(*driver.corridor, x);
+  const road::LanePosition along = traffic::position_at(*driver.corridor, x, driver.lanes.lane);
+  const double across_m = across_at(driver.tracks, x);
+  const Vec3 in_tracks =
+      road::evaluate(network, {along.road, along.s_m, piece.along_s ? across_m : -across_m}).position_m;
+  return in_lane + share * (in_tracks - in_lane);
 }
 
 double bearing_rad(const RigidTransform& world_from_vehicle, const Vec3& point_m) {
@@ -84,6 +99,7 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
 /// braking; the road's end counts as one.
 std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, const LaneScene& scene) {
   const SpeedParameters& speed = driver.parameters.speed;
+  if (driver.tracks.follows) return obstacle_in_tracks(driver.tracks, scene, speed);
   const auto wish_mps2 = [&](const Obstacle& obstacle) {
     return wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
   };
@@ -127,6 +143,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     driver.corridor.reset();
     driver.place.reset();
     driver.lanes = {};
+    driver.tracks = {};
     DriverInput input = stop_off_road(driver, dt_s);
     input.sequence = driver.sequence;
     return input;
@@ -139,6 +156,9 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     see_accelerations(driver.vehicles, look_around_interval_s, seen);
     driver.vehicles = std::move(seen);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
+    const LaneChoiceParameters& lanes = driver.parameters.lanes;
+    if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
+      look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m, lanes.duration_s);
   }
 
   const DriverParameters& parameters = driver.parameters;
@@ -155,8 +175,12 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
       std::abs(path.near_rad) * parameters.steering.near_distance_m < parameters.mirrors.ease_m;
   const auto looked =
       advance_mirrors(driver.mirrors, parameters.mirrors, at_ease, dt_s, driver.head_random);
-  advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s,
-                      driver.head_random);
+  advance_tracks(driver.tracks, dt_s);
+  if (driver.tracks.follows)
+    driver.lanes = {.lane = own->lane, .target = own->lane};  // The one to go back to.
+  else
+    advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s,
+                        driver.head_random);
   advance_pedals(driver.pedals, parameters.speed, parameters.car, *own, scene.desired_speed_mps,
                  obstacle_ahead(driver, scene), driver.now_s, dt_s, driver.foot_random);
 

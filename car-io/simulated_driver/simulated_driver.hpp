@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "car-io/simulated_driver/ambulance_tracks.hpp"
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "car-io/simulated_driver/driver_view.hpp"
 #include "car-io/simulated_driver/gears.hpp"
@@ -47,6 +48,7 @@ struct SimulatedDriver {
   GearState gears;
   MirrorState mirrors;
   LaneState lanes;
+  TracksState tracks;
   std::uint8_t sequence = 0;
 };
 

@@ -26,12 +26,12 @@ double followed_speed_mps(const SpeedControl& control, const ScenarioState& stat
          control.follow_delta_mps;
 }
 
-/// The speed at the end of the step.
-double next_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
-                      EntityState& entity, std::vector<ElementIndex>& ended) {
+/// As the script says, at the end of the step.
+double scripted_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
+                          EntityState& entity, std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
-  if (!control.active) return entity.speed_mps;
-  double speed = entity.speed_mps;
+  double speed = entity.speed_mps + entity.held_back_mps;
+  if (!control.active) return speed;
   if (control.follow != no_entity && state.entities[control.follow].active) {
     speed = followed_speed_mps(control, state);
     if (control.transition.shape != DynamicsShape::step) {
@@ -49,6 +49,28 @@ double next_speed_mps(const ScenarioState& state, const Performance& limits, dou
     }
   }
   return std::clamp(speed, -limits.max_speed_mps, limits.max_speed_mps);
+}
+
+/// So fast, it can still stop behind what is in the way, or go on behind it.
+double fastest_behind_mps(const InTheWay& other) {
+  constexpr double standing_gap_m = 3.0, braking_mps2 = 4.0;
+  const double other_mps = std::max(0.0, other.speed_mps), spare_m = other.gap_m - standing_gap_m;
+  if (spare_m < 0.0) return other_mps * std::max(0.0, other.gap_m) / standing_gap_m;
+  return std::sqrt(other_mps * other_mps + 2.0 * braking_mps2 * spare_m);
+}
+
+/// The script's speed, but for what is in the way.
+double next_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
+                      EntityState& entity, std::vector<ElementIndex>& ended) {
+  constexpr double regained_mps2 = 1.5, hardest_braking_mps2 = 9.0;
+  const double before = entity.speed_mps;
+  const double scripted = scripted_speed_mps(state, limits, dt_s, entity, ended);
+  double speed = scripted;
+  if (entity.held_back_mps > 0.0) speed = std::min(speed, before + regained_mps2 * dt_s);
+  if (entity.in_the_way) speed = std::min(speed, std::max(fastest_behind_mps(*entity.in_the_way),
+      before - std::min(limits.max_deceleration_mps2, hardest_braking_mps2) * dt_s));
+  entity.held_back_mps = std::max(0.0, scripted - speed);
+  return speed;
 }
 
 /// Metres to the left of travel by which the offset changes in this step.
@@ -150,6 +172,7 @@ void start_speed(const Scenario& scenario, const ScenarioState& state, const Spe
   control.transition = speed_transition(what.dynamics, entity.speed_mps, target, strongest);
   if (control.transition.shape == DynamicsShape::step) entity.speed_mps = target;
   entity.speed_control = control;
+  entity.held_back_mps = 0.0;
 }
 
 bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
@@ -233,6 +256,11 @@ void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   entity.wheel_angle_rad =
       std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
   if (entity.wheel_angle_rad < 0.0) entity.wheel_angle_rad += 2.0 * std::numbers::pi;
+}
+
+void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, ScenarioState& state) {
+  SEPTET_CHECK(index < state.entities.size(), "entity {} of {}", index, state.entities.size());
+  state.entities[index].in_the_way = in_the_way;
 }
 
 void place_external(const road::RoadNetwork& network, EntityIndex index,

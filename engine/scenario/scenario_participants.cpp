@@ -32,6 +32,7 @@ void append_participants(const Scenario& scenario, const ScenarioState& state,
     const Entity& entity = scenario.entities[i];
     // Objects are no participants: whoever runs the effects makes of them what can be hit and broken.
     if (!from.active || from.external || entity.kind == EntityKind::misc_object) continue;
+    if (from.at_road_end_s > 0.0) continue;
     Participant participant;
     participant.id = first_id + i;
     participant.model = entity.model;
@@ -63,7 +64,7 @@ void add_to_hash(const ScenarioState& state, StateHash& hash) {
     const Vec3& p = entity.world_from_entity.position_m;
     const Quat& q = entity.world_from_entity.orientation;
     for (const double value :
-         {p.x, p.y, p.z, q.w, q.x, q.y, q.z, entity.speed_mps, entity.travelled_m})
+         {p.x, p.y, p.z, q.w, q.x, q.y, q.z, entity.speed_mps, entity.held_back_mps, entity.travelled_m})
       hash.add(value);
     hash.add(entity.lane.road);
     hash.add(entity.lane.lane);

@@ -43,6 +43,12 @@ struct LateralControl {
   bool to_the_left = false;
 };
 
+/// What an entity would drive into.
+struct InTheWay {
+  double gap_m = 0.0;  ///< From bumper to bumper.
+  double speed_mps = 0.0;
+};
+
 struct EntityState {
   bool active = false;    ///< It has a position.
   bool external = false;  ///< Somebody else moves it (the driver's car): see place_external.
@@ -55,8 +61,10 @@ struct EntityState {
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
   Vec3 velocity_mps{0.0}, acceleration_vector_mps2{0.0}, angular_velocity_radps{0.0};  ///< World.
+  std::optional<InTheWay> in_the_way;  ///< What it brakes for, whatever its script says (mind_the_way).
+  double held_back_mps = 0.0;          ///< How much slower than its script it drives for that, or after it.
   double travelled_m = 0.0;
-  double at_road_end_s = 0.0;  ///< How long it has stood at the end of its road.
+  double at_road_end_s = 0.0;  ///< How long ago it came to the end of its road: it has left.
   double standing_s = 0.0;
   double wheel_angle_rad = 0.0;  ///< Of the wheels' rolling, [0, 2π).
   Lamps lamps;

@@ -35,6 +35,7 @@ struct StepResult {
   std::vector<TrafficSwarmAction> swarms;    ///< To be started.
   std::vector<EffectAction> effects;         ///< To be spilled, ignited, extinguished.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
+  std::vector<EntityIndex> left;        ///< Came to the end of their road, and are no participants any more.
   std::vector<EntityIndex> teleported;  ///< Entities that did not get where they are by driving.
 };
 
@@ -53,12 +54,16 @@ void place_external(const road::RoadNetwork& network, EntityIndex entity,
                     const RigidTransform& world_from_entity, const Vec3& velocity_mps,
                     const Vec3& acceleration_mps2, ScenarioState& state);
 
+/// Tells what a scripted entity would drive into, each step anew; nothing: its way is clear. It brakes for that and
+/// gains the speed of its script again afterwards. Who is never told drives as the script says, into others too.
+void mind_the_way(EntityIndex entity, std::optional<InTheWay> in_the_way, ScenarioState& state);
+
 /// One step of dt_s, from state.time_s.
 StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,
                             ScenarioState& state);
 
-/// The scripted entities as participants, entity i with id first_id + i; external and inactive ones
-/// and misc objects are left out.
+/// The scripted entities as participants, entity i with id first_id + i; external and inactive ones,
+/// misc objects and who has come to the end of the road are left out.
 void append_participants(const Scenario& scenario, const ScenarioState& state,
                          ParticipantId first_id, std::vector<Participant>& participants);
 

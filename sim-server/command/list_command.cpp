@@ -35,7 +35,8 @@ Expected<std::vector<Entry>> entries_of(const std::string& kind) {
     return std::vector<Entry>{{"plain", "An ordinary driver"},
                               {"novice", "Looks less often and longer, keeps more distance, reacts later"},
                               {"experienced", "Looks often and shortly, keeps the lane closely, reacts early"},
-                              {"tired", "Corrects late and slowly, so that the lane is kept loosely"}};
+                              {"tired", "Corrects late and slowly, so that the lane is kept loosely"},
+                              {"escort", "Follows an ambulance in its tracks, through the lane that opens for it"}};
   const bool scenarios = kind == "scenarios";
   const auto data = data_folder();
   if (!data) return tl::unexpected(data.error());

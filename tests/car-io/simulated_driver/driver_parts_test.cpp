@@ -168,11 +168,11 @@ TEST_CASE("the hand wheel for a bend is that of its geometry and of what banking
 }
 
 TEST_CASE("every named driver exists and another name is refused") {
-  for (const char* name : {"plain", "novice", "experienced", "tired"})
+  for (const char* name : {"plain", "novice", "experienced", "tired", "escort"})
     CHECK(find_driver(name)->name == name);
   const auto driver = find_driver("drunk");
   REQUIRE_FALSE(driver.has_value());
-  CHECK(driver.error().remedy == "use one of: plain, novice, experienced, tired");
+  CHECK(driver.error().remedy == "use one of: plain, novice, experienced, tired, escort");
 }
 
 }  // namespace septet::car_io

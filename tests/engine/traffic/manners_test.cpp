@@ -1,0 +1,83 @@
+// What one driver does for others.
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/traffic/ring_road.hpp"
+
+namespace septet::traffic {
+namespace {
+
+/// A ring of five lanes with only those on it that a test puts there.
+struct Ring {
+  road::RoadNetwork network = ring_road(5000.0, 5);
+  TrafficParameters parameters = motorway_traffic(0, 1e6);
+  TrafficState state;
+  Random random{1};
+
+  Ring() { state.corridors.push_back(empty_corridor(network, road::LanePosition{0, -2, 1.0, 0.0})); }
+  CorridorTraffic& traffic() { return state.corridors[0]; }
+  void add(int lane, double x_m, double speed_mps, const Driver& driver) {
+    add_vehicle(traffic(), 10 + static_cast<ParticipantId>(traffic().size()), model_named("saloon"), driver, lane, x_m, speed_mps);
+    traffic().next_decision_s.back() = 1e9;  // Keeps its lane.
+  }
+  void advance_one(std::span<const ForeignVehicle> foreign, double dt_s) { advance(parameters, network, foreign, dt_s, random, state); }
+};
+
+/// Whether a driver of this politeness changes to the left, where it gains 0.5 m/s² or more and takes more than that from
+/// somebody there.
+bool changes_left(double politeness) {
+  Ring ring;
+  Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  driver.lane_change.politeness = politeness;
+  constexpr double own_x = 500.0, own_mps = 20.0, behind_mps = 21.0, gap_ahead_m = 35.0, gap_behind_m = 26.0;
+  const double length = vehicle_models()[model_named("saloon")].length_m;
+  ring.add(2, own_x, own_mps, driver);
+  ring.add(2, own_x + gap_ahead_m + length, own_mps, driver);
+  ring.add(3, own_x, own_mps, driver);  // The way to the right is taken.
+  ring.add(1, own_x - length - gap_behind_m, behind_mps, driver);
+  ring.traffic().next_decision_s[0] = 0.0;
+  const auto& law = driver.following;
+  const double gain = idm_acceleration(law, own_mps, 0.0, no_leader) - idm_acceleration(law, own_mps, own_mps, gap_ahead_m);
+  const double loss = idm_acceleration(law, behind_mps, 0.0, no_leader) - idm_acceleration(law, behind_mps, own_mps, gap_behind_m);
+  CHECK(gain > 0.5 + driver.lane_change.threshold_mps2 + driver.lane_change.keep_right_mps2);
+  CHECK(loss > 1.2 * gain);
+  CHECK(idm_acceleration(law, behind_mps, own_mps, gap_behind_m) > -driver.lane_change.largest_braking_mps2);
+  ring.advance_one({}, 0.1);
+  return ring.traffic().lane[0] == 1;
+}
+
+}  // namespace
+
+TEST_CASE("an egoist takes a gap that costs somebody else more than it gains, and a polite driver does not") {
+  CHECK(changes_left(0.0));
+  CHECK_FALSE(changes_left(0.9));
+}
+
+TEST_CASE("an ambulance is heard at 300 m and not before, and after the driver's reaction time") {
+  Ring ring;
+  constexpr double speed_mps = 20.0, dt_s = 0.05;
+  const Driver driver{{speed_mps, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  const double length = vehicle_models()[model_named("saloon")].length_m;
+  ForeignVehicle ambulance{.id = 1, .model = model_named("ambulance")};
+  ambulance.lamps.set(Lamp::siren, true);
+  double x_m = 1000.0;
+  const auto place = [&] {
+    const auto point = road::evaluate_lane(ring.network, {0, -2, x_m, 1.875});
+    ambulance.world_from_vehicle = road::world_from_lane(point);
+    ambulance.velocity_mps = ambulance.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
+  };
+  const double front_m = x_m + vehicle_models()[ambulance.model].front_m();
+  ring.add(2, front_m + 290.0 + length, speed_mps, driver);
+  ring.add(2, front_m + 310.0 + length, speed_mps, driver);
+  for (double now_s = dt_s; now_s < 3.0; now_s += dt_s) {
+    x_m += speed_mps * dt_s;
+    place();
+    ring.advance_one(std::span(&ambulance, 1), dt_s);
+    CAPTURE(now_s);
+    if (now_s < driver.reaction_s - 0.06) CHECK(ring.traffic().aside_target_m[0] == 0.0);
+    if (now_s > driver.reaction_s + 0.06) CHECK(ring.traffic().aside_target_m[0] < -0.5);
+    CHECK(ring.traffic().aside_target_m[1] == 0.0);
+  }
+}
+
+}  // namespace septet::traffic

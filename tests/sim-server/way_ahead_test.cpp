@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "engine/scenario/resolve_position.hpp"
+#include "sim-server/crashes.hpp"
+#include "sim-server/effect_surroundings.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+namespace {
+
+/// The rescue lane without traffic, and the ambulance in it.
+struct EmptyRoad {
+  LoadedDrive drive = shipped_drive("rescue-lane", "desktop");
+  std::vector<SimulationEvent> events;
+  SimulationState state;
+  scenario::EntityIndex ambulance = scenario::no_entity;
+  Snapshot now;
+
+  EmptyRoad() {
+    auto begun = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+    REQUIRE(begun.has_value());
+    state = std::move(*begun);
+    state.traffic->stop();
+    for (scenario::EntityIndex i = 0; i < drive.model->scenario.entities.size(); ++i)
+      if (drive.model->scenario.entities[i].name == "ambulance") ambulance = i;
+    REQUIRE(ambulance != scenario::no_entity);
+  }
+  scenario::EntityState& entity() { return state.scenario.entities[ambulance]; }
+  /// The driver's car, at rest, so far ahead of the ambulance and so far to its left.
+  void put_car(double ahead_m, double left_m) {
+    road::LanePosition lane = entity().lane;
+    lane.s_m += ahead_m;
+    lane.offset_m += left_m;
+    const RigidTransform pose = scenario::lane_pose(drive.model->roads, lane, true, 0.0, 0.0);
+    state.car = vehicle::standstill(drive.model->car, pose, 0.0);
+    state.car_road.reset();
+  }
+  void drive_for(double seconds) {
+    DriverInput input;
+    input.brake = 0.5;
+    for (int tick = 0; tick < seconds * tick_rate_hz; ++tick) {
+      now = server_step(*drive.model, input, state, events);
+      const Participant* car = find_participant(now, driver_participant);
+      const Participant* other = find_participant(now, first_scripted_participant + ambulance);
+      if (other && contact_of(body_box(*car), body_box(*other))) touched = true;
+    }
+  }
+  bool touched = false;
+};
+
+}  // namespace
+
+TEST_CASE("an ambulance stops behind a car that stands in its way and goes on when the way is clear") {
+  EmptyRoad road;
+  road.drive_for(10.0);  // It hurries.
+  CHECK(road.entity().speed_mps > 19.0);
+  road.put_car(150.0, 0.5);
+  road.drive_for(25.0);
+  CHECK_FALSE(road.touched);
+  CHECK(road.entity().speed_mps < 0.5);
+  const auto& p = find_participant(road.now, first_scripted_participant + road.ambulance)->world_from_vehicle.position_m;
+  const double away_m = glm::distance(p, find_participant(road.now, driver_participant)->world_from_vehicle.position_m);
+  CHECK(away_m > 6.0);
+  CHECK(away_m < 12.0);
+  road.put_car(8.0, 4.5);  // Aside.
+  road.drive_for(20.0);
+  CHECK_FALSE(road.touched);
+  CHECK(road.entity().speed_mps > 20.0);
+}
+
+TEST_CASE("an ambulance passes a car that leaves it room without braking") {
+  EmptyRoad road;
+  road.drive_for(12.0);
+  const double before_mps = road.entity().speed_mps;
+  road.put_car(120.0, 2.4);
+  road.drive_for(6.0);
+  CHECK_FALSE(road.touched);
+  CHECK(road.entity().speed_mps > before_mps - 0.1);
+}
+
+TEST_CASE("a car across the whole bend is minded where the bend leads and not straight ahead") {
+  EmptyRoad road;
+  road.drive_for(10.0);
+  for (const double ahead_m : {60.0, 120.0}) {
+    road.put_car(ahead_m, 0.0);
+    road.drive_for(1.0 / tick_rate_hz);
+    REQUIRE(road.entity().in_the_way.has_value());
+    CHECK(road.entity().in_the_way->gap_m == doctest::Approx(ahead_m - 5.9).epsilon(0.05));
+  }
+}
+
+TEST_CASE("an ambulance that comes to the end of its road leaves, the log says so, and the drive goes on") {
+  EmptyRoad road;
+  road.drive_for(0.5);
+  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) != nullptr);
+  road::LanePosition& lane = road.entity().lane;
+  lane.s_m = road.drive.model->roads.roads[lane.road].length_m - 1.0;
+  // On to the last road of the chain.
+  while (true) {
+    const auto next = scenario::go_along(road.drive.model->roads, lane, road.entity().along_s, 5000.0);
+    lane = next.lane;
+    if (next.left_over_m > 0.0) break;
+  }
+  lane.s_m -= 5.0;
+  road.drive_for(1.0);
+  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) == nullptr);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &SimulationEvent::detail) == 1);
+  road.drive_for(1.0);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &SimulationEvent::detail) == 1);
+}
+
+}  // namespace septet::server
