@@ -1,0 +1,288 @@
+"""Reads a Septet session file (logging/FORMAT.md) into pandas frames.
+
+    import septet_session
+    session = septet_session.open("out/session.sqlite")
+    session.samples                      # ten rows a second, as in FORMAT.md
+    session.participants(every=12)       # everybody, every 12th tick
+    session.driver_car()                 # the driver's car, every tick
+
+Units stand in the columns' names; positions are of the middle of the rear axle on the ground, world frame: x east, y north,
+z up. A session whose writer was killed, or is still writing, opens as well. The file is opened for reading only.
+"""
+
+import math
+import sqlite3
+import struct
+from pathlib import Path
+
+import numpy as np
+import pandas
+
+APPLICATION_ID = 0x53535444
+FORMAT_VERSION = 1
+SNAPSHOT_VERSION = 2
+
+LAMPS = ("brake", "reverse", "indicator_left", "indicator_right", "low_beam", "high_beam", "rear_fog", "beacon", "siren", "horn")
+
+_ENVIRONMENT = ("sun_azimuth_rad", "sun_elevation_rad", "sun_illuminance_lux", "visibility_m", "cloud_cover", "rain_mm_per_h",
+                "road_wetness", "snow_cover", "temperature_k", "wind_speed_mps", "wind_direction_rad")
+_DRIVER_CAR = ("speed_mps", "engine_radps", "steering_wheel_rad", "steering_torque_nm", "accelerator", "brake", "clutch",
+               "yaw_rate_radps", "gaze_heading_rad", "road_s_m", "lateral_position_m", "lane_width_m")
+_DIAGNOSTICS = ("bad_numbers", "collisions", "input_stale_ticks")
+
+# A participant's integers in the order of SNAPSHOT.md; what one step of each is worth.
+_SPIN_STEPS = 1 << 16
+_UNIT_OF_FIELD = [
+    ("model", 1), ("paint", 1), ("lamps", 1), ("x_m", 1 / 4096), ("y_m", 1 / 4096), ("z_m", 1 / 4096),
+    ("orientation", 1), ("orientation", 1), ("orientation", 1), ("orientation", 1),
+    ("velocity_x_mps", 1 / 1024), ("velocity_y_mps", 1 / 1024), ("velocity_z_mps", 1 / 1024),
+    ("acceleration_x_mps2", 1 / 256), ("acceleration_y_mps2", 1 / 256), ("acceleration_z_mps2", 1 / 256),
+    ("angular_velocity_x_radps", 1 / 16384), ("angular_velocity_y_radps", 1 / 16384), ("angular_velocity_z_radps", 1 / 16384),
+    ("front_steer_rad", 1 / 16384), ("wheel_spin_rad", 2.0 * math.pi / _SPIN_STEPS), ("wheel_spin_radps", 1 / 64),
+    ("lift_front_left_m", 1 / 4096), ("lift_front_right_m", 1 / 4096), ("lift_rear_left_m", 1 / 4096), ("lift_rear_right_m", 1 / 4096)]
+_FIELDS, _UNITS = zip(*_UNIT_OF_FIELD)
+_POSITION, _VELOCITY, _ACCELERATION = slice(3, 6), slice(10, 13), slice(13, 16)
+_LARGEST, _SMALLEST = 6, slice(7, 10)
+_WHEEL_SPIN, _WHEEL_SPIN_RATE = 20, 21
+_ORIENTATION_STEPS = float((1 << 19) - 1)
+_POSITION_LIMIT = 524288 * 4096 - 1
+_VELOCITY_LIMIT = 1024 * 1024
+
+
+class SessionError(Exception):
+    """What is wrong with a file, where, and what to do."""
+
+
+class _Bytes:
+    """Walks through the bytes of one snapshot."""
+
+    def __init__(self, data):
+        self.data = data
+        self.at = 0
+
+    def u8(self):
+        self.at += 1
+        return self.data[self.at - 1]
+
+    def doubles(self, count):
+        values = struct.unpack_from(f"<{count}d", self.data, self.at)
+        self.at += 8 * count
+        return values
+
+    def u64(self):
+        (value,) = struct.unpack_from("<Q", self.data, self.at)
+        self.at += 8
+        return value
+
+    def varint(self):
+        value = shift = 0
+        while True:
+            byte = self.data[self.at]
+            self.at += 1
+            value |= (byte & 0x7F) << shift
+            if byte < 0x80:
+                return value
+            shift += 7
+            if shift > 63:
+                raise SessionError("a number of more than 64 bits")
+
+    def signed(self):
+        value = self.varint()
+        return (value >> 1) ^ -(value & 1)
+
+    def ids(self, count):
+        """Ascending ids, each read when it is asked for: the first one, then the gaps less one."""
+        next_id = 0
+        for _ in range(count):
+            next_id += self.varint()
+            yield next_id
+            next_id += 1
+
+
+class Snapshot:
+    """One tick as it lies in the file: `fields` has a row of integers for each participant of `ids`, ascending."""
+
+    __slots__ = ("tick", "time_s", "state_hash", "environment", "car", "ids", "fields")
+
+
+def _rounded(values):
+    return np.trunc(values + np.copysign(0.49999999999999994, values)).astype(np.int64)
+
+
+def _moved_on(fields, seconds):
+    """Where participants are expected some time later: the reference that a difference is taken to (SNAPSHOT.md)."""
+    moved = fields.copy()
+    velocity = fields[:, _VELOCITY].astype(float)
+    acceleration = fields[:, _ACCELERATION].astype(float)
+    step = velocity * seconds * 4.0 + acceleration * (0.5 * seconds * seconds) * 16.0
+    moved[:, _POSITION] = (moved[:, _POSITION] + _rounded(step)).clip(-_POSITION_LIMIT, _POSITION_LIMIT)
+    moved[:, _VELOCITY] = (moved[:, _VELOCITY] + _rounded(acceleration * seconds * 4.0)).clip(-_VELOCITY_LIMIT, _VELOCITY_LIMIT)
+    turned = _rounded(fields[:, _WHEEL_SPIN_RATE] / 64.0 * seconds / (2.0 * math.pi) * _SPIN_STEPS)
+    moved[:, _WHEEL_SPIN] = (moved[:, _WHEEL_SPIN] + turned) & (_SPIN_STEPS - 1)
+    return moved
+
+
+def _decode(data, baseline):
+    """The snapshot in `data`, a difference to `baseline` where it names one."""
+    read = _Bytes(data)
+    version, flags = read.u8(), read.u8()
+    if version != SNAPSHOT_VERSION or flags & ~3:
+        raise SessionError(f"snapshot of version {version}, flags {flags}: this reader knows version {SNAPSHOT_VERSION}")
+    snapshot = Snapshot()
+    snapshot.tick = read.varint()
+    if flags & 1:
+        age = read.varint()
+        if baseline is None or baseline.tick != snapshot.tick - age:
+            raise SessionError(f"tick {snapshot.tick} is a difference to a tick that is not at hand")
+    else:
+        baseline = None
+    (snapshot.time_s,) = read.doubles(1)
+    snapshot.state_hash = read.u64()
+    snapshot.environment = read.doubles(len(_ENVIRONMENT)) if flags & 2 else baseline.environment
+    ids = (read.varint(), read.signed(), read.varint(), read.signed())
+    snapshot.car = ids + read.doubles(len(_DRIVER_CAR)) + tuple(read.varint() for _ in _DIAGNOSTICS)
+
+    ids, fields = np.empty(0, np.int64), np.empty((0, len(_FIELDS)), np.int64)
+    if baseline is not None:
+        ids, fields = baseline.ids, _moved_on(baseline.fields, min(max(snapshot.time_s - baseline.time_s, 0.0), 1.0))
+    removed = list(read.ids(read.varint()))
+    if removed:
+        kept = ~np.isin(ids, removed)
+        ids, fields = ids[kept], fields[kept]
+    row_of = {number: row for row, number in enumerate(ids.tolist())}
+    added = {}
+    for number in read.ids(read.varint()):
+        row = row_of.get(number)
+        target = fields[row] if row is not None else added.setdefault(number, np.zeros(len(_FIELDS), np.int64))
+        mask = read.varint()
+        while mask:
+            low = mask & -mask
+            target[low.bit_length() - 1] += read.signed()
+            mask ^= low
+    if added:
+        ids = np.concatenate([ids, np.fromiter(added, np.int64)])
+        fields = np.concatenate([fields, np.array(list(added.values()))])
+        order = np.argsort(ids)
+        ids, fields = ids[order], fields[order]
+    snapshot.ids, snapshot.fields = ids, fields
+    return snapshot
+
+
+def _orientations(fields):
+    """Unit quaternions w, x, y, z: three components travel, the largest follows from them."""
+    small = fields[:, _SMALLEST] / (_ORIENTATION_STEPS * math.sqrt(2.0))
+    rows, largest = np.arange(len(fields)), fields[:, _LARGEST]
+    quaternions = np.empty((len(fields), 4))
+    others = np.arange(4)[None, :] != largest[:, None]
+    quaternions[others] = small.reshape(-1)
+    quaternions[rows, largest] = np.sqrt(np.maximum(0.0, 1.0 - (small * small).sum(axis=1)))
+    return quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)
+
+
+def _participant_frame(ticks, times, ids, fields):
+    w, x, y, z = _orientations(fields).T
+    frame = {"tick": ticks, "simulated_time_s": times, "participant": ids}
+    for index, name in enumerate(_FIELDS):
+        if name == "orientation":
+            if index == _LARGEST:
+                frame |= {"qw": w, "qx": x, "qy": y, "qz": z,
+                          "heading_rad": np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))}
+        else:
+            frame[name] = fields[:, index] if index < _POSITION.start else fields[:, index] * _UNITS[index]
+    return pandas.DataFrame(frame)
+
+
+class Session:
+    """One drive. Frames are read when they are asked for; nothing is kept."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        if not self.path.is_file():
+            raise SessionError(f"{path}: there is no such file; a drive writes session.sqlite into its --out folder")
+        self._database = sqlite3.connect(f"file:{self.path.resolve().as_posix().replace('?', '%3f').replace('#', '%23')}?mode=ro", uri=True)
+        try:
+            (application,) = self._database.execute("PRAGMA application_id").fetchone()
+            (version,) = self._database.execute("PRAGMA user_version").fetchone()
+        except sqlite3.DatabaseError as error:
+            raise SessionError(f"{path}: not a session file ({error})") from error
+        if application != APPLICATION_ID:
+            raise SessionError(f"{path}: not a session of Septet (application id {application})")
+        if version > FORMAT_VERSION:
+            raise SessionError(f"{path}: format {version}; this reader knows format {FORMAT_VERSION}: take the one beside the Septet that drove")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self._database.close()
+
+    def _table(self, name):
+        return pandas.read_sql_query(f"SELECT * FROM {name}", self._database)
+
+    @property
+    def meta(self):
+        """Key to value, as text: who drove, seeds, how it ended (FORMAT.md, `meta`)."""
+        return dict(self._database.execute("SELECT key, value FROM meta"))
+
+    @property
+    def files(self):
+        """(role, name) to content, of every file that the drive was made from."""
+        return {(role, name): content for role, name, content in self._database.execute("SELECT role, name, content FROM files")}
+
+    @property
+    def samples(self):
+        """Ten rows a second: position in the lane, headway, controls. `time_headway_s` is added, NaN at a standstill."""
+        samples = self._table("samples")
+        samples["time_headway_s"] = (samples["distance_headway_m"] / samples["speed_mps"]).where(samples["speed_mps"] > 0.1)
+        return samples
+
+    @property
+    def events(self):
+        return self._table("events")
+
+    @property
+    def questionnaire(self):
+        return self._table("questionnaire")
+
+    @property
+    def driver_inputs(self):
+        """The input of every tick, without the raw reports."""
+        return self._table("driver_inputs").drop(columns="report")
+
+    def snapshots(self):
+        """Every tick in order, decoded. Raises SessionError where bytes are damaged."""
+        before = None
+        for tick, baseline, data in self._database.execute("SELECT tick, baseline_tick, data FROM snapshots ORDER BY tick"):
+            try:
+                before = _decode(data, before if baseline is not None else None)
+            except (IndexError, AttributeError, OverflowError, struct.error) as error:
+                raise SessionError(f"{self.path}: the snapshot of tick {tick} is damaged") from error
+            yield before
+
+    def participants(self, every=1):
+        """Everybody's motion: one row a participant and tick, of every `every`-th tick."""
+        taken = [s for s in self.snapshots() if s.tick % every == 0]
+        counts = [len(s.ids) for s in taken]
+        if not taken:
+            return _participant_frame([], [], [], np.empty((0, len(_FIELDS)), np.int64))
+        return _participant_frame(np.repeat([s.tick for s in taken], counts), np.repeat([s.time_s for s in taken], counts),
+                                  np.concatenate([s.ids for s in taken]), np.concatenate([s.fields for s in taken]))
+
+    def driver_car(self, every=1):
+        """The driver's car as its instruments show it, and what went wrong so far; one row a tick."""
+        columns = ["tick", "simulated_time_s", "participant", "gear", "road", "lane", *_DRIVER_CAR, *_DIAGNOSTICS]
+        rows = [(s.tick, s.time_s, *s.car) for s in self.snapshots() if s.tick % every == 0]
+        return pandas.DataFrame(rows, columns=columns)
+
+    def environment(self, every=120):
+        """Weather and light, once a second unless told otherwise."""
+        rows = [(s.tick, s.time_s, *s.environment) for s in self.snapshots() if s.tick % every == 0]
+        return pandas.DataFrame(rows, columns=["tick", "simulated_time_s", *_ENVIRONMENT])
+
+
+def open(path):  # pylint: disable=redefined-builtin
+    """The session in a file, or a SessionError that says what is wrong."""
+    return Session(path)

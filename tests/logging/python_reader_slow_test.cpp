@@ -1,0 +1,71 @@
+// The reader for statistics programs (logging/python) has what the C++ reader has.
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "engine/math/rigid_transform.hpp"
+#include "tests/logging/session_fixture.hpp"
+
+namespace septet::logging {
+namespace {
+
+/// Some come, some go, some stand, one accelerates: every kind of difference.
+Snapshot busy_snapshot(Tick tick) {
+  Snapshot snapshot = drive_snapshot(tick, 3 + static_cast<int>(tick / 40) % 4);
+  for (Participant& participant : snapshot.participants) {
+    participant.model = static_cast<ModelIndex>(participant.id % 7);
+    participant.acceleration_mps2 = {-0.4 * participant.id, 1.25, 0.0};
+    participant.angular_velocity_radps = {0.0, 0.0, 0.3};
+    participant.wheel_spin_radps = 93.0;
+    participant.wheel_spin_rad = 0.775 * static_cast<double>(tick % 8);
+    participant.lamps.set(Lamp::brake, tick % 50 < 20);
+    participant.front_steer_rad = 0.01 * participant.id;
+  }
+  return snapshot;
+}
+
+int run_check(const std::string& arguments) {
+  return std::system(("/usr/bin/python3 " SEPTET_SOURCE_DIR "/tests/logging/python_reader_check.py " + arguments).c_str());
+}
+
+}  // namespace
+
+TEST_CASE("the Python reader has everybody at every tick where the C++ reader has them, across keyframes") {
+  const TemporaryFolder folder;
+  const auto session = folder.path() / "session.sqlite", csv = folder.path() / "expected.csv";
+  {
+    SessionWriter writer = must_create(session);
+    for (Tick tick = 0; tick < 300; ++tick) {
+      const Snapshot snapshot = busy_snapshot(tick);
+      writer.record(taken(snapshot));
+      if (is_sample_due(tick, 120.0)) writer.record(take_sample(snapshot, std::nullopt));
+    }
+    REQUIRE(writer.finish().has_value());
+  }
+  std::ofstream out(csv);
+  out << "tick,simulated_time_s,participant,model,lamps,x_m,y_m,z_m,qw,qx,qy,qz,velocity_x_mps,acceleration_y_mps2,"
+         "angular_velocity_z_radps,front_steer_rad,wheel_spin_rad,wheel_spin_radps\n";
+  auto reader = SessionReader::open(session);
+  REQUIRE(reader.has_value());
+  auto cursor = reader->snapshots();
+  REQUIRE(cursor.has_value());
+  for (;;) {
+    const auto next = cursor->next();
+    REQUIRE(next.has_value());
+    if (!*next) break;
+    for (const Participant& p : (*next)->participants) {
+      const Vec3& at = p.world_from_vehicle.position_m;
+      const Quat& q = p.world_from_vehicle.orientation;
+      out << fmt::format("{},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+                         (*next)->tick, (*next)->simulated_time_s, p.id, p.model, p.lamps.bits, at.x, at.y, at.z, q.w, q.x, q.y, q.z,
+                         p.velocity_mps.x, p.acceleration_mps2.y, p.angular_velocity_radps.z, p.front_steer_rad, p.wheel_spin_rad,
+                         p.wheel_spin_radps);
+    }
+  }
+  out.close();
+  CHECK(run_check(session.string() + " " + csv.string()) == 0);
+}
+
+}  // namespace septet::logging
