@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every #include of the tree looks down the table of layers; third-party headers stay in .cpp files.
+"""Every #include of the tree looks down the table of layers; third-party headers stay in .cpp files; headers form no circle.
 
 Reads tests/architecture/layers.txt. Exits 1 and prints one line per violation.
 """
@@ -20,9 +20,8 @@ def read_layers(root):
     level_of = {}
     lines = [l for l in (root / "tests/architecture/layers.txt").read_text().splitlines() if l and not l.startswith("#")]
     for level, line in enumerate(lines):
-        for peer in line.split("|"):
-            for folder in peer.split():
-                level_of[folder] = (level, peer.strip())
+        for folder in line.split("|"):
+            level_of[folder.strip()] = level
     return level_of
 
 
@@ -32,8 +31,29 @@ def folder_of(path, level_of):
     return max(candidates, key=len) if candidates else None
 
 
+def circles(headers_of):
+    """Each circle among headers that include each other, once."""
+    done, way = set(), []
+
+    def visit(header):
+        if header in way:
+            yield " -> ".join(way[way.index(header):] + [header])
+        elif header not in done:
+            way.append(header)
+            for other in headers_of.get(header, ()):
+                yield from visit(other)
+            done.add(way.pop())
+
+    for header in headers_of:
+        yield from visit(header)
+
+
 def violations(root):
     level_of = read_layers(root)
+    headers_of = {}
+    for folder in level_of:
+        if not (root / folder / "CMakeLists.txt").is_file():
+            yield f"layers.txt: {folder} is no folder of the tree"
     for top in ("engine", "sim-server", "sim-client", "car-io", "logging"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in (".hpp", ".cpp"):
@@ -43,7 +63,10 @@ def violations(root):
             if own is None:
                 yield f"{path}: its folder is not in layers.txt"
                 continue
-            for bracket, target in INCLUDE.findall(file.read_text()):
+            includes = INCLUDE.findall(file.read_text())
+            if file.suffix == ".hpp":
+                headers_of[path] = [target for bracket, target in includes if bracket == '"']
+            for bracket, target in includes:
                 if bracket == "<":
                     third_party = "/" in target or target.endswith(".h") or target.endswith(".hpp")
                     system = target.startswith("sys/") or target.startswith("linux/") or "/" not in target and file.suffix == ".cpp"
@@ -57,9 +80,10 @@ def violations(root):
                     continue
                 if other == own:
                     continue
-                (own_level, own_peer), (level, peer) = level_of[own], level_of[other]
-                if level < own_level or (level == own_level and peer != own_peer):
+                if level_of[other] <= level_of[own]:
                     yield f"{path}: includes {target}, which is not below it in layers.txt"
+    for circle in circles(headers_of):
+        yield f"headers in a circle: {circle}"
 
 
 if __name__ == "__main__":
