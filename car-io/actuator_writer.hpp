@@ -5,7 +5,8 @@
 /// The thread opens the device for itself (a HID device may be open several times) and opens it
 /// again after an unplug. What was set last is written every `period_s`; where nobody has set
 /// anything for `silent_after_s`, everything fades to 0 in as long again: a simulation that hangs
-/// does not leave a fan blowing. The destructor writes zeros.
+/// does not leave a fan blowing. The destructor writes zeros. For the case that nothing can be
+/// written any more, the device's own watchdog is set whenever it is opened, and read back.
 ///
 /// Threads: `set` and `take_error` from any; neither waits for the device.
 
@@ -33,8 +34,8 @@ class ActuatorWriter {
   ~ActuatorWriter();
 
   void set(const Actuators& actuators);
-  /// A device that is there and takes no output reports, once; that it is away is for who reads it
-  /// to say.
+  /// A device that is there and takes no output reports, or whose watchdog does not hold, once;
+  /// that it is away is for who reads it to say.
   std::optional<Error> take_error();
 
  private:

@@ -78,6 +78,7 @@ Json json_of(const DriveOutcome& outcome) {
           {"state_hash", hex(outcome.state_hash)},
           {"inputs_hash", hex(outcome.inputs_hash)},
           {"late_ticks", outcome.late_ticks},
+          {"bad_numbers", outcome.bad_numbers},
           {"log", {{"lost_records", outcome.lost_records}, {"waited_s", number(outcome.log_waited_s)}}},
           {"screens", std::move(screens)}};
 }
@@ -99,6 +100,7 @@ Expected<DriveOutcome> read_outcome(const std::string& text) {
     outcome.state_hash = from_hex(json.at("state_hash").get<std::string>());
     outcome.inputs_hash = from_hex(json.at("inputs_hash").get<std::string>());
     json.at("late_ticks").get_to(outcome.late_ticks);
+    outcome.bad_numbers = json.value("bad_numbers", std::uint64_t{0});  // Earlier builds did not tell.
     json.at("log").at("lost_records").get_to(outcome.lost_records);
     outcome.log_waited_s = real(json.at("log").at("waited_s"));
     for (const Json& screen : json.at("screens")) outcome.screens.push_back(screen_of(screen));

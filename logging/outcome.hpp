@@ -32,6 +32,7 @@ struct DriveOutcome {
   std::uint64_t state_hash = 0;  ///< Of the last tick; sixteen hexadecimal digits in the file.
   std::uint64_t inputs_hash = 0;  ///< Of all driver inputs (input_hash.hpp): tells whether they have been altered.
   std::uint64_t late_ticks = 0;   ///< Real time: that began more than a tick late.
+  std::uint64_t bad_numbers = 0;  ///< That were none (0/0, beyond all bounds) and were reset; the events say whose and when.
   std::uint64_t lost_records = 0;  ///< That the log lacks.
   double log_waited_s = 0.0;       ///< For how long the drive waited for the log's disk.
   std::vector<ScreenOutcome> screens;

@@ -42,9 +42,10 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
 }
 
 void LiveDrive::tell(const std::string& what) {
-  const std::string said = printable(what);
-  messages_.push_back("car: " + said);
-  if (log_) log_->record_message("car", said);
+  const auto said = limit_.take(printable(what), state_.time_s());
+  if (!said) return;
+  messages_.push_back("car: " + *said);
+  if (log_) log_->record_message("car", *said);
 }
 
 void LiveDrive::move_actuators() {

@@ -10,6 +10,7 @@
 
 #include "car-io/actuators.hpp"
 #include "car-io/car_connection.hpp"
+#include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
 #include "sim-server/remote_car.hpp"
 #include "sim-server/session_log.hpp"
@@ -59,6 +60,7 @@ class LiveDrive final : public TickSource {
   bool car_was_there_ = false;
   std::optional<logging::DriveEnd> end_;
   std::vector<std::string> messages_;
+  MessageLimit limit_;  ///< Of what the device causes to be said.
 };
 
 }  // namespace septet::server

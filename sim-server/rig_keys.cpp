@@ -54,6 +54,17 @@ bool put_client(std::string& list, const std::string& key, const std::string& na
   return replaced;
 }
 
+bool is_listed(const std::string& list, const std::string& name) {
+  std::istringstream lines(list);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (!first.starts_with('#') && second == name) return true;
+  }
+  return false;
+}
+
 Expected<void> put_server_key(const fs::path& file, const std::string& key) {
   std::error_code error;
   if (!fs::exists(file, error)) return replace_file(file, key + '\n');
@@ -83,6 +94,7 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
   std::error_code error;
   std::vector<std::string> said;
   const fs::path server = out / server_machine, list_file = server / "allowed-clients";
+  const bool is_new_server = !fs::exists(server / "server.key", error);
   const auto server_identity = net::load_or_create_identity(server / "server.key");
   if (!server_identity) return tl::unexpected(server_identity.error());
   const std::string server_key = net::to_text(server_identity->public_key());
@@ -90,14 +102,16 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
   if (list.empty()) list = "# Who may connect: a public key and the name that it stands for, one a line. The server follows changes at once.\n";
   for (const MachineKeys& machine : machines_of(rig)) {
     const fs::path folder = out / machine.machine;
-    std::string fresh, kept;
+    std::string fresh = machine.machine == server_machine && is_new_server ? "server" : "", kept;
     for (const auto& client : machine.clients) {
       const fs::path file = folder / (client + ".key");
       const bool existed = fs::exists(file, error);
+      const bool is_carried = !existed && is_listed(list, client);
+      std::string& names = existed || is_carried ? kept : fresh;
+      names += (names.empty() ? "" : ", ") + client;
+      if (is_carried) continue;
       const auto identity = net::load_or_create_identity(file);
       if (!identity) return tl::unexpected(identity.error());
-      std::string& names = existed ? kept : fresh;
-      names += (names.empty() ? "" : ", ") + client;
       if (put_client(list, net::to_text(identity->public_key()), client))
         said.push_back(fmt::format("{}: another key stood for {}; it is no longer let in", list_file.string(), client));
     }

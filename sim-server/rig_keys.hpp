@@ -4,7 +4,8 @@
 ///     out/server/    server.key, server.public, allowed-clients, and the keys of screens on the server's own machine
 ///     out/MACHINE/   server.public, and NAME.key for each screen that runs there, car.key for the car
 ///
-/// A key that exists is never made anew: after the rig has got a screen, the same command adds that screen's and leaves the others as they are.
+/// A key that exists is never made anew, and one that the list names exists: its file may have been carried away. After the rig has got a
+/// screen, the same command adds that screen's and leaves the others as they are; a name that was taken off the list gets a new key.
 
 #include <filesystem>
 #include <string>

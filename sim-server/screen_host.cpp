@@ -28,8 +28,6 @@ std::uint64_t instance_of(const net::SessionId& session) {
   return number;
 }
 
-const std::uint16_t protocol_version = Hello{}.protocol;
-
 std::string other_protocol(std::uint16_t theirs) {
   return fmt::format("it speaks version {} of the control messages, the server version {}; run the same Septet on all machines", theirs, protocol_version);
 }

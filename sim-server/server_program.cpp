@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <set>
 
 #include <fmt/core.h>
 
@@ -94,15 +93,6 @@ Expected<Sockets> open_sockets(const ServerOptions& options, const rig::Network&
   auto tick = net::UdpSocket::open({{ip, 0}});
   if (!tick) return tl::unexpected(tick.error());
   return Sockets{std::move(*lane), std::move(*tick)};
-}
-
-/// Whose keyboard or gamepad may drive: the screens' at the server's own machine, if the rig says that a keyboard does.
-std::set<std::string> drivers_of(const rig::Rig& rig) {
-  std::set<std::string> names;
-  if (rig.car.source != rig::CarSource::keyboard) return names;
-  for (const auto& screen : rig.screens)
-    if (screen.machine.empty()) names.insert(screen.name);
-  return names;
 }
 
 /// Multicast if the rig wants it, or if it does not mind and the machine's own loopback carries it.
@@ -262,7 +252,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
     host_options.limits.timeout_s = options.lockstep ? 60.0 : 5.0;
     host_options.least_playout_delay_s = rig.network.playout_delay_ticks / drive.source->tick_rate_hz();
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
-    host_options.drivers = drivers_of(rig);
+    host_options.drivers = rig::driving_screens(rig);
     host_options.car = drive.remote_car;
     if (auto chosen = choose_transport(rig.network, endpoint->sockets, options.any_port, host_options.welcome, progress); !chosen)
       return tl::unexpected(chosen.error());

@@ -63,6 +63,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   const Snapshot& snapshot = taken->snapshot();
   tick_ = snapshot.tick;
   simulated_time_s_ = snapshot.simulated_time_s;
+  bad_numbers_ = snapshot.diagnostics.bad_numbers;
   for (const auto& event : events)
     writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
   // The leader is looked for only where a sample wants it: ten times a second.
@@ -96,6 +97,7 @@ logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::
   outcome.state_hash = result.state_hash;
   outcome.inputs_hash = inputs_hash_.value();
   outcome.late_ticks = result.late_ticks;
+  outcome.bad_numbers = bad_numbers_;
   outcome.lost_records = writer_.lost_records();
   outcome.log_waited_s = writer_.waited_s();
   for (const HostedScreen& screen : screens) {
@@ -126,6 +128,7 @@ Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
 
 std::string SessionLog::ending(const ServeResult& result) const {
   std::string text = fmt::format("the drive ended after {:.1f} s: {}", result.simulated_s, text_of(result.end));
+  if (bad_numbers_ > 0) text += fmt::format("; {} numbers went bad and were reset: look for bad_number in the log", bad_numbers_);
   if (const auto lost = writer_.lost_records(); lost > 0) text += fmt::format("; the log lacks the last {} records", lost);
   if (real_time_ && writer_.waited_s() >= 0.1)
     text += fmt::format("; the disk was too slow and made the drive wait for {:.1f} s", writer_.waited_s());

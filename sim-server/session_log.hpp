@@ -49,6 +49,7 @@ class SessionLog {
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
   StateHash inputs_hash_;
+  std::uint32_t bad_numbers_ = 0;  ///< Of the last tick's diagnostics.
   Tick tick_ = 0;
   double simulated_time_s_ = 0.0;
 };

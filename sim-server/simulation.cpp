@@ -28,6 +28,25 @@ const char* name_of(scenario::ElementStatus status) {
 constexpr double tick_s = 1.0 / tick_rate_hz;
 constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
 
+/// A number that has gone bad is reset where it is; this tells of it.
+void note_bad_numbers(std::uint32_t count, std::optional<ParticipantId> participant, const char* reset, SimulationState& state,
+                      std::vector<SimulationEvent>& events) {
+  if (count == 0) return;
+  state.diagnostics.bad_numbers += count;
+  events.push_back({"bad_number", participant, fmt::format("count={} reset={}", count, reset)});
+}
+
+/// What came as no number counts as 0: nobody touches that control.
+std::uint32_t reset_bad_numbers(DriverInput& input) {
+  std::uint32_t count = 0;
+  for (double* value : {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch, &input.gaze_heading_rad})
+    if (!std::isfinite(*value)) {
+      *value = 0.0;
+      ++count;
+    }
+  return count;
+}
+
 /// The road's surface under each wheel, and how slippery it is there.
 vehicle::Ground ground_below(const SimulationModel& model, SimulationState& state) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
@@ -74,10 +93,7 @@ vehicle::VehicleOutputs advance_car(const SimulationModel& model, const DriverIn
     vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
   }
   note_hull(met, state, events);
-  if (state.car.bad_numbers != bad_before) {
-    state.diagnostics.bad_numbers += state.car.bad_numbers - bad_before;
-    events.push_back({"bad_number", driver_participant, "the car was reset"});
-  }
+  note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const auto out = vehicle::outputs(model.car, state.car);
   const Vec3 origin = out.world_from_vehicle.position_m;
   if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
@@ -228,6 +244,8 @@ void advance_storyboard(const SimulationModel& model, const vehicle::VehicleOutp
     events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
   for (const scenario::EntityIndex entity : step.left)
     events.push_back({"scenario", first_scripted_participant + entity, fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
+  for (const scenario::EntityIndex entity : step.reset)
+    note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
   apply_swarms(model, step, car, state);
   apply_effects(model, step, car, state);
 }
@@ -252,10 +270,7 @@ void run_effects(const SimulationModel& model, const vehicle::VehicleOutputs& ca
   note_visibility(state, events);
   if (report.crashes.pieces > 0) events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
   if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
-  if (report.bad_numbers > 0) {
-    state.diagnostics.bad_numbers += static_cast<std::uint32_t>(report.bad_numbers);
-    events.push_back({"bad_number", std::nullopt, "debris was reset"});
-  }
+  note_bad_numbers(static_cast<std::uint32_t>(report.bad_numbers), std::nullopt, "debris", state, events);
 }
 
 }  // namespace
@@ -282,9 +297,11 @@ Snapshot server_step(const SimulationModel& model, const DriverInput& input, Sim
                      std::vector<SimulationEvent>& events, Snapshot old) {
   ++state.tick;
   state.input = input;
-  const auto car = advance_car(model, input, state, events);
+  note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
+  const auto car = advance_car(model, state.input, state, events);
   advance_storyboard(model, car, state, events);
   state.traffic->advance(foreign_vehicles(model, state, car), tick_s);
+  note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
   run_effects(model, car, state, events);
   Snapshot snapshot = capture_snapshot(model, state, std::move(old));
   notice_collisions(snapshot, state, events);

@@ -21,6 +21,7 @@
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
 #include "engine/world/snapshot.hpp"
+#include "engine/world/wire_snapshot.hpp"
 #include "sim-server/effects_stage.hpp"
 
 namespace septet::server {
@@ -29,6 +30,9 @@ inline constexpr double tick_rate_hz = 120.0;
 inline constexpr ParticipantId driver_participant = 1;
 inline constexpr ParticipantId first_scripted_participant = 2;   ///< The scenario's entities, in its order.
 inline constexpr ParticipantId first_traffic_participant = 1000;
+
+static_assert(first_scripted_participant + scenario::most_entities <= first_traffic_participant);
+static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <= max_wire_participants);
 
 struct SimulationModel {
   road::RoadNetwork roads;

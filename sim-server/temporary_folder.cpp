@@ -3,8 +3,11 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -61,13 +64,37 @@ Expected<TemporaryFolder> TemporaryFolder::make(std::string_view name) {
   return failure("cannot make a folder for temporary files", path.string(), remedy);
 }
 
+TemporaryFolder::TemporaryFolder(fs::path path, int lock) : path_(std::move(path)), lock_(lock) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;
+  keeper_ = ::fork();
+  if (keeper_ == 0) {
+    ::setsid();  // Neither Ctrl-C nor a terminal that closes is meant for it.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+    // It holds nothing of the run open, least of all the pipe's other end.
+    ::dup2(ends[0], STDIN_FILENO);
+    ::close_range(STDOUT_FILENO, ~0u, 0);
+    char nothing;
+    while (::read(STDIN_FILENO, &nothing, 1) < 0 && errno == EINTR) {
+    }
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    ::_exit(0);
+  }
+  ::close(ends[0]);
+  alive_ = ends[1];
+}
+
 TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
+    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)),
+      alive_(std::exchange(other.alive_, -1)), keeper_(std::exchange(other.keeper_, -1)) {}
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   if (!path_.empty()) fs::remove_all(path_, ignored);
   if (lock_ >= 0) ::close(lock_);
+  if (alive_ >= 0) ::close(alive_);
+  if (keeper_ > 0) ::waitpid(keeper_, nullptr, 0);
 }
 
 }  // namespace septet::server

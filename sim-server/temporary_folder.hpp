@@ -1,7 +1,10 @@
 #pragma once
 /// A folder for files that only one run needs: made empty, readable by this user alone, and gone with all that is in it.
 ///
-/// A run that is killed leaves its folder behind, and the next one removes it: a living run holds a lock (flock) on its own.
+/// A run that is killed cannot remove anything; a small process of its own, which only waits for the run's end, does. Where that
+/// one is killed too, the next run removes what is left: a living run holds a lock (flock) on its own folder.
+
+#include <sys/types.h>
 
 #include <filesystem>
 #include <string_view>
@@ -21,9 +24,11 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  TemporaryFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
+  TemporaryFolder(std::filesystem::path path, int lock);
   std::filesystem::path path_;  ///< Empty after a move.
   int lock_ = -1;               ///< The open folder.
+  int alive_ = -1;              ///< A pipe's end that the system closes with this run.
+  pid_t keeper_ = -1;           ///< Who waits for that; −1: nobody.
 };
 
 }  // namespace septet::server

@@ -20,11 +20,14 @@ namespace septet::control {
 /// First byte of every message on the secure lane.
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
+/// Of these messages; who speaks another one is refused.
+inline constexpr std::uint16_t protocol_version = 1;
+
 /// Screen → server, first of all.
 struct Hello {
-  std::string screen;           ///< Name in the rig.
+  std::string screen;           ///< Name in the rig, and of its key in the list of allowed clients.
   std::uint16_t tick_port = 0;  ///< UDP port on which it hears unicast ticks.
-  std::uint16_t protocol = 1;
+  std::uint16_t protocol = protocol_version;
 };
 
 /// Server → screen, the answer.
@@ -61,7 +64,8 @@ struct Presented {
   float frame_ms = 0.0f;
 };
 
-/// Screen → server: the driver's controls, from a screen that has a keyboard or gamepad.
+/// Screen → server: the driver's controls, from a screen that has a keyboard or gamepad. Pedals outside of 0 to 1 and angles of
+/// many turns are refused.
 struct Controls {
   DriverInput input;
 };
@@ -83,7 +87,7 @@ struct ScreenReport {
 
 /// septet-car → server, first of all.
 struct CarHello {
-  std::uint16_t protocol = 1;
+  std::uint16_t protocol = protocol_version;
 };
 
 /// Server → septet-car, the answer.

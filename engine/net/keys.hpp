@@ -58,10 +58,10 @@ Expected<PublicKey> load_public_key(const std::filesystem::path& file);
 
 struct AllowedClient {
   PublicKey key{};
-  std::string name;  ///< "screen/left-1", "car"; what the server calls it.
+  std::string name;  ///< The screen's in the rig, or "car": what the server calls it, and all that it may be.
 };
 
-/// A text file of lines `KEY NAME`; blank lines and lines that begin with # do not count.
+/// A text file of lines `KEY NAME`; blank lines and lines that begin with # do not count. No key and no name stands twice.
 Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem::path& file);
 
 }  // namespace septet::net

@@ -56,6 +56,9 @@ struct SecureClient::State {
   std::optional<ClientHandshake> handshake;
   std::optional<double> trying_since_s;  ///< Since when it has knocked without being let in.
   std::optional<double> answered_s;      ///< When the last cookie came, since then.
+  bool has_initiated = false;            ///< It has sent an initiation since then.
+  /// A cookie came for a hello that it had sent after an initiation: the server has read that one, and did not understand it.
+  bool is_not_understood = false;
   Obstacle refusal = Obstacle::none;     ///< What the server last said, since then.
   double refused_s = 0.0;                ///< When it said so.
   double cookie_s = 0.0;
@@ -115,6 +118,8 @@ void SecureClient::State::receive(std::vector<ClientEvent>& events) {
       }
       cookie_s = now_s;
       answered_s = now_s;
+      is_not_understood = is_not_understood || has_initiated;
+      has_initiated = true;
       if (refusal == Obstacle::other_version) refusal = Obstacle::none;
       socket.send(options.server, handshake->initiation());
     } else if (kind == SceneDatagramKind::response && handshake && !hears_server()) {
@@ -141,6 +146,7 @@ void SecureClient::State::take_refusal(std::span<const std::byte> datagram) {
     ++past.forged;
     return;
   }
+  has_initiated = is_not_understood = false;
   const bool in_use = *reason == HandshakeRefusal::key_in_use;
   const Obstacle before = std::exchange(refusal, in_use ? Obstacle::key_in_use : Obstacle::key_unknown);
   refused_s = now_s;
@@ -187,6 +193,7 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   retry_s = first_retry_s;
   trying_since_s.reset();
   answered_s.reset();
+  has_initiated = is_not_understood = false;
   refusal = Obstacle::none;
   state = ClientState::connected;
   pings = 0;
@@ -226,7 +233,9 @@ Obstacle SecureClient::State::obstacle() const {
   if (hears_server() || !trying_since_s) return Obstacle::none;
   if (refusal != Obstacle::none && now_s - refused_s < remembered_s) return refusal;
   if (now_s - *trying_since_s < trial_s) return Obstacle::none;
-  return answered_s && now_s - *answered_s < remembered_s ? Obstacle::other_server_key : Obstacle::no_answer;
+  if (!answered_s || now_s - *answered_s >= remembered_s) return Obstacle::no_answer;
+  // A server that is busy answers late; nothing is said of it.
+  return is_not_understood ? Obstacle::other_server_key : Obstacle::none;
 }
 
 bool SecureClient::has_backlog() const {

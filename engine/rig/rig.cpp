@@ -1,5 +1,6 @@
 #include "engine/rig/rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -138,6 +139,7 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
   car.machine = read_machine(reader);
+  car.keyboard_screen = reader.get_string("keyboard_screen", car.keyboard_screen);
   car.layout = reader.get_string("layout", car.layout);
   car.vehicle = reader.get_string("vehicle", car.vehicle);
   car.driver = reader.get_string("driver", car.driver);
@@ -147,7 +149,24 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   return car;
 }
 
+/// Somebody's keyboard must reach the car, where the rig says that one does.
+void check_keyboard(const Rig& rig, TableReader& reader) {
+  const std::string& name = rig.car.keyboard_screen;
+  if (!name.empty() && std::ranges::find(rig.screens, name, &Screen::name) == rig.screens.end())
+    reader.report("car", fmt::format("car.keyboard_screen is \"{}\", and there is no such screen", name), "name one of the rig's screens");
+  else if (rig.car.source == CarSource::keyboard && !rig.screens.empty() && driving_screens(rig).empty())
+    reader.report("car", "no screen is at the server's own machine, so that no keyboard drives", "name the driver's screen in car.keyboard_screen");
+}
+
 }  // namespace
+
+std::set<std::string> driving_screens(const Rig& rig) {
+  std::set<std::string> names;
+  if (rig.car.source != CarSource::keyboard) return names;
+  for (const Screen& screen : rig.screens)
+    if (rig.car.keyboard_screen.empty() ? screen.machine.empty() : screen.name == rig.car.keyboard_screen) names.insert(screen.name);
+  return names;
+}
 
 Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   const auto document = parse_toml(text, name);
@@ -165,6 +184,7 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
     if (!names.insert(rig.screens.back().name).second)
       reader.report("screen", fmt::format("two screens are called \"{}\"", rig.screens.back().name), "give each its own name");
   }
+  check_keyboard(rig, reader);
   if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");
   if (rig.screens.size() > 64) reader.report("screen", "the rig has more than 64 screens", "split it");
   reader.finish();

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,7 @@ struct Network {
   std::uint16_t scene_port = 4750;           ///< UDP, secure unicast lane; 0: any free port (one machine only).
   std::string tick_group = "239.77.77.77";
   std::uint16_t tick_port = 4751;
-  std::string interface_address;  ///< Local address for multicast; empty: the system's choice.
+  std::string interface_address;  ///< The server's address on the rig's network: it listens there only. Empty: on all of a rig of several machines.
   TickTransport transport = TickTransport::automatic;
   std::uint32_t max_payload_bytes = 1200;
   double playout_delay_ticks = 2.0;
@@ -84,6 +85,7 @@ struct Car {
   std::uint16_t vendor_id = 0x1209, product_id = 0x0001;
   std::string serial;
   std::string machine;  ///< Host with the device, where septet-car runs; empty: the server's own machine.
+  std::string keyboard_screen;  ///< Whose keyboard or gamepad drives; empty: any screen's at the server's own machine.
   std::string layout = "septet-car";  ///< Report layout of the device (car-io/REPORTS.md).
   std::string vehicle = "volvo-s80";  ///< Parameter file below vehicles/.
   std::string driver = "plain";       ///< Which simulated driver.
@@ -98,6 +100,9 @@ struct Rig {
   Network network;
   Car car;
 };
+
+/// The screens whose keyboard or gamepad drives: none unless the rig's car is driven so.
+std::set<std::string> driving_screens(const Rig& rig);
 
 /// Parses the text of a rig file; `name` is used in messages. Unknown keys are errors, so that a misspelt one is noticed.
 Expected<Rig> read_rig(std::string_view toml, std::string_view name);

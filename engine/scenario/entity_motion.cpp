@@ -138,6 +138,29 @@ void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, d
       lane_pose(network, entity.lane, entity.along_s, slope, entity.heading_offset_rad);
 }
 
+bool finite(const Vec3& v) { return std::isfinite(v.x + v.y + v.z); }
+
+bool finite(const EntityState& entity) {
+  const Quat& q = entity.world_from_entity.orientation;
+  return std::isfinite(entity.speed_mps + entity.acceleration_mps2 + entity.travelled_m + entity.lane.s_m +
+                       entity.lane.offset_m + entity.wheel_angle_rad + q.w + q.x + q.y + q.z) &&
+         finite(entity.world_from_entity.position_m) && finite(entity.velocity_mps) &&
+         finite(entity.acceleration_vector_mps2) && finite(entity.angular_velocity_radps);
+}
+
+/// What remains of an entity whose numbers went bad: its place, if that is one, and nothing moving.
+EntityState halted(const EntityState& before) {
+  EntityState result;
+  result.active = finite(before.world_from_entity.position_m);
+  result.on_road = before.on_road && std::isfinite(before.lane.s_m + before.lane.offset_m);
+  if (result.on_road) result.lane = before.lane;
+  result.along_s = before.along_s;
+  result.heading_offset_rad = before.heading_offset_rad;
+  result.lamps = before.lamps;
+  if (result.active) result.world_from_entity = before.world_from_entity;
+  return result;
+}
+
 }  // namespace
 
 void place_entity(EntityState& entity, const Placement& placement) {
@@ -225,17 +248,29 @@ bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& st
   return true;
 }
 
-void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
+bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
                  const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
                  std::vector<ElementIndex>& ended) {
+  const EntityState at_start = entity;
+  // Nothing below may see a number that is none: the road is not looked up there.
+  const auto reset = [&] {
+    for (const ElementIndex action : {at_start.speed_control.action, at_start.lateral_control.action})
+      if (action != no_element && std::find(ended.begin(), ended.end(), action) == ended.end())
+        ended.push_back(action);
+    entity = halted(at_start);
+    return false;
+  };
+  if (!finite(entity)) return reset();
   const double speed_before = entity.speed_mps;
   const double speed_after =
       next_speed_mps(state, scenario.entities[who].performance, dt_s, entity, ended);
+  if (!std::isfinite(speed_after)) return reset();
   entity.speed_mps = speed_after;
   const double way_m = 0.5 * (speed_before + speed_after) * dt_s;
   const RigidTransform before = entity.world_from_entity;
   if (entity.on_road) {
     const double lateral_m = lateral_step_m(dt_s, way_m, entity, ended);
+    if (!std::isfinite(lateral_m)) return reset();
     roll_on(network, way_m, lateral_m, dt_s, entity);
   } else {
     entity.world_from_entity.position_m += before.orientation * Vec3(way_m, 0.0, 0.0);
@@ -256,6 +291,7 @@ void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   entity.wheel_angle_rad =
       std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
   if (entity.wheel_angle_rad < 0.0) entity.wheel_angle_rad += 2.0 * std::numbers::pi;
+  return finite(entity) || reset();
 }
 
 void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, ScenarioState& state) {

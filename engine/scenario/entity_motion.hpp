@@ -25,8 +25,8 @@ bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& st
                        const LaneOffsetAction& what, ElementIndex action, EntityState& entity);
 
 /// Moves an entity by dt. The storyboard elements of controls that came to their end are added to
-/// `ended`.
-void move_entity(const road::RoadNetwork& network, const Scenario& scenario,
+/// `ended`. False where a number has gone bad: then the entity stands where it was, without controls.
+bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
                  const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
                  std::vector<ElementIndex>& ended);
 

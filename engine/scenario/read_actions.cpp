@@ -120,6 +120,11 @@ TransitionDynamics read_dynamics(const Element& element) {
                                                        DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
+  constexpr double least = 1e-6;  // Of a second, a metre or either's rate: nobody means less.
+  if (dynamics.value > 0.0 && dynamics.value < least) {
+    element.warning(fmt::format("value=\"{}\" is as good as 0", dynamics.value),
+                    "write 0, or a value that can be told from it");
+  }
   if (element.word<bool>("followingMode", {{"position", false}, {"follow", true}}, false)) {
     element.warning("followingMode=\"follow\" is not supported; \"position\" is taken",
                     "expect the target to be met exactly");

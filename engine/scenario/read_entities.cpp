@@ -86,6 +86,11 @@ BoundingBox read_bounding_box(const Element& parent) {
 
 void read_entities(Reading& reading, const Element& entities) {
   for (const Element& object : entities.children("ScenarioObject")) {
+    if (reading.scenario.entities.size() == most_entities) {
+      object.error(fmt::format("there are more than {} entities", most_entities),
+                   "leave the others to a traffic swarm");
+      break;
+    }
     Entity entity;
     entity.name = object.text("name");
     const auto index = static_cast<EntityIndex>(reading.scenario.entities.size());

@@ -108,7 +108,7 @@ TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& element) 
   action.semi_minor_axis_m = element.number("semiMinorAxis", 0.0);
   action.offset_m = element.number("offset");
   action.vehicle_count =
-      static_cast<std::uint32_t>(element.integer("numberOfVehicles", 0, 100'000));
+      static_cast<std::uint32_t>(element.integer("numberOfVehicles", 0, static_cast<int>(most_swarm_vehicles)));
   // 1.0 names the entity in an attribute `entityRef` of <CentralObject> as well.
   if (const Element central = element.required("CentralObject"))
     action.central = read_entity_reference(reading, central);

@@ -73,6 +73,10 @@ struct InitAction {
   std::string where;  ///< "file:line, <element>", for messages.
 };
 
+/// Their numbers among the participants end where traffic's begin, and one tick must hold them all.
+inline constexpr std::size_t most_entities = 990;
+inline constexpr std::uint32_t most_swarm_vehicles = 3000;
+
 struct Scenario {
   FileHeader header;
   std::string road_file;  ///< As the file gives it: relative to the scenario's folder.

@@ -46,7 +46,7 @@ class Step {
       EntityState& entity = state_.entities[i];
       if (!entity.active || entity.external) continue;
       const bool was_there = entity.at_road_end_s == 0.0;
-      move_entity(network_, scenario_, state_, dt_s, i, entity, ended);
+      if (!move_entity(network_, scenario_, state_, dt_s, i, entity, ended)) result_.reset.push_back(i);
       if (was_there && entity.at_road_end_s > 0.0) result_.left.push_back(i);
     }
     for (const ElementIndex action : ended) end_action(action);

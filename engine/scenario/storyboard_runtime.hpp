@@ -36,6 +36,7 @@ struct StepResult {
   std::vector<EffectAction> effects;         ///< To be spilled, ignited, extinguished.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
   std::vector<EntityIndex> left;        ///< Came to the end of their road, and are no participants any more.
+  std::vector<EntityIndex> reset;       ///< Whose numbers went bad: they stand.
   std::vector<EntityIndex> teleported;  ///< Entities that did not get where they are by driving.
 };
 

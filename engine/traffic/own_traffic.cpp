@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "engine/traffic/traffic_engine.hpp"
 
 namespace septet::traffic {
@@ -17,6 +19,7 @@ class OwnTraffic final : public TrafficEngine {
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override {
     traffic::advance(parameters_, network_, foreign, dt_s, random_, state_);
   }
+  std::uint32_t take_bad_numbers() override { return std::exchange(state_.bad_numbers, 0); }
   void append_participants(std::vector<Participant>& participants) const override {
     traffic::append_participants(state_, network_, participants);
   }

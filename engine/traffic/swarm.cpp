@@ -280,7 +280,7 @@ void advance(const TrafficParameters& parameters, const road::RoadNetwork& netwo
     follow(traffic);
     make_way(traffic, placed_foreign[c].emergencies, dt_s);
     change_lanes(parameters, network, state.time_s, dt_s, traffic);
-    move(traffic, dt_s);
+    state.bad_numbers += move(traffic, dt_s);
     if (c < directions) recycle(parameters, middle, random, traffic);
   }
   take_ramps(state);

@@ -74,8 +74,13 @@ void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_
   insert_entry(left, entry_of(traffic, traffic.size() - 1));
 }
 
-void move(CorridorTraffic& traffic, double dt_s) {
+std::uint32_t move(CorridorTraffic& traffic, double dt_s) {
+  std::uint32_t bad_numbers = 0;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
+    if (!std::isfinite(traffic.acceleration_mps2[i])) {
+      traffic.acceleration_mps2[i] = 0.0;
+      ++bad_numbers;
+    }
     const double before = traffic.speed_mps[i], a = traffic.acceleration_mps2[i];
     const double after = before + a * dt_s;
     // Who stops within the step stops where the braking ends.
@@ -85,6 +90,7 @@ void move(CorridorTraffic& traffic, double dt_s) {
     if (traffic.corridor.closed && x >= traffic.corridor.length_m) x -= traffic.corridor.length_m;
     traffic.x_m[i] = x;
   }
+  return bad_numbers;
 }
 
 void hash_state(StateHash& hash, const TrafficState& state) {

@@ -132,6 +132,7 @@ struct TrafficState {
   std::vector<std::optional<road::RoadPosition>>
       foreign_places;                        ///< Hints, one per foreign vehicle.
   std::vector<double> foreign_speeds_mps;  ///< A tick ago.
+  std::uint32_t bad_numbers = 0;           ///< Accelerations that were no numbers, and were taken for 0.
 };
 
 /// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring

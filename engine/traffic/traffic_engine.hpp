@@ -33,6 +33,8 @@ class TrafficEngine {
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
   /// Everything that decides how the traffic goes on.
   virtual void add_to_hash(StateHash& hash) const = 0;
+  /// How many numbers have gone bad and were reset since the last call.
+  virtual std::uint32_t take_bad_numbers() { return 0; }
   /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.
   virtual std::optional<Error> take_error() { return std::nullopt; }
 };

@@ -78,7 +78,7 @@ void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& for
 void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network,
                   double time_s, double dt_s, CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
-void move(CorridorTraffic& traffic, double dt_s);
+std::uint32_t move(CorridorTraffic& traffic, double dt_s);
 /// Stage 5: who left the simulation comes in again.
 void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random,
              CorridorTraffic& traffic);

@@ -39,6 +39,9 @@ std::string ending(const ReportData& data) {
     if (outcome->late_ticks > 0)
       warn(fmt::format("{} of {} ticks began late: the machine was too slow for real time, and the simulation slowed down.", outcome->late_ticks,
                        outcome->ticks));
+    if (outcome->bad_numbers > 0)
+      warn(fmt::format("{} numbers went bad and were reset; the events bad_number in the log say whose and when. Figures around them mean nothing.",
+                       outcome->bad_numbers));
     if (outcome->lost_records > 0) warn(fmt::format("The log lacks the last {} records.", outcome->lost_records));
   }
   if (!data.ended_cleanly)

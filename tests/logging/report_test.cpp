@@ -53,7 +53,7 @@ ReportData example_drive() {
 
 DriveOutcome example_outcome() {
   DriveOutcome outcome{.end = DriveEnd::window_closed, .error = "", .ticks = 3600, .simulated_s = 30.0, .wall_s = 41.25, .state_hash = 0xabc,
-                       .inputs_hash = 0xdef, .late_ticks = 3, .lost_records = 4, .log_waited_s = 1.5, .screens = {}};
+                       .inputs_hash = 0xdef, .late_ticks = 3, .bad_numbers = 5, .lost_records = 4, .log_waited_s = 1.5, .screens = {}};
   outcome.screens = {{.name = "ahead-1", .frames = 450, .refused_ticks = 6, .frame_ms_p50 = 21.5, .frame_ms_p99 = std::nan(""),
                       .connected_s = {0.0, 12.5}, .left_s = {11.0}, .left_behind_s = {}, .has_reported = true},
                      {.name = "rear-2", .frames = 0, .connected_s = {0.0}, .left_s = {3.0}, .left_behind_s = {}}};
@@ -74,6 +74,7 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   CHECK(json["error"].is_null());
   CHECK(json["state_hash"] == "0000000000000abc");
   CHECK(json["late_ticks"] == 3);
+  CHECK(json["bad_numbers"] == 5);
   CHECK(json["log"]["lost_records"] == 4);
   CHECK(json["log"]["missing_ticks"] == 2);
   CHECK(json["log"]["waited_s"] == 1.5);
@@ -120,6 +121,7 @@ TEST_CASE("the report says how the drive ended and what went wrong and which fig
   CHECK(html.find("/home") == std::string::npos);
   CHECK(html.find("a screen's window was closed") != std::string::npos);
   CHECK(html.find("3 of 3600 ticks began late") != std::string::npos);
+  CHECK(html.find("5 numbers went bad") != std::string::npos);
   CHECK(html.find("2 ticks are missing") != std::string::npos);
   CHECK(html.find("0.0, 12.5 s") != std::string::npos);       // The first screen came back.
   CHECK(html.find("was not there at the end") != std::string::npos);  // The second one did not.

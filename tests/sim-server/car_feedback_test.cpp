@@ -76,4 +76,25 @@ TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on
   CHECK((*live)->newest().diagnostics.input_stale_ticks == counted);
 }
 
+TEST_CASE("a car that goes wrong in ever new ways is told of ten times and then once a second") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  car_io::SimulatedHidPort port;
+  port.plug();
+  DriverSeat seat;
+  sit_at_device(seat, port.opener(), {});
+  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
+  REQUIRE(live.has_value());
+  const auto refused_for = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      port.send(Bytes(20 + i % 40));  // The message names the size.
+      REQUIRE((*live)->next(std::nullopt).has_value());
+    }
+    return (*live)->take_messages();
+  };
+  CHECK(refused_for(60).size() == 10);
+  const auto later = refused_for(120);
+  REQUIRE(later.size() == 1);
+  CHECK(later[0].find("more of its messages were left out") != std::string::npos);
+}
+
 }  // namespace septet::server

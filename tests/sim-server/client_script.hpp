@@ -44,6 +44,7 @@ class ClientScript {
     for (int i = 0; i < 3; ++i) builder.add_object("post", {});
     ScreenHostOptions options{.identity = identity_of(0), .session = {1}, .allowed = list(clients)};
     options.screens = {"a", "b"};
+    options.drivers = {"a"};
     options.car = std::make_shared<RemoteCar>();
     options.welcome.rig = "rig";
     sockets_[server_address] = &server_socket_;
@@ -52,6 +53,8 @@ class ClientScript {
   }
 
   ScreenHost& host() { return *host_; }
+  /// What has reached the car so far.
+  const std::vector<DriverInput>& controls() const { return controls_; }
 
   /// Handshake and Hello under the own names: the scripts begin where screens and car are there.
   void connect_all() {
@@ -76,7 +79,7 @@ class ClientScript {
       (void)host_->all_ready();
       (void)host_->all_reported();
       host_->leave_behind(tick_);
-      (void)host_->take_controls();
+      if (const auto controls = host_->take_controls()) controls_.push_back(*controls);
       (void)host_->take_messages();
     }
     host_->finish("the script is over");
@@ -187,6 +190,7 @@ class ClientScript {
   std::array<std::unique_ptr<net::SecureClient>, clients> clients_;
   scene::Store store_;
   std::unique_ptr<ScreenHost> host_;
+  std::vector<DriverInput> controls_;
   ByteReader* script_ = nullptr;
   double now_s_ = 1.0;
   Tick tick_ = 0;

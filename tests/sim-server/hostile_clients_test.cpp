@@ -17,6 +17,15 @@ bool is_live(ClientScript& rig, std::string_view name) {
   return false;
 }
 
+/// That the client sends this message and the host reads it.
+Bytes says(int client, const control::ControlMessage& message) {
+  const Bytes bytes = control::encode_control(message);
+  Bytes steps = script(ScriptStep::control, client, bytes.size() - 1);
+  steps.insert(steps.end(), bytes.begin() + 1, bytes.end());
+  for (const std::byte part : script(pump, client, end_of_pump, client, 0)) steps.push_back(part);
+  return steps;
+}
+
 constexpr int a = 0, b = 1, car = 2, here = 0, elsewhere = 1;
 
 }  // namespace
@@ -44,6 +53,18 @@ TEST_CASE("a hello under the name of another screen does not touch that screen")
     rig.play(script(end_of_pump, a, 0));
     CHECK(is_live(rig, "a"));
   }
+}
+
+TEST_CASE("controls come from the screen that the rig lets drive and from nobody else") {
+  ClientScript rig;
+  rig.connect_all();
+  DriverInput input;
+  for (const int client : {b, car, a}) {
+    input.accelerator += 0.25;
+    rig.play(says(client, control::Controls{input}));
+  }
+  REQUIRE(rig.controls().size() == 1);
+  CHECK(rig.controls()[0].accelerator == 0.75);
 }
 
 TEST_CASE("whatever clients of the list send in whatever order the host goes on") {

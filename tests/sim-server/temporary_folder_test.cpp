@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -14,36 +15,61 @@
 namespace septet::server {
 namespace fs = std::filesystem;
 
-TEST_CASE("a folder is gone with its run and that of a killed run with the next one and those of others stay") {
-  const septet::TemporaryFolder place;
-  const char* before = std::getenv("TMPDIR");
-  const std::string kept = before ? before : "";
-  ::setenv("TMPDIR", place.path().c_str(), 1);
-  fs::create_directories(place / "septet-letters");
-  fs::create_directories(place / "other-AbCdEf");
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const auto folder = TemporaryFolder::make("septet");
-    if (folder) std::ofstream(folder->path() / "secret.key") << "secret";
-    ::_exit(folder ? 0 : 1);  // Nobody's destructor runs.
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  REQUIRE(WEXITSTATUS(status) == 0);
-  const auto count = [&] { return std::distance(fs::directory_iterator(place.path()), fs::directory_iterator()); };
-  CHECK(count() == 3);
+namespace {
+
+/// A folder that is the system's for temporary files for a while.
+struct Place {
+  Place() { ::setenv("TMPDIR", folder.path().c_str(), 1); }
+  ~Place() { before ? ::setenv("TMPDIR", before->c_str(), 1) : ::unsetenv("TMPDIR"); }
+  auto entries() const { return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()); }
+
+  const char* found = std::getenv("TMPDIR");
+  std::optional<std::string> before = found ? std::optional<std::string>(found) : std::nullopt;
+  septet::TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_CASE("a folder is gone with its run and what a killed run has left is gone with the next one and those of others stay") {
+  const Place place;
+  fs::create_directories(place.folder / "septet-letters");
+  fs::create_directories(place.folder / "other-AbCdEf");
+  fs::create_directories(place.folder / "septet-AbCdEf");
+  std::ofstream(place.folder / "septet-AbCdEf" / "secret.key") << "secret";
   {
     const auto first = TemporaryFolder::make("septet");
     REQUIRE(first.has_value());
-    CHECK(count() == 3);  // The killed run's has made room for it.
+    CHECK_FALSE(fs::exists(place.folder / "septet-AbCdEf"));
     const auto second = TemporaryFolder::make("septet");
     REQUIRE(second.has_value());
     CHECK(fs::exists(first->path()));
-    CHECK(count() == 4);
+    CHECK(place.entries() == 4);
   }
-  CHECK(count() == 2);
-  CHECK(fs::exists(place / "septet-letters"));
-  before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
+  CHECK(place.entries() == 2);
+  CHECK(fs::exists(place.folder / "septet-letters"));
+}
+
+TEST_CASE("the folder of a run that is killed is gone with it") {
+  const Place place;
+  int told[2];
+  REQUIRE(::pipe(told) == 0);
+  const pid_t run = ::fork();
+  if (run == 0) {
+    const auto folder = TemporaryFolder::make("septet");
+    if (folder) std::ofstream(folder->path() / "secret.key") << "secret";
+    if (::write(told[1], folder ? "y" : "n", 1) == 1) ::pause();
+    ::_exit(1);
+  }
+  char made = 'n';
+  REQUIRE(::read(told[0], &made, 1) == 1);
+  CHECK(made == 'y');
+  CHECK(place.entries() == 1);
+  ::kill(run, SIGKILL);
+  ::waitpid(run, nullptr, 0);
+  for (int i = 0; i < 6000 && place.entries() > 0; ++i) ::usleep(10'000);
+  CHECK(place.entries() == 0);
+  ::close(told[0]);
+  ::close(told[1]);
 }
 
 }  // namespace septet::server

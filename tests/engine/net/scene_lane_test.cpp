@@ -180,9 +180,22 @@ TEST_CASE("a client does not connect to a server with another key than the pinne
   site.run(1.0);
   CHECK(site.clients[0]->state() == ClientState::connecting);
   CHECK(site.server->clients().empty());
-  site.run(1.0);
+  site.run(5.0);
   CHECK(site.clients[0]->obstacle() == Obstacle::other_server_key);
   CHECK(site.server->counters().forged > 0);
+}
+
+TEST_CASE("a server that reads seldom is not taken for another one") {
+  Site site(1, {});
+  for (int turn = 0; turn < 2; ++turn) {
+    auto busy = std::move(site.server);
+    site.run(1.8);
+    site.server = std::move(busy);
+    CHECK(site.clients[0]->obstacle() != Obstacle::other_server_key);
+    site.run(0.002);
+  }
+  site.run(0.1);
+  CHECK(site.clients[0]->state() == ClientState::connected);
 }
 
 TEST_CASE("a client says that nobody answers and goes on when somebody does") {

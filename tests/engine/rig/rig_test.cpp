@@ -83,4 +83,28 @@ TEST_CASE("a wrong rig is refused with its line and a remedy") {
          "my.toml:6", "rectangle");
 }
 
+TEST_CASE("the keyboard that drives is the named screen's or those at the server's own machine") {
+  const std::string screens = "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"near\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 2]\n"
+                              "[[screen]]\nname = \"far\"\nmachine = \"pc-2\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 2]\n";
+  const auto driving = [&](const std::string& car) {
+    const auto rig = read_rig(screens + "[car]\n" + car, "my.toml");
+    REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
+    return driving_screens(*rig);
+  };
+  using Names = std::set<std::string>;
+  CHECK(driving("source = \"keyboard\"\n") == Names{"near"});
+  CHECK(driving("source = \"keyboard\"\nkeyboard_screen = \"far\"\n") == Names{"far"});
+  CHECK(driving("source = \"hid\"\nkeyboard_screen = \"far\"\n").empty());
+  CHECK(driving("source = \"simulated-driver\"\n").empty());
+
+  const auto refused = [&](const std::string& text, const std::string& what) {
+    const auto rig = read_rig(text, "my.toml");
+    REQUIRE_FALSE(rig);
+    CHECK(rig.error().what.find(what) != std::string::npos);
+  };
+  refused(screens + "[car]\nsource = \"keyboard\"\nkeyboard_screen = \"fra\"\n", "\"fra\"");
+  // Nobody could drive.
+  refused(one_screen + std::string("machine = \"pc-2\"\n[car]\nsource = \"keyboard\"\n"), "no keyboard drives");
+}
+
 }  // namespace septet::rig

@@ -98,6 +98,20 @@ TEST_CASE("a wrong file names line element and remedy") {
             .find("<SpeedActionDynamics> is missing") != std::string::npos);
 }
 
+TEST_CASE("more entities than a tick can hold are refused at the first that is too many") {
+  const auto with = [](std::size_t count) {
+    std::string text = scenario_text("", "");
+    std::string more;
+    for (std::size_t i = 2; i < count; ++i) more += "\n" + vehicle_text("N" + std::to_string(i));
+    text.insert(text.find("</Entities>"), more);
+    return read_scenario(text, "test.xosc", files_in("."));
+  };
+  CHECK(with(most_entities).has_value());
+  const auto refused = with(20'000);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(describe(refused.error()).find("test.xosc:990, <ScenarioObject>: there are more than 990 entities") == 0);
+}
+
 TEST_CASE("parameters given from outside win over those of the file") {
   const std::string declared =
       R"(<ParameterDeclarations><ParameterDeclaration name="s" parameterType="double" value="100"/></ParameterDeclarations>)";

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -218,6 +219,35 @@ TEST_CASE("a new speed action takes the entity over from the old one") {
   drive.run_until(3.0);
   CHECK(drive.a().speed_mps == 15.0);
   CHECK(drive.time_of("first action", ElementTransition::stop) == doctest::Approx(1.0));
+}
+
+TEST_CASE("an entity whose numbers go bad stands where it was and everything else goes on") {
+  constexpr double bad = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
+  const std::string stories = story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
+                                         event_text("second", speed_text(15, "linear", "time", 1.0), at(2.0)));
+  const auto with = [&](auto spoil) {
+    Drive drive(scenario_text(two_cars, stories));
+    drive.run_until(1.0);
+    const Vec3 before = drive.a().world_from_entity.position_m;
+    const double other = drive.b().travelled_m;
+    spoil(drive.state.entities[0]);
+    const StepResult step = advance_scenario(drive.scenario, drive.network, 0.01, drive.state);
+    REQUIRE(step.reset.size() == 1);
+    CHECK(step.reset[0] == 0);
+    CHECK(drive.a().speed_mps == 0.0);
+    CHECK(drive.a().world_from_entity.position_m == before);
+    CHECK(drive.b().travelled_m > other);
+    // The action that it had is over, and the next one takes it on from there.
+    drive.run_until(4.0);
+    CHECK(drive.a().speed_mps == 15.0);
+    CHECK(drive.a().world_from_entity.position_m.x > before.x + 10.0);
+  };
+  with([&](EntityState& entity) { entity.speed_mps = bad; });
+  with([&](EntityState& entity) { entity.speed_control.transition.to = endless; entity.speed_control.transition.from = -endless; });
+  with([&](EntityState& entity) {
+    entity.lateral_control.active = true;
+    entity.lateral_control.transition = {DynamicsShape::linear, false, 1.0, 0.0, 0.0, bad};
+  });
 }
 
 TEST_CASE("the stop trigger ends the scenario") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -48,6 +49,24 @@ double distance(const Participant& a, const Participant& b) {
 }
 
 }  // namespace
+
+TEST_CASE("a vehicle whose acceleration is no number goes on at its speed and is counted") {
+  const road::RoadNetwork network = motorway();
+  const ForeignVehicle driver = driver_at(network, 3000.0);
+  Random random(1, 1);
+  const TrafficParameters parameters = motorway_traffic(20, 300.0);
+  TrafficState state = populate(parameters, network, std::span(&driver, 1), random);
+  CorridorTraffic& traffic = state.corridors.front();
+  std::size_t spoilt = 0;
+  while (traffic.lane[spoilt] == 0) ++spoilt;
+  FollowingParameters following = traffic.driver[spoilt].following;
+  following.acceleration_mps2 = std::numeric_limits<double>::infinity();
+  traffic.law[spoilt] = FollowingLaw(following);
+  for (int tick = 0; tick < 60; ++tick) advance(parameters, network, std::span(&driver, 1), 1.0 / 120.0, random, state);
+  CHECK(state.bad_numbers == 60);
+  for (const CorridorTraffic& corridor : state.corridors)
+    for (std::size_t i = 0; i < corridor.size(); ++i) CHECK(std::isfinite(corridor.x_m[i] + corridor.speed_mps[i]));
+}
 
 TEST_CASE("the equilibrium gap of the intelligent driver model gives no acceleration") {
   const FollowingParameters driver{33.33, 1.0, 2.6, 4.5, 2.5};

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <doctest/doctest.h>
+
+#include "sim-server/session_log.hpp"
+#include "sim-server/temporary_folder.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+namespace {
+
+/// Traffic that is not there, and of whose numbers two have gone bad.
+class EmptyTraffic final : public traffic::TrafficEngine {
+ public:
+  void start(const traffic::TrafficParameters&, std::span<const traffic::ForeignVehicle>) override {}
+  void stop() override {}
+  void advance(std::span<const traffic::ForeignVehicle>, double) override {}
+  void append_participants(std::vector<Participant>&) const override {}
+  void add_to_hash(StateHash&) const override {}
+  std::uint32_t take_bad_numbers() override { return std::exchange(bad_numbers_, 0); }
+
+ private:
+  std::uint32_t bad_numbers_ = 2;
+};
+
+}  // namespace
+
+TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes on") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  auto state = initial_state(*drive.model, std::make_unique<EmptyTraffic>());
+  REQUIRE(state.has_value());
+  std::vector<SimulationEvent> events;
+  const auto told = [&](const DriverInput& input) {
+    events.clear();
+    const Snapshot snapshot = server_step(*drive.model, input, *state, events);
+    for (const Participant& participant : snapshot.participants) CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
+    CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator + snapshot.driver_car.steering_wheel_rad));
+    const bool is_told = std::ranges::any_of(events, [](const SimulationEvent& event) { return event.kind == "bad_number"; });
+    return is_told ? snapshot.diagnostics.bad_numbers : 0;
+  };
+  CHECK(told({}) == 2);  // Traffic's.
+  CHECK(told({}) == 0);
+  DriverInput input;
+  input.accelerator = std::nan("");
+  input.steering_wheel_rad = INFINITY;
+  CHECK(told(input) == 4);
+  const auto scripted = std::ranges::find_if(state->scenario.entities, [](const auto& entity) { return entity.active && !entity.external; });
+  REQUIRE(scripted != state->scenario.entities.end());
+  scripted->speed_mps = std::nan("");
+  CHECK(told({}) == 5);
+  state->car.velocity_mps.x = std::nan("");
+  CHECK(told({}) >= 6);
+  CHECK(told({}) == 0);
+}
+
+TEST_CASE("the last line of a drive and its outcome tell how many numbers went bad") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const auto folder = TemporaryFolder::make("septet-test");
+  REQUIRE(folder.has_value());
+  auto log = SessionLog::create(folder->path() / "session.sqlite", drive, 1, "own", false);
+  REQUIRE(log.has_value());
+  Snapshot snapshot;
+  snapshot.diagnostics.bad_numbers = 3;
+  log->record_tick(std::make_shared<const TakenSnapshot>(snapshot), {});
+  CHECK(log->ending({}).find("3 numbers went bad") != std::string::npos);
+  CHECK(log->outcome({}, {}).bad_numbers == 3);
+}
+
+}  // namespace septet::server

@@ -1,0 +1,110 @@
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "engine/net/secure_client.hpp"
+#include "engine/net/udp_socket.hpp"
+#include "engine/replication/message.hpp"
+#include "engine/scene/builder.hpp"
+#include "sim-server/screen_host.hpp"
+
+namespace septet::server {
+namespace {
+
+net::UdpSocket open_socket() {
+  auto socket = net::UdpSocket::open({{net::loopback_ip, 0}});
+  REQUIRE_MESSAGE(socket.has_value(), describe(socket.error()));
+  return std::move(*socket);
+}
+
+net::Identity identity_of(std::size_t who) {
+  std::array<std::uint8_t, 32> seed{};
+  seed[0] = static_cast<std::uint8_t>(who);
+  return net::Identity::from_seed(seed);
+}
+
+/// The server's socket, before which the others go on talking while it reads.
+struct LaneSocket final : net::DatagramSocket {
+  bool send(const net::Address& to, std::span<const std::byte> bytes) override { return socket.send(to, bytes); }
+  void flush() override { socket.flush(); }
+  std::optional<net::ReceivedDatagram> receive() override {
+    while (true) {
+      if (auto datagram = socket.receive()) return datagram;
+      if (interruptions == 0) return std::nullopt;
+      --interruptions;
+      socket.flush();
+      talk();
+    }
+  }
+  std::size_t receive_buffer_bytes() const override { return socket.receive_buffer_bytes(); }
+
+  net::UdpSocket socket = open_socket();
+  std::function<void()> talk;
+  int interruptions = 0;
+};
+
+/// Screens as they start up: they connect, say who they are and ask for the scene.
+struct Crowd {
+  explicit Crowd(std::size_t count) {
+    scene::SceneBuilder(store).add_object("post", {});
+    ScreenHostOptions options{.identity = identity_of(0), .session = {1}, .allowed = {}};
+    for (std::size_t who = 1; who <= count; ++who) {
+      options.allowed.push_back({identity_of(who).public_key(), fmt::format("screen-{}", who)});
+      options.screens.push_back(options.allowed.back().name);
+    }
+    lane.talk = [this] { talk(); };
+    host = std::make_unique<ScreenHost>(lane, tick, store, std::move(options));
+    for (std::size_t who = 1; who <= count; ++who) sockets.push_back(open_socket());
+    for (std::size_t who = 1; who <= count; ++who)
+      clients.push_back(std::make_unique<net::SecureClient>(
+          sockets[who - 1], net::SecureClientOptions{lane.socket.local_address(), identity_of(0).public_key(), identity_of(who), {}}));
+  }
+
+  void talk() {
+    for (std::size_t i = 0; i < clients.size(); ++i)
+      for (const net::ClientEvent& event : clients[i]->pump(now_s))
+        if (event.kind == net::ClientEvent::Kind::connected) {
+          ++connections;
+          clients[i]->send(net::share(control::encode_control(control::Hello{fmt::format("screen-{}", i + 1), 5000})), net::Reliability::reliable);
+          clients[i]->send(net::share(control::scene_message(replication::encode(replication::Hello{}))), net::Reliability::reliable);
+        }
+  }
+
+  /// The screens run for a while, the server reads nothing; then it reads all that waits in its socket and what comes while it reads.
+  void let_wait(double seconds) {
+    for (const double until_s = now_s + seconds; now_s < until_s; now_s += 0.05) talk();
+    lane.interruptions = 6;
+    host->pump(now_s);
+  }
+
+  std::size_t live() const {
+    std::size_t count = 0;
+    for (const HostedScreen& screen : host->screens()) count += screen.live();
+    return count;
+  }
+
+  LaneSocket lane;
+  net::UdpSocket tick = open_socket();
+  scene::Store store;
+  std::unique_ptr<ScreenHost> host;
+  std::vector<net::UdpSocket> sockets;
+  std::vector<std::unique_ptr<net::SecureClient>> clients;
+  std::size_t connections = 0;
+  double now_s = 1.0;
+};
+
+}  // namespace
+
+TEST_CASE("twenty-one screens that start at once before a busy server are all there") {
+  // Screens knock anew after a second: whoever was busy for longer finds handshakes twice, and what was said under the first ones.
+  for (const double busy_s : {0.1, 0.7, 1.3, 2.6}) {
+    CAPTURE(busy_s);
+    Crowd crowd(21);
+    for (int turn = 0; turn < 6; ++turn) crowd.let_wait(busy_s);
+    for (int turn = 0; turn < 100; ++turn) crowd.let_wait(0.05);
+    CHECK(crowd.connections >= 21);
+    CHECK(crowd.live() == 21);
+  }
+}
+
+}  // namespace septet::server
