@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/effects/debris/piece.hpp"
 #include "engine/scenario/resolve_position.hpp"
 #include "sim-server/crashes.hpp"
 #include "sim-server/effect_surroundings.hpp"
@@ -89,6 +90,27 @@ TEST_CASE("a car across the whole bend is minded where the bend leads and not st
     REQUIRE(road.entity().in_the_way.has_value());
     CHECK(road.entity().in_the_way->gap_m == doctest::Approx(ahead_m - 5.9).epsilon(0.05));
   }
+}
+
+TEST_CASE("an ambulance drives over what lies on the road at walking pace and hurries on behind it") {
+  EmptyRoad road;
+  road.drive_for(10.0);
+  road::LanePosition lane = road.entity().lane;
+  lane.s_m += 90.0;
+  RigidTransform pose = scenario::lane_pose(road.drive.model->roads, lane, true, 0.0, 0.0);
+  pose.position_m.z += 0.045;
+  debris::spawn_part(road.state.effects.debris, debris::Part::ice_slab, pose, Vec3(0.0), Vec3(0.0), road.state.effects.random);
+  const double before_m = road.entity().travelled_m;
+  double slowest_mps = 1e9;
+  while (road.entity().travelled_m < before_m + 95.0) {
+    road.drive_for(0.1);
+    slowest_mps = std::min(slowest_mps, road.entity().speed_mps);
+    REQUIRE(road.now.simulated_time_s < 60.0);
+  }
+  CHECK(slowest_mps < 4.0);
+  CHECK(slowest_mps > 1.0);
+  road.drive_for(15.0);
+  CHECK(road.entity().speed_mps > 18.0);
 }
 
 TEST_CASE("an ambulance that comes to the end of its road leaves, the log says so, and the drive goes on") {

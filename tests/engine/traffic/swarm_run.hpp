@@ -15,6 +15,7 @@ struct SwarmRun {
   int overlaps = 0;                 ///< Among traffic.
   int overlaps_with_driver = 0;
   int overlaps_with_ambulance = 0;
+  double nearest_jump_m = 1e9;      ///< From the driver to where somebody was taken away or put; nobody drives there.
 };
 
 /// On the line between the two left-most lanes both drive at this speed, the driver 45 m behind;
@@ -46,7 +47,7 @@ inline SwarmRun follow_ambulance(const TrafficParameters& parameters, double spe
     foreign[1] = vehicle_at(x_m + 50.0, "ambulance");
     foreign[1].lamps.set(Lamp::beacon, true);
   };
-  double x_m = 800.0;
+  double x_m = 1050.0;
   place_foreign_at(x_m);
   Random random(seed, 1);
   TrafficState state = populate(parameters, *network, foreign, random);
@@ -55,11 +56,21 @@ inline SwarmRun follow_ambulance(const TrafficParameters& parameters, double spe
   run.ambulance_mps = speed_mps;
   double sum = 0.0, number = 0.0;
   std::vector<Participant> participants;
+  std::vector<double> was_x_m;
+  std::vector<std::int16_t> was_lane;
+  std::vector<ParticipantId> was_id;
   constexpr double tick_s = 1.0 / 30.0;
   for (int tick = 0; tick * tick_s < seconds; ++tick) {
     x_m += speed_mps * tick_s;
     place_foreign_at(x_m);
     advance(parameters, *network, foreign, tick_s, random, state);
+    for (std::size_t i = 0; i < was_x_m.size() && i < traffic.size(); ++i) {
+      const bool came_or_left = (was_lane[i] == 0) != (traffic.lane[i] == 0);
+      if (traffic.id[i] != was_id[i] || (!came_or_left && std::abs(traffic.x_m[i] - was_x_m[i]) < 10.0)) continue;
+      if (was_lane[i] != 0) run.nearest_jump_m = std::min(run.nearest_jump_m, std::abs(was_x_m[i] - x_m));
+      if (traffic.lane[i] != 0) run.nearest_jump_m = std::min(run.nearest_jump_m, std::abs(traffic.x_m[i] - x_m));
+    }
+    was_x_m = traffic.x_m, was_lane = traffic.lane, was_id = traffic.id;
     if (tick * tick_s < 15.0) continue;
     double near = 0.0;
     for (std::size_t i = 0; i < traffic.size(); ++i) {
@@ -82,9 +93,9 @@ inline SwarmRun follow_ambulance(const TrafficParameters& parameters, double spe
   return run;
 }
 
-/// 200 vehicles within 600 m, one in ten on the other side: 30 per km and lane.
+/// 333 vehicles within 1,000 m, one in ten on the other side: 30 per km and lane.
 inline TrafficParameters dense_swarm() {
-  TrafficParameters parameters = motorway_traffic(200, 600.0);
+  TrafficParameters parameters = motorway_traffic(333, 1000.0);
   parameters.opposite_share = 0.1;
   return parameters;
 }

@@ -2,6 +2,7 @@
 
 #include "tests/engine/traffic/dense_run.hpp"
 #include "tests/engine/traffic/swarm_run.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet::traffic {
 
@@ -28,10 +29,12 @@ TEST_CASE("in ten seeds a driver follows the ambulance half as fast again as den
     CAPTURE(seed);
     const SwarmRun run = follow_ambulance(dense_swarm(), 29.0, 285.0, seed);
     MESSAGE("traffic " << run.traffic_mps << " m/s, at least " << run.least_near << " near, "
-                       << run.overlaps_with_ambulance << " overlaps with the ambulance");
+                       << run.overlaps_with_ambulance << " overlaps with the ambulance, nearest jump "
+                       << run.nearest_jump_m << " m");
     CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
     CHECK(run.overlaps == 0);
     CHECK(run.overlaps_with_driver == 0);
+    CHECK(run.nearest_jump_m > 600.0);  // Nobody appears or vanishes where the driver would see it.
   }
 }
 

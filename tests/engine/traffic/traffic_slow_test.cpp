@@ -62,11 +62,12 @@ TEST_CASE("a swarm keeps its density, and a driver follows the ambulance through
   for (std::uint64_t seed = 31; seed <= 33; ++seed) {
     CAPTURE(seed);
     const SwarmRun run = follow_ambulance(dense_swarm(), 29.0, 60.0, seed);
-    MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps);
+    MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps << ", nearest jump " << run.nearest_jump_m << " m");
     CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
     CHECK(run.least_near > 100.0);
     CHECK(run.overlaps == 0);
     CHECK(run.overlaps_with_driver == 0);
+    CHECK(run.nearest_jump_m > 600.0);  // Nobody appears or vanishes where the driver would see it.
   }
 }
 
