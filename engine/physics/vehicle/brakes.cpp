@@ -6,7 +6,8 @@
 
 // Anti-lock, traction and stability control after van Zanten 2000 ("Bosch ESP systems: 5 years of
 // experience"), each reduced to its idea: hold a slip, hold the driven wheels' slip, hold the yaw
-// rate that the steering asks for.
+// rate that the steering asks for. On split friction the yaw moment of the brakes is built up with
+// delay (Bosch Automotive Handbook, "Yaw-moment build-up delay").
 
 namespace septet::vehicle {
 namespace {
@@ -40,6 +41,22 @@ void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity
   rear_left = rear_right = std::max(rear_left, rear_right);
 }
 
+/// Where one side grips less and its front wheel is released, the other front wheel's pressure follows it down and rises again
+/// only as fast as the car does not turn: the driver has the time to steer against it.
+void delay_yaw_moment(double yaw_rate_radps, double dt_s, BrakeState& brakes) {
+  constexpr double bearable_radps = 0.01, rise_per_s = 0.8, fall_per_s = 6.0, gain_per_rad = 25.0;
+  constexpr double least = 0.02;
+  const int high = brakes.release[0] < brakes.release[1] ? 0 : 1;
+  if (brakes.release[1 - high] - brakes.release[high] < least || brakes.pedal < 0.05) {
+    brakes.front_difference = std::max(least, brakes.front_difference - dt_s * rise_per_s);
+    return;
+  }
+  const double towards_high_radps = high == 0 ? yaw_rate_radps : -yaw_rate_radps;
+  const double rate = gain_per_rad * (bearable_radps - towards_high_radps);
+  brakes.front_difference = std::clamp(brakes.front_difference + dt_s * std::clamp(rate, -fall_per_s, rise_per_s), least, 1.0);
+  brakes.release[high] = std::max(brakes.release[high], brakes.release[1 - high] - brakes.front_difference);
+}
+
 /// Share of the engine's torque to take away: what the fastest driven wheel turns too fast.
 double traction_cut(const VehicleParameters& parameters, const VehicleState& state,
                     const Vec3& velocity_mps) {
@@ -51,7 +68,7 @@ double traction_cut(const VehicleParameters& parameters, const VehicleState& sta
 }
 
 /// One wheel is braked when the car turns more (outer front) or less (inner rear) than the driver
-/// steers; a braked car that turns more brakes its inner wheels less, too.
+/// steers.
 /// Answers whether it acts.
 bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps,
                                double dt_s, VehicleState& state) {
@@ -74,8 +91,6 @@ bool advance_stability_control(const VehicleParameters& parameters, const Vec3& 
       const bool oversteer = error * direction > 0.0;
       const int outer = direction > 0.0 ? 1 : 0;
       wanted[oversteer ? outer : 2 + (1 - outer)] = std::min(0.6, (oversteer ? 4.0 : 1.5) * excess);
-      // Braked on a road that grips on one side only, the car is turned by its inner wheels: they get less.
-      if (oversteer && state.brakes.pedal > 0.05) wanted[1 - outer] = wanted[3 - outer] = -std::min(1.0, 6.0 * excess);
       acts = true;
     }
   }
@@ -93,6 +108,8 @@ std::array<double, wheel_count> advance_brakes(const VehicleParameters& paramete
   BrakeState& controls = state.brakes;
   controls.pedal += (input.brake - controls.pedal) * dt_s / (brakes.lag_s + dt_s);
   if (brakes.anti_lock) advance_anti_lock(parameters, velocity_mps, dt_s, state);
+  if (brakes.anti_lock && brakes.stability_control && velocity_mps.x > control_from_mps)
+    delay_yaw_moment(state.angular_velocity_radps.z, dt_s, controls);
   double cut = brakes.traction_control ? traction_cut(parameters, state, velocity_mps) : 0.0;
   if (brakes.stability_control && advance_stability_control(parameters, velocity_mps, dt_s, state))
     cut = 1.0;

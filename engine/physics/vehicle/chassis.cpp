@@ -3,6 +3,7 @@
 
 #include "engine/physics/vehicle/body_contact.hpp"
 #include "engine/physics/vehicle/equations_of_motion.hpp"
+#include "engine/physics/vehicle/published_chassis.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
 #include "engine/physics/vehicle/tyre.hpp"
 #include "engine/physics/vehicle/vehicle.hpp"
@@ -76,7 +77,11 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   wheel.force_n = Vec3(0.0);
   wheel.aligning_nm = 0.0;
   if (touching) {
-    const Vec3 forward = across / across_size;
+    const Vec3 body_forward = level_forward(normal), body_left = glm::cross(normal, body_forward);
+    // The published heading is the steer angle's alone, although a wheel that leans on a pitched body turns by that.
+    const Vec3 forward = parameters.as_published
+                             ? std::cos(wheel.steer_rad) * body_forward + std::sin(wheel.steer_rad) * body_left
+                             : across / across_size;
     const Vec3 left = glm::cross(normal, forward);
     load.contact_m = Vec3(load.place.contact_m, centre_m.z - height_m / normal.z);
     const Vec3 path{load.place.contact_slope, 1.0};
@@ -92,8 +97,6 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
     if (parameters.as_published) {
-      const Vec3 body_forward = glm::normalize(glm::cross(Vec3(0.0, 1.0, 0.0), normal));
-      const Vec3 body_left = glm::cross(normal, body_forward);
       const double axle_roll_radps = state.angular_velocity_radps.x +
                                      side_of(index) * (wheel.travel_rate_mps - opposite_rate_mps) /
                                          parameters.suspension[axle_of(index)].track_m;
@@ -157,19 +160,6 @@ void add_aerodynamics(const BodyParameters& body, const Statics& known, const Ve
   }
 }
 
-/// What it takes to yaw the unsprung masses around the centre of the sprung mass. Published without
-/// its counterpart in yaw; our own cars take the centres to coincide in plan, so that it vanishes.
-void add_yawing_axles(const VehicleParameters& parameters,
-                      const std::array<WheelPlace, wheel_count>& places, double yaw_radps2,
-                      Coordinates& generalised) {
-  for (int i = 0; i < wheel_count; ++i) {
-    const double force_n =
-        -parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.x * yaw_radps2;
-    const Coordinates sideways = centre_jacobian(places[i], i)[1];
-    for (int k = 0; k < coordinate_count; ++k) generalised[k] += sideways[k] * force_n;
-  }
-}
-
 }  // namespace
 
 void advance_chassis(const VehicleParameters& parameters, const ChassisInput& input,
@@ -179,7 +169,7 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   const Quat world_from_body = state.world_from_body.orientation;
   const Quat body_from_world = glm::conjugate(world_from_body);
   const Vec3 velocity_mps = body_from_world * state.velocity_mps;
-  const Vec3 gravity = body_from_world * Vec3(0.0, 0.0, -gravity_mps2);
+  const Vec3 up = body_from_world * Vec3(0.0, 0.0, 1.0), gravity = -gravity_mps2 * up;
   const Vec3& omega = state.angular_velocity_radps;
 
   std::array<double, wheel_count> spring_n{};
@@ -206,7 +196,8 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y + load.lean_nm;
     moment_nm.y +=
         contact.z * tyre_n.x - contact.x * tyre_n.z + load.rolling_torque_nm - load.shaft_torque_nm;
-    moment_nm.z += contact.x * tyre_n.y - contact.y * tyre_n.x;
+    moment_nm.z += parameters.as_published ? published_yaw_moment_nm(parameters, known, i, up, tyre_n)
+                                           : contact.x * tyre_n.y - contact.y * tyre_n.x;
 
     // A rigid axle leans about its one joint, so the difference of its wheels' forces works on a
     // lean.
@@ -233,7 +224,8 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     // Yaw takes the centres of the sprung mass and of the whole car to coincide in plan, so the
     // wheels' weight on a leaning car must not turn it either.
     const double mass_kg = suspension.unsprung_mass_kg;
-    moment_nm.z += mass_kg * (place.centre_m.x * gravity.y - place.centre_m.y * gravity.x);
+    if (!parameters.as_published)
+      moment_nm.z += mass_kg * (place.centre_m.x * gravity.y - place.centre_m.y * gravity.x);
     const double centripetal_n = mass_kg * glm::cross(omega, glm::cross(omega, place.centre_m)).z;
     generalised[2] -= centripetal_n;
     generalised[3] -= centripetal_n * place.centre_m.y;
@@ -247,11 +239,15 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   generalised[3] += moment_nm.x;
   generalised[4] += moment_nm.y;
   const double yaw_radps2 = moment_nm.z / body.inertia_kgm2.z;
-  if (parameters.as_published) add_yawing_axles(parameters, places, yaw_radps2, generalised);
+  if (parameters.as_published) {
+    add_upright_axles(parameters, spring_n, state, generalised);
+    add_yawing_axles(parameters, places, yaw_radps2, generalised);
+  }
 
   const Coordinates felt = accelerations(parameters, known, places, generalised);
   const Vec3 linear = Vec3(felt[0], felt[1], felt[2]) + gravity;
-  const Vec3 angular{felt[3], felt[4], yaw_radps2};
+  const Vec3 angular{felt[3], felt[4],
+                     parameters.as_published ? published_yaw_acceleration(yaw_radps2, up, felt[3], felt[4]) : yaw_radps2};
   for (int i = 0; i < wheel_count; ++i) {
     WheelState& wheel = state.wheels[i];
     wheel.travel_rate_mps += dt_s * felt[5 + i];

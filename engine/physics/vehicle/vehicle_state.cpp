@@ -29,6 +29,7 @@ void hash_state(StateHash& hash, const VehicleState& state) {
   hash.add(powertrain.next_gear);
   hash.add(state.brakes.pedal);
   hash.add(state.brakes.torque_cut);
+  hash.add(state.brakes.front_difference);
   for (int i = 0; i < wheel_count; ++i) {
     hash.add(state.brakes.release[i]);
     hash.add(state.brakes.stabilising[i]);

@@ -48,6 +48,7 @@ struct BrakeState {
       release{};  ///< 0 full pressure to 1 released, by the anti-lock system.
   std::array<double, wheel_count>
       stabilising{};        ///< Pressure added by the stability control, 0 to 1.
+  double front_difference = 0.02;  ///< Of the front wheels' pressures, at most; of full pressure.
   double torque_cut = 0.0;  ///< Of the engine, by traction and stability control, 0 to 1.
 };
 

@@ -1,5 +1,7 @@
 #include "engine/physics/vehicle/tyre.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
@@ -55,12 +57,19 @@ TEST_CASE("the side force builds up over the relaxation length") {
   const TyreParameters tyre = read_car("volvo-s80").tyre;
   const TyreContact contact = rolling(4000.0, 0.0, 0.01);
   const TyreForce steady = load_sensitive_force(tyre, contact);
-  const double length_m =
-      tyre.load_sensitive.lateral_nominal.slope_n / tyre.load_sensitive.lateral_stiffness_npm;
-  Vec2 deflection_m{0.0}, force_n{0.0};
-  for (double way_m = 0.0; way_m < length_m; way_m += 20.0 * 0.0005)
-    force_n = relax(steady, 1e9, 0.0005, deflection_m);
-  CHECK(force_n.y / steady.force_n.y == doctest::Approx(0.632).epsilon(0.05));
+  // (d v + f) dy/dt = v (F - c y), force c y + d dy/dt: the damper carries the share d v / (d v + f) at once, and the length is
+  // (d v + f) / c.
+  const double slope_n = steady.secant_n.y, rate_n = steady.damping_nspm.y * 20.0 + slope_n;
+  const double length_m = rate_n / tyre.load_sensitive.lateral_stiffness_npm;
+  for (const double lengths : {0.5, 1.0, 2.0}) {
+    CAPTURE(lengths);
+    constexpr double dt_s = 0.00005;
+    const int steps = static_cast<int>(lengths * length_m / (20.0 * dt_s) + 0.5);
+    Vec2 deflection_m{0.0}, force_n{0.0};
+    for (int i = 0; i < steps; ++i) force_n = relax(steady, 1e9, dt_s, deflection_m);
+    const double expected = 1.0 - slope_n / rate_n * std::exp(-lengths);
+    CHECK(force_n.y / steady.force_n.y == doctest::Approx(expected).epsilon(0.005).scale(0.0));
+  }
 }
 
 TEST_CASE("the published tyre gives the forces of the published package") {

@@ -1,0 +1,38 @@
+#pragma once
+/// What the published multi-body equations do and a car does not: only for cars that are read `as_published`, to verify the
+/// rest of the chassis against them (vehicles/README.md). Source: vehicle_dynamics_mb of CommonRoad vehicle models 3.0.2 (M.
+/// Althoff and G. Würsching 2020).
+///
+/// Body's axes, moments about the centre of the sprung mass. `up` is the vertical there, unit length.
+
+#include <array>
+
+#include "engine/physics/vehicle/equations_of_motion.hpp"
+#include "engine/physics/vehicle/suspension.hpp"
+
+namespace septet::vehicle {
+
+/// The car's heading on a ground with this normal: forward along the body, level.
+inline Vec3 level_forward(const Vec3& normal) {
+  return glm::normalize(Vec3(1.0, 0.0, 0.0) - normal.x * normal);
+}
+
+/// Yaw moment of one wheel's force: the wheels stand where they stand on an upright car, although a body that leans carries its
+/// mass centre sideways over them, and braking forces turn it about that centre.
+double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel,
+                               const Vec3& up, const Vec3& tyre_n);
+
+/// Yaw is about the vertical: a body that pitches or rolls about its leaning axes does not turn the car.
+double published_yaw_acceleration(double yaw_radps2, const Vec3& up, double roll_radps2, double pitch_radps2);
+
+/// The springs push along the leaning body, and their sideways part meets the axle at the height of its wheels' centres instead
+/// of the joint: that holds an axle upright from which the body leans away.
+void add_upright_axles(const VehicleParameters& parameters, const std::array<double, wheel_count>& spring_n,
+                       const VehicleState& state, Coordinates& generalised);
+
+/// What it takes to yaw the unsprung masses around the centre of the sprung mass. Published without its counterpart in yaw; our
+/// own cars take the centres to coincide in plan, so that it vanishes.
+void add_yawing_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places,
+                      double yaw_radps2, Coordinates& generalised);
+
+}  // namespace septet::vehicle
