@@ -89,6 +89,7 @@ void read_entities(Reading& reading, const Element& entities) {
     if (reading.scenario.entities.size() == most_entities) {
       object.error(fmt::format("there are more than {} entities", most_entities),
                    "leave the others to a traffic swarm");
+      reading.names_are_elsewhere = true;  // That is one fault, not one for each that is named below.
       break;
     }
     Entity entity;
