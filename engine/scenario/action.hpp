@@ -3,12 +3,16 @@
 /// throughout.
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "engine/scenario/condition.hpp"
 #include "engine/scenario/position.hpp"
+#include "engine/scenario/trajectory.hpp"
 #include "engine/world/lamps.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -34,6 +38,51 @@ struct SpeedAction {
   bool continuous = false;  ///< Follows the reference's speed for ever.
 };
 
+/// What an action may ask of its entity; infinite where the file gives no bound.
+struct DynamicConstraints {
+  double max_speed_mps = std::numeric_limits<double>::infinity();
+  double max_acceleration_mps2 = max_speed_mps, max_deceleration_mps2 = max_speed_mps;
+  /// How fast the two may grow.
+  double max_acceleration_rate_mps3 = max_speed_mps, max_deceleration_rate_mps3 = max_speed_mps;
+};
+
+/// Speeds to be had one after the other (speed_profile.hpp).
+struct SpeedProfileAction {
+  struct Entry {
+    std::optional<double> time_s;  ///< After the entry before; none: as soon as the bounds allow.
+    double speed_mps = 0.0;
+  };
+  std::vector<Entry> entries;
+  EntityIndex reference = no_entity;  ///< Speeds are added to that of this entity.
+  bool smooth = false;                ///< followingMode "follow".
+  std::optional<DynamicConstraints> limits;
+};
+
+/// LongitudinalDistanceAction and LateralDistanceAction (keep_distance.hpp).
+struct KeepDistanceAction {
+  bool lateral = false;
+  EntityIndex reference = no_entity;
+  double distance_m = 0.0;
+  std::optional<double> time_gap_s;  ///< Instead of the distance: at the speed of whoever is behind.
+  /// Where the reference is to be: 1 ahead or to the left of the actor, −1 behind or to the right; none: where it is at the start.
+  std::optional<double> reference_side;
+  CoordinateSystem system = CoordinateSystem::entity;
+  bool freespace = false;
+  bool continuous = false;  ///< For ever, else until the distance is reached.
+  std::optional<DynamicConstraints> limits;  ///< None: at once and rigidly.
+};
+
+/// Two entities reach their targets at the same time (synchronize.hpp).
+struct SynchronizeAction {
+  EntityIndex master = no_entity;
+  Position target, master_target;
+  double tolerance_m = 0.0, master_tolerance_m = 0.0;
+  enum class FinalSpeed : std::uint8_t { any, absolute, master_plus, master_times };
+  FinalSpeed final_speed = FinalSpeed::any;
+  double final_value = 0.0;              ///< m/s, or the factor.
+  double steady_m = 0.0, steady_s = 0.0;  ///< So far, or so long, before the target it is driven already.
+};
+
 struct LaneChangeAction {
   TransitionDynamics dynamics;
   EntityIndex reference = no_entity;  ///< None: `lane` is the lane's id.
@@ -51,6 +100,15 @@ struct LaneOffsetAction {
 };
 
 struct TeleportAction {
+  Position position;
+};
+
+/// Where one goes at junctions from now on, for ever.
+struct AssignRouteAction {
+  std::shared_ptr<const Route> route;
+};
+/// The same to a single place.
+struct AcquirePositionAction {
   Position position;
 };
 
@@ -111,14 +169,26 @@ struct TrafficSwarmAction {
   std::vector<CategoryWeight> categories;
 };
 
+/// A parameter or variable is set, added to or multiplied. What hangs on it in the file was read before: only conditions see it.
+struct ValueAction {
+  enum class Kind : std::uint8_t { set, add, multiply };
+  std::uint32_t value = 0;  ///< Index in ScenarioState::values.
+  Kind kind = Kind::set;
+  std::string text;     ///< To be set.
+  double number = 0.0;  ///< To be added or multiplied with.
+};
+
 struct TrafficStopAction {
   std::string name;
 };
 
 /// Nothing: the file used an action that is not supported yet, which was reported when it was read.
 /// It ends at once.
-using ActionVariant = std::variant<std::monostate, SpeedAction, LaneChangeAction, LaneOffsetAction,
-                                   TeleportAction, EnvironmentAction, LightStateAction, SirenAction,
-                                   EffectAction, TrafficSwarmAction, TrafficStopAction>;
+using ActionVariant = std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction,
+                                   SynchronizeAction, LaneChangeAction, LaneOffsetAction,
+                                   TeleportAction, FollowTrajectoryAction, AssignRouteAction,
+                                   AcquirePositionAction, EnvironmentAction, LightStateAction,
+                                   SirenAction, EffectAction, ValueAction, TrafficSwarmAction,
+                                   TrafficStopAction>;
 
 }  // namespace septet::scenario

@@ -2,6 +2,7 @@
 /// Conditions and triggers (OpenSCENARIO XML 1.3), as plain data. SI units throughout.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,9 @@ namespace septet::scenario {
 /// Index of a storyboard element's state in ScenarioState::elements.
 using ElementIndex = std::uint32_t;
 inline constexpr ElementIndex no_element = std::numeric_limits<ElementIndex>::max();
+
+/// Index of a parameter's or variable's value in ScenarioState::values.
+using ValueIndex = std::uint32_t;
 
 enum class Rule : std::uint8_t { equal, not_equal, less, less_or_equal, greater, greater_or_equal };
 enum class Edge : std::uint8_t { none, rising, falling, rising_or_falling };
@@ -36,6 +40,12 @@ struct Comparison {
 struct SimulationTimeCondition {
   Comparison comparison;
 };
+/// Of a parameter or variable: Scenario::values.
+struct ValueCondition {
+  ValueIndex value = 0;
+  Rule rule = Rule::equal;
+  std::string compared;  ///< As numbers where both are, else as texts (parameter_value.hpp).
+};
 /// What a storyboard element is in, or passed through in this step.
 enum class ElementPhase : std::uint8_t {
   standby_state,
@@ -54,6 +64,11 @@ struct StoryboardElementStateCondition {
 // By entity: of each triggering entity.
 struct EndOfRoadCondition {
   double duration_s = 0.0;
+};
+/// Its box meets that of an entity, or of any of a kind.
+struct CollisionCondition {
+  EntityIndex entity = no_entity;
+  std::optional<EntityKind> kind;
 };
 struct StandStillCondition {
   double duration_s = 0.0;
@@ -114,9 +129,9 @@ struct RelativeClearanceCondition {
 
 /// None: not supported yet, reported when the file was read; never true.
 using ConditionVariant =
-    std::variant<std::monostate, SimulationTimeCondition, StoryboardElementStateCondition,
-                 EndOfRoadCondition, StandStillCondition, TraveledDistanceCondition,
-                 ReachPositionCondition, SpeedCondition, AccelerationCondition,
+    std::variant<std::monostate, SimulationTimeCondition, ValueCondition,
+                 StoryboardElementStateCondition, EndOfRoadCondition, CollisionCondition,
+                 StandStillCondition, TraveledDistanceCondition, ReachPositionCondition, SpeedCondition, AccelerationCondition,
                  RelativeSpeedCondition, DistanceCondition, RelativeDistanceCondition,
                  TimeHeadwayCondition, TimeToCollisionCondition, RelativeClearanceCondition>;
 

@@ -7,6 +7,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/scenario/entity_distance.hpp"
+#include "engine/scenario/parameter_value.hpp"
 #include "engine/scenario/resolve_position.hpp"
 
 namespace septet::scenario {
@@ -102,6 +103,26 @@ struct Test {
     const Rule rule = test.comparison.rule;
     const bool down = rule == Rule::greater || rule == Rule::less_or_equal;
     return compare(test.comparison, state.time_s + (down ? -time_slack_s : time_slack_s));
+  }
+  bool operator()(const ValueCondition& test) const {
+    return compare_values(test.rule, state.values[test.value], test.compared);
+  }
+  bool operator()(const CollisionCondition& test) const {
+    const DistanceMeasure gap{CoordinateSystem::entity, DistanceType::euclidean, true};
+    for (EntityIndex other = 0; other < state.entities.size(); ++other) {
+      if (&state.entities[other] == at || (test.entity != no_entity && other != test.entity)) continue;
+      if (test.kind && scenario.entities[other].kind != *test.kind) continue;
+      const auto to = target(other);
+      if (to && measured(*to, gap) <= 0.0 && reach_as_high(scenario.entities[other].box, *to))
+        return true;
+    }
+    return false;
+  }
+  /// Whether none of the two is wholly above the other, as on a bridge.
+  bool reach_as_high(const BoundingBox& box, const Target& to) const {
+    const double apart = to.placement.pose.position_m.z + box.centre_m.z -
+                         at->world_from_entity.position_m.z - entity->box.centre_m.z;
+    return std::abs(apart) <= 0.5 * (box.height_m + entity->box.height_m);
   }
   bool operator()(const StoryboardElementStateCondition& test) const {
     if (test.element >= state.elements.size()) return false;
@@ -202,6 +223,7 @@ struct Test {
 
 bool is_by_value(const ConditionVariant& test) {
   return std::holds_alternative<SimulationTimeCondition>(test) ||
+         std::holds_alternative<ValueCondition>(test) ||
          std::holds_alternative<StoryboardElementStateCondition>(test);
 }
 

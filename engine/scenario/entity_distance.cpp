@@ -41,13 +41,22 @@ bool contains(const std::array<Vec2, 4>& box, const Vec2& point) {
   return true;
 }
 
-/// Convex boxes that do not cross are nearest at a corner of one of them; crossing ones nearly
-/// always hold a corner.
+/// Whether two sides cross, each at a point within the other.
+bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& from, const Vec2& to, const Vec2& point) {
+    const Vec2 along = to - from, at = point - from;
+    return along.x * at.y - along.y * at.x;
+  };
+  return side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
+}
+
+/// Convex boxes that do not meet are nearest at a corner of one of them; those that do hold a corner, or their sides cross.
 double box_distance_m(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
   double least = infinite;
   for (std::size_t i = 0; i < 4; ++i) {
     if (contains(a, b[i]) || contains(b, a[i])) return 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
+      if (cross(a[i], a[(i + 1) % 4], b[k], b[(k + 1) % 4])) return 0.0;
       least = std::min({least, point_to_segment_m(a[i], b[k], b[(k + 1) % 4]),
                         point_to_segment_m(b[i], a[k], a[(k + 1) % 4])});
     }

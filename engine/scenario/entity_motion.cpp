@@ -4,10 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "engine/core/check.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/scenario/keep_distance.hpp"
+#include "engine/scenario/path_motion.hpp"
+#include "engine/scenario/speed_control.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/scenario/transition.hpp"
 
@@ -21,63 +25,44 @@ double centre_t_m(const road::RoadNetwork& network, const road::LanePosition& la
   return road::lane_borders(on, road::section_at(on, lane.s_m), of, lane.s_m).centre_t_m();
 }
 
-double followed_speed_mps(const SpeedControl& control, const ScenarioState& state) {
-  return control.follow_factor * state.entities[control.follow].speed_mps +
-         control.follow_delta_mps;
-}
-
-/// As the script says, at the end of the step.
-double scripted_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
-                          EntityState& entity, std::vector<ElementIndex>& ended) {
-  SpeedControl& control = entity.speed_control;
-  double speed = entity.speed_mps + entity.held_back_mps;
-  if (!control.active) return speed;
-  if (control.follow != no_entity && state.entities[control.follow].active) {
-    speed = followed_speed_mps(control, state);
-    if (control.transition.shape != DynamicsShape::step) {
-      const double most =
-          (speed > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2) *
-          dt_s;
-      speed = std::clamp(speed, entity.speed_mps - most, entity.speed_mps + most);
-    }
-  } else {
-    advance_transition(control.transition, dt_s, std::abs(entity.speed_mps) * dt_s);
-    speed = value_of(control.transition);
-    if (is_done(control.transition)) {
-      control.active = false;
-      if (control.action != no_element) ended.push_back(control.action);
-    }
+/// How far an entity that minds a distance to another goes to its left.
+double distance_step_m(const road::RoadNetwork& network, const Scenario& scenario,
+                       const ScenarioState& state, double dt_s, EntityIndex who,
+                       EntityState& entity, std::vector<ElementIndex>& ended) {
+  LateralControl& control = entity.lateral_control;
+  const KeepDistanceAction& what = control.distance->what;
+  const auto way_m =
+      way_to_distance_m(network, scenario, state, what, control.distance->side, who);
+  if (!way_m) return 0.0;
+  double step_m = *way_m;
+  bool there = true;
+  if (what.limits) {
+    const double before = control.left_mps;
+    const double goal_mps =
+        control.left_way_m ? (*way_m - *control.left_way_m) / dt_s + before : 0.0;
+    control.left_mps = next_approach_mps(*way_m, before, goal_mps, control.left_mps2, *what.limits,
+                                         true, dt_s);
+    control.left_mps2 = (control.left_mps - before) / dt_s;
+    // Where it is at the end of the step, so that the next one finds what this one left.
+    step_m = control.left_mps * dt_s;
+    there = is_at_distance(*way_m, control.left_mps - goal_mps, dt_s);
   }
-  return std::clamp(speed, -limits.max_speed_mps, limits.max_speed_mps);
-}
-
-/// So fast, it can still stop behind what is in the way, or go on behind it.
-double fastest_behind_mps(const InTheWay& other) {
-  constexpr double standing_gap_m = 3.0, braking_mps2 = 4.0;
-  const double other_mps = std::max(0.0, other.speed_mps), spare_m = other.gap_m - standing_gap_m;
-  if (spare_m < 0.0) return other_mps * std::max(0.0, other.gap_m) / standing_gap_m;
-  return std::sqrt(other_mps * other_mps + 2.0 * braking_mps2 * spare_m);
-}
-
-/// The script's speed, but for what is in the way.
-double next_speed_mps(const ScenarioState& state, const Performance& limits, double dt_s,
-                      EntityState& entity, std::vector<ElementIndex>& ended) {
-  constexpr double regained_mps2 = 1.5, hardest_braking_mps2 = 9.0;
-  const double before = entity.speed_mps;
-  const double scripted = scripted_speed_mps(state, limits, dt_s, entity, ended);
-  double speed = scripted;
-  if (entity.held_back_mps > 0.0) speed = std::min(speed, before + regained_mps2 * dt_s);
-  if (entity.in_the_way) speed = std::min(speed, std::max(fastest_behind_mps(*entity.in_the_way),
-      before - std::min(limits.max_deceleration_mps2, hardest_braking_mps2) * dt_s));
-  entity.held_back_mps = std::max(0.0, scripted - speed);
-  return speed;
+  control.left_way_m = *way_m;
+  if (there && !what.continuous) {
+    control.active = false;
+    if (control.action != no_element) ended.push_back(control.action);
+  }
+  entity.lane.offset_m += entity.along_s ? step_m : -step_m;
+  return step_m;
 }
 
 /// Metres to the left of travel by which the offset changes in this step.
-double lateral_step_m(double dt_s, double way_m, EntityState& entity,
-                      std::vector<ElementIndex>& ended) {
+double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario,
+                      const ScenarioState& state, double dt_s, double way_m, EntityIndex who,
+                      EntityState& entity, std::vector<ElementIndex>& ended) {
   LateralControl& control = entity.lateral_control;
   if (!control.active) return 0.0;
+  if (control.distance) return distance_step_m(network, scenario, state, dt_s, who, entity, ended);
   const double before = entity.lane.offset_m;
   advance_transition(control.transition, dt_s, std::abs(way_m));
   entity.lane.offset_m = value_of(control.transition);
@@ -115,7 +100,9 @@ void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, d
       std::copysign(std::sqrt(std::max(0.0, way_m * way_m - lateral_m * lateral_m)), way_m);
   // Metres along the lane's centre per metre of s.
   const double stretch = std::max(0.05, std::hypot(point.road.stretch, point.lane_slope));
-  Progress progress = go_along(network, entity.lane, entity.along_s, forward_m / stretch);
+  std::span<const road::RoadIndex> route;
+  if (entity.route.roads) route = std::span(*entity.route.roads).subspan(entity.route.at);
+  Progress progress = go_along(network, entity.lane, entity.along_s, forward_m / stretch, route);
   if (progress.left_over_m > 0.0) step_into_lane_beside(network, entity, progress);
   const bool turned = progress.along_s != entity.along_s;
   if (turned) {
@@ -126,6 +113,8 @@ void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, d
   }
   entity.lane = progress.lane;
   entity.along_s = progress.along_s;
+  const auto at = std::find(route.begin(), route.end(), entity.lane.road);
+  if (at != route.end()) entity.route.at += static_cast<std::size_t>(at - route.begin());
   entity.travelled_m += std::max(0.0, std::abs(forward_m) - progress.left_over_m * stretch);
   if (progress.left_over_m > 0.0 || (entity.at_road_end_s > 0.0 && forward_m == 0.0)) {
     entity.speed_mps = 0.0;
@@ -175,29 +164,6 @@ void place_entity(EntityState& entity, const Placement& placement) {
   entity.at_road_end_s = 0.0;
 }
 
-void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
-                 ElementIndex action, EntityIndex who, EntityState& entity) {
-  SpeedControl control;
-  control.active = true;
-  control.action = action;
-  double target = what.value;
-  if (what.reference != no_entity) {
-    const double reference = state.entities[what.reference].speed_mps;
-    control.follow_factor = what.factor ? what.value : 1.0;
-    control.follow_delta_mps = what.factor ? 0.0 : what.value;
-    target = control.follow_factor * reference + control.follow_delta_mps;
-    if (what.continuous) control.follow = what.reference;
-  }
-  const Performance& limits = scenario.entities[who].performance;
-  target = std::clamp(target, -limits.max_speed_mps, limits.max_speed_mps);
-  const double strongest =
-      target > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
-  control.transition = speed_transition(what.dynamics, entity.speed_mps, target, strongest);
-  if (control.transition.shape == DynamicsShape::step) entity.speed_mps = target;
-  entity.speed_control = control;
-  entity.held_back_mps = 0.0;
-}
-
 bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
                        const LaneChangeAction& what, ElementIndex action, EntityState& entity) {
   if (!entity.on_road) return false;
@@ -222,6 +188,15 @@ bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& st
   if (is_done(control.transition)) entity.lane.offset_m = control.transition.to;
   entity.lateral_control = control;
   return true;
+}
+
+void start_lateral_distance(const DistanceControl& distance, ElementIndex action,
+                            EntityState& entity) {
+  LateralControl control;
+  control.active = true;
+  control.action = action;
+  control.distance = std::make_shared<const DistanceControl>(distance);
+  entity.lateral_control = control;
 }
 
 bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state,
@@ -254,7 +229,8 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   const EntityState at_start = entity;
   // Nothing below may see a number that is none: the road is not looked up there.
   const auto reset = [&] {
-    for (const ElementIndex action : {at_start.speed_control.action, at_start.lateral_control.action})
+    for (const ElementIndex action : {at_start.speed_control.action, at_start.lateral_control.action,
+                                      at_start.path_control.action})
       if (action != no_element && std::find(ended.begin(), ended.end(), action) == ended.end())
         ended.push_back(action);
     entity = halted(at_start);
@@ -262,14 +238,19 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   };
   if (!finite(entity)) return reset();
   const double speed_before = entity.speed_mps;
-  const double speed_after =
-      next_speed_mps(state, scenario.entities[who].performance, dt_s, entity, ended);
-  if (!std::isfinite(speed_after)) return reset();
-  entity.speed_mps = speed_after;
-  const double way_m = 0.5 * (speed_before + speed_after) * dt_s;
   const RigidTransform before = entity.world_from_entity;
-  if (entity.on_road) {
-    const double lateral_m = lateral_step_m(dt_s, way_m, entity, ended);
+  const bool on_path = entity.path_control.active;
+  SpeedStep step{speed_before, 0.0};
+  if (!on_path || !entity.path_control.timed)
+    step = next_speed(network, scenario, state, dt_s, who, entity, ended);
+  if (!std::isfinite(step.speed_mps + step.jump_m)) return reset();
+  entity.speed_mps = step.speed_mps;
+  double way_m = 0.5 * (speed_before + entity.speed_mps) * dt_s + step.jump_m;
+  if (on_path) {
+    way_m = follow_path(network, way_m, dt_s, entity, ended);
+  } else if (entity.on_road) {
+    const double lateral_m =
+        lateral_step_m(network, scenario, state, dt_s, way_m, who, entity, ended);
     if (!std::isfinite(lateral_m)) return reset();
     roll_on(network, way_m, lateral_m, dt_s, entity);
   } else {

@@ -14,13 +14,12 @@ namespace septet::scenario {
 /// Puts an entity somewhere; its controls of lane offset end, its speed stays.
 void place_entity(EntityState& entity, const Placement& placement);
 
-/// Starts a control in place of the one that runs. `action` is the storyboard element that asks for
-/// it.
-void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
-                 ElementIndex action, EntityIndex who, EntityState& entity);
-/// False where the target lane does not exist.
+/// Starts a control in place of the one that runs (those of speed: speed_control.hpp). `action` is the storyboard element that
+/// asks for it. False where the target lane does not exist.
 bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
                        const LaneChangeAction& what, ElementIndex action, EntityState& entity);
+void start_lateral_distance(const DistanceControl& control, ElementIndex action,
+                            EntityState& entity);
 bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state,
                        const LaneOffsetAction& what, ElementIndex action, EntityState& entity);
 

@@ -2,9 +2,12 @@
 /// Positions as OpenSCENARIO XML 1.3 writes them, not yet looked up on a road (see
 /// resolve_position.hpp).
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "engine/scenario/entity.hpp"
 
@@ -12,6 +15,7 @@ namespace septet::scenario {
 
 /// Relative: to the lane's direction of travel or to the reference entity; absolute: to the world.
 struct Orientation {
+  bool given = false;  ///< The file has one.
   bool relative = true;
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
@@ -19,6 +23,7 @@ struct Orientation {
 struct WorldPosition {
   Vec3 position_m{0.0};
   std::optional<double> height_m;  ///< z where the file gives one, else the surface of the road.
+  bool heading_given = false;  ///< Else it is 0.
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
 
@@ -64,10 +69,30 @@ struct RelativeLanePosition {
   Orientation orientation;
 };
 
+struct Route;
+
+/// A place along a route: so far from its first waypoint, in a lane, at a t of the road there, or where an entity is.
+struct RoutePosition {
+  std::shared_ptr<const Route> route;
+  double path_s_m = 0.0;
+  std::optional<int> lane;
+  double offset_m = 0.0;  ///< From the lane's centre, towards +t.
+  std::optional<double> t_m;
+  EntityIndex entity = no_entity;
+  Orientation orientation;
+};
+
 /// No position: the file used a kind that is not supported yet, which was reported when it was
 /// read.
 using Position =
     std::variant<std::monostate, WorldPosition, RelativeWorldPosition, RelativeObjectPosition,
-                 RoadCoordinates, RelativeRoadPosition, LaneCoordinates, RelativeLanePosition>;
+                 RoadCoordinates, RelativeRoadPosition, LaneCoordinates, RelativeLanePosition,
+                 RoutePosition>;
+
+/// Waypoints in the order in which they are passed, by the shortest way.
+struct Route {
+  std::vector<Position> waypoints;
+  std::size_t index = 0;  ///< In Scenario::routes and ScenarioState::routes.
+};
 
 }  // namespace septet::scenario

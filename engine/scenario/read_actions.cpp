@@ -135,6 +135,10 @@ TransitionDynamics read_dynamics(const Element& element) {
 ActionVariant read_private_action(Reading& reading, const Element& action) {
   if (const Element longitudinal = action.child("LongitudinalAction")) {
     if (const Element found = longitudinal.child("SpeedAction")) return read_speed(reading, found);
+    if (const Element found = longitudinal.child("SpeedProfileAction"))
+      return read_speed_profile(reading, found);
+    if (const Element found = longitudinal.child("LongitudinalDistanceAction"))
+      return read_longitudinal_distance(reading, found);
     return {};
   }
   if (const Element lateral = action.child("LateralAction")) {
@@ -142,12 +146,22 @@ ActionVariant read_private_action(Reading& reading, const Element& action) {
       return read_lane_change(reading, found);
     if (const Element found = lateral.child("LaneOffsetAction"))
       return read_lane_offset(reading, found);
+    if (const Element found = lateral.child("LateralDistanceAction"))
+      return read_lateral_distance(reading, found);
     return {};
   }
   if (const Element found = action.child("TeleportAction"))
     return TeleportAction{read_position(reading, found)};
+  if (const Element found = action.child("SynchronizeAction")) return read_synchronize(reading, found);
   // Seen, so that what is in them is named, not they.
-  action.child("RoutingAction");
+  if (const Element routing = action.child("RoutingAction")) {
+    if (const Element found = routing.child("FollowTrajectoryAction"))
+      return read_follow_trajectory(reading, found);
+    if (const Element found = routing.child("AssignRouteAction"))
+      return AssignRouteAction{read_route_in(reading, found)};
+    if (const Element found = routing.child("AcquirePositionAction"))
+      return AcquirePositionAction{read_position(reading, found)};
+  }
   action.child("ControllerAction");
   if (const Element appearance = action.child("AppearanceAction")) {
     if (const Element found = appearance.child("LightStateAction")) return read_light(found);
@@ -155,7 +169,33 @@ ActionVariant read_private_action(Reading& reading, const Element& action) {
   return {};
 }
 
+namespace {
+
+ActionVariant read_value_action(Reading& reading, const Element& element, const char* reference) {
+  ValueAction action;
+  action.value = read_value_reference(reading, element, reference);
+  const Element rule = element.child("ModifyAction").child("Rule");
+  if (const Element set = element.child("SetAction")) {
+    action.text = set.text_or("value", "");
+  } else if (const Element added = rule.child("AddValue")) {
+    action.kind = ValueAction::Kind::add;
+    action.number = added.number("value");
+  } else if (const Element factor = rule.child("MultiplyByValue")) {
+    action.kind = ValueAction::Kind::multiply;
+    action.number = factor.number("value");
+  } else {
+    element.error("it changes nothing", "add <SetAction> or <ModifyAction>");
+  }
+  return action;
+}
+
+}  // namespace
+
 ActionVariant read_global_action(Reading& reading, const Element& action) {
+  if (const Element found = action.child("ParameterAction"))
+    return read_value_action(reading, found, "parameterRef");
+  if (const Element found = action.child("VariableAction"))
+    return read_value_action(reading, found, "variableRef");
   if (const Element found = action.child("EnvironmentAction"))
     return read_environment_action(reading, found);
   if (const Element traffic = action.child("TrafficAction")) {

@@ -51,7 +51,11 @@ void check_catalog(Reading& reading, const Element& catalog) {
       read_environment(entry.mark());
     } else if (kind == "Maneuver") {
       check_maneuver(reading, entry.mark());
-    } else if (kind == "Controller" || kind == "Route" || kind == "Trajectory") {
+    } else if (kind == "Trajectory") {
+      read_trajectory(reading, entry.mark());
+    } else if (kind == "Route") {
+      read_route(reading, entry.mark());
+    } else if (kind == "Controller") {
       entry.text("name");
       entry.ignore();
     }

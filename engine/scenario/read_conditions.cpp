@@ -76,9 +76,25 @@ ConditionVariant read_clearance(Reading& reading, const Element& found) {
   return condition;
 }
 
+ConditionVariant read_collision(Reading& reading, const Element& found) {
+  CollisionCondition condition;
+  if (const Element entity = found.child("EntityRef")) {
+    condition.entity = read_entity_reference(reading, entity);
+  } else if (const Element kind = found.required("ByType")) {
+    condition.kind = kind.word<EntityKind>("type",
+                                           {{"vehicle", EntityKind::vehicle},
+                                            {"pedestrian", EntityKind::pedestrian},
+                                            {"miscellaneous", EntityKind::misc_object}},
+                                           EntityKind::vehicle);
+  }
+  return condition;
+}
+
 ConditionVariant read_entity_condition(Reading& reading, const Element& element) {
   if (const Element found = element.child("EndOfRoadCondition"))
     return EndOfRoadCondition{found.number("duration", 0.0)};
+  if (const Element found = element.child("CollisionCondition"))
+    return read_collision(reading, found);
   if (const Element found = element.child("StandStillCondition"))
     return StandStillCondition{found.number("duration", 0.0)};
   if (const Element found = element.child("TraveledDistanceCondition")) {
@@ -122,6 +138,13 @@ ConditionVariant read_entity_condition(Reading& reading, const Element& element)
 ConditionVariant read_value_condition(Reading& reading, const Element& element) {
   if (const Element found = element.child("SimulationTimeCondition")) {
     return SimulationTimeCondition{read_comparison(found)};
+  }
+  for (const auto& [kind, reference] :
+       {std::pair("ParameterCondition", "parameterRef"), std::pair("VariableCondition", "variableRef")}) {
+    if (const Element found = element.child(kind)) {
+      return ValueCondition{read_value_reference(reading, found, reference), read_rule(found),
+                            found.text_or("value", "")};
+    }
   }
   if (const Element found = element.child("StoryboardElementStateCondition")) {
     StoryboardElementStateCondition condition;

@@ -74,4 +74,38 @@ Element with_outside_parameters(const Element& root, const std::vector<Parameter
   return with_declared_parameters(root, assigned);
 }
 
+void read_values(Reading& reading, const Element& root) {
+  std::vector<std::string>& values = reading.scenario.values;
+  const auto add = [&](auto& names, const std::string& name, const std::string& value) {
+    names[name] = static_cast<ValueIndex>(values.size());
+    values.push_back(value);
+  };
+  for (const auto& [name, value] : root.parameters()) add(reading.parameters, name, value);
+  for (const Element& declaration :
+       root.child("VariableDeclarations").children("VariableDeclaration")) {
+    const std::string type = declaration.text("variableType");
+    const std::string value = declaration.text_or("value", "");
+    if (!is_of_type(value, type)) {
+      declaration.warning(fmt::format("\"{}\" is no value of type {}", value.substr(0, 60), type),
+                          "correct the value or its type");
+    }
+    add(reading.variables, declaration.text("name"), value);
+  }
+}
+
+ValueIndex read_value_reference(Reading& reading, const Element& element, const char* attribute) {
+  const bool variable = std::string_view(attribute) == "variableRef";
+  const auto& names = variable ? reading.variables : reading.parameters;
+  const std::string name = element.parameter_name(attribute);
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  if (!name.empty() && !reading.names_are_elsewhere) {
+    element.error(fmt::format("no {} is named \"{}\"", variable ? "variable" : "parameter",
+                              name.substr(0, 60)),
+                  "declare it at the beginning of the file");
+  }
+  if (reading.scenario.values.empty()) reading.scenario.values.emplace_back();
+  return 0;
+}
+
 }  // namespace septet::scenario

@@ -5,23 +5,11 @@ namespace {
 
 constexpr int most_lanes = 1000;
 
-/// Without a type it is relative in 1.3 and absolute before.
-Orientation read_orientation(const Reading& reading, const Element& position) {
-  const Element orientation = position.child("Orientation");
-  if (!orientation) return {};
-  Orientation result;
-  result.relative = orientation.word<bool>("type", {{"relative", true}, {"absolute", false}},
-                                           reading.scenario.header.revision_minor >= 3);
-  result.heading_rad = orientation.number_or("h", 0.0);
-  result.pitch_rad = orientation.number_or("p", 0.0);
-  result.roll_rad = orientation.number_or("r", 0.0);
-  return result;
-}
-
 WorldPosition read_world(const Element& element) {
   WorldPosition position;
   position.position_m = {element.number("x"), element.number("y"), element.number_or("z", 0.0)};
   position.height_m = element.optional_number("z");
+  position.heading_given = element.has("h");
   position.heading_rad = element.number_or("h", 0.0);
   position.pitch_rad = element.number_or("p", 0.0);
   position.roll_rad = element.number_or("r", 0.0);
@@ -78,6 +66,8 @@ Position read_kind(Reading& reading, const Element& position) {
     road.orientation = read_orientation(reading, found);
     return road;
   }
+  if (const Element found = position.child("RoutePosition"))
+    return read_route_position(reading, found);
   if (position.all_children().empty())
     position.error("it is empty", "add a position such as <LanePosition>");
   return {};
@@ -85,8 +75,24 @@ Position read_kind(Reading& reading, const Element& position) {
 
 }  // namespace
 
+Orientation read_orientation(const Reading& reading, const Element& position) {
+  const Element orientation = position.child("Orientation");
+  if (!orientation) return {};
+  Orientation result;
+  result.given = true;
+  result.relative = orientation.word<bool>("type", {{"relative", true}, {"absolute", false}},
+                                           reading.scenario.header.revision_minor >= 3);
+  result.heading_rad = orientation.number_or("h", 0.0);
+  result.pitch_rad = orientation.number_or("p", 0.0);
+  result.roll_rad = orientation.number_or("r", 0.0);
+  return result;
+}
+
 Position read_position(Reading& reading, const Element& parent) {
-  const Element position = parent.required("Position");
+  return read_position_in(reading, parent.required("Position"));
+}
+
+Position read_position_in(Reading& reading, const Element& position) {
   if (!position) return {};
   Position found = read_kind(reading, position);
   if (reading.checking) reading.positions.emplace_back(position, found);

@@ -9,17 +9,21 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/scenario/route.hpp"
 
 namespace septet::scenario {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network) {
+}  // namespace
+
+Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network,
+                   const road::RoadPosition* hint, double most_beside_m) {
   Placement placement;
   placement.pose = pose;
-  const auto found = road::locate(network, Vec2(pose.position_m));
-  if (!found) return placement;
+  const auto found = road::locate(network, Vec2(pose.position_m), hint);
+  if (!found || found->lanes.outside_m > most_beside_m) return placement;
   const int lane = found->lanes.lane != 0 ? found->lanes.lane : found->lanes.lane_any_type;
   if (lane == 0) return placement;
   placement.on_road = true;
@@ -34,6 +38,8 @@ Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network)
   placement.heading_offset_rad = placement.along_s ? turn : road::wrap_angle(turn - pi);
   return placement;
 }
+
+namespace {
 
 /// On a lane, with an orientation relative to its direction of travel or to the world.
 std::optional<Placement> place_on_lane(const road::RoadNetwork& network,
@@ -77,6 +83,17 @@ std::optional<Placement> place_on_road(const road::RoadNetwork& network, road::R
 const EntityState* reference_of(const ScenarioState& state, EntityIndex entity) {
   if (entity >= state.entities.size() || !state.entities[entity].active) return nullptr;
   return &state.entities[entity];
+}
+
+/// The waypoints that lie on a road.
+std::vector<Waypoint> resolved(const road::RoadNetwork& network, const ScenarioState& state,
+                               const std::vector<Position>& positions) {
+  std::vector<Waypoint> waypoints;
+  for (const Position& position : positions) {
+    const auto placement = resolve_position(network, state, position);
+    if (placement && placement->on_road) waypoints.push_back({placement->lane, placement->along_s});
+  }
+  return waypoints;
 }
 
 struct Resolve {
@@ -153,6 +170,41 @@ struct Resolve {
     if (there.left_over_m != 0.0) return std::nullopt;
     return place_on_lane(network, there.lane, position.orientation);
   }
+
+  std::optional<Placement> operator()(const RoutePosition& position) const {
+    if (const EntityState* entity = reference_of(state, position.entity)) {
+      Placement placement;
+      placement.on_road = entity->on_road;
+      placement.lane = entity->lane;
+      placement.along_s = entity->along_s;
+      placement.pose = entity->world_from_entity;
+      return placement;
+    }
+    const auto planned = planned_route(*position.route);
+    if (planned->waypoints.empty()) return std::nullopt;
+    const Waypoint& first = planned->waypoints.front();
+    Progress there =
+        go_along(network, first.lane, first.along_s, position.path_s_m, planned->roads);
+    if (there.left_over_m > 1e-6) return std::nullopt;
+    if (position.t_m) {
+      return place_on_road(network, there.lane.road, there.lane.s_m, *position.t_m,
+                           position.orientation);
+    }
+    there.lane.lane = position.lane.value_or(there.lane.lane);
+    there.lane.offset_m = position.offset_m;
+    return place_on_lane(network, there.lane, position.orientation);
+  }
+
+ private:
+  std::shared_ptr<const PlannedRoute> planned_route(const Route& route) const {
+    if (route.index < state.routes.size() && state.routes[route.index])
+      return state.routes[route.index];
+    auto waypoints = resolved(network, state, route.waypoints);
+    std::size_t lanes_left = most_lanes_of_route;
+    auto roads = plan_route(network, waypoints, lanes_left);
+    return std::make_shared<const PlannedRoute>(
+        PlannedRoute{std::move(waypoints), std::move(roads)});
+  }
 };
 
 }  // namespace
@@ -181,6 +233,8 @@ std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& netwo
   }
   if (std::holds_alternative<std::monostate>(position))
     return "this kind of position is not supported";
+  if (std::holds_alternative<RoutePosition>(position))
+    return "the route does not lead so far, or to that lane";
   return std::visit(
       [&](const auto& relative) -> std::string {
         if constexpr (requires { relative.entity; }) {
@@ -226,31 +280,51 @@ RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosit
 }
 
 Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s,
-                  double distance_m) {
-  const auto straightest = [&](std::span<const road::LaneContinuation> ways) {
-    std::size_t best = 0;
-    double least = 1e300;
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      const auto& on = network.roads[ways[i].road];
-      const double from = road::evaluate(network, {ways[i].road, 0.0, 0.0}).heading_rad;
-      const double turn = std::abs(road::wrap_angle(
-          road::evaluate(network, {ways[i].road, on.length_m, 0.0}).heading_rad - from));
-      if (turn < least - 1e-6) {
-        least = turn;
-        best = i;
-      }
-    }
-    return best;
-  };
+                  double distance_m, std::span<const road::RoadIndex> route) {
   if (distance_m == 0.0) return {lane, along_s, 0.0};
   distance_m =
       std::clamp(distance_m, -1e5, 1e5);  // Far enough for any road; never for ever round a ring.
   const bool natural = along_s == road::runs_along_s(network, lane);
   const road::Advanced advanced =
-      road::advance(network, lane, natural ? distance_m : -distance_m, straightest);
+      road::advance(network, lane, natural ? distance_m : -distance_m, choose_way(network, route));
   return {advanced.position,
           distance_m >= 0.0 ? advanced.towards_increasing_s : !advanced.towards_increasing_s,
           advanced.remaining_m};
+}
+
+std::vector<std::shared_ptr<const PlannedRoute>> plan_routes(const road::RoadNetwork& network,
+                                                             const Scenario& scenario) {
+  const ScenarioState nobody_anywhere;
+  const auto is_named = [](const Position& position) {
+    return std::holds_alternative<LaneCoordinates>(position) ||
+           std::holds_alternative<RoadCoordinates>(position) ||
+           std::holds_alternative<WorldPosition>(position);
+  };
+  std::vector<std::shared_ptr<const PlannedRoute>> planned;
+  std::size_t lanes_left = most_lanes_of_scenario;
+  for (const auto& route : scenario.routes) {
+    auto& added = planned.emplace_back();
+    const auto& positions = route->waypoints;
+    if (!std::all_of(positions.begin(), positions.end(), is_named)) continue;
+    auto waypoints = resolved(network, nobody_anywhere, positions);
+    auto roads = plan_route(network, waypoints, lanes_left);
+    added = std::make_shared<const PlannedRoute>(
+        PlannedRoute{std::move(waypoints), std::move(roads)});
+  }
+  return planned;
+}
+
+std::vector<road::RoadIndex> plan_from(const road::RoadNetwork& network, const ScenarioState& state,
+                                       const EntityState& entity,
+                                       const std::vector<Position>& positions) {
+  std::vector<Waypoint> waypoints = resolved(network, state, positions);
+  if (waypoints.empty() || !entity.on_road) return {};
+  std::size_t lanes_left = most_lanes_of_route;
+  auto roads = plan_route(network, waypoints, lanes_left);
+  const bool on_it = std::find(roads.begin(), roads.end(), entity.lane.road) != roads.end();
+  if (on_it && waypoints.size() > 1) return roads;
+  waypoints.insert(waypoints.begin(), {entity.lane, entity.along_s});
+  return plan_route(network, waypoints, lanes_left);
 }
 
 }  // namespace septet::scenario

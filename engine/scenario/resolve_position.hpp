@@ -1,8 +1,11 @@
 #pragma once
 /// From a position as the file gives it to a place on the road and in the world.
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/scenario_state.hpp"
@@ -24,6 +27,11 @@ struct Placement {
 std::optional<Placement> resolve_position(const road::RoadNetwork& network,
                                           const ScenarioState& state, const Position& position);
 
+/// The place of a pose: in the nearest lane, if it stands no further beside the road than that.
+inline constexpr double beside_road_m = 20.0;
+Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network,
+                   const road::RoadPosition* hint = nullptr, double most_beside_m = beside_road_m);
+
 /// Why resolve_position finds no place for a position, for messages: "road 7 has no lane -5 at s = 12".
 std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network,
                         const ScenarioState& state, const Position& position);
@@ -40,7 +48,8 @@ int lane_beside(int lane, bool along_s, int count);
 RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosition& lane,
                          bool along_s, double slope, double heading_offset_rad);
 
-/// Goes on along the lane in the way one faces (backwards if negative), straight on at junctions.
+/// Goes on along the lane in the way one faces (backwards if negative), at junctions along the route,
+/// without one straight on.
 /// `left_over_m` is what could not be driven because the road ends.
 struct Progress {
   road::LanePosition lane;
@@ -48,6 +57,15 @@ struct Progress {
   double left_over_m = 0.0;
 };
 Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s,
-                  double distance_m);
+                  double distance_m, std::span<const road::RoadIndex> route = {});
+
+/// The routes of a scenario whose waypoints do not hang on where anybody is; none for the others.
+std::vector<std::shared_ptr<const PlannedRoute>> plan_routes(const road::RoadNetwork& network,
+                                                             const Scenario& scenario);
+
+/// The roads over which a route leads from where the entity is, or on which it is already.
+std::vector<road::RoadIndex> plan_from(const road::RoadNetwork& network, const ScenarioState& state,
+                                       const EntityState& entity,
+                                       const std::vector<Position>& waypoints);
 
 }  // namespace septet::scenario

@@ -5,6 +5,7 @@
 /// Made by read_scenario (scenario_reader.hpp), immutable afterwards. It is run by
 /// storyboard_runtime.hpp.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,6 +82,8 @@ struct Scenario {
   FileHeader header;
   std::string road_file;  ///< As the file gives it: relative to the scenario's folder.
   std::vector<Entity> entities;
+  std::vector<std::string> values;  ///< Of parameters and variables when the scenario begins.
+  std::vector<std::shared_ptr<const Route>> routes;
   std::vector<InitAction> init;
   std::vector<Story> stories;
   Trigger stop;

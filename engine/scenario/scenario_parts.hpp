@@ -18,6 +18,7 @@ struct Reading {
   const ScenarioFiles& files;
   Scenario scenario;
   std::unordered_map<std::string, EntityIndex> entities;  ///< By name.
+  std::map<std::string, ValueIndex, std::less<>> parameters, variables;  ///< By name.
   std::vector<std::shared_ptr<XmlFile>> xml_files;  ///< The scenario first, then catalogs.
   std::vector<std::pair<std::string, std::string>> catalog_locations;  ///< Element name, folder.
   /// Catalogs by name: their <Catalog> elements. Filled on the first reference to a catalog.
@@ -62,13 +63,32 @@ BoundingBox read_bounding_box(const Element& parent);
 
 /// The position inside `parent`, an element of the standard's type Position.
 Position read_position(Reading& reading, const Element& parent);
+/// The <Orientation> of a position: without a type it is relative in 1.3 and absolute before.
+Orientation read_orientation(const Reading& reading, const Element& position);
+RoutePosition read_route_position(Reading& reading, const Element& position);
+Route read_route(Reading& reading, const Element& route);
+/// The route inside `parent`, its own or one of a catalog.
+std::shared_ptr<const Route> read_route_in(Reading& reading, const Element& parent);
+/// The position that stands in the element itself.
+Position read_position_in(Reading& reading, const Element& position);
 
 /// Opens the scenario's road and finds what of the scenario is not on it.
 void check_on_road(Reading& reading, const Element& logic_file);
 
+/// Numbers the root's parameters and reads its <VariableDeclarations>.
+void read_values(Reading& reading, const Element& root);
+/// The parameter (`parameterRef`) or variable (`variableRef`) that is named; an unknown one is an error and 0.
+ValueIndex read_value_reference(Reading& reading, const Element& element, const char* attribute);
+
 /// The attribute `rule`.
 Rule read_rule(const Element& element);
 TransitionDynamics read_dynamics(const Element& element);
+Trajectory read_trajectory(Reading& reading, const Element& trajectory);
+ActionVariant read_follow_trajectory(Reading& reading, const Element& action);
+ActionVariant read_longitudinal_distance(Reading& reading, const Element& action);
+ActionVariant read_lateral_distance(Reading& reading, const Element& action);
+ActionVariant read_speed_profile(Reading& reading, const Element& action);
+ActionVariant read_synchronize(Reading& reading, const Element& action);
 ActionVariant read_private_action(Reading& reading, const Element& action);
 ActionVariant read_global_action(Reading& reading, const Element& action);
 ActionVariant read_user_defined_action(Reading& reading, const Element& action);

@@ -63,6 +63,7 @@ void read_definition(Reading& reading, const Element& root) {
   }
   read_header(root, reading.scenario.header);
   if (read_other_definition(reading, root)) return;
+  read_values(reading, root);
   read_catalog_locations(reading, root.child("CatalogLocations"));
   const Element roads = root.required("RoadNetwork");
   const char* name_road = "add <LogicFile filepath=\"….xodr\"/>";

@@ -3,7 +3,10 @@
 /// Plain data.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/math/rigid_transform.hpp"
@@ -23,7 +26,16 @@ struct Transition {
   double from = 0.0, to = 0.0;
 };
 
-/// What changes an entity's speed; `action` is the storyboard element that asked for it (none:
+struct SpeedProfile;
+struct Meeting;
+
+/// Where an entity is to be as seen from another.
+struct DistanceControl {
+  KeepDistanceAction what;
+  double side = 1.0;  ///< Where the other one is to be: ahead or to the left (1), or not (−1).
+};
+
+/// What changes an entity's speed: a profile, a distance, a meeting or else the transition; `action` is the storyboard element that asked for it (none:
 /// Init).
 struct SpeedControl {
   bool active = false;
@@ -32,6 +44,10 @@ struct SpeedControl {
   EntityIndex follow =
       no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta of this entity.
   double follow_factor = 1.0, follow_delta_mps = 0.0;
+  std::shared_ptr<const SpeedProfile> profile;  ///< Added to the speed of `follow`, if there is one.
+  double profile_s = 0.0;
+  std::shared_ptr<const DistanceControl> distance;
+  std::shared_ptr<const Meeting> meeting;
 };
 
 /// What moves an entity sideways: its offset from the lane's centre as a transition.
@@ -41,12 +57,35 @@ struct LateralControl {
   Transition transition;     ///< Of LanePosition::offset_m, along +t.
   bool lane_change = false;  ///< Indicates while it runs.
   bool to_the_left = false;
+  std::shared_ptr<const DistanceControl> distance;  ///< Instead of the transition.
+  double left_mps = 0.0, left_mps2 = 0.0;           ///< Of the entity on its way to that.
+  std::optional<double> left_way_m;                 ///< What of it was left in the step before.
 };
 
 /// What an entity would drive into.
 struct InTheWay {
   double gap_m = 0.0;  ///< From bumper to bumper.
   double speed_mps = 0.0;
+};
+
+struct Path;
+
+/// What moves an entity along a path instead of its lane.
+struct PathControl {
+  bool active = false;
+  ElementIndex action = no_element;
+  std::shared_ptr<const Path> path;
+  bool timed = false;      ///< The path's times say where it is, else its speed does.
+  double clock_s = 0.0;    ///< Now, on the path's clock.
+  double station_m = 0.0;  ///< How far along the path it is.
+};
+
+struct PlannedRoute;
+
+/// The roads of an entity's route (route.hpp).
+struct RouteState {
+  std::shared_ptr<const std::vector<road::RoadIndex>> roads;
+  std::size_t at = 0;  ///< Index of the one that it is on, or was on last.
 };
 
 struct EntityState {
@@ -70,6 +109,8 @@ struct EntityState {
   Lamps lamps;
   SpeedControl speed_control;
   LateralControl lateral_control;
+  PathControl path_control;
+  RouteState route;
 };
 
 enum class ElementStatus : std::uint8_t { standby, running, complete };
@@ -103,6 +144,9 @@ struct ScenarioState {
   Environment environment;
   double friction_scale = 1.0;         ///< RoadCondition's frictionScaleFactor: of every surface.
   std::vector<EntityState> entities;   ///< As Scenario::entities.
+  std::vector<std::string> values;     ///< As Scenario::values.
+  /// As Scenario::routes, which way they lead; none where a waypoint hangs on where an entity is.
+  std::vector<std::shared_ptr<const PlannedRoute>> routes;
   std::vector<ElementState> elements;  ///< By ElementIndex.
   std::vector<ConditionState> conditions;
 };

@@ -1,7 +1,13 @@
 #include "engine/scenario/start_action.hpp"
 
+#include <fmt/format.h>
+
 #include "engine/scenario/entity_motion.hpp"
+#include "engine/scenario/expression.hpp"
+#include "engine/scenario/keep_distance.hpp"
+#include "engine/scenario/path_motion.hpp"
 #include "engine/scenario/resolve_position.hpp"
+#include "engine/scenario/speed_control.hpp"
 
 namespace septet::scenario {
 namespace {
@@ -21,6 +27,16 @@ void change_environment(const EnvironmentAction& action, ScenarioState& state) {
   take(action.temperature_k, environment.temperature_k);
   take(action.wind_speed_mps, environment.wind_speed_mps);
   take(action.wind_direction_rad, environment.wind_direction_rad);
+}
+
+void change_value(const ValueAction& action, ScenarioState& state) {
+  std::string& value = state.values[action.value];
+  const auto number = parse_number(value);
+  if (action.kind == ValueAction::Kind::set)
+    value = action.text;
+  else if (number)
+    value = fmt::format("{}", action.kind == ValueAction::Kind::add ? *number + action.number
+                                                                    : *number * action.number);
 }
 
 /// Starts an action of one entity; answers whether it goes on.
@@ -45,6 +61,7 @@ struct StartPrivate {
     const auto placement = resolve_position(network, state, teleport.position);
     if (!placement) return false;
     take_over(entity().lateral_control);
+    take_over(entity().path_control);
     place_entity(entity(), *placement);
     result.teleported.push_back(actor);
     return false;
@@ -56,19 +73,57 @@ struct StartPrivate {
     return false;
   }
   bool operator()(const SpeedAction& speed) const {
-    take_over(entity().speed_control);
+    take_over_speed();
     start_speed(scenario, state, speed, action, actor, entity());
     // A step is there at once, unless it follows another entity for ever.
     SpeedControl& control = entity().speed_control;
     control.active = control.follow != no_entity || control.transition.shape != DynamicsShape::step;
     return control.active;
   }
+  bool operator()(const SpeedProfileAction& profile) const {
+    take_over_speed();
+    return start_speed_profile(scenario, state, profile, action, actor, entity());
+  }
+  bool operator()(const SynchronizeAction& synchronize) const {
+    take_over_speed();
+    return start_synchronization(network, state, synchronize, action, entity());
+  }
+  bool operator()(const KeepDistanceAction& keep) const {
+    if (keep.reference == no_entity || keep.reference == actor) return false;
+    const DistanceControl control{keep, side_of_reference(network, scenario, state, keep, actor)};
+    if (keep.lateral) {
+      if (!entity().on_road) return false;
+      take_over(entity().lateral_control);
+      take_over(entity().path_control);
+      start_lateral_distance(control, action, entity());
+    } else {
+      take_over_speed();
+      start_distance(control, action, entity());
+    }
+    return true;
+  }
+  bool operator()(const FollowTrajectoryAction& follow) const {
+    take_over(entity().lateral_control);
+    take_over(entity().path_control);
+    if (follow.timed) take_over(entity().speed_control);
+    return start_path(network, state, follow, action, entity());
+  }
+  bool operator()(const AssignRouteAction& assign) const {
+    take_route(assign.route->waypoints);
+    return false;
+  }
+  bool operator()(const AcquirePositionAction& acquire) const {
+    take_route({acquire.position});
+    return false;
+  }
   bool operator()(const LaneChangeAction& change) const {
     take_over(entity().lateral_control);
+    take_over(entity().path_control);
     return start_lane_change(network, state, change, action, entity()) && keep_lateral();
   }
   bool operator()(const LaneOffsetAction& offset) const {
     take_over(entity().lateral_control);
+    take_over(entity().path_control);
     return start_lane_offset(network, state, offset, action, entity()) && keep_lateral();
   }
   /// What concerns no single entity.
@@ -78,6 +133,15 @@ struct StartPrivate {
   }
 
  private:
+  void take_over_speed() const {
+    take_over(entity().speed_control);
+    if (entity().path_control.timed) take_over(entity().path_control);
+  }
+  void take_route(const std::vector<Position>& waypoints) const {
+    entity().route = {std::make_shared<const std::vector<road::RoadIndex>>(
+                          plan_from(network, state, entity(), waypoints)),
+                      0};
+  }
   bool keep_lateral() const {
     LateralControl& control = entity().lateral_control;
     control.active = control.transition.shape != DynamicsShape::step;
@@ -100,6 +164,8 @@ StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& ne
     result.stopped_traffic.push_back(stop->name);
   } else if (const auto* siren = std::get_if<SirenAction>(&what)) {
     state.entities[siren->entity].lamps.set(Lamp::siren, siren->on);
+  } else if (const auto* value = std::get_if<ValueAction>(&what)) {
+    change_value(*value, state);
   } else if (const auto* effect = std::get_if<EffectAction>(&what)) {
     result.effects.push_back(*effect);
   }

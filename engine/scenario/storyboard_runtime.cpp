@@ -14,6 +14,14 @@
 namespace septet::scenario {
 namespace {
 
+/// Does something with everything that may move an entity.
+template <class Use>
+void each_control(EntityState& entity, const Use& use) {
+  use(entity.speed_control);
+  use(entity.lateral_control);
+  use(entity.path_control);
+}
+
 /// One step of a scenario: everything it reads and writes.
 class Step {
  public:
@@ -25,8 +33,9 @@ class Step {
     if (state_.finished) return;
     if (evaluate(scenario_.stop)) {
       finish(scenario_.storyboard_element, ElementTransition::stop, ElementStatus::complete);
-      for (EntityState& entity : state_.entities)
-        entity.speed_control = {}, entity.lateral_control = {};
+      for (EntityState& entity : state_.entities) {
+        each_control(entity, [](auto& control) { control = {}; });
+      }
       state_.finished = true;
       return;
     }
@@ -181,10 +190,13 @@ class Step {
 
   void end_action(ElementIndex action) {
     // An action of several actors ends with the last of them.
-    for (const EntityState& entity : state_.entities) {
-      if (entity.speed_control.active && entity.speed_control.action == action) return;
-      if (entity.lateral_control.active && entity.lateral_control.action == action) return;
+    bool goes_on = false;
+    for (EntityState& entity : state_.entities) {
+      each_control(entity, [&](const auto& control) {
+        goes_on = goes_on || (control.active && control.action == action);
+      });
     }
+    if (goes_on) return;
     finish(action, ElementTransition::end, ElementStatus::complete);
   }
 
@@ -192,8 +204,9 @@ class Step {
     for (const Action& action : event.actions) {
       if (element(action.element).status != ElementStatus::running) continue;
       for (EntityState& entity : state_.entities) {
-        if (entity.speed_control.action == action.element) entity.speed_control = {};
-        if (entity.lateral_control.action == action.element) entity.lateral_control = {};
+        each_control(entity, [&](auto& control) {
+          if (control.action == action.element) control = {};
+        });
       }
       finish(action.element, ElementTransition::stop, ElementStatus::complete);
     }
@@ -301,6 +314,8 @@ Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::Roa
                                        EntityIndex external, StepResult& result) {
   ScenarioState state;
   state.entities.resize(scenario.entities.size());
+  state.values = scenario.values;
+  state.routes = plan_routes(network, scenario);
   state.elements.resize(scenario.element_count);
   state.conditions.resize(scenario.condition_count);
   if (external != no_entity) state.entities[external].external = true;

@@ -65,14 +65,14 @@ TEST_CASE("what is not supported is named with its line") {
       private_text("A", place_text(-1, 10)) + private_text("B", place_text(-2, 10)),
       "\n\n" + story_text(event_text(
                    "e",
-                   "<PrivateAction><LongitudinalAction><LongitudinalDistanceAction/></"
-                   "LongitudinalAction></PrivateAction>",
+                   "<PrivateAction><ControllerAction><AssignControllerAction/></"
+                   "ControllerAction></PrivateAction>",
                    trigger_text(of_entity_text("A", "<OffroadCondition duration=\"1\"/>")))));
   std::vector<Finding> warnings;
   const auto scenario = read_scenario(text, "test.xosc", files_in("."), &warnings);
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
   CHECK(warnings.size() == 2);
-  CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <LongitudinalDistanceAction>"));
+  CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <AssignControllerAction>"));
   CHECK(has_finding(warnings, Severity::warning, "test.xosc:3, <OffroadCondition>"));
 }
 

@@ -178,6 +178,82 @@ TEST_CASE("a rate of 0 keeps the speed and ends at once where that is the target
   CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(160.0));
 }
 
+TEST_CASE("conditions see parameters and variables that actions change") {
+  const auto value = [](const std::string& kind, const std::string& name, const std::string& change) {
+    return "<GlobalAction><" + kind + "Action " + (kind == "Variable" ? "variable" : "parameter") + "Ref=\"" + name + "\">" + change +
+           "</" + kind + "Action></GlobalAction>";
+  };
+  const std::string add = "<ModifyAction><Rule><AddValue value=\"2\"/></Rule></ModifyAction>";
+  const std::string twice = "<ModifyAction><Rule><MultiplyByValue value=\"2\"/></Rule></ModifyAction>";
+  const auto is = [](const std::string& kind, const std::string& reference, const std::string& rule, const std::string& compared) {
+    return trigger_text("<ByValueCondition><" + kind + "Condition " + reference + " rule=\"" + rule + "\" value=\"" + compared +
+                        "\"/></ByValueCondition>");
+  };
+  const std::string declared =
+      R"(<ParameterDeclarations><ParameterDeclaration name="mood" parameterType="string" value="calm"/></ParameterDeclarations>)"
+      R"(<VariableDeclarations><VariableDeclaration name="count" variableType="double" value="1"/></VariableDeclarations>)";
+  Drive drive(scenario_text(
+      two_cars,
+      story_text(event_text("add", value("Variable", "count", add), at(1.0)) +
+                 event_text("double", value("Variable", "count", twice), at(2.0)) +
+                 event_text("set", value("Parameter", "mood", "<SetAction value=\"angry\"/>"), at(3.0)) +
+                 event_text("three", speed_text(20), is("Variable", "variableRef=\"count\"", "equalTo", "3")) +
+                 event_text("six", speed_text(20), is("Variable", "variableRef=\"count\"", "greaterThan", "5.5")) +
+                 event_text("angry", speed_text(20), is("Parameter", "parameterRef=\"mood\"", "equalTo", "angry"))),
+      declared));
+  drive.run_until(4.0);
+  CHECK(drive.time_of("three", ElementTransition::start) == doctest::Approx(1.01));
+  CHECK(drive.time_of("six", ElementTransition::start) == doctest::Approx(2.01));
+  CHECK(drive.time_of("angry", ElementTransition::start) == doctest::Approx(3.01));
+}
+
+TEST_CASE("a collision is when the boxes meet") {
+  const auto meets = [](const std::string& whom) {
+    return trigger_text(of_entity_text("A", "<CollisionCondition>" + whom + "</CollisionCondition>"));
+  };
+  Drive drive(scenario_text(two_cars, story_text(event_text("b", speed_text(20), meets("<EntityRef entityRef=\"B\"/>")) +
+                                                 event_text("car", speed_text(20), meets("<ByType type=\"vehicle\"/>")) +
+                                                 event_text("man", speed_text(20), meets("<ByType type=\"pedestrian\"/>")))));
+  drive.run_until(11.0);
+  // 100 m less the 4.6 m of the boxes, at 10 m/s.
+  CHECK(drive.time_of("b", ElementTransition::start) == doctest::Approx(9.54).epsilon(0.002));
+  CHECK(drive.time_of("car", ElementTransition::start) == drive.time_of("b", ElementTransition::start));
+  CHECK(drive.count_of("man", ElementTransition::start) == 0);
+}
+
+TEST_CASE("a trajectory is followed at one's own speed or by its times and then the lane") {
+  const auto follow = [](const std::string& reference) {
+    const auto vertex = [](double time, double x, double y) {
+      return "<Vertex time=\"" + std::to_string(time) + "\"><Position><WorldPosition x=\"" + std::to_string(x) + "\" y=\"" +
+             std::to_string(y) + "\"/></Position></Vertex>";
+    };
+    return "<PrivateAction><RoutingAction><FollowTrajectoryAction><TrajectoryRef><Trajectory name=\"t\" closed=\"false\"><Shape><Polyline>" +
+           vertex(0, 140, -5.25) + vertex(4, 170, 34.75) + vertex(6, 230, 34.75) + vertex(12, 230, -1.75) +
+           "</Polyline></Shape></Trajectory></TrajectoryRef><TimeReference>" + reference +
+           "</TimeReference><TrajectoryFollowingMode followingMode=\"position\"/></FollowTrajectoryAction></RoutingAction></PrivateAction>";
+  };
+  Drive own(scenario_text(two_cars, story_text(event_text("e", follow("<None/>"), at(2.0)))));
+  own.run_until(4.0);
+  // 40 m along a line of 3 : 4.
+  CHECK(own.a().world_from_entity.position_m.x == doctest::Approx(164.0));
+  CHECK(own.a().world_from_entity.position_m.y == doctest::Approx(26.75));
+  CHECK(heading_rad(own.a().world_from_entity.orientation) == doctest::Approx(std::atan2(4.0, 3.0)));
+  CHECK(own.a().speed_mps == 20.0);
+  CHECK_FALSE(own.a().on_road);
+  own.run_until(4.5);  // At the first corner, half turned.
+  CHECK(heading_rad(own.a().world_from_entity.orientation) == doctest::Approx(0.5 * std::atan2(4.0, 3.0)));
+
+  Drive timed(scenario_text(
+      two_cars, story_text(event_text("e", follow(R"(<Timing domainAbsoluteRelative="relative" scale="0.5" offset="0"/>)"), at(2.0)))));
+  timed.run_until(4.5);
+  CHECK(timed.a().world_from_entity.position_m.x == doctest::Approx(200.0));
+  CHECK(timed.a().speed_mps == doctest::Approx(60.0));
+  timed.run_until(9.0);
+  CHECK(timed.time_of("e", ElementTransition::end) == doctest::Approx(7.99));
+  CHECK(timed.a().on_road);
+  CHECK(timed.a().lane.lane == -1);
+}
+
 TEST_CASE("overwrite stops the running event skip waits and parallel goes along") {
   const std::string slow = speed_text(30, "linear", "time", 4.0);
   const std::string first = event_text("first", slow, at(0.0));
