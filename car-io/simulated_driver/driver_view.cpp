@@ -78,6 +78,10 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
   own.offset_m = to_the_left(traffic::piece_at(corridor, *x_m), location->lanes.offset_m);
   own.across_m = to_the_left(traffic::piece_at(corridor, *x_m), location->position.t_m);
   own.half_width_m = model.width_m / 2.0;
+  const double room_m =
+      (road::lane_width_m(network, own.position.road, location->lanes.lane, own.position.s_m) - model.width_m) / 2.0;
+  own.room_left_m = room_m - own.offset_m;
+  own.room_right_m = room_m + own.offset_m;
   own.speed_mps = snapshot.driver_car.speed_mps;
   own.acceleration_mps2 = glm::dot(body->acceleration_mps2, forward);
   own.front_m = model.front_m();
@@ -127,6 +131,14 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
     vehicle.is_ambulance =
         model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
     seen.push_back(vehicle);
+  }
+  return seen;
+}
+
+std::vector<SeenVehicle> remembered_vehicles(std::vector<SeenVehicle> seen, double ago_s, double own_speed_mps) {
+  for (SeenVehicle& vehicle : seen) {
+    const double opens_mps = vehicle.speed_mps - own_speed_mps;
+    vehicle.gap_m += ago_s * (vehicle.is_ahead ? opens_mps : -opens_mps);
   }
   return seen;
 }

@@ -24,6 +24,8 @@ struct OwnPlace {
   double offset_m = 0.0;  ///< From the lane's centre, positive to the left.
   double across_m = 0.0;  ///< From the road's reference line, positive to the left.
   double half_width_m = 0.9;
+  /// From the body's sides to the lines of the lane; negative: over the line.
+  double room_left_m = 0.0, room_right_m = 0.0;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;      ///< Forward.
   double front_m = 0.0, rear_m = 0.0;  ///< From the origin to the bumpers.
@@ -67,6 +69,9 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
 /// Accelerations by what changed since the look `dt_s` before: the eye takes half a second to tell.
 void see_accelerations(std::span<const SeenVehicle> before, double dt_s,
                        std::vector<SeenVehicle>& now);
+
+/// What was seen some time ago, as the driver takes it to be now: everybody has gone on evenly.
+std::vector<SeenVehicle> remembered_vehicles(std::vector<SeenVehicle> seen, double ago_s, double own_speed_mps);
 
 /// Whether lane numbers grow to the right, as in right-hand traffic.
 bool lanes_grow_to_the_right(const traffic::CorridorPiece& piece);

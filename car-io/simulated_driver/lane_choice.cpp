@@ -90,7 +90,8 @@ std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
   double least_mps2 = 0.0;
   for (const SeenVehicle& vehicle : scene.vehicles) {
     if (!vehicle.is_ahead || !(is_in(vehicle, lane) || vehicle.is_ambulance)) continue;
-    const Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
+    Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
+    if (!is_in(vehicle, lane)) obstacle.worth_mps2 = speed.braking_mps2;
     const double wish_mps2 =
         wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
     if (hardest && wish_mps2 >= least_mps2) continue;
@@ -98,6 +99,22 @@ std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
     least_mps2 = wish_mps2;
   }
   return hardest;
+}
+
+std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene,
+                                        const SpeedParameters& speed) {
+  if (state.phase < LanePhase::change) return obstacle_in_lane(scene, state.lane, speed);
+  const int to = state.phase == LanePhase::change ? state.target : state.lane;
+  const int from = state.phase == LanePhase::change ? state.lane : state.target;
+  const auto there = obstacle_in_lane(scene, to, speed);
+  const bool from_lies_left = (from < to) == scene.grows_to_the_right;
+  const double room_m = from_lies_left ? scene.own.room_left_m : scene.own.room_right_m;
+  if (scene.own.lane == to && room_m > 0.0) return there;
+  const auto here = obstacle_in_lane(scene, from, speed);
+  const auto wish_mps2 = [&](const std::optional<Obstacle>& obstacle) {
+    return wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
+  };
+  return wish_mps2(here) < wish_mps2(there) ? here : there;
 }
 
 bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, double strictness) {

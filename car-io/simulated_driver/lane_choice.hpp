@@ -61,9 +61,13 @@ struct LaneScene {
 };
 
 /// Whoever ahead in a lane asks for the most braking, or nothing. An ambulance counts in every lane: it
-/// is followed and never passed.
+/// is followed and never passed; from another lane it is only stayed behind, with comfortable braking.
 std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
                                          const SpeedParameters& speed);
+/// The same on the way that the car goes: in its lane; while it changes, in the lane to be, and in the one to be left
+/// until the whole body has left it.
+std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene,
+                                        const SpeedParameters& speed);
 /// Whether a change into this lane leaves everyone room. Strictness scales what has to be left, and the
 /// time until then, and loosens the braking that may be asked of anybody.
 bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver,

@@ -37,7 +37,7 @@ double wanted_gap_m(const SpeedParameters& speed, double own_speed_mps, double l
 
 double heuristic_acceleration_mps2(double own_speed_mps, const Obstacle& obstacle) {
   const double closing_mps = std::max(own_speed_mps - expected_speed_mps(obstacle), 0.0);
-  return -closing_mps * closing_mps / (2.0 * std::max(obstacle.gap_m, least_gap_m));
+  return std::max(-closing_mps * closing_mps / (2.0 * std::max(obstacle.gap_m, least_gap_m)), -obstacle.worth_mps2);
 }
 
 double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_mps,
@@ -55,31 +55,25 @@ double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_m
     gap_keeping = a * (1.0 - tightness * tightness);
   else
     gap_keeping = free > 0.0 ? free * (1.0 - std::pow(tightness, 2.0 * a / free)) : free;
-  gap_keeping = std::max(gap_keeping, hardest_mps2);
+  gap_keeping = std::max({gap_keeping, hardest_mps2, -obstacle->worth_mps2});
   const double heuristic = heuristic_acceleration_mps2(v, *obstacle);
   if (gap_keeping >= heuristic) return gap_keeping;
   const double calm = heuristic + b * std::tanh((gap_keeping - heuristic) / b);
-  return std::max((1.0 - speed.coolness) * gap_keeping + speed.coolness * calm, hardest_mps2);
+  return std::max({(1.0 - speed.coolness) * gap_keeping + speed.coolness * calm, hardest_mps2, -obstacle->worth_mps2});
 }
 
 void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car,
                     const OwnPlace& own, double desired_speed_mps,
-                    const std::optional<Obstacle>& obstacle, double now_s, double dt_s,
-                    Random& random) {
+                    std::optional<Obstacle> obstacle, double dt_s, Random& random) {
   const double distance_error =
       state.distance_error.advance(speed.distance_noise, speed.noise_s, dt_s, random);
   const double speed_error =
       state.speed_error.advance(speed.distance_noise / 4.0, speed.noise_s, dt_s, random);
-  std::optional<Obstacle> felt = state.eyes.through(now_s, obstacle, speed.reaction_time_s);
-  if (felt) {
-    // The driver knows that the gap has gone on shrinking while the foot was on its way.
-    felt->gap_m -= speed.reaction_time_s * (own.speed_mps - felt->speed_mps);
-    felt->gap_m *= 1.0 + distance_error;
-  }
+  if (obstacle) obstacle->gap_m *= 1.0 + distance_error;
   const double wish =
-      wished_acceleration_mps2(speed, own.speed_mps * (1.0 + speed_error), desired_speed_mps, felt);
+      wished_acceleration_mps2(speed, own.speed_mps * (1.0 + speed_error), desired_speed_mps, obstacle);
   const bool emergency =
-      felt && heuristic_acceleration_mps2(own.speed_mps, *felt) < emergency_mps2;
+      obstacle && heuristic_acceleration_mps2(own.speed_mps, *obstacle) < emergency_mps2;
   const double jerk_mps3 = emergency ? emergency_jerk_mps3 : speed.largest_jerk_mps3;
   state.wish_mps2 = approach(state.wish_mps2, wish, jerk_mps3 * dt_s);
 

@@ -26,6 +26,7 @@ struct Obstacle {
   double gap_m = 0.0;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
+  double worth_mps2 = 9.0;  ///< The most braking that it is worth: less for who is not in the way.
 };
 
 /// The gap that the driver would like behind somebody: eq. 2.2.
@@ -39,7 +40,6 @@ double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_m
                                 double desired_speed_mps, const std::optional<Obstacle>& obstacle);
 
 struct PedalState {
-  ReactionDelay<std::optional<Obstacle>> eyes;
   WanderingError distance_error, speed_error;  ///< Relative.
   double wish_mps2 = 0.0;
   double seat_correction = 0.0;  ///< Accelerator that the driver has learnt to add.
@@ -48,10 +48,9 @@ struct PedalState {
   double accelerator = 0.0, brake = 0.0;
 };
 
-/// Moves the foot; the pedals are in the state.
+/// Moves the foot; the pedals are in the state. The obstacle is what was seen a reaction time ago (`remembered_vehicles`).
 void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car,
                     const OwnPlace& own, double desired_speed_mps,
-                    const std::optional<Obstacle>& obstacle, double now_s, double dt_s,
-                    Random& random);
+                    std::optional<Obstacle> obstacle, double dt_s, Random& random);
 
 }  // namespace septet::car_io

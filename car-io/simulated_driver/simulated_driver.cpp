@@ -95,22 +95,18 @@ double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork&
   return limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
 }
 
-/// Of the obstacles in the lane and, on the way across, in the one beside, the one that asks for the most
-/// braking; the road's end counts as one.
-std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, const LaneScene& scene) {
-  const SpeedParameters& speed = driver.parameters.speed;
-  if (driver.tracks.follows) return obstacle_in_tracks(driver.tracks, scene, speed);
-  const auto wish_mps2 = [&](const Obstacle& obstacle) {
-    return wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
+/// What the foot minds: whoever was seen in the way a reaction time ago, or the end of the lane. Which way the car goes the
+/// driver knows at once.
+std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, LaneScene scene) {
+  scene.vehicles = driver.minded;
+  if (driver.tracks.follows) return obstacle_in_tracks(driver.tracks, scene, driver.parameters.speed);
+  const auto wish_mps2 = [&](const std::optional<Obstacle>& obstacle) {
+    return wished_acceleration_mps2(driver.parameters.speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
   };
-  std::optional<Obstacle> hardest = obstacle_in_lane(scene, driver.lanes.lane, speed);
-  const auto consider = [&](const std::optional<Obstacle>& other) {
-    if (other && (!hardest || wish_mps2(*other) < wish_mps2(*hardest))) hardest = other;
-  };
-  if (driver.lanes.phase >= LanePhase::change)
-    consider(obstacle_in_lane(scene, driver.lanes.target, speed));
-  if (scene.lane_ends_in_m < lane_preview_m) consider(Obstacle{scene.lane_ends_in_m, 0.0});
-  return hardest;
+  const auto vehicle = obstacle_on_way(driver.lanes, scene, driver.parameters.speed);
+  if (scene.lane_ends_in_m >= lane_preview_m) return vehicle;
+  const std::optional<Obstacle> end = Obstacle{scene.lane_ends_in_m, 0.0};
+  return wish_mps2(end) < wish_mps2(vehicle) ? end : vehicle;
 }
 
 /// No road in sight: hold the wheel, brake.
@@ -155,6 +151,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     auto seen = see_vehicles(network, *driver.corridor, snapshot, *own);
     see_accelerations(driver.vehicles, look_around_interval_s, seen);
     driver.vehicles = std::move(seen);
+    const double reaction_s = driver.parameters.speed.reaction_time_s;
+    driver.minded = remembered_vehicles(driver.foot_eyes.through(driver.now_s, driver.vehicles, reaction_s), reaction_s, own->speed_mps);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
@@ -182,7 +180,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s,
                         driver.head_random);
   advance_pedals(driver.pedals, parameters.speed, parameters.car, *own, scene.desired_speed_mps,
-                 obstacle_ahead(driver, scene), driver.now_s, dt_s, driver.foot_random);
+                 obstacle_ahead(driver, scene), dt_s, driver.foot_random);
 
   DriverInput input;
   input.steering_wheel_rad = advance_steering(driver.steering, parameters.steering, parameters.car,

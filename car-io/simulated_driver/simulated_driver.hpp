@@ -41,6 +41,8 @@ struct SimulatedDriver {
   std::optional<traffic::Corridor> corridor;
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.
   std::vector<SeenVehicle> vehicles;
+  ReactionDelay<std::vector<SeenVehicle>> foot_eyes;
+  std::vector<SeenVehicle> minded;  ///< Those who the foot acts upon: as seen a reaction time ago.
   double now_s = 0.0;
   double next_look_around_s = 0.0;
   SteeringState steering;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,10 +17,12 @@
 
 #include "logging/measures/glances.hpp"
 #include "logging/measures/lane_changes.hpp"
+#include "logging/measures/lateral_position.hpp"
 #include "logging/records.hpp"
 #include "sim-server/crashes.hpp"
 #include "sim-server/driver_seat.hpp"
 #include "sim-server/effect_surroundings.hpp"
+#include "sim-server/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -28,33 +31,63 @@ namespace septet::server {
 struct DrivingRecord {
   double time_s = 0.0, way_m = 0.0;
   int hard_brakings = 0;        ///< Times that the car slowed by more than 5 m/s² over a tenth of a second.
+  double hardest_mps2 = 0.0;
   int own_collisions = 0;       ///< That the driver made.
   int other_collisions = 0;     ///< That others made.
   int stops = 0;                ///< Times at a standstill.
   double off_lanes_s = 0.0;     ///< With the front axle off every lane for driving.
-  int lane_changes = 0, glances = 0;
-  std::vector<std::string> incidents;  ///< A line for each braking, collision and stop.
+  int lane_changes = 0;
+  int unseen_changes = 0;       ///< Without a glance at that side's mirror in the six seconds before the line is crossed.
+  int glances = 0;              ///< Those for lane changes included.
+  double glance_s = 0.0;        ///< All of them together…
+  double longest_glance_s = 0.0;
+  /// Sums over samples of the lateral position and its square, without lane changes; and of the time headway of those below 4 s.
+  double lateral_samples = 0.0, lateral_m = 0.0, lateral_m2 = 0.0;
+  double headway_samples = 0.0, headway_s = 0.0, short_headways = 0.0;  ///< Short: below 1 s.
+  std::vector<std::string> incidents;  ///< A line for each collision, stop and braking harder than 4 m/s².
 
   void add(const DrivingRecord& other) {
     time_s += other.time_s;
     way_m += other.way_m;
     hard_brakings += other.hard_brakings;
+    hardest_mps2 = std::max(hardest_mps2, other.hardest_mps2);
     own_collisions += other.own_collisions;
     other_collisions += other.other_collisions;
     stops += other.stops;
     off_lanes_s += other.off_lanes_s;
     lane_changes += other.lane_changes;
+    unseen_changes += other.unseen_changes;
     glances += other.glances;
+    glance_s += other.glance_s;
+    longest_glance_s = std::max(longest_glance_s, other.longest_glance_s);
+    lateral_samples += other.lateral_samples;
+    lateral_m += other.lateral_m;
+    lateral_m2 += other.lateral_m2;
+    headway_samples += other.headway_samples;
+    headway_s += other.headway_s;
+    short_headways += other.short_headways;
     incidents.insert(incidents.end(), other.incidents.begin(), other.incidents.end());
   }
 };
 
+inline std::string describe(const DrivingRecord& r) {
+  const double hours = r.time_s / 3600.0, lateral = std::max(r.lateral_samples, 1.0), following = std::max(r.headway_samples, 1.0);
+  const double mean_m = r.lateral_m / lateral;
+  return fmt::format("{:.3f} h, {:.1f} km; braked harder than 5 m/s2 {} times, {:.1f} at most; collisions: own {}, others' {}; stops {}; off the lanes "
+                     "{:.1f} s; lane changes {:.0f} an hour, {} without a look; a glance every {:.1f} s, mean {:.2f} s, longest {:.1f} s; lateral position {:+.2f} m, SD "
+                     "{:.3f} m; time headway below 4 s: mean {:.2f} s, below 1 s {:.1f} %",
+                     hours, r.way_m / 1000.0, r.hard_brakings, r.hardest_mps2, r.own_collisions, r.other_collisions, r.stops, r.off_lanes_s,
+                     r.lane_changes / std::max(hours, 1e-9), r.unseen_changes, r.time_s / std::max(1, r.glances), r.glance_s / std::max(1, r.glances), r.longest_glance_s,
+                     mean_m, std::sqrt(std::max(0.0, r.lateral_m2 / lateral - mean_m * mean_m)), r.headway_s / following,
+                     100.0 * r.short_headways / following);
+}
+
 /// Watches the snapshots of one drive.
 class DriveWatch {
  public:
-  static constexpr double hard_mps2 = 5.0, history_s = 3.0;
+  static constexpr double hard_mps2 = 5.0, noted_mps2 = 4.0, history_s = 3.0;
 
-  explicit DriveWatch(std::string name) : name_(std::move(name)) {}
+  DriveWatch(std::string name, std::shared_ptr<const SimulationModel> model) : name_(std::move(name)), model_(std::move(model)) {}
 
   void see(const Snapshot& snapshot) {
     if (!logging::is_sample_due(snapshot.tick, tick_rate_hz)) return;
@@ -66,10 +99,13 @@ class DriveWatch {
     record.off_lanes_s += own.lane == 0 ? dt_s : 0.0;
     if (last_speed_mps_ && dt_s > 0.0) {
       const double braking_mps2 = (*last_speed_mps_ - own.speed_mps) / dt_s;
+      record.hardest_mps2 = std::max(record.hardest_mps2, braking_mps2);
+      if (braking_mps2 > noted_mps2 && !is_noted_) note(snapshot, fmt::format("brakes with {:.1f} m/s2", braking_mps2));
       if (braking_mps2 > hard_mps2 && !is_braking_hard_) {
         ++record.hard_brakings;
-        note(snapshot, fmt::format("brakes with {:.1f} m/s2", braking_mps2));
+        note(snapshot, fmt::format("brakes hard, with {:.1f} m/s2", braking_mps2));
       }
+      is_noted_ = braking_mps2 > (is_noted_ ? noted_mps2 / 2.0 : noted_mps2);
       is_braking_hard_ = braking_mps2 > (is_braking_hard_ ? hard_mps2 / 2.0 : hard_mps2);
     }
     last_speed_mps_ = own.speed_mps;
@@ -79,7 +115,7 @@ class DriveWatch {
       note(snapshot, "stops");
     }
     stands_ = stands;
-    samples.push_back(logging::take_sample(snapshot, std::nullopt));
+    samples.push_back(logging::take_sample(snapshot, find_leader(snapshot, model_->roads)));
     look_for_collisions(snapshot, *car);
     remember(snapshot, *car);
   }
@@ -88,8 +124,30 @@ class DriveWatch {
   bool has_collided() const { return record.own_collisions + record.other_collisions > 0; }
 
   DrivingRecord finish() {
-    record.lane_changes = static_cast<int>(logging::find_lane_changes(samples).size());
-    record.glances = static_cast<int>(logging::find_glances(samples).size());
+    const auto changes = logging::find_lane_changes(samples);
+    record.lane_changes = static_cast<int>(changes.size());
+    const auto glances = logging::find_glances(samples);
+    for (const logging::LaneChange& change : changes)
+      record.unseen_changes += std::ranges::none_of(glances, [&](const logging::Glance& glance) {
+        return glance.area == (change.lanes_to_left > 0 ? "left mirror" : "right mirror") && glance.start_s < change.simulated_time_s &&
+               glance.start_s > change.simulated_time_s - 6.0;
+      });
+    for (const logging::Glance& glance : glances) {
+      ++record.glances;
+      record.glance_s += glance.duration_s;
+      record.longest_glance_s = std::max(record.longest_glance_s, glance.duration_s);
+    }
+    const auto lateral = logging::compute_lateral_position_statistics(samples, changes);
+    record.lateral_samples = static_cast<double>(lateral.samples);
+    record.lateral_m = record.lateral_samples * lateral.mean_m;
+    record.lateral_m2 = record.lateral_samples * (lateral.sd_m * lateral.sd_m + lateral.mean_m * lateral.mean_m);
+    for (const logging::Sample& sample : samples) {
+      const double headway_s = sample.leader ? sample.leader->distance_headway_m / std::max(sample.speed_mps, 1.0) : 1e9;
+      if (headway_s > 4.0) continue;
+      record.headway_samples += 1.0;
+      record.headway_s += headway_s;
+      record.short_headways += headway_s < 1.0 ? 1.0 : 0.0;
+    }
     return record;
   }
 
@@ -167,9 +225,10 @@ class DriveWatch {
   }
 
   std::string name_;
+  std::shared_ptr<const SimulationModel> model_;
   std::deque<Instant> past_;
   std::optional<double> last_speed_mps_;
-  bool is_braking_hard_ = false, stands_ = false;
+  bool is_noted_ = false, is_braking_hard_ = false, stands_ = false;
 };
 
 /// One drive, for as long as given or until a collision.
@@ -179,7 +238,7 @@ inline DriveWatch watch_drive(const std::string& scenario, const std::string& dr
   REQUIRE(seat.has_value());
   auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
   REQUIRE(drive.has_value());
-  DriveWatch watch(fmt::format("{} {} seed {}", scenario, driver, seed));
+  DriveWatch watch(fmt::format("{} {} seed {}", scenario, driver, seed), loaded.model);
   while (watch.record.time_s < seconds - 1e-6 && !watch.has_collided()) {
     const auto tick = (*drive)->next(std::nullopt);
     if (!tick || !*tick) break;  // The end of the road.

@@ -1,20 +1,19 @@
 #pragma once
-// The driver, the S80 and the motorway in a loop, without a server: 120 ticks a second, ten steps
-// of the car in each.
+/// The driver, the S80 and the motorway in a loop: the product's own step and log samples, without files, screens or a swarm.
 
+#include <functional>
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "car-io/car_connection.hpp"
 #include "car-io/simulated_driver/simulated_driver.hpp"
-#include "engine/core/hash.hpp"
-#include "engine/physics/vehicle/vehicle.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
-#include "engine/road/road_locate.hpp"
-#include "engine/traffic/traffic.hpp"
+#include "engine/scenario/scenario_reader.hpp"
 #include "logging/records.hpp"
+#include "sim-server/simulation.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/road/road_files.hpp"
 
@@ -28,11 +27,53 @@ inline const vehicle::VehicleParameters& volvo() {
   return car;
 }
 
+/// A scenario of one car at rest on the motorway, and nothing more.
+inline const scenario::Scenario& one_car() {
+  static const scenario::Scenario scenario = [] {
+    const auto read = scenario::read_scenario(
+        R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="2026-01-01T00:00:00" description="" author=""/><CatalogLocations/>)"
+        R"(<RoadNetwork><LogicFile filepath="motorway.xodr"/></RoadNetwork><Entities><ScenarioObject name="ego">)"
+        R"(<Vehicle name="volvo-s80" vehicleCategory="car"><BoundingBox><Center x="1.311" y="0" z="0.7175"/>)"
+        R"(<Dimensions width="1.831" length="4.822" height="1.435"/></BoundingBox>)"
+        R"(<Performance maxSpeed="62.6" maxAcceleration="4" maxDeceleration="9"/><Axles>)"
+        R"(<FrontAxle maxSteering="0.61" wheelDiameter="0.642" trackWidth="1.57" positionX="2.791" positionZ="0.321"/>)"
+        R"(<RearAxle maxSteering="0" wheelDiameter="0.642" trackWidth="1.57" positionX="0" positionZ="0.321"/>)"
+        R"(</Axles></Vehicle></ScenarioObject></Entities><Storyboard><Init><Actions><Private entityRef="ego"><PrivateAction>)"
+        R"(<TeleportAction><Position><LanePosition roadId="1" laneId="-3" s="100"/></Position></TeleportAction>)"
+        R"(</PrivateAction></Private></Actions></Init></Storyboard></OpenSCENARIO>)",
+        "one car", scenario::files_in("."));
+    REQUIRE_MESSAGE(read.has_value(), describe(read.error()));
+    return *read;
+  }();
+  return scenario;
+}
+
+/// The others on the road: whoever a test puts there.
+class StagedTraffic final : public traffic::TrafficEngine {
+ public:
+  using Stage = std::function<void(double time_s, std::vector<Participant>& vehicles)>;
+  explicit StagedTraffic(const Stage& stage) : stage_(stage) {}
+
+  void start(const traffic::TrafficParameters&, std::span<const traffic::ForeignVehicle>) override {}
+  void stop() override {}
+  void advance(std::span<const traffic::ForeignVehicle>, double dt_s) override {
+    vehicles_.clear();
+    if (stage_) stage_(static_cast<double>(++ticks_) * dt_s, vehicles_);
+  }
+  void append_participants(std::vector<Participant>& participants) const override {
+    participants.insert(participants.end(), vehicles_.begin(), vehicles_.end());
+  }
+  void add_to_hash(StateHash&) const override {}
+
+ private:
+  const Stage& stage_;
+  Tick ticks_ = 0;
+  std::vector<Participant> vehicles_;
+};
+
 class ClosedLoop {
  public:
-  static constexpr double tick_s = 1.0 / 120.0;
-  static constexpr int steps = 10;
-  static constexpr ParticipantId driver_id = 1;
+  static constexpr double tick_s = 1.0 / server::tick_rate_hz;
 
   ClosedLoop(const std::string& driver_name, std::uint64_t seed, int lane, double s_m,
              double speed_mps)
@@ -40,32 +81,29 @@ class ClosedLoop {
 
   ClosedLoop(const DriverParameters& driver, std::uint64_t seed, int lane, double s_m,
              double speed_mps, const vehicle::VehicleParameters& car = volvo())
-      : car_(car), person_(driver, seed, motorway()), connection_(person_.opener(), {}) {
-    const auto point = road::evaluate_lane(motorway(), {0, lane, s_m, 0.0});
-    state_ = vehicle::standstill(car_, road::world_from_lane(point), speed_mps);
-    place_ = {0, s_m, point.t_m};
-    take_snapshot();
+      : person_(driver, seed, motorway()), connection_(person_.opener(), {}) {
+    model_.roads = motorway();
+    model_.scenario = one_car();
+    model_.driver_entity = 0;
+    model_.car = car;
+    auto started = server::initial_state(model_, std::make_unique<StagedTraffic>(others));
+    REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
+    state_ = std::move(*started);
+    const auto place = road::evaluate_lane(motorway(), {0, lane, s_m, 0.0});
+    state_.car = vehicle::standstill(car, road::world_from_lane(place), speed_mps);
+    snapshot = server::capture_snapshot(model_, state_);
   }
+  ClosedLoop(const ClosedLoop&) = delete;  // The traffic looks at `others`.
 
-  /// Other vehicles of the next snapshots: `move` fills them for a simulated time.
-  std::function<void(double time_s, std::vector<Participant>&)> others;
+  /// Other vehicles of the next snapshots.
+  StagedTraffic::Stage others;
 
   void tick() {
     person_.drive(snapshot, tick_s);
-    input = connection_.poll(snapshot.simulated_time_s).input;
-    vehicle::Ground ground;
-    const auto centres = vehicle::wheel_centres_m(car_, state_);
-    for (int wheel = 0; wheel < vehicle::wheel_count; ++wheel) {
-      const auto surface = road::surface_at(motorway(), Vec2(centres[wheel]), &place_);
-      if (!surface) continue;
-      ground[wheel].point_m = {centres[wheel].x, centres[wheel].y, surface->height_m};
-      ground[wheel].normal = surface->normal;
-    }
-    for (int i = 0; i < steps; ++i)
-      vehicle::advance_vehicle(car_, input, ground, tick_s / steps, state_);
-    ++snapshot.tick;
-    take_snapshot();
-    if (logging::is_sample_due(snapshot.tick, 120.0))
+    input = connection_.poll(state_.time_s()).input;
+    std::vector<server::SimulationEvent> events;
+    snapshot = server::server_step(model_, input, state_, events, std::move(snapshot));
+    if (logging::is_sample_due(snapshot.tick, server::tick_rate_hz))
       samples.push_back(logging::take_sample(snapshot, std::nullopt));
   }
   void run(double time_s) {
@@ -76,54 +114,14 @@ class ClosedLoop {
   DriverInput input;
   std::vector<logging::Sample> samples;
 
-  std::uint64_t hash() const {
-    StateHash hash;
-    vehicle::hash_state(hash, state_);
-    return hash.value();
-  }
-
-  bool engine_running() const { return state_.powertrain.engine_running; }
+  std::uint64_t hash() const { return snapshot.state_hash; }
+  bool engine_running() const { return state_.car.powertrain.engine_running; }
 
  private:
-  void take_snapshot() {
-    const vehicle::VehicleOutputs out = vehicle::outputs(car_, state_);
-    snapshot.simulated_time_s = static_cast<double>(snapshot.tick) * tick_s;
-    Participant body;
-    body.id = driver_id;
-    body.model = *find_vehicle_model("volvo-s80");
-    body.world_from_vehicle = out.world_from_vehicle;
-    body.velocity_mps = out.velocity_mps;
-    body.acceleration_mps2 = out.acceleration_mps2;
-    body.angular_velocity_radps = out.angular_velocity_radps;
-    snapshot.participants = {body};
-    if (others) others(snapshot.simulated_time_s, snapshot.participants);
-    DriverCar& car = snapshot.driver_car;
-    car.participant = driver_id;
-    car.speed_mps = out.speed_mps;
-    car.steering_wheel_rad = input.steering_wheel_rad;
-    car.accelerator = input.accelerator;
-    car.brake = input.brake;
-    car.gear = static_cast<std::int8_t>(out.gear);
-    car.engine_radps = out.engine_radps;
-    car.yaw_rate_radps = out.yaw_rate_radps;
-    car.gaze_heading_rad = input.gaze_heading_rad;
-    const auto location =
-        road::locate(motorway(), Vec2(out.world_from_vehicle.position_m), &place_);
-    car.lane = 0;
-    if (!location || location->lanes.outside_m > 0.0) return;
-    place_ = location->position;
-    car.road = place_.road;
-    car.road_s_m = place_.s_m;
-    car.lane = location->lanes.lane;
-    car.lateral_position_m = location->lanes.offset_m;
-    car.lane_width_m = road::lane_width_m(motorway(), place_.road, car.lane, place_.s_m);
-  }
-
-  vehicle::VehicleParameters car_;
-  vehicle::VehicleState state_;
+  server::SimulationModel model_;
+  server::SimulationState state_;
   SimulatedDriverCar person_;
   CarConnection connection_;
-  road::RoadPosition place_;
 };
 
 /// A vehicle that keeps a lane of the motorway's first road at a constant speed.

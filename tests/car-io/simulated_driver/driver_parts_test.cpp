@@ -106,7 +106,7 @@ TEST_CASE("only an emergency moves the foot faster than comfort allows") {
     Random random(2);
     double largest = 0.0, before = 0.0;
     for (int i = 0; i < 120 * 3; ++i) {
-      advance_pedals(pedals, speed, {}, own, 30.0, obstacle, i / 120.0, 1.0 / 120.0, random);
+      advance_pedals(pedals, speed, {}, own, 30.0, obstacle, 1.0 / 120.0, random);
       largest = std::max(largest, std::abs(pedals.wish_mps2 - before) * 120.0);
       before = pedals.wish_mps2;
     }
@@ -123,11 +123,9 @@ TEST_CASE("accelerator and brake are never pressed together") {
   own.speed_mps = 25.0;
   bool braked = false, accelerated = false;
   for (int i = 0; i < 120 * 40; ++i) {
-    const double now_s = i / 120.0;
-    const bool blocked = std::fmod(now_s, 8.0) < 4.0;
+    const bool blocked = std::fmod(i / 120.0, 8.0) < 4.0;
     advance_pedals(pedals, {}, {}, own, 30.0,
-                   blocked ? std::optional(Obstacle{20.0, 18.0}) : std::nullopt, now_s, 1.0 / 120.0,
-                   random);
+                   blocked ? std::optional(Obstacle{20.0, 18.0}) : std::nullopt, 1.0 / 120.0, random);
     REQUIRE((pedals.accelerator == 0.0 || pedals.brake == 0.0));
     braked |= pedals.brake > 0.1;
     accelerated |= pedals.accelerator > 0.1;

@@ -71,4 +71,25 @@ TEST_CASE("braking is seen by the speed that it takes, within a second, and not 
   CHECK(now[0].acceleration_mps2 == doctest::Approx(-4.0).epsilon(0.05));
 }
 
+TEST_CASE("the driver knows how far the sides of the car are from the lines of its lane") {
+  Ahead scene(0.0);
+  const road::LanePosition left_of_middle{0, -7, 3000.0, 0.5};
+  scene.snapshot.participants[0].world_from_vehicle = road::world_from_lane(road::evaluate_lane(motorway(), left_of_middle));
+  const auto corridor = find_corridor(motorway(), scene.snapshot);
+  REQUIRE(corridor);
+  const auto own = see_own_place(motorway(), *corridor, scene.snapshot, std::nullopt);
+  REQUIRE(own);
+  const double width_m = vehicle_models()[scene.snapshot.participants[0].model].width_m;
+  CHECK(own->room_right_m - own->room_left_m == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(own->room_right_m + own->room_left_m == doctest::Approx(road::lane_width_m(motorway(), 0, -7, 3000.0) - width_m));
+}
+
+TEST_CASE("what was seen a while ago is taken to have gone on evenly") {
+  const std::vector<SeenVehicle> seen{{.id = 2, .is_ahead = true, .gap_m = 30.0, .speed_mps = 20.0},
+                                      {.id = 3, .is_ahead = false, .gap_m = 30.0, .speed_mps = 20.0}};
+  const auto now = remembered_vehicles(seen, 0.5, 26.0);
+  CHECK(now[0].gap_m == doctest::Approx(27.0));
+  CHECK(now[1].gap_m == doctest::Approx(33.0));
+}
+
 }  // namespace septet::car_io

@@ -126,7 +126,7 @@ TEST_CASE(
       loop.tick();
       smallest_gap_m =
           std::min(smallest_gap_m, leader_s_m - saloon.rear_overhang_m -
-                                       loop.snapshot.driver_car.road_s_m - own.front_m());
+                                       loop.snapshot.driver_car.road_s_m + own.wheelbase_m - own.front_m());
       if (loop.snapshot.tick == 29 * 120) speed_at_29_s = loop.snapshot.driver_car.speed_mps;
     }
     CHECK(smallest_gap_m > 0.5);
@@ -164,6 +164,17 @@ TEST_CASE(
   CHECK(loop.snapshot.driver_car.lane <= -4);  // Back to the outer lanes.
   CHECK(signal_ended_s > crossed_s);
   CHECK(signal_ended_s - crossed_s < 5.0);
+  // And so it stands in the log: twice at the mirror of that side, out and back in.
+  const auto changes = logging::find_lane_changes(loop.samples);
+  const auto glances = logging::find_glances(loop.samples);
+  CHECK(changes.size() >= 2);
+  for (const logging::LaneChange& change : changes) {
+    const auto looks = std::ranges::count_if(glances, [&](const logging::Glance& glance) {
+      return glance.area == (change.lanes_to_left > 0 ? "left mirror" : "right mirror") &&
+             std::abs(change.simulated_time_s - 4.5 - glance.start_s) < 4.5;
+    });
+    CHECK(looks >= 2);
+  }
 }
 
 TEST_CASE("no lane change is made into a vehicle alongside") {

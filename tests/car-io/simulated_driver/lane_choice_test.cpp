@@ -130,4 +130,31 @@ TEST_CASE("a change ends at rest in the other lane and does not go on while the 
   CHECK(point_on_way(way, way.duration_s - 1e-6).rate_ps == doctest::Approx(0.0));
 }
 
+TEST_CASE("whoever is ahead in the lane that a change leaves is minded until the body has left it") {
+  Change change;
+  change.vehicles = {vehicle_in_lane(3, true, 12.0, 15.0)};
+  const auto minded = [&] { return obstacle_on_way(change.state, change.scene(), change.driver.speed); };
+  CHECK(minded());
+  change.own.lane = 2;
+  change.own.room_right_m = -0.3;
+  CHECK(minded());
+  change.own.room_right_m = 0.1;
+  CHECK_FALSE(minded());
+  // Back again: what is ahead in the lane to be counts.
+  change.state.phase = LanePhase::go_back;
+  CHECK(minded());
+}
+
+TEST_CASE("an ambulance in another lane is stayed behind without hard braking") {
+  Change change;
+  SeenVehicle ambulance = vehicle_in_lane(2, true, 0.3, 20.0);
+  ambulance.is_ambulance = true;
+  change.vehicles = {ambulance};
+  const auto wish_in = [&](int lane) {
+    return wished_acceleration_mps2(change.driver.speed, 28.0, 30.0, obstacle_in_lane(change.scene(), lane, change.driver.speed));
+  };
+  CHECK(wish_in(2) < -8.0);
+  CHECK(wish_in(3) == doctest::Approx(-change.driver.speed.braking_mps2));
+}
+
 }  // namespace septet::car_io
