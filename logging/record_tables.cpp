@@ -7,7 +7,7 @@
 namespace septet::logging {
 namespace {
 
-constexpr std::string_view seed_prefix = "seed.";
+constexpr std::string_view seed_prefix = "seed.", parameter_prefix = "parameter.";
 
 /// Binds values to the parameters 1, 2, 3, …
 class RowBinder {
@@ -121,6 +121,7 @@ Expected<void> insert_info(const Database& database, const SessionInfo& info) {
   meta["ticks_per_second"] = fmt::format("{}", info.ticks_per_second);
   for (const auto& [name, seed] : info.seeds)
     meta[std::string(seed_prefix) + name] = fmt::format("{}", seed);
+  for (const auto& [name, value] : info.parameters) meta[std::string(parameter_prefix) + name] = value;
   for (const auto& [key, value] : meta)
     if (auto done = insert_meta(database, key, value); !done) return done;
   auto statement = database.prepare("INSERT INTO files VALUES(?,?,?)");
@@ -306,6 +307,11 @@ Expected<SessionInfo> read_info(const Database& database) {
       return failure(fmt::format("the meta row {} says '{}'", row->first, row->second),
                      database.where(), "this session cannot be used; a whole number belongs there");
     info.seeds[row->first.substr(seed_prefix.size())] = *seed;
+    row = info.other.erase(row);
+  }
+  for (auto row = info.other.lower_bound(std::string(parameter_prefix));
+       row != info.other.end() && row->first.starts_with(parameter_prefix);) {
+    info.parameters[row->first.substr(parameter_prefix.size())] = row->second;
     row = info.other.erase(row);
   }
   auto files = database.prepare("SELECT role, name, content FROM files ORDER BY rowid");

@@ -29,7 +29,8 @@ scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
   return scenario::no_entity;
 }
 
-Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
+/// `vehicle`: instead of the rig's, unless it is empty.
+Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle, std::vector<scenario::ParameterValue> parameters) {
   LoadedDrive drive;
   auto model = std::make_shared<SimulationModel>();
   model->seed = seed;
@@ -44,6 +45,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
   auto rig = rig::read_rig(rig_source->content, rig_source->name);
   if (!rig) return tl::unexpected(rig.error());
   drive.rig = std::move(*rig);
+  if (!vehicle.empty()) drive.rig.car.vehicle = vehicle;
 
   const auto scenario_source = take("scenario", "");
   if (!scenario_source) return tl::unexpected(scenario_source.error());
@@ -60,7 +62,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
     });
   };
   std::vector<road::Finding> findings;
-  auto scenario = scenario::read_scenario(scenario_source->content, scenario_source->name, files, &findings);
+  auto scenario = scenario::read_scenario(scenario_source->content, scenario_source->name, files, &findings, parameters);
   if (!scenario) return tl::unexpected(scenario.error());
   model->scenario = std::move(*scenario);
   model->driver_entity = driver_entity(model->scenario);
@@ -83,6 +85,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed) {
   model->car = *car;
   for (const auto& finding : findings) drive.warnings.push_back(describe(finding.error));
   drive.model = std::move(model);
+  drive.parameters = std::move(parameters);
   return drive;
 }
 
@@ -96,6 +99,11 @@ const std::string& LoadedDrive::source(std::string_view role) const {
   const auto found = std::ranges::find(sources, role, &logging::SourceFile::role);
   SEPTET_CHECK(found != sources.end(), "a drive without {}", role);
   return found->content;
+}
+
+std::string LoadedDrive::vehicle_name() const {
+  const auto found = std::ranges::find(sources, "vehicle", &logging::SourceFile::role);
+  return found == sources.end() ? "" : fs::path(found->name).stem().string();
 }
 
 Expected<LoadedDrive> load_drive(const DriveFiles& files) {
@@ -119,18 +127,20 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
           });
         return from_disk(role, scenario_folder / name);
       },
-      files.seed);
+      files.seed, files.vehicle, files.parameters);
 }
 
 Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {
   const auto seed = session.seeds.find("drive");
+  std::vector<scenario::ParameterValue> parameters;
+  for (const auto& [name, value] : session.parameters) parameters.push_back({name, value});
   return load(
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         for (const auto& source : session.files)
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
         return failure(fmt::format("the session holds no {} {}", role, name), "session", "it was written by another version of Septet");
       },
-      seed == session.seeds.end() ? 1 : seed->second);
+      seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
 }
 
 }  // namespace septet::server

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/rig/rig.hpp"
+#include "engine/scenario/scenario_reader.hpp"
 #include "logging/records.hpp"
 #include "sim-server/simulation.hpp"
 
@@ -16,6 +17,8 @@ struct DriveFiles {
   std::string scenario;  ///< Path of the .xosc.
   std::string rig;       ///< Path of the .toml.
   std::uint64_t seed = 1;
+  std::string vehicle{};                               ///< A file or a name, instead of the rig's; empty: the rig's.
+  std::vector<scenario::ParameterValue> parameters{};  ///< Instead of the scenario's own values.
 };
 
 /// A model with the texts that it was read from: they go into the log, so that a session needs no file beside it.
@@ -23,9 +26,12 @@ struct LoadedDrive {
   std::shared_ptr<const SimulationModel> model;
   rig::Rig rig;
   std::vector<logging::SourceFile> sources;  ///< Roles: scenario, road, rig, vehicle, catalog.
+  std::vector<scenario::ParameterValue> parameters;  ///< Those that were given from outside.
   std::vector<std::string> warnings;         ///< What the files hold that Septet does not do, by name and line.
 
   const std::string& source(std::string_view role) const;
+  /// The name of the vehicle's file, without folder and ending.
+  std::string vehicle_name() const;
 };
 
 Expected<LoadedDrive> load_drive(const DriveFiles& files);

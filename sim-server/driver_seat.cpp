@@ -6,11 +6,10 @@
 
 namespace septet::server {
 
-Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& driver, std::uint64_t seed,
-                                      std::shared_ptr<const SimulationModel> model) {
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, std::shared_ptr<const SimulationModel> model) {
   DriverSeat seat;
-  if (!driver.empty() || car.source == rig::CarSource::simulated_driver) {
-    auto parameters = car_io::find_driver(driver.empty() ? car.driver : driver);
+  if (car.source == rig::CarSource::simulated_driver) {
+    auto parameters = car_io::find_driver(car.driver);
     if (!parameters) return tl::unexpected(parameters.error());
     const vehicle::PowertrainParameters& powertrain = model->car.powertrain;
     parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;

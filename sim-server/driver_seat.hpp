@@ -10,9 +10,8 @@
 
 namespace septet::server {
 
-/// `driver` overrides the rig's simulated driver; naming one also takes the seat of a person.
-Expected<DriverSeat> open_driver_seat(const rig::Car& car, const std::string& driver, std::uint64_t seed,
-                                      std::shared_ptr<const SimulationModel> model);
+/// The seat that the rig's `source` names. Error: its device is not there, or there is no such driver.
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, std::shared_ptr<const SimulationModel> model);
 
 /// Reads a device here and moves its actuators, within the seat's limits.
 void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options);

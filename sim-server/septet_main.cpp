@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "car-io/driving_keys.hpp"
+#include "engine/core/version.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
 #include "sim-server/command/film_command.hpp"
@@ -17,7 +18,6 @@
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
 #include "sim-server/resources.hpp"
-#include "sim-server/version.hpp"
 
 namespace septet::server {
 namespace {
@@ -32,7 +32,7 @@ void add_drive_options(CLI::App& command, DriveOptions& options) {
 
 int run(int argc, char** argv) {
   CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
-  app.set_version_flag("--version", std::string(version));
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer("Exit status: 0 finished, 1 failed, 2 wrong use, 3 a drive or replay that somebody stopped before its end.");
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
@@ -45,6 +45,9 @@ int run(int argc, char** argv) {
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
   add_drive_options(*drive_command, drive);
   drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name of septet list scenarios");
+  drive_command->add_option("--parameter", drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("");
+  drive_command->add_option("--vehicle", drive.vehicle, "Vehicle file, or a name of septet list vehicles")->default_str("the rig's");
+  drive_command->add_option("--participant", drive.participant, "The driver's code, for log, summary and report")->default_str("none");
   drive_command->add_option("--seed", drive.seed, "Seed of everything random");
   drive_command->add_option("--driver", drive.driver, "A simulated driver of septet list drivers drives")->default_str("whom the rig names");
   drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace septet::server {
 
@@ -15,7 +16,10 @@ struct ServerOptions {
   double replay_from_s = 0.0;
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
-  std::string driver;    ///< Simulated driver; empty: the rig's.
+  std::string driver;       ///< A simulated driver, who then drives whatever the rig says; empty: the rig's.
+  std::string vehicle;      ///< A file or a name; empty: the rig's.
+  std::string participant;  ///< The driver's code.
+  std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";  ///< Who moves the traffic: own or sumo.
   double wait_for_screens_s = -1.0;  ///< Before it drives, in real time; then without those that are missing. Negative: until all are there.
   bool lockstep = false;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -170,8 +171,29 @@ Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
   return {};
 }
 
+Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vector<std::string>& texts) {
+  std::vector<scenario::ParameterValue> parameters;
+  for (const auto& text : texts) {
+    auto parameter = scenario::parse_parameter(text);
+    if (!parameter) return tl::unexpected(parameter.error());
+    if (std::ranges::find(parameters, parameter->name, &scenario::ParameterValue::name) != parameters.end())
+      return failure(fmt::format("{} is given twice", parameter->name), "--parameter", "give each parameter one value");
+    parameters.push_back(std::move(*parameter));
+  }
+  return parameters;
+}
+
+/// What the command line says of the driver's seat goes before the rig.
+void choose_driver(const ServerOptions& options, rig::Car& car) {
+  if (options.driver.empty()) return;
+  car.source = rig::CarSource::simulated_driver;
+  car.driver = options.driver;
+}
+
 Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, ProgressLine& progress) {
-  auto loaded = load_drive({options.scenario, options.rig, options.seed});
+  auto parameters = read_parameters(options.parameters);
+  if (!parameters) return tl::unexpected(parameters.error());
+  auto loaded = load_drive({options.scenario, options.rig, options.seed, options.vehicle, std::move(*parameters)});
   if (!loaded) return tl::unexpected(loaded.error());
   drive.loaded = std::move(*loaded);
   for (const auto& warning : drive.loaded.warnings) progress.message("not used: " + warning);
@@ -180,7 +202,8 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   scenery::build_vehicles(builder);
   scenery::build_debris_looks(builder);
   scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
-  auto seat = open_driver_seat(drive.loaded.rig.car, options.driver, options.seed, drive.loaded.model);
+  choose_driver(options, drive.loaded.rig.car);
+  auto seat = open_driver_seat(drive.loaded.rig.car, options.seed, drive.loaded.model);
   if (!seat) return tl::unexpected(seat.error());
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
@@ -197,7 +220,7 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) return failure(error.message(), options.out.string(), "choose a folder that can be written with --out");
-  auto log = SessionLog::create(options.out / "session.sqlite", drive.loaded, options.seed, options.traffic, !options.lockstep && !options.no_screens);
+  auto log = SessionLog::create(drive.loaded, options);
   if (!log) return tl::unexpected(log.error());
   drive.log.emplace(std::move(*log));
   drive.log->record_scene(drive.store);
@@ -206,8 +229,8 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
 }
 
 /// Closes the log and writes summary and report. A log that cannot be closed is the drive's end, unless something else was.
-void finish_log(const ServerOptions& options, const std::string& rig, SessionLog& log, ServeResult& result,
-                const std::vector<HostedScreen>& screens, ProgressLine& progress) {
+void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result, const std::vector<HostedScreen>& screens, ProgressLine& progress) {
+  SessionLog& log = *drive.log;
   const auto failed = [&](const Error& error) {
     if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
     progress.message(fmt::format("septet-server: {}", describe(error)));
@@ -216,9 +239,7 @@ void finish_log(const ServerOptions& options, const std::string& rig, SessionLog
     result.error = error;
   };
   if (const auto finished = log.finish(log.outcome(result, screens)); !finished) failed(finished.error());
-  const auto written =
-      write_results(options.out, std::filesystem::path(options.scenario).stem().string(), rig, options.seed, log.outcome(result, screens));
-  if (!written) failed(written.error());
+  if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written) failed(written.error());
 }
 
 /// Standard output is for whoever started this program: what it may not miss. Not fmt::print, which throws where that one has gone.
@@ -301,7 +322,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   }
   progress.close();
   if (result.error) progress.message(fmt::format("septet-server: {}", describe(*result.error)));
-  if (drive.log) finish_log(options, rig.name, *drive.log, result, screens, progress);
+  if (drive.log) finish_log(options, drive, result, screens, progress);
   announce(fmt::format("ended {} {}", name_of(result.end), drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
   return result.end;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/version.hpp"
 #include "engine/road/body_lanes.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
@@ -15,7 +16,6 @@
 #include "logging/report/report.hpp"
 #include "logging/report/summary.hpp"
 #include "logging/session_reader.hpp"
-#include "sim-server/version.hpp"
 
 namespace septet::server {
 namespace {
@@ -29,24 +29,32 @@ std::string now_utc() {
   return text;
 }
 
+std::map<std::string, std::string> parameters_of(const LoadedDrive& drive) {
+  std::map<std::string, std::string> parameters;
+  for (const auto& parameter : drive.parameters) parameters[parameter.name] = parameter.value;
+  return parameters;
+}
+
 }  // namespace
 
-Expected<SessionLog> SessionLog::create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed,
-                                        const std::string& traffic, bool real_time) {
+Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options) {
   logging::SessionInfo info;
   info.septet_version = version;
   info.git_revision = revision;
   info.started_utc = now_utc();
   info.ticks_per_second = tick_rate_hz;
-  info.seeds["drive"] = seed;
+  info.participant = drive_options.participant;
+  info.seeds["drive"] = drive_options.seed;
+  info.parameters = parameters_of(drive);
   info.files = drive.sources;
-  info.other["driver"] = drive.rig.car.driver;
-  info.other["traffic"] = traffic;
+  info.other["driver"] = drive.rig.car.source == rig::CarSource::simulated_driver ? drive.rig.car.driver : "";
+  info.other["traffic"] = drive_options.traffic;
   info.other["compiler"] = __VERSION__;
   logging::WriterOptions options;
+  const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
   // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
-  auto writer = logging::SessionWriter::create(file, info, options);
+  auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
   if (!writer) return tl::unexpected(writer.error());
   return SessionLog(std::move(*writer), drive.model, real_time);
 }
@@ -170,15 +178,15 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
   return leader;
 }
 
-Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
-                             const logging::DriveOutcome& outcome) {
-  const auto reader = logging::SessionReader::open(out / "session.sqlite");
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome) {
+  const auto reader = logging::SessionReader::open(options.out / "session.sqlite");
   const auto log = reader.and_then(logging::summarise_log);
-  logging::DriveSummary summary{.scenario = scenario, .rig = rig, .seed = seed, .outcome = outcome, .log = {}};
+  logging::DriveSummary summary{.scenario = std::filesystem::path(options.scenario).stem().string(), .rig = drive.rig.name, .vehicle = drive.vehicle_name(),
+                                .participant = options.participant, .parameters = parameters_of(drive), .seed = options.seed, .outcome = outcome, .log = {}};
   if (log) summary.log = *log;
-  if (auto written = logging::write_summary(out / "summary.json", summary); !written) return written;
+  if (auto written = logging::write_summary(options.out / "summary.json", summary); !written) return written;
   if (!log) return tl::unexpected(log.error());
-  return logging::write_report(*reader, out / "report.html", outcome);
+  return logging::write_report(*reader, options.out / "report.html", outcome);
 }
 
 }  // namespace septet::server

@@ -14,13 +14,14 @@
 #include "logging/session_writer.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/serve.hpp"
+#include "sim-server/server_options.hpp"
 
 namespace septet::server {
 
 class SessionLog {
  public:
-  static Expected<SessionLog> create(const std::filesystem::path& file, const LoadedDrive& drive, std::uint64_t seed,
-                                     const std::string& traffic, bool real_time);
+  /// session.sqlite in the drive's folder.
+  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options);
 
   void record_scene(const scene::Store& store);
   void record_input(logging::InputRecord input);
@@ -58,7 +59,6 @@ class SessionLog {
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
 
 /// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
-Expected<void> write_results(const std::filesystem::path& out, const std::string& scenario, const std::string& rig, std::uint64_t seed,
-                             const logging::DriveOutcome& outcome);
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome);
 
 }  // namespace septet::server

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "car-io/program/car_program.hpp"
+#include "engine/core/version.hpp"
 
 int main(int argc, char** argv) {
   using namespace septet;
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
       "septet-car: carries the car's controls to the server, and fan, vibration and steering force "
       "to "
       "the car. Run it on the machine that the rig's [car] machine names."};
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", version_text());
   app.add_option("--server", drive.server, "Server's address and port");
   app.add_option("--keys", drive.keys, "Folder with server.public, and car.key, made if missing");
 

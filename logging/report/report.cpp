@@ -84,6 +84,7 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   if (rig) html += fmt::format("Rig {} · ", escaped(stem(*rig)));
   if (!info.participant.empty()) html += fmt::format("driver {} · ", escaped(info.participant));
   if (!info.started_utc.empty()) html += fmt::format("started {} · ", escaped(info.started_utc));
+  for (const auto& [name, value] : info.parameters) html += fmt::format("{} = {} · ", escaped(name), escaped(value));
   for (const auto& [name, seed] : info.seeds)
     html += fmt::format("seed {} {} · ", escaped(name), seed);
   html += fmt::format("Septet {}{}{}</p>\n", escaped(info.septet_version),

@@ -47,7 +47,7 @@ Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
 }
 
 std::string to_json(const DriveSummary& s) {
-  Json json = {{"version", summary_version}, {"scenario", s.scenario}, {"rig", s.rig}, {"seed", s.seed}};
+  Json json = {{"version", summary_version}, {"scenario", s.scenario}, {"rig", s.rig}, {"vehicle", s.vehicle}, {"participant", s.participant}, {"seed", s.seed}, {"parameters", Json(s.parameters)}};
   json.update(json_of(s.outcome));
   json["log"]["missing_ticks"] = s.log ? Json(s.log->missing_ticks) : Json(nullptr);
   if (s.log) {

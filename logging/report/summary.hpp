@@ -17,7 +17,8 @@ namespace septet::logging {
 inline constexpr int summary_version = 1;
 
 struct DriveSummary {
-  std::string scenario, rig;
+  std::string scenario, rig, vehicle, participant;
+  std::map<std::string, std::string> parameters;  ///< Of the scenario, where they were given from outside.
   std::uint64_t seed = 0;
   DriveOutcome outcome;
   /// What the log tells; nothing where it cannot be read.

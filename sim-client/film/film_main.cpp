@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "engine/core/version.hpp"
 #include "sim-client/film/film.hpp"
 
 namespace septet::film {
@@ -70,6 +71,7 @@ int run(int argc, char** argv) {
     return fmt::format("septet: {}; septet film --help shows the options\n", error.what());
   });
   app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", version_text());
   app.add_option("session", options.session, "Session file of a drive")->required();
   app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
   app.add_option("--out", options.out, "New or empty folder for the pictures")->default_str("film, beside the session");

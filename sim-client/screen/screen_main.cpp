@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/version.hpp"
 #include "sim-client/screen/screen_session.hpp"
 
 namespace {
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   std::string server = "127.0.0.1:4750";
   CLI::App app{"septet-screen: one screen of a rig. `septet drive` starts it; on another machine start it yourself."};
   app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", version_text());
   app.add_option("--name", options.name, "Which screen of the rig")->required();
   app.add_option("--server", server, "Server's address and port");
   app.add_option("--keys", options.keys, "Folder with NAME.key and server.public")->required();

@@ -158,7 +158,14 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
   if (options.replay.empty()) add({"--scenario", options.scenario, "--traffic", options.traffic});
   else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
-  if (!options.driver.empty()) add({"--driver", options.driver});
+  const auto add_chosen = [&](const char* option, const std::string& value) {
+    // As one word: a value may begin with a hyphen.
+    if (!value.empty()) add({fmt::format("{}={}", option, value)});
+  };
+  add_chosen("--driver", options.driver);
+  add_chosen("--vehicle", options.vehicle);
+  add_chosen("--participant", options.participant);
+  for (const auto& parameter : options.parameters) add_chosen("--parameter", parameter);
   if (options.virtual_screens) add({"--lockstep"});
   if (options.no_screens) add({"--no-screens"});
   return server;

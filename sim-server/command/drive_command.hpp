@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace septet::server {
 
@@ -16,6 +17,9 @@ struct DriveOptions {
   std::uint64_t seed = 1;
   bool virtual_screens = false;
   std::string driver;           ///< Which simulated driver; empty: the rig's.
+  std::string vehicle;          ///< A file, or a name below vehicles/; empty: the rig's.
+  std::string participant;      ///< The driver's code, for log, summary and report.
+  std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";   ///< Who moves the traffic: own or sumo.
   std::filesystem::path replay;  ///< A session to show again, instead of a scenario to drive.
   double replay_from_s = 0.0;

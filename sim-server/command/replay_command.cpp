@@ -4,12 +4,12 @@
 
 #include <fmt/core.h>
 
+#include "engine/core/version.hpp"
 #include "logging/input_hash.hpp"
 #include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/drive_loader.hpp"
 #include "sim-server/traffic_choice.hpp"
-#include "sim-server/version.hpp"
 
 namespace septet::server {
 namespace {

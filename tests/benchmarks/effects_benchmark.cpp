@@ -27,7 +27,7 @@ void effects_tick(benchmark::State& bench, const char* name, int seconds_before)
   SEPTET_CHECK(scenario && rig, "the shipped scenario and rig are missing");
   const auto loaded = load_drive(DriveFiles{scenario->string(), rig->string(), 1});
   SEPTET_CHECK(loaded.has_value(), "{}", describe(loaded.error()));
-  auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded->model);
+  auto seat = open_driver_seat(rig::Car{}, 1, loaded->model);
   auto drive = LiveDrive::start(loaded->model, traffic::own_traffic(loaded->model->roads, 1), std::move(*seat));
   for (int tick = 0; tick < 120 * seconds_before; ++tick) SEPTET_CHECK((*drive)->next(std::nullopt).has_value(), "tick {}", tick);
   std::deque<std::shared_ptr<const TakenSnapshot>> sent;

@@ -66,9 +66,9 @@ void server_realtime_factor(benchmark::State& bench) {
   const LoadedDrive loaded = motorway_drive();
   const auto folder = TemporaryFolder::make("septet-bench");
   SEPTET_CHECK(folder.has_value(), "{}", describe(folder.error()));
-  auto log = SessionLog::create(folder->path() / "session.sqlite", loaded, 1, "own", false);
+  auto log = SessionLog::create(loaded, {.out = folder->path(), .lockstep = true});
   SEPTET_CHECK(log.has_value(), "{}", describe(log.error()));
-  auto seat = open_driver_seat(rig::Car{}, "plain", 1, loaded.model);
+  auto seat = open_driver_seat(rig::Car{}, 1, loaded.model);
   auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(*seat));
   (*drive)->log_to(*log);
   std::uint64_t ticks = 0;

@@ -49,6 +49,7 @@ inline SessionInfo example_info() {
   info.participant = "P07";
   info.ticks_per_second = 120.0;
   info.seeds = {{"driver", 18446744073709551615u}, {"traffic", 7}};
+  info.parameters = {{"ego_speed", "20"}};
   info.other = {{"weather", "clear"}};
   info.files = {{"rig", "seven-screens.toml", "[[screen]]\n"},
                 {"scenario", "motorway.xosc", "<OpenSCENARIO/>"}};

@@ -1,8 +1,10 @@
-/// What the programs say of themselves.
+/// What the programs say of themselves, and options that change a drive.
 
 #include <cstdio>
 
 #include "car-io/driving_keys.hpp"
+#include "engine/core/version.hpp"
+#include "logging/session_reader.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
 namespace septet::pipeline {
@@ -24,11 +26,19 @@ bool has(const std::string& text, const std::string& words) { return text.find(w
 
 }  // namespace
 
+TEST_CASE("every program names its version with the revision") {
+  for (const char* program : {"septet", "septet-server", "septet-screen", "septet-film", "septet-car"}) {
+    CAPTURE(program);
+    CHECK(output_of(std::string(program) + " --version") == version_text() + "\n");
+  }
+}
+
 TEST_CASE("the help of a drive has the keys and every default") {
   const std::string help = output_of("septet drive --help");
   for (const auto& key : car_io::driving_keys()) CHECK(has(help, key.does));
   for (const char* words : {"--rig TEXT=desktop with a display, else seven-screens", "=out/latest", "--scenario TEXT=motorway-ambulance",
-                            "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=whom the rig names"}) {
+                            "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=whom the rig names", "--vehicle TEXT=the rig's",
+                            "--parameter NAME=VALUE", "--participant TEXT=none"}) {
     CAPTURE(words);
     CHECK(has(help, words));
   }
@@ -45,6 +55,50 @@ TEST_CASE("septet list names what there is with a description each") {
   CHECK(has(rigs, "seven-screens   Seven projection screens"));
   CHECK(has(output_of("septet list vehicles"), "volvo-s80-manual"));
   CHECK(has(output_of("septet list drivers"), "tired        Corrects late"));
+}
+
+TEST_CASE("vehicle, parameters and participant of a drive are in its log, its summary and its report") {
+  const TemporaryFolder folder;
+  const fs::path session = folder / "out" / "session.sqlite";
+  const Ended driven = run("septet", {"drive", "--no-screens", "--seconds", "0.5", "--rig", "seven-screens", "--vehicle", "volvo-s80-manual",
+                                      "--parameter", "ego_speed=20", "--parameter", "vehicles=40", "--participant=-P07", "--out", (folder / "out").string()},
+                           folder / "err");
+  INFO(driven.error);
+  REQUIRE(driven.code == 0);
+  const auto log = logging::SessionReader::open(session);
+  REQUIRE(log.has_value());
+  CHECK(log->info().participant == "-P07");
+  CHECK(log->info().parameters == std::map<std::string, std::string>{{"ego_speed", "20"}, {"vehicles", "40"}});
+  const auto vehicle = std::ranges::find(log->info().files, "vehicle", &logging::SourceFile::role);
+  REQUIRE(vehicle != log->info().files.end());
+  CHECK(has(vehicle->name, "volvo-s80-manual"));
+  auto snapshots = log->snapshots().value();
+  const auto first = snapshots.next().value();
+  REQUIRE(first.has_value());
+  CHECK(first->driver_car.speed_mps == doctest::Approx(20.0).epsilon(0.01));
+  const std::string summary = text_of(folder / "out" / "summary.json"), report = text_of(folder / "out" / "report.html");
+  for (const char* words : {"\"participant\": \"-P07\"", "\"vehicle\": \"volvo-s80-manual\"", "\"ego_speed\": \"20\""}) {
+    CAPTURE(words);
+    CHECK(has(summary, words));
+  }
+  CHECK(has(report, "driver -P07"));
+  CHECK(has(report, "ego_speed = 20"));
+  const Ended verified = run("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
+  INFO(verified.error);
+  CHECK(verified.code == 0);
+}
+
+TEST_CASE("a vehicle or a parameter that is not there is refused before anything is driven") {
+  const TemporaryFolder folder;
+  const auto refuse = [&](std::vector<std::string> options, const std::vector<std::string>& words) {
+    options.insert(options.begin(), {"drive", "--no-screens", "--seconds", "1", "--out", (folder / "out").string()});
+    check_refused(run("septet", options, folder / "err"), words, folder / "out");
+  };
+  refuse({"--vehicle", "zeppelin"}, {"zeppelin", "volvo-s80"});
+  refuse({"--parameter", "ego_speed"}, {"NAME=VALUE"});
+  refuse({"--parameter", "warp=9"}, {"warp", "ego_speed"});
+  refuse({"--parameter", "ego_speed=fast"}, {"ego_speed", "fast"});
+  refuse({"--parameter", "ego_speed=20", "--parameter", "ego_speed=30"}, {"ego_speed", "twice"});
 }
 
 }  // namespace septet::pipeline
