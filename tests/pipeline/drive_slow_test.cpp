@@ -82,8 +82,8 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   REQUIRE(drive(folder, "out", 3).code == 0);
   const fs::path session = folder / "out" / "session.sqlite";
   auto verify = start("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
-  const auto line = verify.read_line(60s);
-  CHECK(exit_code(verify, 60s) == 0);
+  const auto line = verify.read_line(patience);
+  CHECK(exit_code(verify) == 0);
   REQUIRE(line.has_value());
   CHECK(*line == "240 ticks run again: every state hash agrees");
 
@@ -102,8 +102,8 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
     change(copy, statement);
     CAPTURE(statement);
     auto again = start("septet", {"replay", "--verify", copy.string()}, folder / (name + ".err"));
-    CHECK_FALSE(again.read_line(60s).has_value());
-    check_refused({exit_code(again, 60s), text_of(folder / (name + ".err"))}, words, folder / "nothing");
+    CHECK_FALSE(again.read_line(patience).has_value());
+    check_refused({exit_code(again), text_of(folder / (name + ".err"))}, words, folder / "nothing");
   };
   refuse("altered", "UPDATE driver_inputs SET steering_wheel_rad = steering_wheel_rad + 0.2 WHERE tick = 100",
          {"tick 100 gives state hash", "driver inputs are not those"});
@@ -125,8 +125,8 @@ TEST_CASE("an input whose snapshot was not written any more is not counted as co
   const fs::path session = folder / "out" / "session.sqlite";
   change(session, "DELETE FROM snapshots WHERE tick = 240");
   auto verify = start("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
-  CHECK(verify.read_line(60s) == "239 ticks run again: every state hash agrees");
-  CHECK(exit_code(verify, 60s) == 0);
+  CHECK(verify.read_line(patience) == "239 ticks run again: every state hash agrees");
+  CHECK(exit_code(verify) == 0);
 }
 
 TEST_CASE("a drive without screens keeps the world that it was in") {

@@ -60,13 +60,13 @@ TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time 
   auto arguments = headless(folder / "out", "0");
   arguments.insert(arguments.end(), {"--scenario", scenario.string()});
   auto drive = start("septet", arguments, folder / "err");
-  REQUIRE(exit_code(drive, 120s) == 0);
+  REQUIRE(exit_code(drive) == 0);
   CHECK(last_words(drive).find("StopTrigger") != std::string::npos);
   CHECK(why(folder / "out") == "stop_trigger");
   check_results(folder / "out");
 
   auto timed = start("septet", headless(folder / "timed", "0.5"), folder / "err");
-  REQUIRE(exit_code(timed, 120s) == 0);
+  REQUIRE(exit_code(timed) == 0);
   CHECK(last_words(timed).find("time") != std::string::npos);
   CHECK(why(folder / "timed") == "time_over");
 }
@@ -79,10 +79,10 @@ TEST_CASE("a signal ends a drive in order with its own reason and status 3 and n
     fs::create_directories(folder / "tmp");
     // Zero seconds: until it is stopped.
     auto drive = start("septet", headless(folder / "out", "0"), folder / "err", {{"TMPDIR", folder / "tmp"}});
-    REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+    REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }));
     CHECK(entries(folder / "tmp") == 1);
     drive.send_signal(signal);
-    const int code = exit_code(drive, 60s);
+    const int code = exit_code(drive);
     INFO(text_of(folder / "err"));
     CHECK(code == 3);
     CHECK(why(folder / "out") == name);
@@ -102,7 +102,7 @@ TEST_CASE("a server that still reads its files is ended at once by a signal") {
     auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()}, folder / "err");
     CHECK_FALSE(server.read_line(1s).has_value());
     server.send_signal(signal);
-    REQUIRE(becomes_true([&] { return server.poll().has_value(); }, 60s));
+    REQUIRE(becomes_true([&] { return server.poll().has_value(); }));
     CHECK(server.poll()->signal == signal);
     CHECK_FALSE(fs::exists(folder / "out"));
   }
@@ -113,19 +113,19 @@ TEST_CASE("a killed drive takes its server and its keys along") {
   fs::create_directories(folder / "tmp");
   const std::map<std::string, std::string> place{{"TMPDIR", folder / "tmp"}};
   auto drive = start("septet", headless(folder / "out", "0"), folder / "err", place);
-  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }));
   drive.send_signal(SIGKILL);
   // The server hears of it and ends in order.
-  CHECK(becomes_true([&] { return why(folder / "out") == "terminated"; }, 60s));
-  CHECK(becomes_true([&] { return entries(folder / "tmp") == 0; }, 60s));
+  CHECK(becomes_true([&] { return why(folder / "out") == "terminated"; }));
+  CHECK(becomes_true([&] { return entries(folder / "tmp") == 0; }));
 }
 
 TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limit of its size too") {
   const TemporaryFolder folder;
   auto drive = start("septet", headless(folder / "out", "0"), folder / "err");
-  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }, 60s));
+  REQUIRE(becomes_true([&] { return is_driving(folder / "out"); }));
   fs::remove(folder / "out" / "session.sqlite");
-  CHECK(exit_code(drive, 60s) == 1);
+  CHECK(exit_code(drive) == 1);
   CHECK(text_of(folder / "err").find("deleted") != std::string::npos);
   CHECK(last_words(drive).find("the log cannot be written") != std::string::npos);
 
@@ -133,7 +133,7 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
   auto limited = start("/bin/sh", {"-c", fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --seconds 0 --out '{}'",
                                                      (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
                        folder / "limited.err");
-  CHECK(exit_code(limited, 120s) == 1);
+  CHECK(exit_code(limited) == 1);
   const std::string said = text_of(folder / "limited.err");
   INFO(said);
   CHECK(said.find("limited/session.sqlite") != std::string::npos);
@@ -148,9 +148,9 @@ TEST_CASE("closing the window ends the drive and so does Escape") {
     CAPTURE(end);
     const fs::path out = folder / end;
     auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err", display.environment());
-    REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; }, 120s));
+    REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; }));
     end == "escape" ? display.press_escape("Septet a") : display.close_window("Septet a");
-    const int code = exit_code(drive, 60s);
+    const int code = exit_code(drive);
     INFO(text_of(folder / "err"));
     CHECK(code == 3);
     CHECK(why(out) == end);
@@ -165,9 +165,9 @@ TEST_CASE("a screen that fails is tried again and costs the others nothing and w
   const fs::path out = folder / "out";
   auto drive = start("septet", {"drive", "--seconds", "4", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err",
                      display.environment());
-  REQUIRE(becomes_true([&] { return fs::exists(out / "screens"); }, 30s));
+  REQUIRE(becomes_true([&] { return fs::exists(out / "screens"); }));
   write_text(out / "screens" / "b", "a file where the screen wants its folder");
-  const int code = exit_code(drive, 120s);
+  const int code = exit_code(drive);
   const std::string said = text_of(folder / "err");
   INFO(said);
   CHECK(code == 0);
@@ -178,7 +178,7 @@ TEST_CASE("a screen that fails is tried again and costs the others nothing and w
 
   auto blind = start("septet", {"drive", "--seconds", "300", "--rig", (folder / "small.toml").string(), "--out", (folder / "blind").string()},
                      folder / "blind.err", {{"DISPLAY", ":4711"}});
-  CHECK(exit_code(blind, 120s) == 1);
+  CHECK(exit_code(blind) == 1);
   const std::string complaint = text_of(folder / "blind.err");
   INFO(complaint);
   CHECK(complaint.find("no screen can be started") != std::string::npos);

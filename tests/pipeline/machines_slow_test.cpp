@@ -23,7 +23,7 @@ struct Machines {
     REQUIRE(run("septet", {"rig", "keys", rig.string(), "--out", keys.string()}, folder / "keys.err").code == 0);
   }
   fs::path log(const std::string& name) const { return folder / (name + ".err"); }
-  bool says(const std::string& name, const std::string& words, std::chrono::milliseconds within = 60s) const {
+  bool says(const std::string& name, const std::string& words, std::chrono::milliseconds within = patience) const {
     const bool said = becomes_true([&] { return text_of(log(name)).find(words) != std::string::npos; }, within);
     INFO(name << " says:\n" << text_of(log(name)));
     CHECK_MESSAGE(said, words);
@@ -93,11 +93,11 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
     const std::string text = text_of(rig.log("first"));
     return text.find(words, text.find("screen a left")) != std::string::npos;
   };
-  CHECK(becomes_true([&] { return said_since_it_left("screen a shows tick"); }, 60s));
+  CHECK(becomes_true([&] { return said_since_it_left("screen a shows tick"); }));
 
   // A server that is started again finds its screens.
   server.send_signal(SIGKILL);
-  CHECK(exit_code(server, 10s) == -1);
+  CHECK(exit_code(server) == -1);
   auto next = rig.start_server("second");
   rig.says("second", "screen a shows tick");
   rig.says("second", "screen b shows tick");
@@ -110,16 +110,16 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   a.send_signal(SIGKILL);
   rig.says("twin", "connected to the server");
   next.send_signal(SIGTERM);
-  CHECK(exit_code(next, 20s) == 3);  // Stopped by somebody.
-  CHECK(exit_code(twin, 20s) == 0);
-  CHECK(exit_code(b, 20s) == 0);
+  CHECK(exit_code(next) == 3);  // Stopped by somebody.
+  CHECK(exit_code(twin) == 0);
+  CHECK(exit_code(b) == 0);
 }
 
 TEST_CASE("the server drives without missing screens after the time that it was given") {
   const Machines rig;
   auto server = rig.start_server("alone", {"--wait-for-screens", "0.5", "--seconds", "0.5"});
   rig.says("alone", "the drive begins without a, b");
-  CHECK(exit_code(server, 60s) == 0);
+  CHECK(exit_code(server) == 0);
 }
 
 TEST_CASE("the keys of a rig are made once and anew only for a name that was taken off the list") {

@@ -24,11 +24,13 @@ namespace septet::pipeline {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+/// How long an event is waited for: only a hang takes so long, however busy the machine.
+inline constexpr std::chrono::milliseconds patience = 10min;
 
 inline void write_text(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 /// Whether it holds before the time is up; asked a hundred times a second.
-inline bool becomes_true(const std::function<bool()>& condition, std::chrono::milliseconds within) {
+inline bool becomes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = patience) {
   const auto until = Clock::now() + within;
   while (!condition()) {
     if (Clock::now() > until) return false;
@@ -61,7 +63,7 @@ inline server::ChildProcess start(const std::string& program, std::vector<std::s
 }
 
 /// Waits for the end; −2 where it does not come.
-inline int exit_code(server::ChildProcess& process, std::chrono::milliseconds within) {
+inline int exit_code(server::ChildProcess& process, std::chrono::milliseconds within = patience) {
   if (!becomes_true([&] { return process.poll().has_value(); }, within)) return -2;
   return process.poll()->code;
 }
@@ -75,7 +77,7 @@ struct Ended {
 inline Ended run(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
                  std::map<std::string, std::string> environment = {}) {
   auto process = start(program, std::move(arguments), log, std::move(environment));
-  const int code = exit_code(process, 120s);
+  const int code = exit_code(process);
   return {code, text_of(log)};
 }
 
@@ -116,7 +118,7 @@ inline std::uint16_t free_port() {
 
 /// Waits for the server's "ready PORT".
 inline std::string ready_port(server::ChildProcess& server, const fs::path& log) {
-  const auto line = server.read_line(60s);
+  const auto line = server.read_line(patience);
   INFO(text_of(log));
   REQUIRE(line.has_value());
   REQUIRE(line->starts_with("ready "));

@@ -51,7 +51,7 @@ TEST_CASE("without SUMO one message says what to install and nothing is left beh
                                               .environment = {{"SEPTET_DATA", SEPTET_SOURCE_DIR}, {"PATH", (folder / "empty").string()}},
                                               .log = log});
   REQUIRE(process.has_value());
-  CHECK(exit_code(*process, 60s) == 1);
+  CHECK(exit_code(*process) == 1);
   const std::string error = text_of(log);
   INFO(error);
   CHECK(error.find("apt install sumo") != std::string::npos);
@@ -78,9 +78,9 @@ TEST_CASE("a SUMO that is killed ends the drive with one message and the log is 
   const fs::path out = folder / "out", keys = make_keys(folder / "keys", "");
   auto drive = start("septet-server", {"--no-screens", "--seconds", "100000", "--traffic", "sumo", "--keys", keys.string(), "--out", out.string()}, folder / "err");
   int sumo = 0;
-  REQUIRE(becomes_true([&] { return (sumo = sumo_of(drive.process_id())) != 0 && snapshots_in(out / "session.sqlite") > 1; }, 60s));
+  REQUIRE(becomes_true([&] { return (sumo = sumo_of(drive.process_id())) != 0 && snapshots_in(out / "session.sqlite") > 1; }));
   REQUIRE(::kill(sumo, SIGKILL) == 0);
-  CHECK(exit_code(drive, 60s) == 1);
+  CHECK(exit_code(drive) == 1);
   const std::string error = text_of(folder / "err");
   INFO(error);
   CHECK(error.find("SUMO has gone") != std::string::npos);
