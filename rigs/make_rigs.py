@@ -52,10 +52,12 @@ seven += screen("behind-left", 180, 150, 30, 448)
 write("seven-screens", "# Seven projection screens around a complete car: 220 x 30 degrees ahead on five, 60 x 30 degrees behind on two.\n"
       "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) Made by make_rigs.py.", seven)
 
-three = "[car]\nsource = \"hid\"\n\n" + "".join(
-    screen(name, 90 - 60 * i, 30 - 60 * i, 34, 1920, 0.8, height_px=1080) for i, name in enumerate(("left", "middle", "right")))
+mirror_ahead = inset(0.40, 0.02, 0.22, 0.13, 195, 165, 9)
+desk = [("left", inset(0.80, 0.60, 0.18, 0.19, 184, 158, 15)), ("middle", "instruments = true\n" + mirror_ahead), ("right", inset(0.02, 0.60, 0.18, 0.19, 202, 176, 15))]
+three = "[car]\nsource = \"automatic\"\n\n" + "".join(
+    screen(name, 90 - 60 * i, 30 - 60 * i, 34, 1920, 0.8, height_px=1080, extra=f"monitor = {i}\nshow_interior = true\n{more}") for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 
-mirrors = inset(0.40, 0.02, 0.22, 0.13, 195, 165, 9) + inset(0.01, 0.58, 0.17, 0.17, 184, 158, 15) + inset(0.82, 0.58, 0.17, 0.17, 202, 176, 15)
+mirrors = mirror_ahead + inset(0.01, 0.58, 0.17, 0.17, 184, 158, 15) + inset(0.82, 0.58, 0.17, 0.17, 202, 176, 15)
 write("desktop", "# One window on a desktop, with the three mirrors as insets. Made by make_rigs.py.",
-      "[car]\nsource = \"keyboard\"\n\n" + screen("desktop", 37, -37, 38.7, 1280, 0.7, extra="show_interior = true\n" + mirrors))
+      "[car]\nsource = \"keyboard\"\n\n" + screen("desktop", 37, -37, 38.7, 1280, 0.7, extra="show_interior = true\ninstruments = true\n" + mirrors))

@@ -43,7 +43,12 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, s
   const car_io::HidAddress address{car.vendor_id, car.product_id, car.serial};
   const auto open = [address] { return car_io::open_hid_device(address); };
   // A missing device is noticed before the drive begins; one that is lost during it is opened again.
-  if (const auto device = open(); !device) return tl::unexpected(device.error());
+  if (const auto device = open(); !device) {
+    if (car.source == rig::CarSource::automatic) return DriverSeat{};
+    Error error = device.error();
+    error.remedy += "; or set [car] source = \"automatic\", then a keyboard drives";
+    return tl::unexpected(error);
+  }
   sit_at_device(seat, open, options);
   return seat;
 }

@@ -1,10 +1,24 @@
 #include "sim-server/live_drive.hpp"
 
+#include <cmath>
+
 #include "engine/core/printable.hpp"
 #include "sim-server/car_motion.hpp"
 #include "sim-server/natural_end.hpp"
 
 namespace septet::server {
+namespace {
+
+/// More than the trembling of a device that nobody touches.
+bool is_moved(const DriverInput& now, const DriverInput& found) {
+  constexpr double clearly = 0.1;  // Of a pedal's travel; of the hand wheel radians.
+  for (const auto control : {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
+    if (std::abs(now.*control - found.*control) > clearly) return true;
+  return now.selector != found.selector || now.gear != found.gear || now.indicator != found.indicator || now.hazard_lights != found.hazard_lights ||
+         now.horn != found.horn || now.low_beam != found.low_beam || now.high_beam != found.high_beam || now.parking_brake != found.parking_brake;
+}
+
+}  // namespace
 
 Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const SimulationModel> model, std::unique_ptr<traffic::TrafficEngine> traffic,
                                                       DriverSeat seat) {
@@ -30,7 +44,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
   record.input = held_;
   if (seat_.car) {
     // The device's clock is simulated time, so that a slow machine does not see a stale driver.
-    const auto reading = seat_.car->poll(state_.time_s());
+    const auto reading = seat_.car->poll(waited_s_ + state_.time_s());
     if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
     record.input = reading.input;
     record.report = reading.report;
@@ -39,6 +53,18 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     car_was_there_ = reading.is_connected;
   }
   return record;
+}
+
+bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) {
+  if (controls) held_ = *controls;
+  if (controls || seat_.look) return true;
+  if (!seat_.car) return false;
+  waited_s_ = waited_s;
+  const auto reading = seat_.car->poll(waited_s);
+  if (const auto error = seat_.car->take_error()) tell(describe(*error));
+  if (!reading.is_connected || !reading.report) return false;
+  if (!found_) found_ = reading.input;
+  return is_moved(reading.input, *found_);
 }
 
 void LiveDrive::tell(const std::string& what) {

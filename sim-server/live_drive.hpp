@@ -40,6 +40,9 @@ class LiveDrive final : public TickSource {
 
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
   logging::DriveEnd end() const override { return end_.value_or(logging::DriveEnd::failed); }
+  std::shared_ptr<const TakenSnapshot> first() const override { return newest_; }
+  /// A person is ready when a screen sends controls, or those of the device are no longer as they were found.
+  bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
   double tick_rate_hz() const override { return server::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_->snapshot(); }
@@ -58,6 +61,8 @@ class LiveDrive final : public TickSource {
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
+  std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
+  double waited_s_ = 0.0;             ///< For the driver, before the first tick.
   std::optional<logging::DriveEnd> end_;
   std::vector<std::string> messages_;
   MessageLimit limit_;  ///< Of what the device causes to be said.

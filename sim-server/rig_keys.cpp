@@ -86,7 +86,7 @@ std::vector<MachineKeys> machines_of(const rig::Rig& rig) {
     found->clients.push_back(client);
   };
   for (const auto& screen : rig.screens) add(screen.machine, screen.name);
-  if (rig.car.source == rig::CarSource::hid && !rig.car.machine.empty()) add(rig.car.machine, car_client_name);
+  if ((rig.car.source == rig::CarSource::hid || rig.car.source == rig::CarSource::automatic) && !rig.car.machine.empty()) add(rig.car.machine, car_client_name);
   return machines;
 }
 

@@ -194,6 +194,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   if (options_.welcome.group_ip == 0) add_unicast(client, hello.tick_port);
   tell(client, fmt::format("screen {} connected", hello.screen), now_s);
   send(client, options_.welcome);
+  send(client, notice_);
 }
 
 void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, double now_s) {
@@ -297,6 +298,15 @@ void ScreenHost::leave_behind(Tick tick) {
 }
 
 std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }
+
+void ScreenHost::give_notice(const Notice& notice) {
+  if (notice == notice_) return;
+  notice_ = notice;
+  for (const HostedScreen& screen : screens_)
+    if (screen.client) send(*screen.client, notice_);
+}
+
+void ScreenHost::restart_shown_time() { planner_ = PlayoutPlanner(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz); }
 
 void ScreenHost::finish(const std::string& reason) {
   is_finishing_ = true;

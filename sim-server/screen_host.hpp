@@ -98,6 +98,11 @@ class ScreenHost {
   std::optional<logging::DriveEnd> end_requested() const { return end_requested_; }
   /// The newest controls that a screen with keyboard or gamepad has sent, once.
   std::optional<DriverInput> take_controls();
+  /// What the driver is to read, on all screens that are there or will come.
+  void give_notice(const control::Notice& notice);
+  const control::Notice& notice() const { return notice_; }
+  /// Shown time begins anew with the next tick: the world has stood still until now.
+  void restart_shown_time();
   void finish(const std::string& reason);
   /// Every connected screen has answered Finish with its report.
   bool all_reported() const;
@@ -140,6 +145,7 @@ class ScreenHost {
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
   std::optional<DriverInput> controls_;
+  control::Notice notice_;
   std::optional<logging::DriveEnd> end_requested_;
   std::optional<net::ClientId> car_client_;
   net::ChannelCounters told_;  ///< What the operator has been told of.

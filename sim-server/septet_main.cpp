@@ -27,6 +27,7 @@ void add_drive_options(CLI::App& command, DriveOptions& options) {
   command.add_option("--rig", options.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
   command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside")->default_str("out/latest");
   command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until the scenario ends or somebody stops it (default: 0 in a window, 30 off-screen)")->check(CLI::Range(0.0, 1e6));
+  command.add_flag("--full-screen", options.full_screen, "Cover whole monitors: those that the rig names, else the first");
   command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
 }
 
@@ -45,11 +46,12 @@ int run(int argc, char** argv) {
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
   add_drive_options(*drive_command, drive);
   drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name of septet list scenarios");
-  drive_command->add_option("--parameter", drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("");
+  drive_command->add_option("--parameter", drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
   drive_command->add_option("--vehicle", drive.vehicle, "Vehicle file, or a name of septet list vehicles")->default_str("the rig's");
   drive_command->add_option("--participant", drive.participant, "The driver's code, for log, summary and report")->default_str("none");
   drive_command->add_option("--seed", drive.seed, "Seed of everything random");
   drive_command->add_option("--driver", drive.driver, "A simulated driver of septet list drivers drives")->default_str("whom the rig names");
+  drive_command->add_flag("--start-now", drive.start_now, "Do not wait until the driver presses a key or a pedal");
   drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
   drive_command->add_flag("--no-screens", drive.no_screens, "Server and car only, as fast as it goes");
   drive_command->footer(car_io::driving_keys_text());

@@ -1,6 +1,7 @@
 #include "sim-server/serve.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,10 +22,14 @@ struct Loop {
     environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), environment.now_s() - started_s,
                         std::move(what)});
   }
+  /// What the source says; it has logged it itself.
+  void show_messages() {
+    for (const auto& text : source.take_messages()) (environment.show ? environment.show : environment.message)(text);
+  }
   /// The next tick; nothing at the end, with the reason in the result.
   std::shared_ptr<const TakenSnapshot> take_tick(const std::optional<DriverInput>& controls) {
     auto snapshot = source.next(controls);
-    for (const auto& text : source.take_messages()) (environment.show ? environment.show : environment.message)(text);
+    show_messages();
     if (!snapshot) result.error = std::move(snapshot.error());
     if (!snapshot || !*snapshot) {
       result.end = source.end();
@@ -122,8 +127,30 @@ void run_lockstep(ScreenLoop& loop) {
   }
 }
 
+/// The world stands still at its first instant, seen on all screens, until the driver takes the controls.
+void wait_for_driver(ScreenLoop& loop) {
+  const auto first = loop.source.first();
+  if (!first || loop.options.wait_for_driver.empty()) return;
+  loop.host.give_notice({loop.options.wait_for_driver, loop.host.notice().keys});
+  loop.environment.message(fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
+  const double begun_s = loop.environment.now_s();
+  loop.host.publish(first, begun_s);
+  const auto waited_s = [&] { return loop.environment.now_s() - begun_s; };
+  const bool is_ready = loop.pump_until([&] { return loop.source.driver_is_ready(loop.host.take_controls(), waited_s()); },
+                                        std::numeric_limits<double>::infinity(), 0.1, [&] {
+                                          loop.show_messages();
+                                          loop.host.repeat_newest();
+                                          loop.report("waiting for the driver");
+                                        });
+  loop.host.give_notice({"", loop.host.notice().keys});
+  loop.host.restart_shown_time();
+  loop.started_s = loop.environment.now_s();
+  if (is_ready) loop.environment.message(fmt::format("the driver took the controls after {:.1f} s", waited_s()));
+}
+
 void run_real_time(ScreenLoop& loop) {
   if (!wait_for_screens(loop)) return;
+  wait_for_driver(loop);
   const double tick_s = 1.0 / loop.source.tick_rate_hz();
   double due_s = loop.environment.now_s();
   double reported_s = due_s;

@@ -23,6 +23,7 @@ struct ServeOptions {
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
   double patience_s = 60.0;            ///< For the screens to be ready at the start, in lockstep; then the drive fails if not one came.
+  std::string wait_for_driver;         ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
   double wait_for_screens_s = 0.0;     ///< The same in real time; then it drives without those that are missing.
   double lockstep_patience_s = 10.0;   ///< For one frame; then whoever has not answered is left behind.
 };

@@ -27,12 +27,13 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until the scenario ends or somebody stops it")->check(CLI::Range(0.0, 1e6));
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--driver", options.driver, "A simulated driver drives: plain, novice, experienced or tired")->default_str("whom the rig names");
-  app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("");
+  app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
   app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")->default_str("none");
   app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
   app.add_option("--wait-for-screens", options.wait_for_screens_s,
                  "Seconds to wait for the rig's screens and car, then drive without those that are missing")->default_str("until all are there, or Enter or the line \"go\"");
+  app.add_flag("--start-now", options.start_now, "Do not wait until the driver presses a key or a pedal");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");

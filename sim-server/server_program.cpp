@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "car-io/driving_keys.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/net/allowed_clients_watch.hpp"
 #include "engine/net/multicast_probe.hpp"
@@ -55,7 +57,8 @@ class ProgressLine {
  public:
   void show(const Progress& progress) {
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    if (progress.wall_s - shown_s_ < (terminal ? 0.1 : 10.0) && shown_s_ >= 0.0) return;
+    // Time passed begins anew when the driver has taken the controls.
+    if (std::abs(progress.wall_s - shown_s_) < (terminal ? 0.1 : 10.0) && shown_s_ >= 0.0) return;
     shown_s_ = progress.wall_s;
     const std::string total = progress.total_s > 0.0 ? fmt::format(" of {:.0f}", progress.total_s) : "";
     say(fmt::format("{}{:6.1f}{} s driven, {:.0f} s passed, {}{}", terminal ? "\r\033[K" : "", progress.simulated_s, total,
@@ -149,6 +152,7 @@ struct Drive {
   scene::Store store;
   std::optional<logging::SessionReader> session;  ///< Of a replay.
   std::optional<SessionLog> log;                  ///< Of a drive.
+  bool by_person = false;                         ///< A person drives, not a simulated driver.
   std::shared_ptr<RemoteCar> remote_car;          ///< Of a drive whose car is on another machine.
   std::unique_ptr<TickSource> source;
   LiveDrive* live = nullptr;                      ///< The source, of a drive.
@@ -183,11 +187,21 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
   return parameters;
 }
 
-/// What the command line says of the driver's seat goes before the rig.
-void choose_driver(const ServerOptions& options, rig::Car& car) {
-  if (options.driver.empty()) return;
-  car.source = rig::CarSource::simulated_driver;
-  car.driver = options.driver;
+/// The seat that command line and rig ask for; `car` says in the end what it became.
+Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const SimulationModel>& model, ProgressLine& progress) {
+  const auto let_drive = [&](const std::string& driver) {
+    car.source = rig::CarSource::simulated_driver;
+    car.driver = driver;
+  };
+  if (!options.driver.empty()) let_drive(options.driver);
+  auto seat = open_driver_seat(car, options.seed, model);
+  if (!seat || seat->car) return seat;
+  if (car.source == rig::CarSource::automatic) progress.message("the rig's car is not plugged in: a keyboard drives");
+  car.source = rig::CarSource::keyboard;
+  if (!options.lockstep && !options.no_screens) return seat;
+  progress.message("without a window nobody can press keys: the simulated driver drives");
+  let_drive(car.driver);
+  return open_driver_seat(car, options.seed, model);
 }
 
 Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, ProgressLine& progress) {
@@ -202,9 +216,9 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   scenery::build_vehicles(builder);
   scenery::build_debris_looks(builder);
   scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
-  choose_driver(options, drive.loaded.rig.car);
-  auto seat = open_driver_seat(drive.loaded.rig.car, options.seed, drive.loaded.model);
+  auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, progress);
   if (!seat) return tl::unexpected(seat.error());
+  drive.by_person = !seat->look;
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());
@@ -316,8 +330,15 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
                                 : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
+    ServeOptions serve_options{.lockstep = options.lockstep, .ticks = ticks};
+    const bool by_keyboard = drive.by_person && rig.car.source == rig::CarSource::keyboard;
+    host.give_notice({"", by_keyboard});
+    if (by_keyboard) progress.message(car_io::driving_keys_text());
+    if (drive.by_person && !options.start_now)
+      serve_options.wait_for_driver = by_keyboard ? "Press any key to start" : "Press a pedal or turn the wheel to start";
     const double wait_s = options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
-    result = serve(*drive.source, host, {.lockstep = options.lockstep, .ticks = ticks, .wait_for_screens_s = wait_s}, environment);
+    serve_options.wait_for_screens_s = wait_s;
+    result = serve(*drive.source, host, serve_options, environment);
     screens = host.screens();
   }
   progress.close();

@@ -20,6 +20,10 @@ class TickSource {
   virtual Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
   /// Why `next` has given nothing, or an error.
   virtual logging::DriveEnd end() const = 0;
+  /// The world before the first tick, for whoever waits at it; null where nobody does.
+  virtual std::shared_ptr<const TakenSnapshot> first() const { return nullptr; }
+  /// Whether the driver has taken the controls, `waited_s` after the world began to wait for that.
+  virtual bool driver_is_ready(const std::optional<DriverInput>& /*controls*/, double /*waited_s*/) { return true; }
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }

@@ -42,6 +42,7 @@ template <class Visitor> void fields(CarFeedback& m, Visitor& v) {
   v(m.tick); v(m.fan); v(m.vibration); v(m.vibration_hz); v(m.steering);
 }
 template <class Visitor> void fields(Quit& m, Visitor& v) { v(m.by_escape); }
+template <class Visitor> void fields(Notice& m, Visitor& v) { v(m.text); v(m.keys); }
 
 struct Put {
   ByteWriter writer;

@@ -114,8 +114,15 @@ struct Quit {
   bool by_escape = false;  ///< By the Escape key; otherwise by closing the window.
 };
 
+/// Server → screen: what the driver is to read on the screen ahead, until the next notice.
+struct Notice {
+  std::string text;   ///< Empty: nothing.
+  bool keys = false;  ///< Also which keys drive, until the first one is pressed.
+  bool operator==(const Notice&) const = default;
+};
+
 using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport, CarHello,
-                                    CarWelcome, CarReport, CarFeedback, Quit>;
+                                    CarWelcome, CarReport, CarFeedback, Quit, Notice>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/core.h>
@@ -61,7 +62,10 @@ Screen read_screen(const toml::table& table, std::string_view file, Error& error
   if (screen.name == "car" || screen.name == "server")
     reader.report("name", fmt::format("screen.name is \"{}\", which is the name of another key", screen.name), "call the screen otherwise");
   screen.machine = read_machine(reader);
+  if (const auto monitor = reader.get_integer("monitor", -1, 0, 63); monitor >= 0) screen.monitor = static_cast<std::uint32_t>(monitor);
+  screen.full_screen = reader.get_bool("full_screen", false);
   screen.show_interior = reader.get_bool("show_interior", false);
+  screen.instruments = reader.get_bool("instruments", false);
   View whole;
   read_window(reader, whole.window);
   screen.views.push_back(whole);
@@ -134,7 +138,7 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
-  car.source = static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard"}));
+  car.source = static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic"}));
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
@@ -166,6 +170,25 @@ std::set<std::string> driving_screens(const Rig& rig) {
   for (const Screen& screen : rig.screens)
     if (rig.car.keyboard_screen.empty() ? screen.machine.empty() : screen.name == rig.car.keyboard_screen) names.insert(screen.name);
   return names;
+}
+
+std::optional<Vec2> point_ahead(const Rig& rig, const Screen& screen) {
+  const Window& window = screen.views.front().window;
+  const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m;
+  const Vec3 normal = glm::cross(right, up);
+  if (std::abs(normal.x) < 1e-9 * glm::length(normal)) return std::nullopt;
+  const double distance_m = glm::dot(window.lower_left_m - rig.eye_point_m, normal) / normal.x;
+  if (distance_m <= 0.0) return std::nullopt;
+  const Vec3 offset_m = rig.eye_point_m + Vec3(distance_m, 0.0, 0.0) - window.lower_left_m;
+  return Vec2(glm::dot(offset_m, right) / glm::dot(right, right), 1.0 - glm::dot(offset_m, up) / glm::dot(up, up));
+}
+
+const Screen& screen_ahead(const Rig& rig) {
+  const auto beside = [&](const Screen& screen) {
+    const auto point = point_ahead(rig, screen);
+    return point ? glm::distance(*point, glm::clamp(*point, 0.0, 1.0)) : std::numeric_limits<double>::infinity();
+  };
+  return *std::ranges::min_element(rig.screens, {}, beside);
 }
 
 Expected<Rig> read_rig(std::string_view text, std::string_view name) {

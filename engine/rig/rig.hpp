@@ -4,8 +4,10 @@
 /// Lengths are metres in the car's frame (vehicle frame: x forward, y left, z up, origin on the ground below the middle of
 /// the rear axle). Reading a rig is the only function that can fail, and its errors name file, line and remedy.
 
+#include <array>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -34,7 +36,10 @@ struct Screen {
   std::string name;
   std::uint32_t width_px = 640, height_px = 480;
   std::string machine;         ///< Host that drives it; empty: the server's own machine.
+  std::optional<std::uint32_t> monitor;  ///< Of its machine, from 0; nothing: where the window system likes, full screen the first.
+  bool full_screen = false;    ///< Cover the monitor.
   bool show_interior = false;  ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
+  bool instruments = false;    ///< Draw speed, gear and indicators, where no real car shows them.
   std::vector<View> views;     ///< The first one fills the screen.
 };
 
@@ -51,7 +56,8 @@ struct Network {
   double playout_delay_ticks = 2.0;
 };
 
-enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard };
+/// `automatic`: the HID device where it is plugged in, else the keyboard (or gamepad) of a screen's window.
+enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard, automatic };
 
 /// How one axis of a particular device differs from its report layout: readings on the layout's own scale (hand wheel: −1 full
 /// right to 1 full left; pedal: 0 released to 1 floored). `septet-car calibrate` records and prints them.
@@ -103,6 +109,12 @@ struct Rig {
 
 /// The screens whose keyboard or gamepad drives: none unless the rig's car is driven so.
 std::set<std::string> driving_screens(const Rig& rig);
+
+/// Where the driver's look straight ahead meets the plane of the screen, as fractions of the screen from its upper left (beyond
+/// 0 to 1: it passes the screen); nothing for a screen that does not stand ahead.
+std::optional<Vec2> point_ahead(const Rig& rig, const Screen& screen);
+/// The screen that the driver looks ahead through, or that is nearest to it.
+const Screen& screen_ahead(const Rig& rig);
 
 /// Parses the text of a rig file; `name` is used in messages. Unknown keys are errors, so that a misspelt one is noticed.
 Expected<Rig> read_rig(std::string_view toml, std::string_view name);

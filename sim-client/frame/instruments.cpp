@@ -23,31 +23,18 @@ render::OverlayText line(std::string text, double x_px, double y_px, double heig
           .height_px = static_cast<float>(height_px), .color = color};
 }
 
-/// Where the driver's look straight ahead meets the plane of the screen, as a fraction of its width; nothing where it passes it.
-std::optional<double> ahead_across(const rig::Rig& rig, const rig::Screen& screen) {
-  const rig::Window& window = screen.views.front().window;
-  const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m, normal = glm::cross(right, up);
-  if (std::abs(normal.x) < 1e-9 * glm::length(normal)) return std::nullopt;
-  const double distance_m = glm::dot(window.lower_left_m - rig.eye_point_m, normal) / normal.x;
-  const double across = glm::dot(rig.eye_point_m + Vec3(distance_m, 0.0, 0.0) - window.lower_left_m, right) / glm::dot(right, right);
-  return distance_m > 0.0 && across >= 0.0 && across <= 1.0 ? std::optional(across) : std::nullopt;
-}
-
 }  // namespace
-
-bool has_instruments(const rig::Rig& rig, const rig::Screen& screen) {
-  return (screen.show_interior || rig.car.source == rig::CarSource::keyboard) && ahead_across(rig, screen);
-}
 
 std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen) {
   std::vector<render::OverlayText> texts;
-  if (!has_instruments(rig, screen)) return texts;
+  if (!screen.instruments) return texts;
   const DriverCar& car = shown.driver_car;
   const Participant* participant = find_participant(shown, car.participant);
   const Lamps lamps = participant ? participant->lamps : Lamps{};
   const double height_px = std::max(12.0, std::round(screen.height_px / 17.0)), small_px = std::max(9.0, std::round(0.55 * height_px));
   const double half_width_px = 4.5 * height_px, width_px = screen.width_px;
-  const double x = std::clamp(*ahead_across(rig, screen) * width_px, std::min(half_width_px, 0.5 * width_px), std::max(width_px - half_width_px, 0.5 * width_px));
+  const auto ahead = rig::point_ahead(rig, screen);
+  const double x = std::clamp((ahead ? ahead->x : 0.5) * width_px, std::min(half_width_px, 0.5 * width_px), std::max(width_px - half_width_px, 0.5 * width_px));
   const double y = screen.height_px - 0.7 * height_px - small_px;
   const auto add = [&](std::string text, double from_middle_px, double y_px, double size_px, const glm::vec4& color) {
     texts.push_back(line(std::move(text), x + from_middle_px, y_px, size_px, color));
@@ -63,12 +50,18 @@ std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::R
   return texts;
 }
 
-std::vector<render::OverlayText> key_table(const rig::Screen& screen) {
+std::vector<render::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
   std::vector<render::OverlayText> texts;
   const double row_px = std::clamp(std::floor(screen.height_px / 32.0), 8.0, 30.0), step_px = row_px + 4.0;  // A box is 4 px higher than its line.
-  const double rows = static_cast<double>(car_io::driving_keys().size());
+  const double rows = static_cast<double>(car_io::driving_keys().size()) + (headline.empty() ? 0.0 : 1.5);
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
   const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 11.0 * row_px));
+  if (!headline.empty()) {
+    texts.push_back(line(headline, 0.5 * screen.width_px, y_px + 0.5 * row_px, 1.5 * row_px, white));
+    texts.back().centered = true;
+    texts.back().background = dark_panel;
+    y_px += std::round(1.5 * step_px);
+  }
   for (const car_io::DrivingKey& key : car_io::driving_keys()) {
     texts.push_back(line(car_io::names_of_keys(key), left_px, y_px, row_px, white));
     texts.back().background = dark_panel;
@@ -80,7 +73,7 @@ std::vector<render::OverlayText> key_table(const rig::Screen& screen) {
 }
 
 render::OverlayText top_line(std::string text, const rig::Screen& screen) {
-  const double height_px = std::clamp(screen.height_px / 36.0, 10.0, 30.0);
+  const double height_px = std::clamp(screen.height_px / 36.0, 10.0, 22.0);
   auto result = line(std::move(text), 0.02 * screen.width_px, 0.02 * screen.height_px, height_px, amber);
   result.background = dark_panel;
   return result;

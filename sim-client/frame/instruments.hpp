@@ -12,14 +12,12 @@
 
 namespace septet::frame {
 
-/// Whether no real car shows the driver its instruments, and this is the screen that stands ahead.
-bool has_instruments(const rig::Rig& rig, const rig::Screen& screen);
-
-/// Speed and gear below the driver's look ahead, indicators at both sides, a stalled engine underneath. Nothing on other screens.
+/// Speed and gear below the driver's look ahead, indicators at both sides, a stalled engine underneath. Nothing on a screen whose rig
+/// does not ask for it.
 std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
-/// The table of keys in the middle of the screen.
-std::vector<render::OverlayText> key_table(const rig::Screen& screen);
+/// The table of keys in the middle of the screen, under a headline ("Press any key to start"; empty: none).
+std::vector<render::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
 /// A modest line at the upper edge of the screen.
 render::OverlayText top_line(std::string text, const rig::Screen& screen);

@@ -88,6 +88,8 @@ void ScreenLink::on_control(std::span<const std::byte> bytes) {
     lane_.leave_for(refused_for_s);
     scene_.disconnected();
     scene_arrived_ = is_welcome_ = false;
+  } else if (auto* notice = std::get_if<Notice>(&*message)) {
+    notice_ = std::move(*notice);
   } else if (std::holds_alternative<Finish>(*message)) {
     finished_ = true;
   }

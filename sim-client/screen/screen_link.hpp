@@ -50,6 +50,8 @@ class ScreenLink {
   /// Why this screen cannot go on by itself: the group cannot be heard, or the scene not be read.
   const std::optional<Error>& refusal() const { return refusal_; }
   bool finished() const { return finished_; }
+  /// What the driver is to read, if this is the screen ahead.
+  const control::Notice& notice() const { return notice_; }
   /// What happened to the connection since the last call, for the console.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
@@ -93,6 +95,7 @@ class ScreenLink {
   std::uint32_t welcomes_ = 0;
   std::optional<Error> refusal_;
   bool finished_ = false;
+  control::Notice notice_;
   std::optional<double> pumped_s_;
   double unheard_s_ = 0.0;  ///< For how long this end has listened and heard nothing.
   bool scene_arrived_ = false;

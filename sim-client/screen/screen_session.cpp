@@ -115,9 +115,8 @@ Expected<void> Session::take_welcome() {
       wait(0.001);
     }
   });
-  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen,
-                                options_.monitor,
-                                options_.validation, "Septet " + screen_->name});
+  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen || screen_->full_screen,
+                                options_.monitor ? options_.monitor : screen_->monitor, options_.validation, "Septet " + screen_->name});
   receiving.request_stop();
   receiving.join();
   if (!display) return tl::unexpected(display.error());
@@ -167,11 +166,13 @@ void Session::add_driver_texts(render::FrameInput& input, const Snapshot& snapsh
   add(frame::instruments(snapshot, rig_, *screen_));
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe"))) input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
-  if (!frame::has_instruments(rig_, *screen_)) return;
-  const bool unasked = rig_.car.source == rig::CarSource::keyboard && !options_.is_virtual && snapshot.simulated_time_s < keys_shown_for_s;
+  if (screen_ != &rig::screen_ahead(rig_)) return;
+  const control::Notice& notice = link_.notice();
+  const bool unasked = notice.keys && snapshot.simulated_time_s < keys_shown_for_s;
   if (display_->take_keys_request()) keys_shown_ = !keys_shown_.value_or(unasked);
   else if (display_->is_touched() && !std::exchange(was_touched_, true)) keys_shown_ = false;
-  if (keys_shown_.value_or(unasked)) add(frame::key_table(*screen_));
+  if (keys_shown_.value_or(unasked)) add(frame::key_table(notice.text, *screen_));
+  else if (!notice.text.empty()) input.overlay.push_back(frame::banner(notice.text, *screen_));
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
@@ -215,7 +216,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   picture_rate_.add(now_s);
   last_shown_ = shown.snapshot;
   count_frame();
-  if (!shown.on_tick) ++frames_off_tick_;
+  if (!shown.on_tick && shown.tick != 0) ++frames_off_tick_;  // The first one is held until the driver is ready.
   link_.send(control::Presented{shown.tick, last_submit_ms_}, net::Reliability::unreliable);
   const std::uint32_t every = link_.welcome()->picture_every_ticks;
   if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))

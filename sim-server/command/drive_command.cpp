@@ -166,6 +166,7 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--participant", options.participant);
   for (const auto& parameter : options.parameters) add_chosen("--parameter", parameter);
+  if (options.start_now) add({"--start-now"});
   if (options.virtual_screens) add({"--lockstep"});
   if (options.no_screens) add({"--no-screens"});
   return server;
@@ -177,6 +178,7 @@ ChildOptions screen_options(const DriveOptions& options, const rig::Screen& scre
   running.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
                        "--pictures", (options.out / "screens" / screen.name).string()};
   running.log = options.out / "screens" / (screen.name + ".log");
+  if (options.full_screen) running.arguments.push_back("--full-screen");
   if (options.virtual_screens) {
     running.arguments.push_back("--virtual");
     // Seven processes share the cores already: further threads of the software rasteriser only get in each other's way.

@@ -23,6 +23,8 @@ struct DriveOptions {
   std::string traffic = "own";   ///< Who moves the traffic: own or sumo.
   std::filesystem::path replay;  ///< A session to show again, instead of a scenario to drive.
   double replay_from_s = 0.0;
+  bool full_screen = false; ///< Also where the rig does not say so.
+  bool start_now = false;   ///< Do not wait for a person to take the controls.
   bool no_screens = false;  ///< Server and car only.
 };
 

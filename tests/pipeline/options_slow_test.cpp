@@ -92,13 +92,13 @@ TEST_CASE("a vehicle or a parameter that is not there is refused before anything
   const TemporaryFolder folder;
   const auto refuse = [&](std::vector<std::string> options, const std::vector<std::string>& words) {
     options.insert(options.begin(), {"drive", "--no-screens", "--seconds", "1", "--out", (folder / "out").string()});
-    check_refused(run("septet", options, folder / "err"), words, folder / "out");
+    check_refused(run("septet", options, folder / (words.front() + ".err")), words, folder / "out");
   };
   refuse({"--vehicle", "zeppelin"}, {"zeppelin", "volvo-s80"});
   refuse({"--parameter", "ego_speed"}, {"NAME=VALUE"});
   refuse({"--parameter", "warp=9"}, {"warp", "ego_speed"});
-  refuse({"--parameter", "ego_speed=fast"}, {"ego_speed", "fast"});
-  refuse({"--parameter", "ego_speed=20", "--parameter", "ego_speed=30"}, {"ego_speed", "twice"});
+  refuse({"--parameter", "ego_speed=fast"}, {"fast", "ego_speed"});
+  refuse({"--parameter", "ego_speed=20", "--parameter", "ego_speed=30"}, {"twice", "ego_speed"});
 }
 
 }  // namespace septet::pipeline

@@ -79,6 +79,7 @@ class SimulatedRig {
     for (const auto& screen : screens_) {
       options.allowed.push_back({screen.identity.public_key(), screen.name});
       options.screens.push_back(screen.name);
+      options.drivers.insert(screen.name);
     }
     options.welcome.rig = "rig";
     if (options_.multicast) {

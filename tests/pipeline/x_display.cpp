@@ -49,7 +49,7 @@ Window find_window(Display* display, const std::string& title) {
 }  // namespace
 
 XDisplay::XDisplay() : server_(start_server()) {
-  const auto number = server_.read_line(60s);
+  const auto number = server_.read_line(patience);
   REQUIRE(number.has_value());
   name_ = ":" + *number;
 }
@@ -72,19 +72,33 @@ void XDisplay::close_window(const std::string& title) const {
   XSync(display.get(), False);
 }
 
-void XDisplay::press_escape(const std::string& title) const {
+void XDisplay::send_key(const std::string& title, unsigned long key, bool pressed) const {
   const auto display = connect(name_);
   XEvent event{};
-  event.xkey.type = KeyPress;
+  event.xkey.type = pressed ? KeyPress : KeyRelease;
   event.xkey.display = display.get();
   event.xkey.window = find_window(display.get(), title);
   REQUIRE(event.xkey.window != 0);
   event.xkey.root = DefaultRootWindow(display.get());
   event.xkey.same_screen = True;
   event.xkey.time = 1;
-  event.xkey.keycode = XKeysymToKeycode(display.get(), XK_Escape);
-  XSendEvent(display.get(), event.xkey.window, False, KeyPressMask, &event);
+  event.xkey.keycode = XKeysymToKeycode(display.get(), key);
+  XSendEvent(display.get(), event.xkey.window, False, pressed ? KeyPressMask : KeyReleaseMask, &event);
   XSync(display.get(), False);
+}
+
+void XDisplay::press_escape(const std::string& title) const { send_key(title, XK_Escape, true); }
+
+void XDisplay::tap_arrow_up(const std::string& title) const {
+  send_key(title, XK_Up, true);
+  send_key(title, XK_Up, false);
+}
+
+std::array<int, 4> XDisplay::place_of(const std::string& title) const {
+  const auto display = connect(name_);
+  XWindowAttributes attributes{};
+  XGetWindowAttributes(display.get(), find_window(display.get(), title), &attributes);
+  return {attributes.x, attributes.y, attributes.width, attributes.height};
 }
 
 }  // namespace septet::pipeline

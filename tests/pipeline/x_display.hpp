@@ -1,6 +1,7 @@
 #pragma once
 /// A display without a monitor, for the programs that open windows, and a hand that closes them.
 
+#include <array>
 #include <map>
 #include <string>
 
@@ -15,11 +16,17 @@ class XDisplay {
   std::map<std::string, std::string> environment() const { return {{"DISPLAY", name_}}; }
   /// Whether there is a window of this title.
   bool has_window(const std::string& title) const;
+  /// Left, top, width and height of the window, pixels of the display (640 × 480).
+  std::array<int, 4> place_of(const std::string& title) const;
   /// Asks the window to close, as a window manager does for its owner.
   void close_window(const std::string& title) const;
   void press_escape(const std::string& title) const;
+  /// Presses the arrow up, and lets it go again.
+  void tap_arrow_up(const std::string& title) const;
 
  private:
+  void send_key(const std::string& title, unsigned long key, bool pressed) const;
+
   server::ChildProcess server_;
   std::string name_;
 };

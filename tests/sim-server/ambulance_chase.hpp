@@ -26,7 +26,7 @@ struct AmbulanceChase {
 inline AmbulanceChase chase_ambulance(const std::string& scenario, const std::string& driver, std::uint64_t seed, double seconds) {
   constexpr double settled_s = 15.0;
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  auto seat = open_driver_seat(rig::Car{}, driver, seed, loaded.model);
+  auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
   REQUIRE(seat.has_value());
   auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
   REQUIRE(drive.has_value());

@@ -59,7 +59,7 @@ TEST_CASE("the last line of a drive and its outcome tell how many numbers went b
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   const auto folder = TemporaryFolder::make("septet-test");
   REQUIRE(folder.has_value());
-  auto log = SessionLog::create(folder->path() / "session.sqlite", drive, 1, "own", false);
+  auto log = SessionLog::create(drive, {.out = folder->path(), .lockstep = true});
   REQUIRE(log.has_value());
   Snapshot snapshot;
   snapshot.diagnostics.bad_numbers = 3;

@@ -56,12 +56,37 @@ TEST_CASE("neighbouring screens ahead share an edge") {
   }
 }
 
+TEST_CASE("the screen ahead is the one that the driver looks straight through") {
+  for (const auto& [name, ahead] : {std::pair{"seven-screens", "ahead-3"}, {"three-monitors", "middle"}, {"desktop", "desktop"}}) {
+    const auto rig = read_rig(shipped(name), name);
+    REQUIRE(rig);
+    const Screen& screen = screen_ahead(*rig);
+    CHECK(screen.name == ahead);
+    const auto point = point_ahead(*rig, screen);
+    REQUIRE(point);
+    CHECK(point->x == doctest::Approx(0.5));
+    CHECK(point->y == doctest::Approx(0.5));
+  }
+  const auto seven = read_rig(shipped("seven-screens"), "seven-screens");
+  CHECK_FALSE(point_ahead(*seven, seven->screens[5]));  // It stands behind.
+}
+
 TEST_CASE("every shipped rig is read") {
   for (const char* name : {"seven-screens", "three-monitors", "desktop"}) {
     const auto rig = read_rig(shipped(name), name);
     CHECK_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
     if (rig) CHECK(rig->name == name);
   }
+}
+
+TEST_CASE("a screen has the monitor that its rig names and none unless it does") {
+  const std::string good = one_screen;
+  const auto plain = read_rig(good, "my.toml"), placed = read_rig(good + "monitor = 2\nfull_screen = true\n", "my.toml");
+  REQUIRE((plain && placed));
+  CHECK_FALSE(plain->screens[0].monitor.has_value());
+  CHECK_FALSE(plain->screens[0].full_screen);
+  CHECK(placed->screens[0].monitor == 2u);
+  CHECK(placed->screens[0].full_screen);
 }
 
 TEST_CASE("a wrong rig is refused with its line and a remedy") {
@@ -78,6 +103,8 @@ TEST_CASE("a wrong rig is refused with its line and a remedy") {
   refuse(good + "heigth_px = 3\n", "my.toml:8", "heigth_px");
   refuse(good + "width_px = 5\n", "my.toml:8", "width_px");
   refuse("eye_point_m = [0, 0, 1]\n", "my.toml:1", "no screen");
+  refuse(good + "monitor = 64\n", "my.toml:8", "monitor");
+  refuse(good + "full_screen = \"left\"\n", "my.toml:8", "full_screen");
   refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9", "pigeon");
   refuse("eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 0, 2]\n",
          "my.toml:6", "rectangle");

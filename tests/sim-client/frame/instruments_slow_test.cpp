@@ -82,7 +82,7 @@ TEST_CASE("the table of keys is drawn whole") {
     const std::uint32_t width_px = size.width_px, height_px = size.height_px;
     CAPTURE(width_px);
     const rig::Rig rig = desktop(width_px, height_px);
-    const auto texts = key_table(rig.screens[0]);
+    const auto texts = key_table("Press any key to start", rig.screens[0]);
     const auto picture = draw(rig.screens[0], texts, "keys-" + std::to_string(width_px));
     // Every line of it has letters: none was left out for want of room in the atlas.
     for (const auto& text : texts) {

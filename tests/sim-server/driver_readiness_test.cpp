@@ -1,0 +1,83 @@
+#include <doctest/doctest.h>
+
+#include "car-io/simulated_hid_device.hpp"
+#include "sim-server/driver_seat.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+namespace {
+
+std::unique_ptr<LiveDrive> seated(const LoadedDrive& drive, DriverSeat seat) {
+  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
+  REQUIRE(live.has_value());
+  return std::move(*live);
+}
+
+}  // namespace
+
+TEST_CASE("a driver at a keyboard is ready with the first controls of a screen") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
+  REQUIRE(seat.has_value());
+  const auto live = seated(drive, std::move(*seat));
+  REQUIRE(live->first());
+  CHECK(live->first()->snapshot().tick == 0);
+  CHECK_FALSE(live->driver_is_ready(std::nullopt, 0.0));
+  CHECK_FALSE(live->driver_is_ready(std::nullopt, 3600.0));
+  CHECK(live->driver_is_ready(DriverInput{}, 3600.1));
+}
+
+TEST_CASE("a driver at a wheel is ready when a control is moved and not while it trembles") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  DriverInput resting;
+  resting.steering_wheel_rad = 0.4;
+  DriverInput pedal = resting, wheel = resting, indicator = resting;
+  pedal.accelerator = 0.3;
+  wheel.steering_wheel_rad = 0.1;
+  indicator.indicator = IndicatorStalk::left;
+  for (const DriverInput& touched : {pedal, wheel, indicator}) {
+    car_io::SimulatedHidPort port;
+    port.plug();
+    DriverSeat seat;
+    sit_at_device(seat, port.opener(), {});
+    const auto live = seated(drive, std::move(seat));
+    double waited_s = 0.0;
+    const auto ready = [&](DriverInput input) {
+      input.sequence = static_cast<std::uint8_t>(waited_s * 100.0);
+      port.send(car_io::encode_controls(input));
+      return live->driver_is_ready(std::nullopt, waited_s += 0.01);
+    };
+    for (int i = 0; i < 200; ++i) {
+      DriverInput trembling = resting;
+      trembling.steering_wheel_rad += i % 2 ? 0.02 : -0.02;
+      trembling.accelerator = i % 3 ? 0.01 : 0.0;
+      REQUIRE_FALSE(ready(trembling));
+    }
+    CHECK(ready(touched));
+    CHECK(live->newest().tick == 0);
+  }
+}
+
+TEST_CASE("a simulated driver is always ready") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "seven-screens");
+  auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
+  REQUIRE(seat.has_value());
+  CHECK(seated(drive, std::move(*seat))->driver_is_ready(std::nullopt, 0.0));
+}
+
+TEST_CASE("a seat whose device may be missing is one at the keyboard without it") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  rig::Car car = drive.rig.car;
+  car.product_id = 0xfffe;
+  car.source = rig::CarSource::automatic;
+  const auto seat = open_driver_seat(car, 1, drive.model);
+  REQUIRE(seat.has_value());
+  CHECK_FALSE(seat->car);
+  CHECK_FALSE(seat->look);
+  car.source = rig::CarSource::hid;
+  const auto refused = open_driver_seat(car, 1, drive.model);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().remedy.find("automatic") != std::string::npos);
+}
+
+}  // namespace septet::server
