@@ -52,10 +52,13 @@ vehicle::Ground ground_below(const SimulationModel& model, SimulationState& stat
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
   const Environment& sky = state.scenario.environment;
   const RoadWeather weather{sky.road_wetness, sky.snow_cover, sky.temperature_k, state.scenario.friction_scale};
+  const Vec2 heading{state.car.world_from_body.orientation * Vec3(1.0, 0.0, 0.0)};
+  const Vec2 ahead = glm::length(heading) > 0.1 ? glm::normalize(heading) : Vec2(1.0, 0.0);
   vehicle::Ground ground;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     vehicle::WheelGround& wheel = ground[i];
     if (find_wheel_ground(model.roads, weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
+      find_kerb(model.roads, centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
       wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
       continue;
     }

@@ -23,6 +23,11 @@ struct RoadWeather {
 bool find_wheel_ground(const road::RoadNetwork& roads, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                        road::RoadPosition& place, vehicle::WheelGround& wheel);
 
+/// Looks for a kerb, a wheel's radius before and behind its centre: sets `wheel.edge_m`. `ahead`: the car's heading, level, unit
+/// length. Costs nothing on roads whose lanes have one height.
+void find_kerb(const road::RoadNetwork& roads, const Vec3& centre_m, const Vec2& ahead, double radius_m,
+               const road::RoadPosition& place, vehicle::WheelGround& wheel);
+
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather);
 
 }  // namespace septet::server

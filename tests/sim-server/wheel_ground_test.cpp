@@ -60,4 +60,35 @@ TEST_CASE("far from every road there is no surface to find") {
   CHECK_FALSE(find_wheel_ground(roads, {}, {50.0, 500.0, 0.3}, false, place, wheel));
 }
 
+TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
+  const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
+  const auto roads = road::read_opendrive(
+      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection s=\"0\">"
+      "<center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\">" + width +
+          "</lane><lane id=\"-2\" type=\"sidewalk\">" + width +
+          "<height sOffset=\"0\" inner=\"0.12\" outer=\"0.12\"/></lane></right></laneSection></lanes></road></OpenDRIVE>",
+      "kerb.xodr");
+  REQUIRE(roads.has_value());
+  const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
+    vehicle::WheelGround wheel;
+    road::RoadPosition place;
+    REQUIRE(find_wheel_ground(*roads, {}, centre_m, false, place, wheel));
+    find_kerb(*roads, centre_m, ahead, 0.32, place, wheel);
+    return wheel.edge_m;
+  };
+  CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
+  const auto before = edge({50.0, -3.3, 0.3}, {0.0, -1.0});
+  REQUIRE(before.has_value());
+  CHECK(before->y == doctest::Approx(-3.5).epsilon(0.001));
+  CHECK(before->z == doctest::Approx(0.12).epsilon(0.01).scale(0.0));
+  const auto across = edge({50.0, -3.4, 0.3}, {0.8, -0.6});
+  REQUIRE(across.has_value());
+  CHECK(across->y == doctest::Approx(-3.5).epsilon(0.001));
+  const auto backwards = edge({50.0, -3.3, 0.3}, {0.0, 1.0});  // The car rolls back at it.
+  REQUIRE(backwards.has_value());
+  CHECK_FALSE(edge({50.0, -3.3, 0.3}, {1.0, 0.0}).has_value());  // Along the kerb.
+  CHECK_FALSE(edge({50.0, -3.7, 0.4}, {0.0, -1.0}).has_value());  // Up on it the way goes on level.
+}
+
 }  // namespace septet::server

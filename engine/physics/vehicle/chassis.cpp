@@ -42,6 +42,24 @@ double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double i
   return free_radps - taken_radps;
 }
 
+/// The plane that carries a wheel: its ground, or the one that touches an edge across the line from there to the wheel's centre
+/// (`edge_m` stays set).
+WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, const Vec3& forward) {
+  WheelGround result = ground;
+  result.edge_m.reset();
+  if (!ground.edge_m) return result;
+  const Vec3 to_centre = centre_m - *ground.edge_m;
+  const double ahead_m = glm::dot(to_centre, forward) / glm::length(forward);
+  const double up_m = glm::dot(to_centre, ground.normal);
+  const double distance_m = std::hypot(ahead_m, up_m);
+  constexpr double least_up_m = 0.05;  // Higher than the hub it is a wall: the hull meets those.
+  if (up_m < least_up_m || distance_m >= glm::dot(ground.normal, centre_m - ground.point_m)) return result;
+  result.normal = glm::normalize(up_m * ground.normal + ahead_m / glm::length(forward) * forward);
+  result.point_m = centre_m - distance_m * result.normal;
+  result.edge_m = ground.edge_m;
+  return result;
+}
+
 /// Contact, tyre force and new spin of one wheel.
 WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& known, int index,
                         const ChassisInput& input, const WheelGround& ground, double dt_s,
@@ -55,7 +73,9 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const Vec3& axis = load.place.spin_axis;
   const Vec3& centre_m = load.place.centre_m;
 
-  const Vec3 normal = glm::conjugate(world_from_body) * ground.normal;
+  const WheelGround met = carrying_plane(ground, state.world_from_body * centre_m,
+                                         world_from_body * glm::cross(axis, Vec3(0.0, 0.0, 1.0)));
+  const Vec3 normal = glm::conjugate(world_from_body) * met.normal;
   // The published height of an axle leaves out that its centre moves sideways under a leaning body.
   const Vec3 measured_m =
       parameters.as_published
@@ -63,7 +83,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
                  centre_m.z)
           : centre_m;
   const double height_m =
-      glm::dot(ground.normal, state.world_from_body * measured_m - ground.point_m);
+      glm::dot(met.normal, state.world_from_body * measured_m - met.point_m);
   // Deeper than that the rim would be flat; the force stays what it is there.
   const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
   const Vec3 across = glm::cross(axis, normal);
@@ -83,7 +103,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
                              ? std::cos(wheel.steer_rad) * body_forward + std::sin(wheel.steer_rad) * body_left
                              : across / across_size;
     const Vec3 left = glm::cross(normal, forward);
-    load.contact_m = Vec3(load.place.contact_m, centre_m.z - height_m / normal.z);
+    load.contact_m = met.edge_m ? centre_m - height_m * normal : Vec3(load.place.contact_m, centre_m.z - height_m / normal.z);
     const Vec3 path{load.place.contact_slope, 1.0};
     const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) +
                            wheel.travel_rate_mps * path;

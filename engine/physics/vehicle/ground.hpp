@@ -1,6 +1,6 @@
 #pragma once
 /// What the wheels stand on, as the vehicle sees it: one plane and one friction coefficient under
-/// each wheel.
+/// each wheel, and the edge of a step (a kerb) where one is near.
 ///
 /// Whoever owns the road fills a `Ground` from `wheel_centres_m` (vehicle.hpp): at every sub-step
 /// where the road is rough (ISO 8608 class A excites a car at 130 km/h up to 100 Hz), once a tick
@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "engine/math/rigid_transform.hpp"
 
@@ -20,6 +21,10 @@ inline constexpr int wheel_count = 4;
 struct WheelGround {
   Vec3 point_m{0.0};           ///< A point of the surface near the contact, world frame.
   Vec3 normal{0.0, 0.0, 1.0};  ///< Unit length, world frame.
+  /// Top of a step that the wheel comes to or leaves, across its way, world frame. The wheel stands on whichever it presses
+  /// deeper, plane or edge: so it meets a kerb before its centre is over it, and climbs it along its own roundness (rigid ring
+  /// enveloping: Zegelaar 1998, The dynamic response of tyres to brake torque variations and road unevennesses, ch. 4).
+  std::optional<Vec3> edge_m;
   double friction = 0.9;       ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
   double rolling_resistance =
       1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.
