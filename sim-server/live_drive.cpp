@@ -9,6 +9,9 @@
 namespace septet::server {
 namespace {
 
+/// For so long a screen's last controls are held. It sends them with every picture.
+constexpr Tick silent_screen_ticks = 120;
+
 /// More than the trembling of a device that nobody touches.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
   constexpr double clearly = 0.1;  // Of a pedal's travel; of the hand wheel radians.
@@ -40,8 +43,17 @@ void LiveDrive::log_to(SessionLog& log) {
 logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
   logging::InputRecord record;
   record.tick = state_.tick + 1;
-  if (controls) held_ = *controls;
+  if (controls) {
+    held_ = *controls;
+    heard_tick_ = state_.tick;
+  }
   record.input = held_;
+  if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks) {
+    // As with a device that stands still (car-io/REPORTS.md): nobody's foot is on the pedal any more.
+    record.input.accelerator = 0.0;
+    record.input.horn = false;
+    if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0) tell("the screen that drives is silent: the accelerator is released");
+  }
   if (seat_.car) {
     // The device's clock is simulated time, so that a slow machine does not see a stale driver.
     const auto reading = seat_.car->poll(waited_s_ + state_.time_s());

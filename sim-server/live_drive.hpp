@@ -58,6 +58,7 @@ class LiveDrive final : public TickSource {
   SessionLog* log_ = nullptr;
   SimulationState state_;
   DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
+  std::optional<Tick> heard_tick_;  ///< When they came.
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;

@@ -58,6 +58,24 @@ TEST_CASE("a driver at a wheel is ready when a control is moved and not while it
   }
 }
 
+TEST_CASE("a screen that drives and falls silent has its accelerator released after a second and not before") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const auto live = seated(drive, {});
+  DriverInput flat_out;
+  flat_out.accelerator = 1.0;
+  flat_out.horn = true;
+  const auto accelerator_after = [&](int ticks, const std::optional<DriverInput>& controls) {
+    for (int i = 0; i < ticks; ++i) REQUIRE(live->next(controls).has_value());
+    return live->newest().driver_car.accelerator;
+  };
+  CHECK(accelerator_after(10, flat_out) == 1.0);
+  CHECK(accelerator_after(115, std::nullopt) == 1.0);
+  CHECK(accelerator_after(20, std::nullopt) == 0.0);
+  CHECK(live->newest().diagnostics.input_stale_ticks > 0);
+  CHECK(live->take_messages().size() == 1);
+  CHECK(accelerator_after(2, flat_out) == 1.0);
+}
+
 TEST_CASE("a simulated driver is always ready") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "seven-screens");
   auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
