@@ -47,8 +47,20 @@ std::uint32_t reset_bad_numbers(DriverInput& input) {
   return count;
 }
 
+/// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
+void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const SimulationModel& model, SimulationState& state,
+               std::vector<SimulationEvent>& events) {
+  constexpr std::array names{"front_left", "front_right", "rear_left", "rear_right"};
+  const bool touches = ground.edge_m && glm::distance(centre_m, *ground.edge_m) <= model.car.tyre.radius_m;
+  if (touches && !state.at_kerb[wheel])
+    events.push_back({"kerb", std::nullopt,
+                      fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f}", names[wheel], ground.edge_m->z - ground.point_m.z,
+                                  glm::length(state.car.velocity_mps))});
+  state.at_kerb[wheel] = touches;
+}
+
 /// The road's surface under each wheel, and how slippery it is there.
-vehicle::Ground ground_below(const SimulationModel& model, SimulationState& state) {
+vehicle::Ground ground_below(const SimulationModel& model, SimulationState& state, std::vector<SimulationEvent>& events) {
   const auto centres = vehicle::wheel_centres_m(model.car, state.car);
   const Environment& sky = state.scenario.environment;
   const RoadWeather weather{sky.road_wetness, sky.snow_cover, sky.temperature_k, state.scenario.friction_scale};
@@ -59,6 +71,7 @@ vehicle::Ground ground_below(const SimulationModel& model, SimulationState& stat
     vehicle::WheelGround& wheel = ground[i];
     if (find_wheel_ground(model.roads, weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
       find_kerb(model.roads, centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
+      note_kerb(i, centres[i], wheel, model, state, events);
       wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
       continue;
     }
@@ -85,7 +98,7 @@ void note_hull(const vehicle::HullReport& report, SimulationState& state, std::v
 
 vehicle::VehicleOutputs advance_car(const SimulationModel& model, const DriverInput& input, SimulationState& state,
                                     std::vector<SimulationEvent>& events) {
-  const auto ground = ground_below(model, state);
+  const auto ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
   const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m), vehicle::hull_reach_m(model.car) + on_the_way_m)

@@ -48,6 +48,7 @@ struct SimulationState {
   vehicle::VehicleState car;
   vehicle::HullState hull;
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
+  std::array<bool, vehicle::wheel_count> at_kerb{};  ///< Which wheels touch a kerb's edge: one event a touch.
   std::optional<road::RoadPosition> car_road;
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
@@ -61,7 +62,7 @@ struct SimulationState {
 
 /// Something that happened in a step, for the log.
 struct SimulationEvent {
-  std::string kind;  ///< "scenario", "collision", "bad_number".
+  std::string kind;  ///< "scenario", "collision", "kerb", "bad_number".
   std::optional<ParticipantId> participant;
   std::string detail;
 };

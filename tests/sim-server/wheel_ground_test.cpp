@@ -1,10 +1,12 @@
 #include "sim-server/wheel_ground.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "engine/road/opendrive_reader.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
 namespace {
@@ -89,6 +91,41 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   REQUIRE(backwards.has_value());
   CHECK_FALSE(edge({50.0, -3.3, 0.3}, {1.0, 0.0}).has_value());  // Along the kerb.
   CHECK_FALSE(edge({50.0, -3.7, 0.4}, {0.0, -1.0}).has_value());  // Up on it the way goes on level.
+}
+
+TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touch with height and speed") {
+  // The lanes to the right of the car's own are raised: a pavement along the motorway.
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  SimulationModel model = *drive.model;
+  model.obstacles = nullptr;
+  auto begun = initial_state(model, traffic::own_traffic(model.roads, 1));
+  REQUIRE(begun.has_value());
+  SimulationState state = std::move(*begun);
+  state.traffic->stop();
+  Snapshot now = capture_snapshot(model, state);
+  const int lane = now.driver_car.lane;
+  REQUIRE(lane < 0);
+  road::Road& road = model.roads.roads[now.driver_car.road];
+  road.flat = false;
+  for (road::LaneSection& section : road.sections)
+    for (road::Lane& other : section.lanes)
+      if (other.id < lane) other.heights = {{section.s_m, 0.1, 0.1}};
+  const RigidTransform start = find_participant(now, driver_participant)->world_from_vehicle;
+  const Quat to_the_right = glm::angleAxis(-0.5, Vec3(0.0, 0.0, 1.0));
+  state.car = vehicle::standstill(model.car, {start * Vec3(0.0, 0.6, 0.0), to_the_right * start.orientation}, 8.0);
+  std::vector<SimulationEvent> events;
+  for (int tick = 0; tick < 240; ++tick) now = server_step(model, {}, state, events);
+  std::vector<std::string> touches;
+  for (const SimulationEvent& event : events)
+    if (event.kind == "kerb") touches.push_back(event.detail);
+  REQUIRE(touches.size() >= 4);
+  CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);
+  for (const char* wheel : {"front_left", "rear_right", "rear_left"})
+    CHECK(std::ranges::any_of(touches, [&](const std::string& text) { return text.find(wheel) != std::string::npos; }));
+  CHECK(touches[0].find("speed_mps=7.") != std::string::npos);
+  CHECK(now.diagnostics.bad_numbers == 0);
+  CHECK(now.driver_car.lane < lane);
+  CHECK(now.driver_car.speed_mps > 4.0);
 }
 
 }  // namespace septet::server
