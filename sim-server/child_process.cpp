@@ -14,6 +14,17 @@
 
 namespace septet::server {
 
+namespace {
+
+/// The end of a child that is not the program yet: says why where it can still be read. Between fork and exec nothing may allocate.
+[[noreturn]] void give_up(const std::string& program, const char* why, int status) {
+  for (const char* text : {"septet: ", program.c_str(), ": ", why, "\n"})
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  ::_exit(status);
+}
+
+}  // namespace
+
 Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
   int output[2];
   if (::pipe2(output, O_CLOEXEC) != 0)
@@ -45,7 +56,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
   }
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // Dies with its parent, however that one ends.
-    if (::getppid() != parent) ::_exit(1);
+    if (::getppid() != parent) give_up(options.program, "whoever starts it ended first", 1);
     ::setpgid(0, 0);  // Ctrl-C reaches the parent only, which then ends the drive in order.
     ::dup2(output[1], STDOUT_FILENO);
     if (!log.empty()) {
@@ -53,7 +64,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
       if (file >= 0) ::dup2(file, STDERR_FILENO);
     }
     ::execve(argv[0], argv.data(), envp.data());
-    ::_exit(127);
+    give_up(options.program, ::strerrordesc_np(errno), 127);
   }
   ::close(output[1]);
   ChildProcess process;
