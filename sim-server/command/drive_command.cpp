@@ -204,7 +204,9 @@ Ending ending_of(const ChildExit& exit, const std::optional<std::string>& last_w
   if (exit.signal != 0)
     return {was_ready, logging::failed_status, fmt::format("the server was ended by signal {}; what it had logged is in the session file", exit.signal)};
   if (exit.code == 127) return {false, logging::failed_status, "the server does not start; check that septet-server lies beside septet"};
-  return {was_ready, logging::failed_status, ""};
+  if (was_ready)
+    return {true, logging::failed_status, fmt::format("the server ended with status {} and did not say why; what it had logged is in the session file", exit.code)};
+  return {false, logging::failed_status, ""};
 }
 
 /// Server and screens from start to end.
