@@ -7,11 +7,13 @@
 
 #include <fmt/core.h>
 
+#include "engine/math/angle_units.hpp"
+
 namespace septet::server {
 namespace {
 
 constexpr std::size_t most_rows = 1'000'000;
-constexpr double radians = 1.0 / 57.29577951308232;
+constexpr double radians_per_degree = 1.0 / degrees_per_radian;
 
 struct Column {
   std::string_view name;
@@ -20,7 +22,7 @@ struct Column {
 };
 constexpr std::array<Column, 7> columns{{
     {"time_s", -1e6, 1e6, [](vehicle::TimedInput& row, double value) { row.time_s = value; }},
-    {"steering_wheel_deg", -1500.0, 1500.0, [](vehicle::TimedInput& row, double value) { row.input.steering_wheel_rad = value * radians; }},
+    {"steering_wheel_deg", -1500.0, 1500.0, [](vehicle::TimedInput& row, double value) { row.input.steering_wheel_rad = value * radians_per_degree; }},
     {"accelerator", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.accelerator = value; }},
     {"brake", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.brake = value; }},
     {"clutch", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.clutch = value; }},

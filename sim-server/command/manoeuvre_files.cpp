@@ -4,7 +4,9 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/math/angle_units.hpp"
 #include "sim-server/command/figure_text.hpp"
 #include "sim-server/command/line_chart.hpp"
 
@@ -14,8 +16,6 @@ namespace {
 using vehicle::ManoeuvreReport;
 using vehicle::ManoeuvreSample;
 
-constexpr double degrees = 57.29577951308232;
-
 struct Quantity {
   const char* label;
   double (*of)(const ManoeuvreSample&);
@@ -24,17 +24,17 @@ struct Quantity {
 constexpr Quantity time_axis{"time, s", [](const ManoeuvreSample& s) { return s.time_s; }};
 constexpr Quantity way_axis{"way ahead, m", [](const ManoeuvreSample& s) { return s.x_m; }};
 constexpr Quantity steer{"road wheels, deg",
-                         [](const ManoeuvreSample& s) { return s.steer_rad * degrees; }};
+                         [](const ManoeuvreSample& s) { return s.steer_rad * degrees_per_radian; }};
 constexpr Quantity yaw_rate{"yaw rate, deg/s",
-                            [](const ManoeuvreSample& s) { return s.yaw_rate_radps * degrees; }};
+                            [](const ManoeuvreSample& s) { return s.yaw_rate_radps * degrees_per_radian; }};
 constexpr Quantity lateral{"lateral acceleration, m/s²",
                            [](const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; }};
 constexpr Quantity longitudinal{"longitudinal acceleration, m/s²", [](const ManoeuvreSample& s) {
                                   return s.longitudinal_acceleration_mps2;
                                 }};
 constexpr Quantity sideslip{"sideslip, deg",
-                            [](const ManoeuvreSample& s) { return s.sideslip_rad * degrees; }};
-constexpr Quantity roll{"roll, deg", [](const ManoeuvreSample& s) { return s.roll_rad * degrees; }};
+                            [](const ManoeuvreSample& s) { return s.sideslip_rad * degrees_per_radian; }};
+constexpr Quantity roll{"roll, deg", [](const ManoeuvreSample& s) { return s.roll_rad * degrees_per_radian; }};
 constexpr Quantity torque{"hand wheel torque, N m",
                           [](const ManoeuvreSample& s) { return s.steering_torque_nm; }};
 constexpr Quantity speed{"speed, km/h", [](const ManoeuvreSample& s) { return s.speed_mps * 3.6; }};
@@ -62,15 +62,9 @@ std::vector<Panel> panels_of(const std::string& manoeuvre) {
 }  // namespace
 
 std::string figures_json(const std::string& vehicle, const ManoeuvreReport& report) {
-  std::string faults;
-  for (const std::string& fault : report.faults) {
-    faults += faults.empty() ? "\"" : ", \"";
-    for (const char c : fault) faults += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-    faults += '"';
-  }
   return figures_json(
-      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\",\n  \"faults\": [{}]", vehicle,
-                  report.manoeuvre, report.standard, faults),
+      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\",\n  \"faults\": {}", vehicle,
+                  report.manoeuvre, report.standard, nlohmann::json(report.faults).dump()),
       report.figures);
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "sim-server/command/input_table.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
@@ -15,8 +16,6 @@ namespace septet::server {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double degrees = 57.29577951308232;
 
 Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
   return read_regular_file(path).and_then([&](const std::string& text) {
@@ -41,7 +40,7 @@ void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio)
   };
   warn("--speed", conditions.speed_mps * 3.6, "km/h", 10.0, 250.0);
   warn("--friction", conditions.friction, "", 0.05, 1.2);
-  warn("--amplitude", std::abs(conditions.steer_rad) * steering_ratio * degrees, "deg", 1.0, 400.0);
+  warn("--amplitude", std::abs(conditions.steer_rad) * steering_ratio * degrees_per_radian, "deg", 1.0, 400.0);
 }
 
 /// Answers whether all figures mean something.
@@ -49,7 +48,7 @@ Expected<bool> test_vehicle(const VehicleTestOptions& options) {
   const auto parameters = load_vehicle(options.vehicle);
   if (!parameters) return tl::unexpected<Error>(parameters.error());
   vehicle::ManoeuvreOptions conditions = options.conditions;
-  conditions.steer_rad = options.amplitude_deg / degrees / parameters->steering.ratio;
+  conditions.steer_rad = options.amplitude_deg / degrees_per_radian / parameters->steering.ratio;
   warn_of(conditions, parameters->steering.ratio);
   std::vector<vehicle::ManoeuvreReport> reports;
   if (!options.inputs.empty()) {

@@ -11,12 +11,12 @@
 #include <fmt/core.h>
 #include <libsumo/libtraci.h>
 
+#include "engine/math/angle_units.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
 
 namespace septet::server {
 namespace {
 
-constexpr double degrees_per_radian = 57.295779513082320877;
 /// moveToXY: any edge, and off the network where there is none.
 constexpr int anywhere = 2;
 

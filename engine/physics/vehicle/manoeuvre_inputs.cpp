@@ -4,14 +4,13 @@
 #include <fmt/core.h>
 
 #include "engine/core/check.hpp"
+#include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 
 // Given inputs; and what every manoeuvre has to fear.
 
 namespace septet::vehicle {
 namespace {
-
-constexpr double degrees = 57.29577951308232;
 
 DriverInput between(const TimedInput& before, const TimedInput& after, double time_s) {
   const double part = std::clamp((time_s - before.time_s) / (after.time_s - before.time_s), 0.0, 1.0);
@@ -55,11 +54,11 @@ ManoeuvreReport drive_inputs(const VehicleParameters& parameters, const Manoeuvr
                           {"speed at the end", car.sample().speed_mps * 3.6, "km/h"},
                           {"way ahead", car.sample().x_m, "m"},
                           {"way aside", car.sample().y_m, "m"},
-                          {"peak yaw rate", peak(series, &ManoeuvreSample::yaw_rate_radps) * degrees, "deg/s"},
+                          {"peak yaw rate", peak(series, &ManoeuvreSample::yaw_rate_radps) * degrees_per_radian, "deg/s"},
                           {"peak lateral acceleration", peak(series, &ManoeuvreSample::lateral_acceleration_mps2), "m/s2"},
                           {"peak longitudinal acceleration", peak(series, &ManoeuvreSample::longitudinal_acceleration_mps2), "m/s2"},
-                          {"peak sideslip", peak(series, &ManoeuvreSample::sideslip_rad) * degrees, "deg"},
-                          {"peak roll", peak(series, &ManoeuvreSample::roll_rad) * degrees, "deg"}},
+                          {"peak sideslip", peak(series, &ManoeuvreSample::sideslip_rad) * degrees_per_radian, "deg"},
+                          {"peak roll", peak(series, &ManoeuvreSample::roll_rad) * degrees_per_radian, "deg"}},
                          series};
   find_faults(report);
   return report;
@@ -77,8 +76,8 @@ void find_faults(ManoeuvreReport& report) {
   for (const Figure& figure : report.figures)
     if (!std::isfinite(figure.value)) report.faults.push_back(fmt::format("\"{}\" is not a number", figure.name));
   if (!finite) report.faults.push_back("the car's motion is not finite");
-  if (sideslip_rad > spun_rad) report.faults.push_back(fmt::format("the car spun: {:.0f} deg of sideslip", sideslip_rad * degrees));
-  if (roll_rad > turned_over_rad) report.faults.push_back(fmt::format("the car turned over: {:.0f} deg of roll", roll_rad * degrees));
+  if (sideslip_rad > spun_rad) report.faults.push_back(fmt::format("the car spun: {:.0f} deg of sideslip", sideslip_rad * degrees_per_radian));
+  if (roll_rad > turned_over_rad) report.faults.push_back(fmt::format("the car turned over: {:.0f} deg of roll", roll_rad * degrees_per_radian));
 }
 
 }  // namespace septet::vehicle

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 
 // Double lane change (ISO 3888-1) and sine with dwell (ISO 19365).
@@ -8,7 +9,6 @@
 namespace septet::vehicle {
 namespace {
 
-constexpr double degrees = 57.29577951308232;
 constexpr double pi = 3.141592653589793;
 
 /// Middle of the lanes of ISO 3888-1: 15 m straight, 30 m over, 25 m beside, 25 m back, 30 m
@@ -68,9 +68,9 @@ ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
           {{"entry speed", speed_mps * 3.6, "km/h"},
            {"exit speed", car.sample().speed_mps * 3.6, "km/h"},
            {"peak lateral acceleration", peak_mps2, "m/s2"},
-           {"peak sideslip", peak_sideslip_rad * degrees, "deg"},
-           {"peak yaw rate", peak_yaw_radps * degrees, "deg/s"},
-           {"peak roll", peak_roll_rad * degrees, "deg"},
+           {"peak sideslip", peak_sideslip_rad * degrees_per_radian, "deg"},
+           {"peak yaw rate", peak_yaw_radps * degrees_per_radian, "deg/s"},
+           {"peak roll", peak_roll_rad * degrees_per_radian, "deg"},
            {"peak steer", peak_steer_rad, "rad"},
            {"worst distance from the path", worst_m, "m"},
            {"least wheel load", least_load_n, "N"}},
@@ -120,11 +120,11 @@ ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
           "ISO 19365",
           {{"speed", speed_mps * 3.6, "km/h"},
            {"amplitude", amplitude_rad, "rad"},
-           {"second yaw rate peak", peak_yaw_radps * degrees, "deg/s"},
+           {"second yaw rate peak", peak_yaw_radps * degrees_per_radian, "deg/s"},
            {"yaw rate ratio after 1 s", yaw_after_1_s / peak_yaw_radps * 100.0, "%"},
            {"yaw rate ratio after 1.75 s", yaw_after_1_75_s / peak_yaw_radps * 100.0, "%"},
            {"lateral displacement at 1.07 s", displacement_m, "m"},
-           {"peak sideslip", peak_sideslip_rad * degrees, "deg"}},
+           {"peak sideslip", peak_sideslip_rad * degrees_per_radian, "deg"}},
           car.series()};
 }
 

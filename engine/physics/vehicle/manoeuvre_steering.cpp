@@ -3,14 +3,13 @@
 
 #include <fmt/core.h>
 
+#include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 
 // Steady circle (ISO 4138) and step steer (ISO 7401).
 
 namespace septet::vehicle {
 namespace {
-
-constexpr double degrees = 57.29577951308232;
 
 double lateral(const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; }
 double steer(const ManoeuvreSample& s) { return s.steer_rad; }
@@ -76,17 +75,17 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
       "steady-circle",
       "ISO 4138, constant speed",
       {{"speed", speed_mps * 3.6, "km/h"},
-       {"understeer gradient", understeer * degrees * gravity_mps2, "deg/g"},
+       {"understeer gradient", understeer * degrees_per_radian * gravity_mps2, "deg/g"},
        {"yaw gain at 2 m/s2", at(2.0, yaw_gain), "1/s"},
        {"yaw gain at 4 m/s2", at(4.0, yaw_gain), "1/s"},
        {"steer at 4 m/s2", at(4.0, steer), "rad"},
        {"sideslip gradient",
-        slope(series, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees,
+        slope(series, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian,
         "deg/(m/s2)"},
        {"sideslip at 4 m/s2",
-        at(4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees, "deg"},
+        at(4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian, "deg"},
        {"roll gradient",
-        slope(series, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees * gravity_mps2,
+        slope(series, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian * gravity_mps2,
         "deg/g"},
        {"hand wheel torque at 4 m/s2",
         at(4.0, [](const ManoeuvreSample& s) { return s.steering_torque_nm; }), "N m"},
@@ -141,10 +140,10 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
        {"lateral acceleration overshoot", (lateral_peak / lateral_steady - 1.0) * 100.0, "%"},
        {"steady sideslip",
         mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) *
-            degrees,
+            degrees_per_radian,
         "deg"},
        {"steady roll",
-        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees,
+        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian,
         "deg"}},
       series};
 }

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/check.hpp"
+#include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/manoeuvre_car.hpp"
 #include "engine/physics/vehicle/suspension.hpp"
 #include "engine/physics/vehicle/tyre.hpp"
@@ -59,7 +60,7 @@ void require_straight(ManoeuvreReport& report) {
   }
   if (turn_rad > most_turn_rad || aside_m > half_lane_m)
     report.faults.push_back(fmt::format("the car did not go straight: it turned by {:.0f} deg and went {:.1f} m aside",
-                                        turn_rad * 57.29577951308232, aside_m));
+                                        turn_rad * degrees_per_radian, aside_m));
 }
 
 }  // namespace
