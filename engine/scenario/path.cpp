@@ -117,18 +117,26 @@ struct Lay {
     return result;
   }
 
-  std::optional<Path> operator()(const PolylineShape& shape) const {
+  /// Vertices or control points where they lie; no time is before the one that precedes it.
+  template <class Points>
+  std::optional<std::vector<Corner>> corners_of(const Points& points) const {
     std::vector<Corner> corners;
-    for (const auto& vertex : shape.vertices) {
-      const double before = corners.empty() ? vertex.time_s : corners.back().time_s;
-      const auto found = corner(vertex.position, std::max(vertex.time_s, before));
+    for (const auto& point : points) {
+      const double before = corners.empty() ? point.time_s : corners.back().time_s;
+      const auto found = corner(point.position, std::max(point.time_s, before));
       if (!found) return std::nullopt;
       corners.push_back(*found);
     }
-    if (closed && !corners.empty()) close_ring(corners);
-    drop_doubles(corners);
-    if (corners.size() < 2) return std::nullopt;
-    return join_corners(corners);
+    return corners;
+  }
+
+  std::optional<Path> operator()(const PolylineShape& shape) const {
+    auto corners = corners_of(shape.vertices);
+    if (!corners) return std::nullopt;
+    if (closed && !corners->empty()) close_ring(*corners);
+    drop_doubles(*corners);
+    if (corners->size() < 2) return std::nullopt;
+    return join_corners(*corners);
   }
 
   std::optional<Path> operator()(const ClothoidSplineShape& shape) const {
@@ -156,13 +164,9 @@ struct Lay {
   }
 
   std::optional<Path> operator()(const NurbsShape& shape) const {
-    std::vector<Corner> control;
-    for (const auto& point : shape.points) {
-      const double before = control.empty() ? point.time_s : control.back().time_s;
-      const auto found = corner(point.position, std::max(point.time_s, before));
-      if (!found) return std::nullopt;
-      control.push_back(*found);
-    }
+    const auto placed = corners_of(shape.points);
+    if (!placed) return std::nullopt;
+    const std::vector<Corner>& control = *placed;
     const auto degree = static_cast<std::size_t>(shape.order - 1);
     const std::size_t spans = control.size() - degree;
     const std::size_t steps =

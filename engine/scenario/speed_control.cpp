@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/scenario/keep_distance.hpp"
 #include "engine/scenario/speed_profile.hpp"
@@ -14,6 +15,19 @@ namespace {
 void end(SpeedControl& control, std::vector<ElementIndex>& ended) {
   control.active = false;
   if (control.action != no_element) ended.push_back(control.action);
+}
+
+SpeedControl begun(ElementIndex action) {
+  SpeedControl control;
+  control.active = true;
+  control.action = action;
+  return control;
+}
+
+/// From here on the entity's speed is what this says, and not what was held back from an earlier one.
+void take_over(SpeedControl control, EntityState& entity) {
+  entity.speed_control = std::move(control);
+  entity.held_back_mps = 0.0;
 }
 
 /// The action's own bounds, and the vehicle's where it has none.
@@ -129,9 +143,7 @@ SpeedStep scripted_step(const road::RoadNetwork& network, const Scenario& scenar
 
 void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
                  ElementIndex action, EntityIndex who, EntityState& entity) {
-  SpeedControl control;
-  control.active = true;
-  control.action = action;
+  SpeedControl control = begun(action);
   double target = what.value;
   if (what.reference != no_entity) {
     const double reference = state.entities[what.reference].speed_mps;
@@ -146,8 +158,7 @@ void start_speed(const Scenario& scenario, const ScenarioState& state, const Spe
       target > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
   control.transition = speed_transition(what.dynamics, entity.speed_mps, target, strongest);
   if (control.transition.shape == DynamicsShape::step) entity.speed_mps = target;
-  entity.speed_control = control;
-  entity.held_back_mps = 0.0;
+  take_over(std::move(control), entity);
 }
 
 bool start_speed_profile(const Scenario& scenario, const ScenarioState& state,
@@ -156,24 +167,19 @@ bool start_speed_profile(const Scenario& scenario, const ScenarioState& state,
   const double base = what.reference != no_entity ? state.entities[what.reference].speed_mps : 0.0;
   SpeedProfile profile = lay_speed_profile(what, entity.speed_mps - base,
                                            bounds(what.limits, scenario.entities[who].performance));
-  SpeedControl control;
+  SpeedControl control = begun(action);
   control.active = profile.end_s > 0.0;
-  control.action = action;
   control.follow = what.reference;
   if (!control.active) entity.speed_mps = base + profile.end_mps;
   control.profile = std::make_shared<const SpeedProfile>(std::move(profile));
-  entity.speed_control = control;
-  entity.held_back_mps = 0.0;
-  return control.active;
+  take_over(std::move(control), entity);
+  return entity.speed_control.active;
 }
 
 void start_distance(const DistanceControl& distance, ElementIndex action, EntityState& entity) {
-  SpeedControl control;
-  control.active = true;
-  control.action = action;
+  SpeedControl control = begun(action);
   control.distance = std::make_shared<const DistanceControl>(distance);
-  entity.speed_control = control;
-  entity.held_back_mps = 0.0;
+  take_over(std::move(control), entity);
 }
 
 bool start_synchronization(const road::RoadNetwork& network, const ScenarioState& state,
@@ -182,12 +188,9 @@ bool start_synchronization(const road::RoadNetwork& network, const ScenarioState
   if (what.master == no_entity) return false;
   auto meeting = plan_meeting(network, state, what);
   if (!meeting) return false;
-  SpeedControl control;
-  control.active = true;
-  control.action = action;
+  SpeedControl control = begun(action);
   control.meeting = std::make_shared<const Meeting>(std::move(*meeting));
-  entity.speed_control = control;
-  entity.held_back_mps = 0.0;
+  take_over(std::move(control), entity);
   return true;
 }
 
