@@ -21,11 +21,7 @@ CarReading CarConnection::poll(double now_s) {
   const bool beats = options_.layout->sequence_byte.has_value() || options_.repeats;
   reading.is_stale = !reading.is_connected || !fresh_at_s_ ||
                      (beats && now_s - *fresh_at_s_ > options_.stale_after_s);
-  reading.input = input_;
-  if (reading.is_stale) {
-    reading.input.accelerator = 0.0;
-    reading.input.horn = false;
-  }
+  reading.input = reading.is_stale ? released(input_) : input_;
   return reading;
 }
 

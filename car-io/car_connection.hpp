@@ -33,6 +33,13 @@ struct CarReading {
   bool is_stale = false;  ///< Also while not connected.
 };
 
+/// What a seat that has fallen silent stands for: nobody's foot is on the pedal and nobody's hand on the horn; the rest is held.
+inline DriverInput released(DriverInput input) {
+  input.accelerator = 0.0;
+  input.horn = false;
+  return input;
+}
+
 class CarConnection {
  public:
   CarConnection(OpenHidDevice open, const CarConnectionOptions& options);

@@ -49,9 +49,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
   }
   record.input = held_;
   if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks) {
-    // As with a device that stands still (car-io/REPORTS.md): nobody's foot is on the pedal any more.
-    record.input.accelerator = 0.0;
-    record.input.horn = false;
+    record.input = car_io::released(held_);
     if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0) tell("the screen that drives is silent: the accelerator is released");
   }
   if (seat_.car) {

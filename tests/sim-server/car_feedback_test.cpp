@@ -9,26 +9,37 @@
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
+namespace {
 
-TEST_CASE("the fan of the car at the server rises with the speed of the drive") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  car_io::SimulatedHidPort port;
+/// A drive whose driver sits at a device that is plugged in.
+std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {}) {
   port.plug();
   DriverSeat seat;
-  seat.actuators.fan_full_speed_mps = 70.0;
+  seat.actuators = limits;
   sit_at_device(seat, port.opener(), {});
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
+  return std::move(*live);
+}
+
+}  // namespace
+
+TEST_CASE("the fan of the car at the server rises with the speed of the drive") {
+  car_io::SimulatedHidPort port;
+  rig::CarActuators limits;
+  limits.fan_full_speed_mps = 70.0;
+  const auto live = seated_at(port, limits);
   DriverInput input;
   input.accelerator = 1.0;
   const auto drive_for = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       ++input.sequence;
       port.send(car_io::encode_controls(input));
-      REQUIRE((*live)->next(std::nullopt).has_value());
+      REQUIRE(live->next(std::nullopt).has_value());
     }
     // The writer has a thread and a clock of its own: give it until it has written this speed.
-    const double share = std::min((*live)->newest().driver_car.speed_mps / 70.0, 1.0);
+    const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
     double fan = -1.0;
     for (int i = 0; i < 150'000 && std::abs(fan - (0.2 + 0.8 * share)) > 1e-3; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -43,53 +54,43 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
 }
 
 TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on and counts it") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   car_io::SimulatedHidPort port;
-  port.plug();
-  DriverSeat seat;
-  sit_at_device(seat, port.opener(), {});
-  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
-  REQUIRE(live.has_value());
+  const auto live = seated_at(port);
   DriverInput input;
   const auto drive_for = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       ++input.sequence;
       port.send(car_io::encode_controls(input));
-      REQUIRE((*live)->next(std::nullopt).has_value());
+      REQUIRE(live->next(std::nullopt).has_value());
     }
-    return (*live)->take_messages();
+    return live->take_messages();
   };
   CHECK(drive_for(60).empty());
-  CHECK((*live)->newest().diagnostics.input_stale_ticks == 0);
+  CHECK(live->newest().diagnostics.input_stale_ticks == 0);
   port.unplug();
   const auto lost = drive_for(30);
   REQUIRE(lost.size() == 1);
   CHECK(lost[0].find("no such device") != std::string::npos);
-  CHECK((*live)->newest().diagnostics.input_stale_ticks == 30);
+  CHECK(live->newest().diagnostics.input_stale_ticks == 30);
   port.plug();
   const auto back = drive_for(120);
   REQUIRE(back.size() == 1);
   CHECK(back[0] == "car: the car's device is there");
-  const auto counted = (*live)->newest().diagnostics.input_stale_ticks;
+  const auto counted = live->newest().diagnostics.input_stale_ticks;
   CHECK(counted < 100);
   drive_for(10);
-  CHECK((*live)->newest().diagnostics.input_stale_ticks == counted);
+  CHECK(live->newest().diagnostics.input_stale_ticks == counted);
 }
 
 TEST_CASE("a car that goes wrong in ever new ways is told of ten times and then once a second") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   car_io::SimulatedHidPort port;
-  port.plug();
-  DriverSeat seat;
-  sit_at_device(seat, port.opener(), {});
-  auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
-  REQUIRE(live.has_value());
+  const auto live = seated_at(port);
   const auto refused_for = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       port.send(Bytes(20 + i % 40));  // The message names the size.
-      REQUIRE((*live)->next(std::nullopt).has_value());
+      REQUIRE(live->next(std::nullopt).has_value());
     }
-    return (*live)->take_messages();
+    return live->take_messages();
   };
   CHECK(refused_for(60).size() == 10);
   const auto later = refused_for(120);
