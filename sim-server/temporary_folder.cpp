@@ -18,7 +18,8 @@ namespace septet::server {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t random_letters = 6;
+constexpr std::string_view random_letters = "XXXXXX";
+constexpr std::string_view ending = ".run";  // Only these folders have it: whatever else begins alike is not an orphan.
 
 /// The folder, open and locked; −1 where somebody else holds it, or it is none of this user's.
 int lock(const fs::path& folder) {
@@ -35,7 +36,7 @@ void remove_orphans(const fs::path& parent, const std::string& prefix) {
   std::error_code ignored;
   for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix) || name.size() != prefix.size() + random_letters) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(ending) || name.size() != prefix.size() + random_letters.size() + ending.size()) continue;
     const int orphan = lock(entry->path());
     if (orphan < 0) continue;
     fs::remove_all(entry->path(), ignored);
@@ -53,10 +54,10 @@ Expected<TemporaryFolder> TemporaryFolder::make(std::string_view name) {
   const std::string prefix = fmt::format("{}-", name);
   remove_orphans(parent, prefix);
   // It gets its name once it is locked, so that nobody takes it for an orphan.
-  std::string draft = (parent / fmt::format(".{}{}", prefix, std::string(random_letters, 'X'))).string();
+  std::string draft = (parent / fmt::format(".{}{}", prefix, random_letters)).string();
   if (!::mkdtemp(draft.data())) return failure("cannot make a folder for temporary files", draft, remedy);
   const int held = lock(draft);
-  const fs::path path = parent / fs::path(draft).filename().string().substr(1);
+  const fs::path path = parent / fmt::format("{}{}", fs::path(draft).filename().string().substr(1), ending);
   fs::rename(draft, path, error);
   if (!error) return TemporaryFolder(path, held);
   if (held >= 0) ::close(held);

@@ -15,7 +15,7 @@ namespace septet::server {
 
 class TemporaryFolder {
  public:
-  /// Below TMPDIR, named `name`, a hyphen and six random letters. Error: no folder can be made there.
+  /// Below TMPDIR, named `name`, a hyphen, six random letters and ".run". Error: no folder can be made there.
   static Expected<TemporaryFolder> make(std::string_view name);
   TemporaryFolder(TemporaryFolder&& other) noexcept;
   TemporaryFolder& operator=(TemporaryFolder&&) = delete;

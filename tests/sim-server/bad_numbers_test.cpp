@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include "sim-server/session_log.hpp"
-#include "sim-server/temporary_folder.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::server {
 namespace {
@@ -57,9 +57,8 @@ TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is co
 
 TEST_CASE("the last line of a drive and its outcome tell how many numbers went bad") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  const auto folder = TemporaryFolder::make("septet-test");
-  REQUIRE(folder.has_value());
-  auto log = SessionLog::create(drive, {.out = folder->path(), .lockstep = true});
+  const septet::TemporaryFolder folder;
+  auto log = SessionLog::create(drive, {.out = folder.path(), .lockstep = true});
   REQUIRE(log.has_value());
   Snapshot snapshot;
   snapshot.diagnostics.bad_numbers = 3;

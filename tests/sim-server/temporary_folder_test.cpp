@@ -32,21 +32,31 @@ struct Place {
 
 TEST_CASE("a folder is gone with its run and what a killed run has left is gone with the next one and those of others stay") {
   const Place place;
-  fs::create_directories(place.folder / "septet-letters");
+  fs::create_directories(place.folder / "septet-letters.run");
   fs::create_directories(place.folder / "other-AbCdEf");
-  fs::create_directories(place.folder / "septet-AbCdEf");
-  std::ofstream(place.folder / "septet-AbCdEf" / "secret.key") << "secret";
+  fs::create_directories(place.folder / "septet-AbCdEf.run");
+  std::ofstream(place.folder / "septet-AbCdEf.run" / "secret.key") << "secret";
   {
     const auto first = TemporaryFolder::make("septet");
     REQUIRE(first.has_value());
-    CHECK_FALSE(fs::exists(place.folder / "septet-AbCdEf"));
+    CHECK_FALSE(fs::exists(place.folder / "septet-AbCdEf.run"));
     const auto second = TemporaryFolder::make("septet");
     REQUIRE(second.has_value());
     CHECK(fs::exists(first->path()));
     CHECK(place.entries() == 4);
   }
   CHECK(place.entries() == 2);
-  CHECK(fs::exists(place.folder / "septet-letters"));
+  CHECK(fs::exists(place.folder / "septet-letters.run"));
+}
+
+TEST_CASE("a folder that no run has made is nobody's orphan however much its name is alike") {
+  const Place place;
+  const septet::TemporaryFolder of_a_test;
+  for (const char* name : {"septet", "septet-test", "septet-sumo"}) {
+    CAPTURE(name);
+    REQUIRE(TemporaryFolder::make(name).has_value());
+    CHECK(fs::exists(of_a_test.path()));
+  }
 }
 
 TEST_CASE("the folder of a run that is killed is gone with it") {
