@@ -88,6 +88,38 @@ void exchange(Piece& hitter, Piece& target, const Bounds& target_bounds, double 
   }
 }
 
+/// A box that a piece may touch, with what all nodes ask of it.
+struct NearBox {
+  std::size_t index;
+  double radius_m, speed_mps;
+};
+
+/// A trunk is twenty metres long and thin: a sphere round it holds half a wood, so the distance to the box itself decides.
+std::vector<NearBox> boxes_within_reach(const Piece& piece, const ContactWorld& world, double step_s, double ahead_s) {
+  std::vector<NearBox> result;
+  if (world.boxes.empty()) return result;
+  const Vec3 centre = from_eigen(bounds_of(piece.body).center());
+  double radius_m = 0.0, speed_mps = 0.0;
+  for (int i = 0; i < piece.body.node_count(); ++i) {
+    radius_m = std::max(radius_m, glm::distance(from_eigen(piece.body.position_m[i]), centre));
+    speed_mps = std::max(speed_mps, piece.body.velocity_mps[i].norm());
+  }
+  constexpr double rounding_m = 1e-6;
+  for (std::size_t b = 0; b < world.boxes.size(); ++b) {
+    const Box& box = world.boxes[b];
+    const Vec3 arm = centre - ahead_s * box.velocity_mps - box.world_from_box.position_m;
+    const Vec3 local = glm::conjugate(box.world_from_box.orientation) * arm;
+    const Vec3 outside = glm::max(glm::abs(local) - box.half_size_m, Vec3(0.0));
+    const double box_mps = glm::length(box.velocity_mps);
+    const double surface_mps = box_mps + glm::length(box.angular_velocity_radps) * (glm::length(arm) + radius_m);
+    const double reach = radius_m + 0.02 + step_s * (speed_mps + surface_mps + 10.0 * step_s) + rounding_m;
+    // Not "further than": a number gone bad is looked at by every node.
+    if (glm::dot(outside, outside) > reach * reach) continue;
+    result.push_back({b, glm::length(box.half_size_m), box_mps});
+  }
+  return result;
+}
+
 }  // namespace
 
 BoxGap gap_to_box(const Box& box, const Vec3& point_m) {
@@ -116,6 +148,7 @@ BoxGap gap_to_box(const Box& box, const Vec3& point_m) {
 
 std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world,
                                         double step_s, double ahead_s) {
+  const std::vector<NearBox> boxes = boxes_within_reach(piece, world, step_s, ahead_s);
   std::vector<FoundContact> result;
   for (int i = 0; i < piece.body.node_count(); ++i) {
     const Vec3 point = from_eigen(piece.body.position_m[i]);
@@ -133,12 +166,11 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
         result.push_back(found);
       }
     }
-    for (std::size_t b = 0; b < world.boxes.size(); ++b) {
-      const Box& box = world.boxes[b];
+    for (const NearBox& near : boxes) {
+      const Box& box = world.boxes[near.index];
       const Vec3 seen = point - ahead_s * box.velocity_mps;  // As if the box had not moved.
       const Vec3 arm = seen - box.world_from_box.position_m;
-      const double far = glm::length(box.half_size_m) + reach +
-                         step_s * glm::length(box.velocity_mps);
+      const double far = near.radius_m + reach + step_s * near.speed_mps;
       if (glm::dot(arm, arm) > far * far) continue;
       const Vec3 surface_velocity =
           box.velocity_mps + glm::cross(box.angular_velocity_radps, arm);
@@ -151,7 +183,7 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
       found.contact.gap_m = gap.gap_m;
       found.contact.surface_velocity_mps = to_eigen(surface_velocity);
       found.contact.friction = std::min(box.friction, piece.material.friction);
-      found.box = static_cast<int>(b);
+      found.box = static_cast<int>(near.index);
       result.push_back(found);
     }
   }
