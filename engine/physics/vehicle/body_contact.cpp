@@ -4,7 +4,9 @@
 
 namespace septet::vehicle {
 namespace {
-constexpr double clearance_m = 0.15;
+// Of the bumpers, whose corners these are: an approach angle of 15 degrees over a metre of overhang. Lower, and a saloon that brakes
+// in a bend would scrape the ground with its outer front corner at 6 m/s².
+constexpr double bumper_clearance_m = 0.25;
 constexpr double stiffness_npm = 4e5;
 constexpr double damping_nspm = 8e3;
 constexpr double body_friction = 0.5;
@@ -24,7 +26,7 @@ void add_body_contact(const VehicleParameters& parameters, const Ground& ground,
     const double front_m = body.length_m - body.rear_overhang_m - (top ? 0.3 * body.length_m : 0.0);
     const Vec3 point_m =
         Vec3(front ? front_m : rear_m, (left ? 1.0 : -1.0) * (0.5 * body.width_m - inset_m),
-             top ? body.height_m : clearance_m) -
+             top ? body.height_m : bumper_clearance_m) -
         Vec3(body.mass_centre_x_m, 0.0, body.mass_centre_z_m);
     const double depth_m = -glm::dot(below.normal, state.world_from_body * point_m - below.point_m);
     if (depth_m <= 0.0) continue;
