@@ -12,13 +12,14 @@ constexpr std::size_t max_complete = 16;
 
 }  // namespace
 
-void TickReceiver::follow(const SessionId& session) {
-  if (session_ == session) return;
+bool TickReceiver::follow(const SessionId& session) {
+  if (session_ == session) return false;
   session_ = session;
   first_sequence_.reset();
   newest_sequence_ = 0;
   assemblies_.clear();
   complete_.clear();
+  return true;
 }
 
 void TickReceiver::accept(std::span<const std::byte> bytes) {

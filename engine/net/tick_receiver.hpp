@@ -47,8 +47,8 @@ class TickReceiver {
   /// Before `follow` every datagram is refused: a session id comes over the authenticated scene
   /// lane.
   explicit TickReceiver(const PublicKey& server) : server_(server) {}
-  /// Forgets the earlier session, if it is another one.
-  void follow(const SessionId& session);
+  /// Forgets the earlier session and returns true, if it is another one. Of the same one, what was handed out is not again.
+  bool follow(const SessionId& session);
 
   void accept(std::span<const std::byte> datagram);
   /// Accepts all that the socket holds.

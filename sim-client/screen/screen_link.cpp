@@ -58,8 +58,8 @@ void ScreenLink::tell_of_forgeries(double now_s) {
 }
 
 void ScreenLink::on_connected() {
-  ticks_.follow(lane_.session());
-  history_.clear();
+  // Back at the same server its ticks still hold, and one that is repeated while the world waits does not come out anew.
+  if (ticks_.follow(lane_.session())) history_.clear();
   scene_.connected();
   scene_arrived_ = false;
   send(Hello{options_.screen, options_.tick_port}, net::Reliability::reliable);
