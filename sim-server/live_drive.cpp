@@ -9,7 +9,7 @@
 namespace septet::server {
 namespace {
 
-/// For so long a screen's last controls are held. It sends them with every picture.
+/// For so long a screen's last controls are held. It sends them with every picture, and for two seconds after the last key.
 constexpr Tick silent_screen_ticks = 120;
 
 /// More than the trembling of a device that nobody touches.
@@ -48,7 +48,8 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     heard_tick_ = state_.tick;
   }
   record.input = held_;
-  if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks) {
+  // A window whose keys have all been let go is silent too, and holds nothing down.
+  if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks && held_.accelerator > 0.0) {
     record.input = car_io::released(held_);
     if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0) tell("the screen that drives is silent: the accelerator is released");
   }

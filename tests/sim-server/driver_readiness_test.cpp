@@ -76,6 +76,15 @@ TEST_CASE("a screen that drives and falls silent has its accelerator released af
   CHECK(accelerator_after(2, flat_out) == 1.0);
 }
 
+TEST_CASE("a screen whose keys have all been let go is not said to be silent") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const auto live = seated(drive, {});
+  REQUIRE(live->next(DriverInput{}).has_value());
+  for (int i = 0; i < 300; ++i) REQUIRE(live->next(std::nullopt).has_value());
+  CHECK(live->newest().diagnostics.input_stale_ticks == 0);
+  CHECK(live->take_messages().empty());
+}
+
 TEST_CASE("a simulated driver is always ready") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "seven-screens");
   auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
