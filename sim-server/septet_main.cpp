@@ -2,10 +2,10 @@
 
 #include <iostream>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include "car-io/driving_keys.hpp"
+#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
@@ -26,7 +26,7 @@ namespace {
 void add_drive_options(CLI::App& command, DriveOptions& options) {
   command.add_option("--rig", options.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
   command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside")->default_str("out/latest");
-  command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until the scenario ends or somebody stops it (default: 0 in a window, 30 off-screen)")->check(CLI::Range(0.0, 1e6));
+  command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until the scenario ends or somebody stops it (default: 0 in a window, 30 off-screen)")->check(number_between(0.0, 1e6));
   command.add_flag("--full-screen", options.full_screen, "Cover whole monitors: those that the rig names, else the first");
   command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
 }
@@ -49,7 +49,7 @@ int run(int argc, char** argv) {
   drive_command->add_option("--parameter", drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
   drive_command->add_option("--vehicle", drive.vehicle, "Vehicle file, or a name of septet list vehicles")->default_str("the rig's");
   drive_command->add_option("--participant", drive.participant, "The driver's code, for log, summary and report")->default_str("none");
-  drive_command->add_option("--seed", drive.seed, "Seed of everything random");
+  drive_command->add_option("--seed", drive.seed, "Seed of everything random")->check(seed_number());
   drive_command->add_option("--driver", drive.driver, "A simulated driver of septet list drivers drives")->default_str("whom the rig names");
   drive_command->add_flag("--start-now", drive.start_now, "Do not wait until the driver presses a key or a pedal");
   drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
@@ -62,7 +62,7 @@ int run(int argc, char** argv) {
   auto* replay_command = app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
   replay_command->add_option("session", replay.replay, "Session file")->required();
   add_drive_options(*replay_command, replay);
-  replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at");
+  replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at")->check(number_between(0.0, 1e6));
   replay_command->add_flag("--verify", verify, "Run the recorded input again and compare every tick's state hash");
   replay_command->callback([&] { status = verify ? run_verify(replay.replay) : run_drive(replay); });
 
@@ -109,9 +109,9 @@ int run(int argc, char** argv) {
   auto* inputs = vehicle_test->add_option("--inputs", track.inputs, "Drive these inputs instead: CSV with time_s and any of steering_wheel_deg, accelerator, brake, clutch, gear, parking_brake");
   inputs->excludes(manoeuvre);
   double track_speed_kmh = 0.0;
-  vehicle_test->add_option("--speed", track_speed_kmh, "km/h; without it the manoeuvre's usual speed")->check(CLI::Range(0.0, 400.0));
-  vehicle_test->add_option("--friction", track.conditions.friction, "Of the road; without it that for which the tyre is given")->check(CLI::Range(0.01, 3.0));
-  vehicle_test->add_option("--amplitude", track.amplitude_deg, "Degrees of the hand wheel, for step-steer and sine-with-dwell; without it found by the manoeuvre")->check(CLI::Range(-1500.0, 1500.0));
+  vehicle_test->add_option("--speed", track_speed_kmh, "km/h")->default_str("the manoeuvre's")->check(number_between(0.0, 400.0));
+  vehicle_test->add_option("--friction", track.conditions.friction, "Of the road")->default_str("that for which the tyre is given")->check(number_between(0.01, 3.0));
+  vehicle_test->add_option("--amplitude", track.amplitude_deg, "Degrees of the hand wheel, for step-steer and sine-with-dwell")->default_str("found by the manoeuvre")->check(number_between(-1500.0, 1500.0));
   vehicle_test->add_option("--esc", track.conditions.stability_control, "on or off: the stability control; without it on for sine-with-dwell and --inputs")
       ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
   vehicle_test->callback([&] {
@@ -132,7 +132,7 @@ int run(int argc, char** argv) {
   TrafficDiagramOptions diagram;
   auto* traffic_diagram = traffic_command->add_subcommand("diagram", "The fundamental diagram: figures, a table and a plot");
   traffic_diagram->add_option("--lanes", diagram.lanes, "Of the ring")->check(CLI::Range(1, 8))->capture_default_str();
-  traffic_diagram->add_option("--seed", diagram.seed, "Of vehicles and drivers")->capture_default_str();
+  traffic_diagram->add_option("--seed", diagram.seed, "Of vehicles and drivers")->check(seed_number())->capture_default_str();
   traffic_diagram->add_option("--out", diagram.out, "Folder for the files; without it the figures are only printed");
   traffic_diagram->callback([&] { status = run_traffic_diagram(diagram); });
 
@@ -161,12 +161,7 @@ int run(int argc, char** argv) {
       return 2;
     }
   }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? status : 2;
-  }
-  return status;
+  return wrong_use(app, argc, argv).value_or(status);
 }
 
 }  // namespace

@@ -3,9 +3,8 @@
 #include <cstdio>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "car-io/program/car_program.hpp"
+#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
 
 int main(int argc, char** argv) {
@@ -26,23 +25,23 @@ int main(int argc, char** argv) {
       app.add_subcommand("calibrate", "Record the axes and print the rig's [car.calibration]");
   calibration->add_option("--rig", calibrate.rig, "Rig file")->required();
   calibration->add_option("--seconds", calibrate.seconds, "How long")
-      ->check(CLI::Range(0.1, 600.0));
+      ->check(number_between(0.1, 600.0));
 
   CLI::App* trial = app.add_subcommand("try", "Set fan, vibration and steering force for a while");
   trial->add_option("--rig", actuate.rig, "Rig file")->required();
-  trial->add_option("--seconds", actuate.seconds, "How long")->check(CLI::Range(0.1, 600.0));
-  trial->add_option("--fan", actuate.actuators.fan, "0 to 1")->check(CLI::Range(0.0, 1.0));
+  trial->add_option("--seconds", actuate.seconds, "How long")->check(number_between(0.1, 600.0));
+  trial->add_option("--fan", actuate.actuators.fan, "0 to 1")->check(number_between(0.0, 1.0));
   trial->add_option("--vibration", actuate.actuators.vibration, "0 to 1")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")
-      ->check(CLI::Range(0.0, 255.0));
+      ->check(number_between(0.0, 255.0));
   trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
-      ->check(CLI::Range(-1.0, 1.0));
+      ->check(number_between(-1.0, 1.0));
   app.require_subcommand(0, 1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
   });
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = wrong_use(app, argc, argv)) return *status;
 
   const auto run = [&]() -> Expected<void> {
     if (calibration->parsed()) return car_io::run_calibration(calibrate);

@@ -10,6 +10,7 @@ namespace septet {
 namespace {
 
 constexpr int most_parts = 16;
+constexpr std::size_t most_bytes = 1u << 20;  // Ten times the largest file that anybody writes by hand.
 
 /// Steps over a string that begins at `at`; the place behind its end.
 std::size_t behind_string(std::string_view text, std::size_t at) {
@@ -56,6 +57,8 @@ std::size_t find_long_key(std::string_view text) {
 }  // namespace
 
 Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
+  if (text.size() > most_bytes)
+    return failure(fmt::format("is {} bytes long, and no more than {} are read as TOML", text.size(), most_bytes), std::string(file), "give a rig, a vehicle or a film script");
   if (const auto at = find_long_key(text); at != text.npos) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     return failure(fmt::format("a key has more than {} parts", most_parts), fmt::format("{}:{}", file, line), "write a shorter key");

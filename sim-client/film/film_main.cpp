@@ -6,13 +6,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <iostream>
 #include <string>
 #include <utility>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
 #include "sim-client/film/film.hpp"
 
@@ -75,21 +74,18 @@ int run(int argc, char** argv) {
   app.add_option("session", options.session, "Session file of a drive")->required();
   app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
   app.add_option("--out", options.out, "New or empty folder for the pictures")->default_str("film, beside the session");
-  app.add_option("--fps", options.frames_per_second, "Frames a second")->check(CLI::Range(1.0, 1000.0))->capture_default_str();
+  app.add_option("--fps", options.frames_per_second, "Frames a second")->check(number_between(1.0, 1000.0))->capture_default_str();
   app.add_option("--size", "Of a picture, in pixels")->type_name("WIDTHxHEIGHT")->default_str("1280x720")->each([&](const std::string& text) {
     if (const auto problem = read_size(text, options); !problem.empty()) throw CLI::ValidationError(problem);
   });
   app.add_flag("--software", options.software, "Draw without a graphics card, pixel for pixel as off-screen screens do");
-  app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier");
-  app.add_option("--to", options.to_s, "Simulated second: leave out what is later");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
-  }
+  app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")->check(number_between(0.0, 1e6));
+  app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
+  if (const auto status = wrong_use(app, argc, argv)) return *status;
   if (options.out.empty()) options.out = options.session.parent_path() / "film";
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);
   ProgressLine progress;
   const auto made = make_film(options, [&](const FilmMade& so_far) {
     progress.show(so_far);

@@ -3,8 +3,7 @@
 #include <cstdio>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
 #include "sim-client/screen/screen_session.hpp"
 
@@ -28,7 +27,7 @@ int main(int argc, char** argv) {
   app.add_flag("--full-screen", options.full_screen, "Cover a whole monitor");
   app.add_option("--monitor", options.monitor, "Which monitor of this machine, from 0, instead of the rig's")->check(CLI::Range(0, 63));
   app.add_flag("--validation", options.validation, "Turn on Vulkan's validation layer");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto status = wrong_use(app, argc, argv)) return *status;
 
   try {
     const auto address = net::parse_address(server, "--server");

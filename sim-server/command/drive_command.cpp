@@ -16,6 +16,7 @@
 #include "engine/rig/rig.hpp"
 #include "logging/drive_end.hpp"
 #include "sim-server/child_process.hpp"
+#include "sim-server/command/drive_folder.hpp"
 #include "sim-server/panorama_file.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/stop_signal.hpp"
@@ -48,47 +49,6 @@ Expected<TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
   std::ofstream(folder->path() / "server.public") << net::to_text(server->public_key()) << '\n';
   return folder;
 }
-
-/// The folder of a drive. An earlier drive in it is moved aside, for a log is never overwritten; anything else is left alone.
-class DriveFolder {
- public:
-  static Expected<DriveFolder> prepare(const fs::path& chosen) {
-    DriveFolder folder;
-    folder.path_ = chosen.lexically_normal();
-    if (!folder.path_.has_filename()) folder.path_ = folder.path_.parent_path();  // "out/" is "out".
-    std::error_code error;
-    const auto kind = fs::status(folder.path_, error).type();
-    if (kind != fs::file_type::directory && kind != fs::file_type::not_found)
-      return failure(kind == fs::file_type::none ? error.message() : "it is a file, not a folder", chosen.string(),
-                     "choose a folder for the drive with --out");
-    if (kind == fs::file_type::directory && !fs::is_empty(folder.path_, error)) {
-      if (!fs::exists(folder.path_ / "session.sqlite", error) && !fs::exists(folder.path_ / "screens", error))
-        return failure("the folder holds other things than an earlier drive", chosen.string(), "choose a new or empty one with --out");
-      for (int number = 1; folder.aside_.empty() || fs::exists(folder.aside_, error); ++number)
-        folder.aside_ = fmt::format("{}.{}", folder.path_.string(), number);
-      fs::rename(folder.path_, folder.aside_, error);
-      if (error) return failure(error.message(), chosen.string(), "move the earlier drive there out of the way");
-    }
-    fs::create_directories(folder.path_ / "screens", error);
-    if (!error) return folder;
-    const auto reason = error.message();
-    folder.undo();
-    return failure(reason, chosen.string(), "choose a folder that can be written with --out");
-  }
-
-  const fs::path& path() const { return path_; }
-  const fs::path& aside() const { return aside_; }  ///< Where the earlier drive is now, if there was one.
-  /// Nothing was driven: the earlier drive comes back, unless something has been written here.
-  void undo() const {
-    std::error_code ignored;
-    fs::remove(path_ / "screens", ignored);
-    fs::remove(path_, ignored);
-    if (!aside_.empty() && !fs::exists(path_, ignored)) fs::rename(aside_, path_, ignored);
-  }
-
- private:
-  fs::path path_, aside_;
-};
 
 /// A screen's program, which is started again whenever it dies: the others never notice, and it is back within a second. One
 /// that dies again and again before it shows a picture is tried more and more rarely.
@@ -260,7 +220,7 @@ int fail(const Error& error) {
 }
 
 /// What there is to look at after a drive.
-Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig) {
+Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, int status) {
   const auto tell = [](const fs::path& file, const std::string& what) { std::fputs(fmt::format("{}: {}\n", file.string(), what).c_str(), stdout); };
   Expected<void> done;
   if (options.virtual_screens && !options.no_screens) {
@@ -271,7 +231,8 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig) {
   const fs::path session = options.out / "session.sqlite";
   std::error_code ignored;
   if (fs::exists(options.out / "report.html", ignored)) tell(options.out / "report.html", "speed, lateral position and its histogram");
-  if (fs::exists(session, ignored)) tell(session, fmt::format("the whole drive; show it again with: septet replay {}", session.string()));
+  if (fs::exists(session, ignored))
+    tell(session, fmt::format("{}; show it again with: septet replay {}", status == logging::failed_status ? "what was logged" : "the whole drive", session.string()));
   return done;
 }
 
@@ -307,7 +268,7 @@ int run_drive(DriveOptions options) {
   int status = ending->status;
   if (ending->driven) {
     if (!folder->aside().empty()) say(fmt::format("The earlier drive is in {}", folder->aside().string()));
-    const auto shown = show_results(options, *rig);
+    const auto shown = show_results(options, *rig, status);
     if (!shown && status == logging::finished_status) status = fail(shown.error());
   }
   if (!ending->text.empty()) std::fputs((ending->text + '\n').c_str(), status == logging::failed_status && !ending->driven ? stderr : stdout);

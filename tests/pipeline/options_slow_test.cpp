@@ -1,5 +1,6 @@
 /// What the programs say of themselves, and options that change a drive.
 
+#include <csignal>
 #include <cstdio>
 
 #include "car-io/driving_keys.hpp"
@@ -31,6 +32,39 @@ TEST_CASE("every program names its version with the revision") {
     CAPTURE(program);
     CHECK(output_of(std::string(program) + " --version") == version_text() + "\n");
   }
+}
+
+TEST_CASE("no program takes a number that is none, and each ends with status 2 for a wrong command line") {
+  const TemporaryFolder folder;
+  using Line = std::vector<std::string>;
+  const std::string out = (folder / "out").string();
+  for (const Line& line : {Line{"septet", "drive", "--no-screens", "--seconds", "nan", "--out", out}, Line{"septet", "drive", "--no-screens", "--seed=-1", "--out", out},
+                           Line{"septet", "drive", "--no-screens", "--seed", "99999999999999999999", "--out", out}, Line{"septet", "replay", "x.sqlite", "--from", "nan"},
+                           Line{"septet", "vehicle", "test", "--manoeuvre", "stop", "--speed", "nan"}, Line{"septet", "film", "x.sqlite", "--fps", "nan"},
+                           Line{"septet-server", "--keys", "keys", "--seconds", "nan"}, Line{"septet-server", "--keys", "keys", "--wait-for-screens", "nan"},
+                           Line{"septet-server", "--nonsense"}, Line{"septet-screen", "--nonsense"}, Line{"septet-car", "--nonsense"}}) {
+    const Ended ended = run(line.front(), {line.begin() + 1, line.end()}, folder / "err");
+    CAPTURE(line.front());
+    CAPTURE(line.back());
+    CAPTURE(ended.error);
+    CHECK(ended.code == 2);
+  }
+  CHECK(!fs::exists(out));
+}
+
+TEST_CASE("a drive into a folder where another one is going on is refused, and the other goes on") {
+  const TemporaryFolder folder;
+  const std::string out = (folder / "out").string();
+  auto first = start("septet", {"drive", "--no-screens", "--seconds", "0", "--out", out}, folder / "first.err");
+  REQUIRE(becomes_true([&] { return fs::exists(folder / "out" / "session.sqlite") || first.poll(); }));
+  const Ended second = run("septet", {"drive", "--no-screens", "--seconds", "0.5", "--out", out}, folder / "second.err");
+  CHECK(second.code == 1);
+  CHECK(has(second.error, "another drive is going on in this folder"));
+  CHECK(!fs::exists(folder / "out.1"));
+  CHECK(!first.poll());
+  first.send_signal(SIGTERM);
+  CHECK(exit_code(first) == 3);
+  CHECK(fs::exists(folder / "out" / "summary.json"));
 }
 
 TEST_CASE("the help of a drive has the keys and every default") {

@@ -46,3 +46,10 @@ TEST_CASE("the keys at the top say what a file describes") {
   REQUIRE(keys.has_value());
   CHECK(*keys == std::vector<std::string>{"body", "name", "shot"});
 }
+
+TEST_CASE("a text that is too long for TOML is refused before it is read") {
+  const auto table = parse_toml("name = \"" + std::string(2'000'000, 'a') + "\"\n", "hostile.toml");
+  REQUIRE(!table.has_value());
+  CHECK(describe(table.error()).find("hostile.toml: is 2000010 bytes long") != std::string::npos);
+  CHECK(parse_toml("name = \"" + std::string(1'000'000, 'a') + "\"\n", "long.toml").has_value());
+}

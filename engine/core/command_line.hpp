@@ -1,0 +1,46 @@
+#pragma once
+/// What every program asks of its command line beyond CLI11's own checks.
+
+#include <charconv>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace septet {
+
+/// A number from `least` to `most`. CLI11's Range lets "nan" pass.
+inline CLI::Validator number_between(double least, double most) {
+  const std::string bounds = fmt::format("[{:g} - {:g}]", least, most);
+  return {[=](std::string& text) -> std::string {
+            double number = 0.0;
+            if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return {};
+            return fmt::format("{} is not a number in {}", text, bounds);
+          },
+          "FLOAT in " + bounds};
+}
+
+/// A whole number of 64 bits without a sign. CLI11 makes the largest one of "-1" and of all beyond it.
+inline CLI::Validator seed_number() {
+  return {[](std::string& text) -> std::string {
+            std::uint64_t number = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            if (error == std::errc() && end == text.data() + text.size()) return {};
+            return fmt::format("{} is not a whole number from 0 to {}", text, ~std::uint64_t{0});
+          },
+          ""};
+}
+
+/// Reads the command line. With what the program ends at once, if so: 0 after --help and --version, 2 for a wrong command line.
+inline std::optional<int> wrong_use(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
+  }
+}
+
+}  // namespace septet
