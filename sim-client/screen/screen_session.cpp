@@ -59,6 +59,13 @@ class Session {
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
+  /// The person at this screen wants the drive to end.
+  struct Departure {
+    bool by_escape = false;
+    double since_s = 0.0;
+    std::optional<std::uint32_t> told_welcome;  ///< Of which connection the server has been told.
+  };
+  bool tell_of(Departure& departure, double now_s);
   void say_goodbye();
   /// Instruments, and on the screen ahead what the driver is to read.
   void add_driver_texts(render::FrameInput& input, const Snapshot& snapshot);
@@ -251,6 +258,16 @@ void Session::wait(double seconds) {
   net::wait_readable(sockets, seconds);
 }
 
+/// Nothing is drawn meanwhile: a server that had dropped this screen is to hear of it as soon as it is back. True: it is not coming.
+bool Session::tell_of(Departure& departure, double now_s) {
+  if (link_.state() == net::ClientState::connected && departure.told_welcome != link_.welcomes()) {
+    link_.send(control::Quit{departure.by_escape}, net::Reliability::reliable);
+    departure.told_welcome = link_.welcomes();
+  }
+  const double waited_s = now_s - departure.since_s;
+  return waited_s > 10.0 || (waited_s > 2.0 && link_.server_is_gone());
+}
+
 void Session::say_goodbye() {
   if (display_) {
     const auto& last = display_->renderer().statistics();
@@ -274,7 +291,7 @@ void Session::say_goodbye() {
 }
 
 Expected<void> Session::run() {
-  std::optional<double> quit_s;
+  std::optional<Departure> departure;
   while (!stop_requested) {
     const double now_s = monotonic_s();
     link_.pump(now_s);
@@ -285,16 +302,18 @@ Expected<void> Session::run() {
       say_goodbye();
       return pictures_.finish();
     }
+    if (departure) {
+      if (tell_of(*departure, now_s)) break;
+      wait(0.005);
+      continue;
+    }
     Expected<void> drawn;
     if (link_.welcome()) drawn = take_welcome();
     if (drawn && display_) {
-      const Display::Leaving leaving = display_->poll_leaving();
-      if (leaving != Display::Leaving::no && !quit_s) {
-        quit_s = now_s;
-        link_.send(control::Quit{leaving == Display::Leaving::escape}, net::Reliability::reliable);
+      if (const auto leaving = display_->poll_leaving(); leaving != Display::Leaving::no) {
+        departure = Departure{leaving == Display::Leaving::escape, now_s};
+        continue;
       }
-      // The server ends the drive and says so; one that is not there does not answer.
-      if (quit_s && (now_s - *quit_s > 2.0 || link_.server_is_gone())) break;
       if (link_.server_is_gone()) drawn = draw_lost(now_s);
       else if (link_.welcome()->lockstep) drawn = draw_lockstep();
       else drawn = draw_real_time(now_s);

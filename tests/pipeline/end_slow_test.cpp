@@ -158,6 +158,27 @@ TEST_CASE("closing the window ends the drive and so does Escape") {
   }
 }
 
+TEST_CASE("Escape ends the drive also at a screen that the server has dropped") {
+  const TemporaryFolder folder;
+  const XDisplay display;
+  write_text(folder / "small.toml", small_rig(1));
+  const fs::path keys = make_keys(folder / "keys", "a"), out = folder / "out";
+  auto server = start("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", keys.string(), "--any-port", "--seconds", "60", "--out", out.string()},
+                      folder / "server.err");
+  const std::string port = ready_port(server, folder / "server.err");
+  auto screen = start("septet-screen", {"--name", "a", "--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / "screen.err", display.environment());
+  REQUIRE(screen.read_line(patience) == "showing");
+  screen.send_signal(SIGSTOP);  // As on a machine that has no time for it.
+  REQUIRE(becomes_true([&] { return text_of(folder / "server.err").find("screen a left") != std::string::npos; }));
+  display.press_escape("Septet a");
+  screen.send_signal(SIGCONT);
+  const int code = exit_code(server);
+  INFO(text_of(folder / "server.err"));
+  CHECK(code == 3);
+  CHECK(why(out) == "escape");
+  CHECK(exit_code(screen) == 0);
+}
+
 TEST_CASE("a screen that fails is tried again and costs the others nothing and where none can start the drive says so") {
   const TemporaryFolder folder;
   const XDisplay display;
