@@ -83,11 +83,10 @@ SpeedStep meeting_step(const road::RoadNetwork& network, const ScenarioState& st
                        std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   const auto left = left_of(network, state, *control.meeting, entity, dt_s);
-  if (!left) {
-    end(control, ended);
-    return {entity.speed_mps, 0.0};
-  }
-  const double wanted = next_meeting_mps(*left, entity.speed_mps, dt_s);
+  // Who is there has its final speed, so that a condition can ask whether they are equal.
+  const double wanted = left ? next_meeting_mps(*left, entity.speed_mps, dt_s)
+                             : final_mps(*control.meeting, state).value_or(entity.speed_mps);
+  if (!left) end(control, ended);
   const double low = entity.speed_mps - vehicle.max_deceleration_mps2 * dt_s;
   const double high = entity.speed_mps + vehicle.max_acceleration_mps2 * dt_s;
   return {std::min(std::clamp(wanted, low, high), vehicle.max_speed_mps), 0.0};

@@ -32,6 +32,7 @@ class Step {
   void run_storyboard() {
     if (state_.finished) return;
     if (evaluate(scenario_.stop)) {
+      for (const Story& story : scenario_.stories) stop_story(story);
       finish(scenario_.storyboard_element, ElementTransition::stop, ElementStatus::complete);
       for (EntityState& entity : state_.entities) {
         each_control(entity, [](auto& control) { control = {}; });
@@ -229,6 +230,16 @@ class Step {
     }
     if (element(group.element).status == ElementStatus::running)
       finish(group.element, ElementTransition::stop, ElementStatus::complete);
+  }
+
+  void stop_story(const Story& story) {
+    for (const Act& act : story.acts) {
+      if (element(act.element).status != ElementStatus::running) continue;
+      for (const ManeuverGroup& group : act.groups) stop_group(group);
+      finish(act.element, ElementTransition::stop, ElementStatus::complete);
+    }
+    if (element(story.element).status == ElementStatus::running)
+      finish(story.element, ElementTransition::stop, ElementStatus::complete);
   }
 
   bool complete(ElementIndex index) { return element(index).status == ElementStatus::complete; }

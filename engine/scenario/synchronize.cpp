@@ -32,6 +32,10 @@ std::optional<double> final_mps(const SynchronizeAction& what, double master_mps
 
 }  // namespace
 
+std::optional<double> final_mps(const Meeting& meeting, const ScenarioState& state) {
+  return final_mps(meeting.what, state.entities[meeting.what.master].speed_mps);
+}
+
 double next_meeting_mps(const Rendezvous& left, double v, double dt_s) {
   const double s = left.way_m, t = left.time_s;
   if (t <= dt_s) return left.final_mps.value_or(std::max(0.0, v));

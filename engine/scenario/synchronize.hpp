@@ -29,6 +29,9 @@ struct Meeting {
 std::optional<Meeting> plan_meeting(const road::RoadNetwork& network, const ScenarioState& state,
                                     const SynchronizeAction& what);
 
+/// The speed with which it ends at this moment; nothing: any.
+std::optional<double> final_mps(const Meeting& meeting, const ScenarioState& state);
+
 /// What is left at this moment; nothing when one of the two is there (or past it), which ends the action.
 std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const ScenarioState& state,
                                   const Meeting& meeting, const EntityState& actor, double dt_s);

@@ -8,11 +8,13 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/scenario_reader.hpp"
@@ -53,6 +55,7 @@ struct TraceRow {
   std::string name;
   Vec3 position_m;
   double heading_rad, speed_mps;
+  double acceleration_mps2 = 0.0;  ///< The greater one of those before and after this row.
 };
 
 std::vector<TraceRow> trace(const std::string& name) {
@@ -70,6 +73,16 @@ std::vector<TraceRow> trace(const std::string& name) {
                     std::stod(cells[5]),
                     std::stod(cells[8])});
   }
+  std::map<std::string, TraceRow*> last;
+  for (TraceRow& row : rows) {
+    TraceRow*& before = last[row.name];
+    if (before != nullptr && row.time_s > before->time_s) {
+      const double mps2 = std::abs(row.speed_mps - before->speed_mps) / (row.time_s - before->time_s);
+      before->acceleration_mps2 = std::max(before->acceleration_mps2, mps2);
+      row.acceleration_mps2 = mps2;
+    }
+    before = &row;
+  }
   return rows;
 }
 
@@ -80,7 +93,7 @@ struct State {
 
 /// Where the reference itself is known to be otherwise.
 struct Exceptions {
-  bool heading = true, height = true;  ///< Compared.
+  bool heading = true, height = true, speed = true;  ///< Compared.
   std::vector<double> left_out;        ///< Times.
   double until_s = 1e300, from_s = 0.0;
   std::vector<std::string> only;  ///< Entities; none: all.
@@ -100,7 +113,8 @@ double misfit(const TraceRow& row, const State& state, const State& next, double
   const double bend = std::abs(road::wrap_angle(next.heading - state.heading));
   const double turn = std::abs(road::wrap_angle(state.heading - row.heading_rad)) / (0.02 + bend);
   const double heading = but.heading ? turn : 0.0;
-  const double speed = std::abs(state.speed - row.speed_mps) / (0.05 + 0.03 * 10.0);
+  const double off_mps = but.speed ? std::abs(state.speed - row.speed_mps) : 0.0;
+  const double speed = off_mps / (0.05 + 0.03 * row.acceleration_mps2);
   return std::max({position, heading, speed});
 }
 
@@ -177,8 +191,109 @@ void check_against_trace(const std::string& name, const Exceptions& but = {}) {
     MESSAGE(name << ": worst misfit " << worst << " " << worst_row);
 }
 
+/// When elements start and when they are over, by name and what happens, ascending.
+using EventTimes = std::map<std::string, std::vector<double>>;
+
+EventTimes events_of_trace(const std::string& name) {
+  std::ifstream in(conformance_data("scenarios") / "traces" / (name + ".events.csv"));
+  EventTimes times;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::vector<std::string> cells;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    // Init actions are no elements of a storyboard here, and standby is where every element begins.
+    if (cells[1].starts_with("Init ") || cells[3] == "initToStandbyTransition") continue;
+    times[cells[1] + (cells[3] == "startTransition" ? " starts" : " is over")].push_back(std::stod(cells[0]));
+  }
+  return times;
+}
+
+EventTimes events_of_run(const Loaded& loaded, double end_s) {
+  StepResult at_start;
+  auto state = start_scenario(loaded.scenario, loaded.network, no_entity, at_start);
+  REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
+  EventTimes times;
+  std::set<ElementIndex> started;
+  const auto add = [&](const StepResult& result) {
+    for (const StoryboardEvent& event : result.events) {
+      if (event.transition == ElementTransition::none || event.transition == ElementTransition::skip) continue;
+      if (event.transition == ElementTransition::start) started.insert(event.element);
+      // A stop trigger also ends what never began; the trace does not tell of that.
+      if (!started.contains(event.element)) continue;
+      // Named by its way from the story down; the trace has the last name only, and its own for the storyboard.
+      const std::string& way = loaded.scenario.element_names[event.element];
+      const auto colons = way.rfind("::");
+      const std::string element = way.empty() ? "storyBoard" : colons == std::string::npos ? way : way.substr(colons + 2);
+      times[element + (event.transition == ElementTransition::start ? " starts" : " is over")].push_back(event.time_s);
+    }
+  };
+  add(at_start);
+  for (int step = 0; step * 0.01 < end_s; ++step) add(advance_scenario(loaded.scenario, loaded.network, 0.01, *state));
+  for (auto& event : times) std::ranges::sort(event.second);
+  return times;
+}
+
+std::string text_of(const std::vector<double>& times_s) {
+  std::string text;
+  for (const double time_s : times_s) text += fmt::format(" {:.2f}", time_s);
+  return times_s.empty() ? " never" : text;
+}
+
+/// Every element starts and is over as often as in the reference, at its times: within 0.02 s and a step more for each event before,
+/// as they may trigger one another. `otherwise`: the events that differ with a reason.
+void check_events(const std::string& name, const std::set<std::string>& otherwise = {}) {
+  EventTimes expected = events_of_trace(name);
+  std::set<double> instants_s;
+  for (const auto& event : expected) instants_s.insert(event.second.begin(), event.second.end());
+  EventTimes seen = events_of_run(load(name), *instants_s.rbegin() + 0.1);
+  std::set<std::string> found_otherwise;
+  for (const auto& event : expected) {
+    const std::vector<double>& at_s = seen[event.first];
+    bool same = at_s.size() == event.second.size();
+    for (std::size_t k = 0; same && k < at_s.size(); ++k) {
+      const auto before = std::distance(instants_s.begin(), instants_s.lower_bound(event.second[k]));
+      same = std::abs(at_s[k] - event.second[k]) < 0.0201 + 0.01 * static_cast<double>(before);
+    }
+    if (same) continue;
+    found_otherwise.insert(event.first);
+    if (!otherwise.contains(event.first)) MESSAGE(name << ": " << event.first << " at" << text_of(at_s) << ", reference at" << text_of(event.second));
+  }
+  for (const auto& event : seen)
+    if (!expected.contains(event.first) && !event.second.empty()) {
+      found_otherwise.insert(event.first);
+      if (!otherwise.contains(event.first)) MESSAGE(name << ": " << event.first << " at" << text_of(event.second) << ", never in the reference");
+    }
+  CAPTURE(name);
+  CHECK(found_otherwise == otherwise);
+}
+
 }  // namespace
 
+TEST_CASE("every storyboard has the reference's events at the reference's times") {
+  // How an approach within bounds goes the standard leaves open, and with it when the approach is over. Here it takes 1.0 s where the
+  // reference takes 4.8 s; all that waits for it is as much earlier.
+  const std::set<std::string> lateral = {"LateralDistanceAct is over", "LateralDistanceAction is over", "LateralDistanceMaxAccEvent is over",
+                                         "LateralDistanceMaxAccManeuver is over", "LateralDistanceSequence is over",
+                                         "LateralDistanceStory is over", "storyBoard is over"};
+  // A smooth speed profile may go from speed to speed as it likes: it is over 0.17 s earlier.
+  const std::set<std::string> profile = {"SpeedProfileAct is over", "SpeedProfileAction1 is over", "SpeedProfileEvent1 is over",
+                                         "SpeedProfileManeuver1 is over", "SpeedProfileManeuverGroup1 is over", "SpeedProfileStory is over"};
+  int scenarios = 0;
+  for (const auto& entry : fs::directory_iterator(conformance_data("scenarios") / "xosc")) {
+    if (entry.path().extension() != ".xosc") continue;
+    const std::string name = entry.path().stem().string();
+    check_events(name, name == "keep_lateral_distance" ? lateral : name == "speed-profile" ? profile : std::set<std::string>{});
+    ++scenarios;
+  }
+  CHECK(scenarios == 17);
+}
+
+TEST_CASE("a highway merge follows the reference trace") {
+  // A2 and A3 keep a time gap within bounds on acceleration: how they approach it the standard leaves open.
+  check_against_trace("highway_merge", {.only = {"Ego", "A1", "A4", "A5"}});
+}
 TEST_CASE("cut-in follows the reference trace") { check_against_trace("cut-in"); }
 TEST_CASE("cut-in on curves follows the reference trace") { check_against_trace("cut-in_cr"); }
 TEST_CASE("simple lane change follows the reference trace") {
@@ -242,7 +357,9 @@ TEST_CASE("lateral distances follow the reference trace") {
   check_against_trace("keep_lateral_distance", {.from_s = 26.0});
 }
 TEST_CASE("longitudinal distances end where the reference traces do") {
-  check_against_trace("long_dist_action_with_jerk", {.from_s = 18.0, .only = {"Ego", "Target"}});
+  check_against_trace("long_dist_action_with_jerk", {.only = {"Target"}});
+  // Ego still gains the last 7 cm/s on it, as critical damping has it.
+  check_against_trace("long_dist_action_with_jerk", {.speed = false, .from_s = 18.0, .only = {"Ego"}});
 }
 
 TEST_CASE("every scenario of the conformance set loads and names what it does not support") {
