@@ -20,7 +20,9 @@ void plant_tile(const Terrain& terrain, std::uint64_t seed, const Vec2& corner, 
   constexpr double step = 16.0;
   for (double y = 0; y < side_m; y += step)
     for (double x = 0; x < side_m; x += step) {
-      const Vec2 p = corner + Vec2(x + random.uniform(0, step), y + random.uniform(0, step));
+      // One after the other: which argument of a call a compiler evaluates first is its own choice.
+      const double left = random.uniform(0, step), ahead = random.uniform(0, step);
+      const Vec2 p = corner + Vec2(x + ahead, y + left);
       const double chance = random.uniform(), choice = random.uniform();
       const Nearest near = terrain.nearest(p);
       if (!near.found || near.outside_m < 11.0 || near.outside_m > 330.0 || terrain.is_kept_clear(near) ||

@@ -99,7 +99,9 @@ std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double
 
 /// A random direction across the blow, rather up than down and rather away from its middle.
 Vec3 way_out(Context& context, const Vec3& from_middle, const Vec3& push) {
-  Vec3 way = from_middle + 0.3 * Vec3(context.random.normal(), context.random.normal(), 0.0);
+  // One after the other: which argument of a call a compiler evaluates first is its own choice.
+  const double left = context.random.normal(), ahead = context.random.normal();
+  Vec3 way = from_middle + 0.3 * Vec3(ahead, left, 0.0);
   way.z = std::abs(way.z) + 0.2 + 0.3 * context.random.uniform();
   way -= glm::dot(way, push) * push;
   return glm::normalize(way);
