@@ -22,16 +22,21 @@ struct BadNetwork::Socket final : DatagramSocket {
     if (arrived.empty()) return std::nullopt;
     taken = std::move(arrived.front());
     arrived.pop_front();
-    arrived_bytes -= taken.second.size();
-    return ReceivedDatagram{taken.first, taken.second};
+    arrived_bytes -= taken.bytes.size();
+    return ReceivedDatagram{taken.from, taken.bytes, taken.at_s};
   }
   std::size_t receive_buffer_bytes() const override { return network.faults_.receive_buffer_bytes; }
 
   BadNetwork& network;
   Address own, hears;
-  std::deque<std::pair<Address, Bytes>> arrived;
+  struct Arrival {
+    Address from;
+    Bytes bytes;
+    double at_s = 0.0;
+  };
+  std::deque<Arrival> arrived;
   std::size_t arrived_bytes = 0;
-  std::pair<Address, Bytes> taken;
+  Arrival taken;
 };
 
 BadNetwork::BadNetwork(const NetworkFaults& faults, std::uint64_t seed)
@@ -65,7 +70,9 @@ void BadNetwork::send(const Address& from, const Address& to, std::span<const st
 }
 
 void BadNetwork::launch(const Address& from, Socket& to, std::span<const std::byte> bytes) {
-  const double due_s = now_s_ + faults_.latency_s + faults_.jitter_s * random_.uniform();
+  const auto path = latency_shares_.find({from.ip, to.own.ip});
+  const double share = path == latency_shares_.end() ? 1.0 : path->second;
+  const double due_s = now_s_ + share * faults_.latency_s + faults_.jitter_s * random_.uniform();
   in_flight_.emplace(std::pair{due_s, launches_++},
                      Flight{from, Bytes(bytes.begin(), bytes.end()), &to});
 }
@@ -74,11 +81,12 @@ void BadNetwork::advance_to(double now_s) {
   SEPTET_CHECK(now_s >= now_s_, "time goes back from {} to {}", now_s_, now_s);
   now_s_ = now_s;
   while (!in_flight_.empty() && in_flight_.begin()->first.first <= now_s) {
+    const double due_s = in_flight_.begin()->first.first;
     Flight flight = std::move(in_flight_.extract(in_flight_.begin()).mapped());
     Socket& to = *flight.to;
     if (to.arrived_bytes + flight.bytes.size() > faults_.receive_buffer_bytes) continue;
     to.arrived_bytes += flight.bytes.size();
-    to.arrived.emplace_back(flight.from, std::move(flight.bytes));
+    to.arrived.push_back({flight.from, std::move(flight.bytes), due_s});
   }
 }
 

@@ -51,6 +51,8 @@ class BadNetwork {
   void advance_to(double now_s);
   /// Applies to datagrams sent from now on.
   void set_faults(const NetworkFaults& faults) { faults_ = faults; }
+  /// From one machine to another, this way only: so many times `NetworkFaults::latency_s`.
+  void set_latency_share(std::uint32_t from_ip, std::uint32_t to_ip, double share) { latency_shares_[{from_ip, to_ip}] = share; }
   /// What the socket at this address has sent, before any fault and once per send, however many
   /// receive it.
   TrafficCount sent_by(const Address& address) const;
@@ -68,6 +70,7 @@ class BadNetwork {
   void close(Socket& socket);
 
   NetworkFaults faults_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> latency_shares_;  ///< 1 where there is none.
   Random random_;
   double now_s_ = 0.0;
   std::uint64_t launches_ = 0;

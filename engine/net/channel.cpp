@@ -86,8 +86,11 @@ Channel::Channel(const Options& options, double now_s)
       receiver_(options.own.max_message_bytes, options.own.window_bytes),
       heard_s_(now_s) {}
 
-Channel::Verdict Channel::accept(std::span<const std::byte> datagram, double now_s,
+Channel::Verdict Channel::accept(const ReceivedDatagram& received, double now_s,
                                  std::vector<ChannelMessage>& messages) {
+  const std::span<const std::byte> datagram = received.bytes;
+  // Whoever draws or computes for a while takes what came meanwhile for later than it was.
+  const double arrived_s = std::min(received.arrived_s.value_or(now_s), now_s);
   ByteReader header(datagram.subspan(scene_prefix_bytes));
   header.get<std::uint32_t>();
   const auto number = header.get<std::uint64_t>();
@@ -107,14 +110,14 @@ Channel::Verdict Channel::accept(std::span<const std::byte> datagram, double now
   ByteReader reader(text_);
   Frame frame;
   while (read_frame(reader, frame))
-    if (const Verdict verdict = take(frame, now_s, messages); verdict != Verdict::good)
+    if (const Verdict verdict = take(frame, now_s, arrived_s, messages); verdict != Verdict::good)
       return verdict;
   if (reader.ok()) return Verdict::good;
   ++counters_.malformed;
   return Verdict::broken;
 }
 
-Channel::Verdict Channel::take(const Frame& frame, double now_s,
+Channel::Verdict Channel::take(const Frame& frame, double now_s, double arrived_s,
                                std::vector<ChannelMessage>& messages) {
   bool kept_protocol = true;
   switch (frame.kind) {
@@ -133,10 +136,10 @@ Channel::Verdict Channel::take(const Frame& frame, double now_s,
       break;
     case FrameKind::ping:
       if (pongs_.size() < max_pongs)
-        pongs_.push_back({.kind = FrameKind::pong, .sent_s = frame.sent_s, .answered_s = now_s});
+        pongs_.push_back({.kind = FrameKind::pong, .sent_s = frame.sent_s, .answered_s = arrived_s});
       break;
     case FrameKind::pong:
-      clock_.add(frame.sent_s, frame.answered_s, now_s);
+      clock_.add(frame.sent_s, frame.answered_s, arrived_s);
       break;
     case FrameKind::goodbye:
       goodbye_.assign(reinterpret_cast<const char*>(frame.bytes.data()), frame.bytes.size());

@@ -52,7 +52,7 @@ class Channel {
     goodbye,
   };
   /// Opens a datagram that carries this connection's number, and appends what it completes.
-  Verdict accept(std::span<const std::byte> datagram, double now_s,
+  Verdict accept(const ReceivedDatagram& datagram, double now_s,
                  std::vector<ChannelMessage>& messages);
 
   SendResult send(SharedBytes message, Reliability reliability, AddressKey key);
@@ -77,7 +77,7 @@ class Channel {
   ChannelCounters counters() const;
 
  private:
-  Verdict take(const Frame& frame, double now_s, std::vector<ChannelMessage>& messages);
+  Verdict take(const Frame& frame, double now_s, double arrived_s, std::vector<ChannelMessage>& messages);
   bool seal_and_send(DatagramSocket& socket);
 
   Options options_;

@@ -17,6 +17,8 @@ namespace septet::net {
 struct ReceivedDatagram {
   Address from;
   std::span<const std::byte> bytes;  ///< Valid until the next call on the same socket.
+  /// When it arrived, by the machine's steady clock, however long it has waited since. Nothing: not known.
+  std::optional<double> arrived_s{};
 };
 
 class DatagramSocket {

@@ -23,8 +23,9 @@ constexpr double trial_s = 1.5;
 /// For how long what the server said counts: it speaks again sooner, if it is still there.
 constexpr double remembered_s = 8.0;
 constexpr double cookie_life_s = 4.0;
-constexpr double first_pings_s = 0.1, later_pings_s = 0.25;
-constexpr int first_pings = 10;
+/// Often until the clock is known well, at first and after one was set.
+constexpr double first_pings_s = 0.02, later_pings_s = 0.1;
+constexpr std::size_t first_pings = 64;
 
 }  // namespace
 
@@ -33,7 +34,7 @@ struct SecureClient::State {
       : socket(its_socket), options(std::move(its_options)) {}
 
   void receive(std::vector<ClientEvent>& events);
-  void take_data(std::span<const std::byte> datagram, std::vector<ClientEvent>& events);
+  void take_data(const ReceivedDatagram& datagram, std::vector<ClientEvent>& events);
   void connect(const ClientHandshake::Connected& connected, std::vector<ClientEvent>& events);
   void lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s = 0.0);
   void knock();
@@ -66,7 +67,6 @@ struct SecureClient::State {
 
   double next_ping_s = 0.0;
   double pinged_s = 0.0;  ///< When the first ping was sent since the server was last heard.
-  int pings = 0;
   ChannelCounters past;  ///< Of earlier connections, and of what belongs to none.
   mutable ChannelCounters asked;
   ClockEstimate no_clock;
@@ -91,7 +91,8 @@ std::vector<ClientEvent> SecureClient::pump(double now_s) {
     if (now_s >= state.next_ping_s) {
       state.channel->ping();
       if (state.channel->heard_s() > state.pinged_s) state.pinged_s = now_s;
-      state.next_ping_s = now_s + (++state.pings < first_pings ? first_pings_s : later_pings_s);
+      const bool is_unsure = state.channel->clock().pings() < first_pings && state.silence_s() < later_pings_s;
+      state.next_ping_s = now_s + (is_unsure ? first_pings_s : later_pings_s);
     }
     state.channel->advance_to(now_s);
     state.channel->emit(state.socket, now_s, state.options.limits.max_bytes_per_pump);
@@ -110,7 +111,7 @@ void SecureClient::State::receive(std::vector<ClientEvent>& events) {
     }
     const auto kind = scene_datagram_kind(datagram->bytes);
     if (kind == SceneDatagramKind::data) {
-      take_data(datagram->bytes, events);
+      take_data(*datagram, events);
     } else if (kind == SceneDatagramKind::cookie && handshake) {
       if (handshake->has_cookie() || !handshake->accept_cookie(datagram->bytes)) {
         ++past.bad_cookies;
@@ -156,9 +157,9 @@ void SecureClient::State::take_refusal(std::span<const std::byte> datagram) {
   retry_s = std::min(retry_s * 1.5, in_use ? longest_in_use_retry_s : longest_unknown_retry_s);
 }
 
-void SecureClient::State::take_data(std::span<const std::byte> datagram,
+void SecureClient::State::take_data(const ReceivedDatagram& datagram,
                                     std::vector<ClientEvent>& events) {
-  const auto number = connection_of(datagram);
+  const auto number = connection_of(datagram.bytes);
   if (!number) {
     ++past.malformed;
     return;
@@ -196,7 +197,6 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   has_initiated = is_not_understood = false;
   refusal = Obstacle::none;
   state = ClientState::connected;
-  pings = 0;
   pinged_s = -1.0;
   next_ping_s = now_s;  // The first ping also confirms the connection to the server.
   events.push_back({.kind = ClientEvent::Kind::connected});

@@ -180,7 +180,7 @@ void SecureServer::State::take_data(const ReceivedDatagram& datagram,
   Connection& connection = found->second;
   if (!connection.drop_reason.empty()) return;
   std::vector<ChannelMessage> messages;
-  const Channel::Verdict verdict = connection.channel.accept(datagram.bytes, now_s, messages);
+  const Channel::Verdict verdict = connection.channel.accept(datagram, now_s, messages);
   if (verdict == Channel::Verdict::refused) return;
   if (!connection.confirmed) confirm(connection, events);
   for (ChannelMessage& message : messages)

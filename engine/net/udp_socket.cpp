@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,6 +44,12 @@ struct Batch {
   std::array<sockaddr_in, batch> addresses{};
   std::array<iovec, batch> spans{};
   std::array<mmsghdr, batch> headers{};
+  /// What the system says of each received datagram besides: when it arrived.
+  struct alignas(cmsghdr) Notes {
+    std::array<std::byte, CMSG_SPACE(sizeof(timespec))> bytes;
+  };
+  std::array<Notes, batch> notes{};
+  double steady_from_wall_s = 0.0;  ///< When these slots were received.
   std::size_t begin = 0, end = 0;  ///< Slots in use.
 
   Batch() {
@@ -58,6 +65,23 @@ struct Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 };
+
+double clock_s(clockid_t clock) {
+  timespec time{};
+  ::clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// By the steady clock; the system stamps with the wall clock.
+std::optional<double> arrival_s(msghdr& header, double steady_from_wall_s) {
+  for (cmsghdr* note = CMSG_FIRSTHDR(&header); note != nullptr; note = CMSG_NXTHDR(&header, note)) {
+    if (note->cmsg_level != SOL_SOCKET || note->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec stamp{};
+    std::memcpy(&stamp, CMSG_DATA(note), sizeof stamp);
+    return static_cast<double>(stamp.tv_sec) + 1e-9 * static_cast<double>(stamp.tv_nsec) + steady_from_wall_s;
+  }
+  return std::nullopt;
+}
 
 tl::unexpected<Error> bind_failure(const Address& address, int error) {
   const std::string where = "udp " + to_text(address);
@@ -105,6 +129,7 @@ Expected<UdpSocket> UdpSocket::open(const UdpOptions& options) {
   if (options.share_port) ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   // Without this, Linux hands a socket the datagrams of groups that other sockets joined.
   ::setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
+  ::setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   const int size = static_cast<int>(options.buffer_bytes);
   for (const auto& [forced, plain] :
        {std::pair{SO_RCVBUFFORCE, SO_RCVBUF}, std::pair{SO_SNDBUFFORCE, SO_SNDBUF}})
@@ -194,16 +219,22 @@ std::optional<ReceivedDatagram> UdpSocket::receive() {
   Batch& queue = state_->incoming;
   if (queue.begin == queue.end) {
     queue.begin = queue.end = 0;
+    for (std::size_t i = 0; i < batch; ++i) {
+      queue.headers[i].msg_hdr.msg_control = &queue.notes[i];
+      queue.headers[i].msg_hdr.msg_controllen = sizeof queue.notes[i];
+    }
     int received;
     do {
       received = ::recvmmsg(state_->descriptor, queue.headers.data(), batch, MSG_DONTWAIT, nullptr);
     } while (received < 0 && errno == EINTR);
     if (received <= 0) return std::nullopt;
     queue.end = static_cast<std::size_t>(received);
+    queue.steady_from_wall_s = clock_s(CLOCK_MONOTONIC) - clock_s(CLOCK_REALTIME);
   }
   const std::size_t slot = queue.begin++;
   const auto* first = static_cast<const std::byte*>(queue.spans[slot].iov_base);
-  return ReceivedDatagram{to_address(queue.addresses[slot]), {first, queue.headers[slot].msg_len}};
+  return ReceivedDatagram{to_address(queue.addresses[slot]), {first, queue.headers[slot].msg_len},
+                          arrival_s(queue.headers[slot].msg_hdr, queue.steady_from_wall_s)};
 }
 
 std::size_t UdpSocket::receive_buffer_bytes() const { return state_->receive_buffer_bytes; }

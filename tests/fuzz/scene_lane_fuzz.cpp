@@ -90,7 +90,7 @@ void feed_sealed(ByteReader& input) {
     writer.put(number);
     const Bytes header = datagram;
     seal(keys.receiving, number, header, next_part(input), datagram);
-    const Channel::Verdict verdict = channel.accept(datagram, now_s, messages);
+    const Channel::Verdict verdict = channel.accept({there, datagram}, now_s, messages);
     require(verdict != Channel::Verdict::refused);
     if (verdict != Channel::Verdict::good) return;
     channel.emit(socket, now_s, 64 * 1024);

@@ -33,7 +33,7 @@ class LockstepRig {
 
   server::ServeResult serve(double seconds, const std::function<void()>& each_ms) {
     Circles circles;
-    const server::ServeEnvironment environment{[this] { return rig.now_s(); },
+    const server::ServeEnvironment environment{[this] { return rig.server_clock_s(); },
                                                [&](double) {
                                                  rig.advance_1ms();
                                                  each_ms();

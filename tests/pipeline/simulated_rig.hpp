@@ -1,5 +1,5 @@
 #pragma once
-/// A server and its screens in one process, on a bad network and simulated clocks: both lanes for real, no GPU.
+/// A server and its screens in one process, each on a machine with a clock of its own, on a bad network: both lanes for real, no GPU.
 
 #include <cmath>
 #include <functional>
@@ -13,6 +13,7 @@
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/screen/screen_link.hpp"
 #include "sim-server/screen_host.hpp"
+#include "tests/engine/net/simulated_machine.hpp"
 
 namespace septet {
 
@@ -25,6 +26,7 @@ struct SimulatedRigOptions {
   double least_playout_delay_s = 2.0 / 120.0;
   std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
   std::set<std::size_t> deaf{};  ///< Screens that the group's datagrams do not reach.
+  double screen_pump_s = 0.0;    ///< How often a screen looks at its sockets: at every step, or once a frame as one that draws.
   bool real_time = true;         ///< A tick is published whenever one is due; false: whoever drives the host publishes.
 };
 
@@ -53,6 +55,8 @@ class SimulatedRig {
   struct Screen {
     std::string name;
     net::Identity identity;
+    std::unique_ptr<net::SimulatedMachine> machine;
+    double next_pump_s = 0.0;  ///< In true time.
     std::unique_ptr<net::DatagramSocket> lane_socket, tick_socket;
     std::unique_ptr<screen::ScreenLink> link;
     bool hung = false;
@@ -65,15 +69,17 @@ class SimulatedRig {
     else
       for (int i = 0; i < 40; ++i) builder.add_object("post " + std::to_string(i), {});
     for (std::size_t i = 0; i < options.screens; ++i)
-      screens_.push_back({"screen-" + std::to_string(i), net::Identity::generate(), nullptr, nullptr, nullptr});
+      screens_.push_back({.name = "screen-" + std::to_string(i), .identity = net::Identity::generate(),
+                          .machine = net::machine_of_its_own(network_, ip_of(i), server_address_.ip, random_),
+                          .next_pump_s = random_.uniform(0.0, options.screen_pump_s)});
     start_server();
     for (std::size_t i = 0; i < options.screens; ++i) start_screen(i);
   }
 
   void start_server() {
     host_.reset();
-    server_lane_ = network_.open(server_address_);
-    server_tick_ = network_.open({server_address_.ip, 4999});
+    server_lane_ = server_machine_->open(server_address_.port);
+    server_tick_ = server_machine_->open(4999);
     server::ScreenHostOptions options{.identity = server_identity_, .session = net::random_session_id(),
                                       .least_playout_delay_s = options_.least_playout_delay_s};
     for (const auto& screen : screens_) {
@@ -87,7 +93,7 @@ class SimulatedRig {
       options.welcome.group_port = group_.port;
     }
     // A server that was away does not make up for the ticks that it missed.
-    next_tick_ = static_cast<Tick>(std::ceil(now_s_ / rig_tick_s));
+    next_tick_ = static_cast<Tick>(std::ceil((server_clock_s() - begun_s_) / rig_tick_s));
     host_ = std::make_unique<server::ScreenHost>(*server_lane_, *server_tick_, store_, std::move(options));
   }
   void stop_server() {
@@ -99,14 +105,13 @@ class SimulatedRig {
   void start_screen(std::size_t i) {
     Screen& screen = screens_[i];
     stop_screen(i);
-    const std::uint32_t ip = 0x0a000100 + static_cast<std::uint32_t>(i);
     const auto port = static_cast<std::uint16_t>(20000 + 10 * starts_++);
-    screen.lane_socket = network_.open({ip, port});
-    screen.tick_socket = network_.open({ip, static_cast<std::uint16_t>(port + 1)});
+    screen.lane_socket = screen.machine->open(port);
+    screen.tick_socket = screen.machine->open(static_cast<std::uint16_t>(port + 1));
     const bool deaf = options_.deaf.contains(i);
-    auto open_group = [this, ip, port, deaf](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
+    auto open_group = [machine = screen.machine.get(), port, deaf](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
       const net::Address heard = deaf ? net::Address{group.ip + 1, group.port} : group;
-      return network_.open_group(heard, {ip, static_cast<std::uint16_t>(port + 2)});
+      return machine->open_group(heard, static_cast<std::uint16_t>(port + 2));
     };
     screen::ScreenLinkOptions options{screen.name, static_cast<std::uint16_t>(port + 1), {server_address_, server_identity_.public_key(), screen.identity, {}}};
     screen.link = std::make_unique<screen::ScreenLink>(*screen.lane_socket, *screen.tick_socket, open_group, std::move(options));
@@ -117,20 +122,25 @@ class SimulatedRig {
     screens_[i].tick_socket.reset();
   }
 
-  /// One millisecond: the server publishes where a tick is due, everybody pumps.
-  void advance_1ms() {
-    now_s_ += 0.001;
+  /// One step of true time: the server publishes where a tick is due, everybody pumps.
+  void advance(double step_s) {
+    now_s_ += step_s;
     network_.advance_to(now_s_);
     if (host_) {
-      host_->pump(now_s_);
-      while (options_.real_time && static_cast<double>(next_tick_) * rig_tick_s <= now_s_) {
-        host_->publish(std::make_shared<const TakenSnapshot>(circling_vehicles(next_tick_, options_.vehicles)), now_s_);
+      const double server_s = server_clock_s();
+      host_->pump(server_s);
+      while (options_.real_time && begun_s_ + static_cast<double>(next_tick_) * rig_tick_s <= server_s) {
+        host_->publish(std::make_shared<const TakenSnapshot>(circling_vehicles(next_tick_, options_.vehicles)), server_s);
         ++next_tick_;
       }
     }
-    for (auto& screen : screens_)
-      if (screen.link && !screen.hung) screen.link->pump(now_s_);
+    for (auto& screen : screens_) {
+      if (!screen.link || screen.hung || screen.next_pump_s > now_s_) continue;
+      screen.link->pump(screen.machine->clock_s(now_s_));
+      screen.next_pump_s = std::max(screen.next_pump_s + options_.screen_pump_s, now_s_);
+    }
   }
+  void advance_1ms() { advance(0.001); }
   void run_for(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 1000.0 + 0.5); ++i) advance_1ms();
   }
@@ -138,7 +148,7 @@ class SimulatedRig {
   /// The number of the frame that a screen's own idea of the server's clock asks for now.
   std::optional<std::int64_t> frame_due(std::size_t i) const {
     const auto& link = screens_[i].link;
-    const auto server_s = link ? link->server_time_s(now_s_) : std::nullopt;
+    const auto server_s = link ? link->server_time_s(screens_[i].machine->clock_s(now_s_)) : std::nullopt;
     if (!server_s) return std::nullopt;
     return frame::frame_number(*server_s);
   }
@@ -147,12 +157,26 @@ class SimulatedRig {
   std::optional<frame::Shown> shown(std::size_t i) const {
     const auto& link = screens_[i].link;
     if (!link || link->history().empty()) return std::nullopt;
-    const auto server_s = link->server_time_s(now_s_);
+    const auto server_s = link->server_time_s(screens_[i].machine->clock_s(now_s_));
     if (!server_s) return std::nullopt;
     return frame::show(link->history(), *frame::playout_time_s(link->history(), frame::frame_number(*server_s)), rig_tick_s);
   }
 
-  double now_s() const { return now_s_; }
+  /// By how much later than the server meant a screen shows, in true time, what it shows from now on: the server means the frame
+  /// at the instant at which its own clock comes half a frame's time before the frame's instant.
+  std::optional<double> lateness_s(std::size_t i) const {
+    const auto number = frame_due(i);
+    const auto seen = shown(i);
+    if (!number || !seen || !seen->on_tick) return std::nullopt;
+    const auto& newest = screens_[i].link->history().newest().header;
+    const double instant_s = static_cast<double>(*number) / frame::frame_rate_hz;
+    const double offset_s = instant_s >= newest.next_from_s ? newest.next_offset_s : newest.offset_s;
+    return server_clock_s() - (seen->snapshot.simulated_time_s + offset_s - 0.5 / frame::frame_rate_hz);
+  }
+
+  double now_s() const { return now_s_; }  ///< True time.
+  double server_clock_s() const { return server_machine_->clock_s(now_s_); }
+  net::SimulatedMachine& server_machine() { return *server_machine_; }
   server::ScreenHost& host() { return *host_; }
   bool has_server() const { return host_ != nullptr; }
   Screen& screen(std::size_t i) { return screens_[i]; }
@@ -166,9 +190,15 @@ class SimulatedRig {
   Tick next_tick() const { return next_tick_; }
 
  private:
+  static std::uint32_t ip_of(std::size_t screen) { return 0x0a000100 + static_cast<std::uint32_t>(screen); }
+
   SimulatedRigOptions options_;
   net::BadNetwork network_;
+  Random random_{23};
   net::Address server_address_{0x0a000001, 4750};
+  std::unique_ptr<net::SimulatedMachine> server_machine_ =
+      net::machine_of_its_own(network_, server_address_.ip, server_address_.ip, random_);
+  const double begun_s_ = server_machine_->clock_s(0.0);  ///< When the server's clock was at tick 0.
   net::Address group_{0xef4d4d4d, 4751};
   net::Identity server_identity_ = net::Identity::generate();
   scene::Store store_;

@@ -31,7 +31,7 @@ TEST_CASE("the world stands still and says so until the driver takes the control
   std::vector<std::string> messages;
   double ready_s = 0.0, joined_s = 0.0;
   const server::ServeEnvironment environment{
-      [&] { return rig.now_s(); },
+      [&] { return rig.server_clock_s(); },
       [&](double) {
         rig.advance_1ms();
         auto& screen = rig.screen(0);
@@ -77,7 +77,7 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   DrivenCircles circles;
   double ready_s = 0.0;
   const server::ServeEnvironment environment{
-      [&] { return rig.now_s(); },
+      [&] { return rig.server_clock_s(); },
       [&](double) {
         rig.advance_1ms();
         auto& screen = rig.screen(0);
@@ -102,7 +102,7 @@ TEST_CASE("a drive that waits for nobody begins at once") {
   SimulatedRig rig({.screens = 1, .real_time = false});
   rig.run_for(0.5);
   DrivenCircles circles;
-  const server::ServeEnvironment environment{[&] { return rig.now_s(); },
+  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
                                              [&](double) {
                                                rig.advance_1ms();
                                                if (rig.screen(0).link->finished()) rig.screen(0).link->report({});

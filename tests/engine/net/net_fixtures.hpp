@@ -11,6 +11,7 @@
 #include "engine/net/keys.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/secure_server.hpp"
+#include "tests/engine/net/simulated_machine.hpp"
 
 namespace septet::net {
 
@@ -45,11 +46,14 @@ inline std::string text_of(const Bytes& bytes) {
 inline const Address server_address{0x0a000001, 4750};
 inline Address client_address(std::uint32_t number) { return {0x0a000100 + number, 5000}; }
 
-// One server and clients on a simulated network; client n has identity 100 + n.
+// One server and clients on a simulated network, each on a machine with a clock of its own; client n has identity 100 + n.
 class Site {
  public:
   Site(std::size_t clients, const NetworkFaults& faults, const ChannelLimits& limits = {})
-      : limits_(limits), network(faults, 7), server_socket(network.open(server_address)) {
+      : limits_(limits),
+        network(faults, 7),
+        server_machine(machine_of_its_own(network, server_address.ip, server_address.ip, random_)),
+        server_socket(server_machine->open(server_address.port)) {
     for (std::size_t n = 0; n < clients; ++n)
       allowed.push_back({identity_of(client_key(n)).public_key(), "client-" + std::to_string(n)});
     start_server(1);
@@ -63,14 +67,24 @@ class Site {
   }
   void add_client(std::size_t n, std::uint8_t key) {
     if (client_sockets.size() <= n)
-      client_sockets.resize(n + 1), clients.resize(n + 1), hung.resize(n + 1);
-    if (!client_sockets[n])
-      client_sockets[n] = network.open(client_address(static_cast<std::uint32_t>(n)));
+      client_machines.resize(n + 1), client_sockets.resize(n + 1), clients.resize(n + 1), hung.resize(n + 1);
+    if (!client_sockets[n]) {
+      const Address address = client_address(static_cast<std::uint32_t>(n));
+      client_machines[n] = machine_of_its_own(network, address.ip, server_address.ip, random_);
+      client_sockets[n] = client_machines[n]->open(address.port);
+    }
     clients[n] = std::make_unique<SecureClient>(
         *client_sockets[n], SecureClientOptions{server_address, identity_of(1).public_key(),
                                                 identity_of(key), limits_});
     received.resize(clients.size());
     client_events.resize(clients.size());
+  }
+
+  double server_clock_s() const { return server_machine->clock_s(now_s); }
+  double client_clock_s(std::size_t n) const { return client_machines[n]->clock_s(now_s); }
+  // By how much client n takes the server's clock for ahead of what it shows, in true time.
+  double clock_error_s(std::size_t n) const {
+    return clients[n]->clock().server_time_s(client_clock_s(n)) - server_clock_s();
   }
 
   // Moves everything on by `duration_s` in steps of 1 ms.
@@ -80,11 +94,11 @@ class Site {
       now_s += step_s;
       network.advance_to(now_s);
       if (server)
-        for (ServerEvent& event : server->pump(now_s)) server_events.push_back(std::move(event));
+        for (ServerEvent& event : server->pump(server_clock_s())) server_events.push_back(std::move(event));
       network.advance_to(now_s);
       for (std::size_t n = 0; n < clients.size(); ++n) {
         if (!clients[n] || hung[n]) continue;
-        for (ClientEvent& event : clients[n]->pump(now_s)) {
+        for (ClientEvent& event : clients[n]->pump(client_clock_s(n))) {
           if (event.kind == ClientEvent::Kind::message) received[n].push_back(event.bytes);
           client_events[n].push_back(std::move(event));
         }
@@ -105,10 +119,13 @@ class Site {
 
  private:
   ChannelLimits limits_;
+  Random random_{11};
 
  public:
-  double now_s = 0.0;
+  double now_s = 0.0;  // True time.
   BadNetwork network;
+  std::unique_ptr<SimulatedMachine> server_machine;
+  std::vector<std::unique_ptr<SimulatedMachine>> client_machines;
   std::unique_ptr<DatagramSocket> server_socket;
   std::vector<std::unique_ptr<DatagramSocket>> client_sockets;
   std::vector<AllowedClient> allowed;
