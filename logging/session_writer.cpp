@@ -159,9 +159,10 @@ void SessionWriter::State::write(const std::vector<Record>& batch) {
 }
 
 void SessionWriter::State::commit() {
-  if (uncommitted == 0) return;
+  if (has_failed) return;
+  // Also where nothing has come: whoever waits hears that the file is gone.
   auto done = check_file();
-  if (done) done = database.execute("COMMIT");
+  if (done && uncommitted > 0) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));
   uncommitted = 0;
   if (previous)

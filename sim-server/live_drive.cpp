@@ -91,6 +91,13 @@ void LiveDrive::move_actuators() {
   if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
 }
 
+/// A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
+std::optional<Error> LiveDrive::take_error() {
+  auto error = log_ ? log_->take_error() : std::nullopt;
+  if (error) end_ = logging::DriveEnd::log_failed;
+  return error;
+}
+
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
   if (end_) return std::shared_ptr<const TakenSnapshot>();
   if (seat_.look) seat_.look(newest_->snapshot());
@@ -104,11 +111,6 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
     return tl::unexpected(std::move(*error));
   }
   if (log_) {
-    // A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
-    if (auto error = log_->take_error()) {
-      end_ = logging::DriveEnd::log_failed;
-      return tl::unexpected(std::move(*error));
-    }
     log_->record_input(std::move(input));
     log_->record_tick(newest_, events);
     if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));

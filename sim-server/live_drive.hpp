@@ -39,6 +39,7 @@ class LiveDrive final : public TickSource {
   void log_to(SessionLog& log);
 
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  std::optional<Error> take_error() override;
   logging::DriveEnd end() const override { return end_.value_or(logging::DriveEnd::failed); }
   std::shared_ptr<const TakenSnapshot> first() const override { return newest_; }
   /// A person is ready when a screen sends controls, or those of the device are no longer as they were found.

@@ -40,8 +40,13 @@ struct Loop {
     result.state_hash = (*snapshot)->snapshot().state_hash;
     return std::move(*snapshot);
   }
-  /// Whether somebody wants the drive to end; the result says who.
+  /// Whether somebody wants the drive to end or its log is lost; the result says so.
   bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
+    if (auto error = source.take_error()) {
+      result.error = std::move(*error);
+      result.end = source.end();
+    }
+    if (result.error) return true;
     const auto asked = environment.end_requested();
     if (!asked && !by_a_screen) return false;
     result.end = asked ? *asked : *by_a_screen;

@@ -18,7 +18,9 @@ class TickSource {
   virtual ~TickSource() = default;
   /// The next tick's snapshot, or nothing at the end. `controls`: what a screen with keyboard or gamepad has sent.
   virtual Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) = 0;
-  /// Why `next` has given nothing, or an error.
+  /// What has gone wrong beside the ticks and ends the drive, also while it waits for its first one: a log that cannot be written. Once.
+  virtual std::optional<Error> take_error() { return std::nullopt; }
+  /// Why `next` has given nothing, or there is an error.
   virtual logging::DriveEnd end() const = 0;
   /// The world before the first tick, for whoever waits at it; null where nobody does.
   virtual std::shared_ptr<const TakenSnapshot> first() const { return nullptr; }

@@ -1,4 +1,8 @@
+#include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <optional>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -168,6 +172,19 @@ TEST_CASE("a full queue makes whoever records wait and says for how long and los
   const SessionReader reader = must_open(folder / "session.sqlite");
   CHECK(reader.scene_edits().value().size() == 5000);
   CHECK(all_ticks(reader).size() == 200);
+}
+
+TEST_CASE("a file that is deleted is noticed though nothing more is recorded") {
+  const TemporaryFolder folder;
+  SessionWriter writer = must_create(folder / "session.sqlite", {.commit_interval = std::chrono::milliseconds(1)});
+  writer.record(taken(drive_snapshot(0)));
+  while (!writer.committed_tick()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::filesystem::remove(folder / "session.sqlite");
+  std::optional<Error> error;
+  for (int i = 0; i < 300'000 && !error; ++i, error = writer.take_error()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  REQUIRE(error.has_value());
+  CHECK(error->what.find("deleted") != std::string::npos);
+  CHECK(writer.finish().has_value());  // It has been told.
 }
 
 TEST_CASE("ticks without a snapshot are counted from tick 0") {

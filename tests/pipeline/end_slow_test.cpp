@@ -140,6 +140,18 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
   CHECK(run("septet", {"replay", "--verify", (folder / "limited" / "session.sqlite").string()}, folder / "verify.err").code == 0);
 }
 
+TEST_CASE("a log that is deleted while the server waits for its screens ends it") {
+  const TemporaryFolder folder;
+  write_text(folder / "small.toml", small_rig(1));
+  auto server = start("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", make_keys(folder / "keys", "a").string(), "--out",
+                                        (folder / "out").string(), "--any-port"}, folder / "err");
+  ready_port(server, folder / "err");
+  fs::remove(folder / "out" / "session.sqlite");
+  CHECK(exit_code(server) == 1);
+  CHECK(text_of(folder / "err").find("deleted") != std::string::npos);
+  CHECK(last_words(server).starts_with("ended log_failed"));
+}
+
 TEST_CASE("closing the window ends the drive and so does Escape") {
   const TemporaryFolder folder;
   const XDisplay display;
