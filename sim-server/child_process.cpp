@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -104,9 +106,12 @@ std::optional<std::string> ChildProcess::read_line(std::chrono::milliseconds tim
       unread_.erase(0, end + 1);
       return line;
     }
+    // What is there is read however late it is: this process may have waited for its turn since it looked at the clock.
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     pollfd waiting{output_, POLLIN, 0};
-    if (left.count() < 0 || ::poll(&waiting, 1, static_cast<int>(left.count())) <= 0) return std::nullopt;
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return std::nullopt;
     char buffer[4096];
     const ssize_t count = ::read(output_, buffer, sizeof buffer);
     if (count <= 0) return std::nullopt;
