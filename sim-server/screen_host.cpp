@@ -32,6 +32,12 @@ std::string other_protocol(std::uint16_t theirs) {
   return fmt::format("it speaks version {} of the control messages, the server version {}; run the same Septet on all machines", theirs, protocol_version);
 }
 
+/// Of a screen that comes and goes all day the first moments and the newest are kept.
+void remember(std::vector<double>& moments_s, double now_s) {
+  if (moments_s.size() == most_moments) moments_s.erase(moments_s.begin() + most_moments / 2);
+  moments_s.push_back(now_s);
+}
+
 /// Does lockstep wait for this screen no more at `tick`?
 bool keeps_up(const HostedScreen& screen, Tick tick) {
   if (screen.left_behind) return true;
@@ -185,7 +191,7 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   screen->client = client;
   screen->expected = screen->scene_arrived = screen->has_presented = screen->left_behind = false;
   ++screen->joined;
-  screen->connected_s.push_back(simulated_time_s());
+  remember(screen->connected_s, simulated_time_s());
   screen->joined_s = now_s;
   screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->snapshot().tick);
   baselines_.join(client, now_s);
@@ -252,7 +258,7 @@ void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason
     tell(client, fmt::format("screen {} left: {}", screen->name, reason), now_s);
     screen->client.reset();
     screen->scene_arrived = false;
-    if (!is_finishing_) screen->left_s.push_back(simulated_time_s());
+    if (!is_finishing_) remember(screen->left_s, simulated_time_s());
   }
   clients_.erase(known);
 }
@@ -292,7 +298,7 @@ void ScreenHost::leave_behind(Tick tick) {
   for (HostedScreen& screen : screens_) {
     if (keeps_up(screen, tick)) continue;
     screen.left_behind = true;
-    screen.left_behind_s.push_back(simulated_time_s());
+    remember(screen.left_behind_s, simulated_time_s());
     messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
   }
 }

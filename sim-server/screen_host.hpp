@@ -42,6 +42,9 @@ struct ScreenHostOptions {
   std::size_t max_datagram_bytes = 1200;
 };
 
+/// How many moments are kept of each kind.
+inline constexpr std::size_t most_moments = 100;
+
 /// One screen of the rig, connected or not.
 struct HostedScreen {
   std::string name;
@@ -57,7 +60,7 @@ struct HostedScreen {
   std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
-  std::vector<double> connected_s, left_s, left_behind_s;  ///< When, in simulated time.
+  std::vector<double> connected_s, left_s, left_behind_s;  ///< When, in simulated time; at most `most_moments` each: the first and the newest.
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
 
   bool live() const { return client.has_value(); }

@@ -67,6 +67,20 @@ TEST_CASE("controls come from the screen that the rig lets drive and from nobody
   CHECK(rig.controls()[0].accelerator == 0.75);
 }
 
+TEST_CASE("a screen that comes and goes all day fills no memory") {
+  ClientScript rig;
+  rig.connect_all();
+  // Each message of the handshake is a pump of its own.
+  const Bytes come_back = script(goodbye, a, end_of_pump, a, 100, restart, a, here, pump, a, end_of_pump, a, 1, pump, a, end_of_pump, a, 1,
+                                 pump, a, end_of_pump, a, 1, pump, a, hello, a, a, pump, a, end_of_pump, a, 1);
+  for (int i = 0; i < 300; ++i) rig.play(come_back);
+  const auto& screen = rig.host().screens().front();
+  CHECK(screen.joined > 200);
+  CHECK(screen.connected_s.size() == most_moments);
+  CHECK(screen.connected_s.front() == 0.0);
+  CHECK(screen.left_behind_s.size() <= most_moments);
+}
+
 TEST_CASE("whatever clients of the list send in whatever order the host goes on") {
   Random random(20);
   for (int round = 0; round < 300; ++round) {
