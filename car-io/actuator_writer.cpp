@@ -46,7 +46,11 @@ struct ActuatorWriter::State {
       if (error) problem = std::move(error);
     }
     lock.unlock();
-    write({});
+    // The last word is zero, also where a report has just failed.
+    for (int tries = 0; tries < 2 && (tries == 0 || !device); ++tries) {
+      next_try = {};
+      write({});
+    }
   }
 
   /// 1 while somebody sets, then down to 0.
@@ -56,6 +60,7 @@ struct ActuatorWriter::State {
   }
 
   std::optional<Error> write(const Actuators& actuators) {
+    std::optional<Error> fault;
     if (!device) {
       if (Clock::now() < next_try) return std::nullopt;
       next_try = Clock::now() + duration(options.retry_s);
@@ -65,14 +70,16 @@ struct ActuatorWriter::State {
         return std::nullopt;
       }
       device = std::move(*opened);
-      if (auto fault = set_watchdog()) return fault;
+      fault = set_watchdog();
     }
     auto written = device->write(encode_actuators(actuators, ++sequence));
     if (written && options.has_steering_force)
       written = device->write(encode_steering(actuators.steering, sequence));
     if (written) {
       refusals = 0;
-      return std::nullopt;
+      // Of a device that is there: one that was unplugged in the midst of it has answered nothing.
+      if (fault && std::exchange(told_of_watchdog, true)) fault.reset();
+      return fault;
     }
     device.reset();
     next_try = Clock::now() + duration(options.retry_s);
@@ -83,13 +90,12 @@ struct ActuatorWriter::State {
   }
 
   /// The second net, for the case that this program cannot write zeros any more: killed, stopped, the machine gone. Whether the device
-  /// has taken it shows when it is read back; said once.
+  /// has taken it shows when it is read back.
   std::optional<Error> set_watchdog() {
     const auto sent = device->send_feature(encode_device_status({.watchdog_ms = watchdog_ms}));
     const auto kept = sent ? device->get_feature(device_report_id, device_report_bytes) : tl::unexpected(sent.error());
     const auto status = kept ? decode_device_status(*kept) : tl::unexpected(kept.error());
     if (status && status->watchdog_ms == watchdog_ms) return std::nullopt;
-    if (std::exchange(told_of_watchdog, true)) return std::nullopt;
     const std::string answer = status ? fmt::format("it says {} ms", status->watchdog_ms) : status.error().what;
     return Error{fmt::format("its watchdog does not hold {} ms ({}): fan, shaker and wheel force would go on if this program were killed", watchdog_ms, answer),
                  "the car's device", "correct its firmware (feature report 3), and keep a hand on the emergency switch"};

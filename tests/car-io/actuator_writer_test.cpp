@@ -135,6 +135,66 @@ TEST_CASE("a device that does not keep its watchdog is named once and is written
   CHECK_FALSE(writer.take_error().has_value());
 }
 
+namespace {
+
+/// A device that is unplugged after some reports: its first handle is dead then, and the next one works.
+struct Unplugged final : HidDevice {
+  struct Port {
+    std::size_t reports_of_first = 0;
+    std::atomic<int> handles{0}, writes{0};  ///< Also those that fail.
+    std::vector<double> fans;                ///< What has arrived; to be read when the writer has gone.
+  };
+  explicit Unplugged(Port& its_port) : port(its_port), is_first(++port.handles == 1) {}
+  Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
+  Expected<void> write(std::span<const std::byte> report) override {
+    ++port.writes;
+    if (is_first && port.fans.size() >= port.reports_of_first) return failure("No such device", "a wheel", "");
+    if (const auto actuators = decode_actuators(report)) port.fans.push_back(actuators->fan);
+    return {};
+  }
+  Expected<Bytes> get_feature(std::uint8_t, std::size_t) override {
+    if (is_first && port.reports_of_first == 0) return failure("No such device", "a wheel", "");
+    return feature;
+  }
+  Expected<void> send_feature(std::span<const std::byte> report) override {
+    feature.assign(report.begin(), report.end());
+    return {};
+  }
+  Port& port;
+  bool is_first;
+  Bytes feature;
+};
+
+}  // namespace
+
+TEST_CASE("the last report of all is zero also where one has just failed") {
+  Unplugged::Port port;
+  port.reports_of_first = 3;
+  {
+    ActuatorWriter writer([&]() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Unplugged>(port); },
+                          {.period_s = 0.001, .silent_after_s = 3600.0, .retry_s = 3600.0});
+    writer.set({.fan = 0.5});
+    // The fourth fails; then the device is left alone for an hour, or until the end.
+    CHECK(comes_true([&] { return port.writes == 4; }));
+  }
+  REQUIRE_FALSE(port.fans.empty());
+  CHECK(port.fans.back() == 0.0);
+  CHECK(port.handles <= 2);
+}
+
+TEST_CASE("a device that is unplugged while its watchdog is set is not called one without") {
+  Unplugged::Port port;
+  std::optional<Error> error;
+  {
+    ActuatorWriter writer([&]() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Unplugged>(port); },
+                          {.period_s = 0.001, .retry_s = 0.0});
+    CHECK(comes_true([&] { return port.writes > 3; }));
+    error = writer.take_error();
+  }
+  CHECK_FALSE(error.has_value());
+  CHECK(port.handles == 2);
+}
+
 TEST_CASE("a device that refuses output reports is named once") {
   struct Refusing final : HidDevice {
     Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
