@@ -85,14 +85,14 @@ endfunction()
 # septet_test(NAME [SERIAL] [DEPENDS library…] [PRIVATE library…])
 # SERIAL: its slow tests run alone. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files
 # (a slow test starts processes, draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that
-# drive for hours; `./test --long`). Every test case is one CTest test.
+# drive for hours; `./test --long`). Every test case is one CTest test. The limits are for a hang, however busy the machine.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)
   file(GLOB long_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_long_test.cpp)
   list(REMOVE_ITEM fast_sources ${slow_sources} ${long_sources} "")
-  septet_test_program(${name}_test fast 600 "${fast_sources}" ${ARGN})
-  septet_test_program(${name}_slow_test slow 3600 "${slow_sources}" ${ARGN})
+  septet_test_program(${name}_test fast 1800 "${fast_sources}" ${ARGN})
+  septet_test_program(${name}_slow_test slow 7200 "${slow_sources}" ${ARGN})
   septet_test_program(${name}_long_test long 14400 "${long_sources}" ${ARGN})
 endfunction()
 

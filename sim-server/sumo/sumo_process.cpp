@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 namespace {
 
-constexpr auto patience = 30s;
+constexpr auto patience = 5min;
 
 // The drivers are Septet's: car following by IDM with each one's own parameters. Lateral movement is continuous, by SUMO's
 // sublane model, and vehicles with a beacon have SUMO's own device for them.

@@ -11,12 +11,17 @@
 namespace septet::server {
 namespace {
 
-/// A drive whose driver sits at a device that is plugged in.
-std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {}) {
+/// A drive whose driver sits at a device that is plugged in. `actuate_again` sets what its last tick has set.
+std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {}, std::function<void()>* actuate_again = nullptr) {
   port.plug();
   DriverSeat seat;
   seat.actuators = limits;
   sit_at_device(seat, port.opener(), {});
+  if (actuate_again) {
+    const auto newest = std::make_shared<car_io::Actuators>();
+    seat.actuate = [newest, actuate = seat.actuate](Tick tick, const car_io::Actuators& actuators) { return actuate(tick, *newest = actuators); };
+    *actuate_again = [newest, actuate = seat.actuate] { actuate(0, car_io::Actuators(*newest)); };
+  }
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
@@ -29,7 +34,8 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
   car_io::SimulatedHidPort port;
   rig::CarActuators limits;
   limits.fan_full_speed_mps = 70.0;
-  const auto live = seated_at(port, limits);
+  std::function<void()> actuate_again;
+  const auto live = seated_at(port, limits, &actuate_again);
   DriverInput input;
   input.accelerator = 1.0;
   const auto drive_for = [&](int ticks) {
@@ -38,10 +44,11 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
       port.send(car_io::encode_controls(input));
       REQUIRE(live->next(std::nullopt).has_value());
     }
-    // The writer has a thread and a clock of its own: give it until it has written this speed.
+    // The writer has a thread and a clock of its own: give it until it has written this speed, which fades where nobody sets it.
     const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
     double fan = -1.0;
     for (int i = 0; i < 150'000 && std::abs(fan - (0.2 + 0.8 * share)) > 1e-3; ++i) {
+      actuate_again();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       for (const Bytes& report : port.take_written())
         if (const auto actuators = car_io::decode_actuators(report)) fan = actuators->fan;
