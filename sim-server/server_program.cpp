@@ -21,16 +21,16 @@
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
 #include "logging/recorded_scene.hpp"
-#include "sim-server/drive_loader.hpp"
-#include "sim-server/driver_seat.hpp"
-#include "sim-server/go_word.hpp"
-#include "sim-server/live_drive.hpp"
-#include "sim-server/remote_car.hpp"
-#include "sim-server/replay_source.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/driver_seat.hpp"
+#include "sim-server/host/go_word.hpp"
+#include "sim-server/drive/live_drive.hpp"
+#include "sim-server/host/remote_car.hpp"
+#include "sim-server/host/replay_source.hpp"
 #include "sim-server/resources.hpp"
-#include "sim-server/serve.hpp"
+#include "sim-server/host/serve.hpp"
 #include "sim-server/stop_signal.hpp"
-#include "sim-server/traffic_choice.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -188,7 +188,7 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
 }
 
 /// The seat that command line and rig ask for; `car` says in the end what it became.
-Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const SimulationModel>& model, ProgressLine& progress) {
+Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const simulation::Model>& model, ProgressLine& progress) {
   const auto let_drive = [&](const std::string& driver) {
     car.source = rig::CarSource::simulated_driver;
     car.driver = driver;

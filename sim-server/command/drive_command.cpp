@@ -17,7 +17,7 @@
 #include "logging/drive_end.hpp"
 #include "sim-server/child_process.hpp"
 #include "sim-server/command/drive_folder.hpp"
-#include "sim-server/panorama_file.hpp"
+#include "sim-server/command/panorama_file.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/stop_signal.hpp"
 #include "sim-server/temporary_folder.hpp"

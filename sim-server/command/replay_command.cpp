@@ -5,11 +5,12 @@
 #include <fmt/core.h>
 
 #include "engine/core/version.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "logging/input_hash.hpp"
 #include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
-#include "sim-server/drive_loader.hpp"
-#include "sim-server/traffic_choice.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -65,7 +66,7 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
   const auto engine = other.find("traffic");
   auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
   if (!traffic) return tl::unexpected(traffic.error());
-  auto state = initial_state(*drive->model, std::move(*traffic));
+  auto state = simulation::initial_state(*drive->model, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
 
   const auto gap = [&](const char* what) {
@@ -83,15 +84,15 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
     return refused(file, fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash, (*snapshot)->state_hash),
                    cause_of(session->info(), original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
   };
-  const auto first = compare(hash_state(*state));
+  const auto first = compare(simulation::hash_state(*state));
   if (!first) return tl::unexpected(first.error());
   if (!*first) return refused(file, "the session holds no snapshots: there is nothing to compare with", "give a session that was driven");
   std::uint64_t ticks = 0;
-  std::vector<SimulationEvent> events;
+  std::vector<simulation::Event> events;
   for (const auto& next : *inputs) {
     input = next.input;
     events.clear();
-    const Snapshot snapshot = server_step(*drive->model, input, *state, events);
+    const Snapshot snapshot = simulation::server_step(*drive->model, input, *state, events);
     if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
     if (next.tick != state->tick) return gap("driver input");
     const auto agrees = compare(snapshot.state_hash);

@@ -5,7 +5,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/rig/rig.hpp"
 #include "sim-server/resources.hpp"
-#include "sim-server/rig_keys.hpp"
+#include "sim-server/host/rig_keys.hpp"
 
 namespace septet::server {
 namespace {

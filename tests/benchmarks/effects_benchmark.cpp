@@ -11,9 +11,9 @@
 #include "engine/core/check.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/world/wire_snapshot.hpp"
-#include "sim-server/drive_loader.hpp"
-#include "sim-server/driver_seat.hpp"
-#include "sim-server/live_drive.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/driver_seat.hpp"
+#include "sim-server/drive/live_drive.hpp"
 #include "sim-server/resources.hpp"
 
 namespace septet::server {

@@ -7,7 +7,7 @@
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
 #include "sim-client/screen/screen_link.hpp"
-#include "sim-server/screen_host.hpp"
+#include "sim-server/host/screen_host.hpp"
 #include "tests/engine/replication/sample_world.hpp"
 
 namespace septet::replication {

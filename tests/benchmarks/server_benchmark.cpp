@@ -6,9 +6,10 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/core/check.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
-#include "sim-server/drive_loader.hpp"
-#include "sim-server/driver_seat.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/temporary_folder.hpp"
 
@@ -26,9 +27,9 @@ LoadedDrive motorway_drive() {
 
 /// The drive some seconds after its start, when everybody has found their pace.
 struct RunningDrive {
-  std::shared_ptr<const SimulationModel> model = motorway_drive().model;
-  SimulationState state = *initial_state(*model, traffic::own_traffic(model->roads, 1));
-  std::vector<SimulationEvent> events;
+  std::shared_ptr<const simulation::Model> model = motorway_drive().model;
+  simulation::State state = *simulation::initial_state(*model, traffic::own_traffic(model->roads, 1));
+  std::vector<simulation::Event> events;
   DriverInput input;
 
   RunningDrive() {
@@ -37,7 +38,7 @@ struct RunningDrive {
   }
   Snapshot step() {
     events.clear();
-    return server_step(*model, input, state, events);
+    return simulation::server_step(*model, input, state, events);
   }
 };
 
@@ -56,7 +57,7 @@ void server_tick_200(benchmark::State& bench) {
     benchmark::DoNotOptimize(drive->step());
   }
   SEPTET_CHECK(drive->state.diagnostics.collisions == 0, "the car has met somebody in {} ticks", drive->state.tick);
-  bench.counters["vehicles"] = static_cast<double>(capture_snapshot(*drive->model, drive->state).participants.size());
+  bench.counters["vehicles"] = static_cast<double>(simulation::capture_snapshot(*drive->model, drive->state).participants.size());
 }
 BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecond);
 
@@ -80,7 +81,7 @@ void server_realtime_factor(benchmark::State& bench) {
   }
   SEPTET_CHECK(log->finish({}).has_value(), "the log of {} ticks is not complete", ticks);
   const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - begun;
-  const double simulated_s = static_cast<double>(ticks) / tick_rate_hz;
+  const double simulated_s = static_cast<double>(ticks) / simulation::tick_rate_hz;
   bench.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
   bench.counters["by_the_clock"] = simulated_s / clock.count();
   bench.counters["vehicles"] = static_cast<double>((*drive)->newest().participants.size());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "sim-server/serve.hpp"
+#include "sim-server/host/serve.hpp"
 #include "tests/pipeline/simulated_rig.hpp"
 
 namespace septet {

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "sim-server/serve.hpp"
+#include "sim-server/host/serve.hpp"
 #include "tests/pipeline/simulated_rig.hpp"
 
 namespace septet {

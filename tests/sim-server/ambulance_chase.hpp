@@ -6,9 +6,10 @@
 
 #include <fmt/core.h>
 
-#include "sim-server/crashes.hpp"
-#include "sim-server/driver_seat.hpp"
-#include "sim-server/effect_surroundings.hpp"
+#include "engine/simulation/effects/body_box.hpp"
+#include "engine/simulation/effects/crashes.hpp"
+#include "sim-server/drive/driver_seat.hpp"
+#include "engine/simulation/effects/effect_surroundings.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -43,11 +44,11 @@ inline AmbulanceChase chase_ambulance(const std::string& scenario, const std::st
       return vehicle_models()[p.model].kind == ParticipantKind::ambulance && p.lamps.has(Lamp::beacon);
     });
     REQUIRE(ambulance != now.participants.end());
-    const Participant* car = find_participant(now, driver_participant);
+    const Participant* car = find_participant(now, simulation::driver_participant);
     const Vec3 ahead = ambulance->world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
     for (const Participant& other : now.participants) {
       if (other.id == ambulance->id || glm::distance(other.world_from_vehicle.position_m, ambulance->world_from_vehicle.position_m) > 20.0) continue;
-      if (!contact_of(body_box(*ambulance), body_box(other))) continue;
+      if (!simulation::contact_of(simulation::body_box(*ambulance), simulation::body_box(other))) continue;
       ++chase.ambulance_overlaps_s10;
       if (chase.first_overlap.empty())
         chase.first_overlap = fmt::format("({:.1f} s: {} {})", now.simulated_time_s, vehicle_models()[other.model].name, other.id);

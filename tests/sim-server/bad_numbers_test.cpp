@@ -4,7 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include "sim-server/session_log.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -29,15 +30,15 @@ class EmptyTraffic final : public traffic::TrafficEngine {
 
 TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes on") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  auto state = initial_state(*drive.model, std::make_unique<EmptyTraffic>());
+  auto state = simulation::initial_state(*drive.model, std::make_unique<EmptyTraffic>());
   REQUIRE(state.has_value());
-  std::vector<SimulationEvent> events;
+  std::vector<simulation::Event> events;
   const auto told = [&](const DriverInput& input) {
     events.clear();
-    const Snapshot snapshot = server_step(*drive.model, input, *state, events);
+    const Snapshot snapshot = simulation::server_step(*drive.model, input, *state, events);
     for (const Participant& participant : snapshot.participants) CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
     CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator + snapshot.driver_car.steering_wheel_rad));
-    const bool is_told = std::ranges::any_of(events, [](const SimulationEvent& event) { return event.kind == "bad_number"; });
+    const bool is_told = std::ranges::any_of(events, [](const simulation::Event& event) { return event.kind == "bad_number"; });
     return is_told ? snapshot.diagnostics.bad_numbers : 0;
   };
   CHECK(told({}) == 2);  // Traffic's.

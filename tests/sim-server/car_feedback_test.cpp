@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "car-io/simulated_hid_device.hpp"
-#include "sim-server/driver_seat.hpp"
+#include "sim-server/drive/driver_seat.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {

@@ -6,7 +6,7 @@
 #include "engine/net/udp_socket.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/builder.hpp"
-#include "sim-server/screen_host.hpp"
+#include "sim-server/host/screen_host.hpp"
 
 namespace septet::server {
 namespace {

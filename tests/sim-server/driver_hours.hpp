@@ -15,14 +15,15 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include "engine/simulation/effects/body_box.hpp"
 #include "logging/measures/glances.hpp"
 #include "logging/measures/lane_changes.hpp"
 #include "logging/measures/lateral_position.hpp"
 #include "logging/records.hpp"
-#include "sim-server/crashes.hpp"
-#include "sim-server/driver_seat.hpp"
-#include "sim-server/effect_surroundings.hpp"
-#include "sim-server/session_log.hpp"
+#include "engine/simulation/effects/crashes.hpp"
+#include "sim-server/drive/driver_seat.hpp"
+#include "engine/simulation/effects/effect_surroundings.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -87,10 +88,10 @@ class DriveWatch {
  public:
   static constexpr double hard_mps2 = 5.0, noted_mps2 = 4.0, history_s = 3.0;
 
-  DriveWatch(std::string name, std::shared_ptr<const SimulationModel> model) : name_(std::move(name)), model_(std::move(model)) {}
+  DriveWatch(std::string name, std::shared_ptr<const simulation::Model> model) : name_(std::move(name)), model_(std::move(model)) {}
 
   void see(const Snapshot& snapshot) {
-    if (!logging::is_sample_due(snapshot.tick, tick_rate_hz)) return;
+    if (!logging::is_sample_due(snapshot.tick, simulation::tick_rate_hz)) return;
     const Participant* car = find_participant(snapshot, snapshot.driver_car.participant);
     const DriverCar& own = snapshot.driver_car;
     const double dt_s = snapshot.simulated_time_s - record.time_s;
@@ -163,7 +164,7 @@ class DriveWatch {
 
   static Vec2 seen_from(const Participant& car, const Participant& other) {
     const Vec3 away = glm::conjugate(car.world_from_vehicle.orientation) *
-                      (body_box(other).world_from_box.position_m - body_box(car).world_from_box.position_m);
+                      (simulation::body_box(other).world_from_box.position_m - simulation::body_box(car).world_from_box.position_m);
     return {away.x, away.y};
   }
 
@@ -179,7 +180,7 @@ class DriveWatch {
   void look_for_collisions(const Snapshot& snapshot, const Participant& car) {
     for (const Participant& other : snapshot.participants) {
       if (other.id == car.id || glm::distance(other.world_from_vehicle.position_m, car.world_from_vehicle.position_m) > 40.0) continue;
-      const auto contact = contact_of(body_box(car), body_box(other));
+      const auto contact = simulation::contact_of(simulation::body_box(car), simulation::body_box(other));
       if (!contact || has_collided()) continue;
       const bool own_fault = is_own_fault(snapshot, car, other);
       ++(own_fault ? record.own_collisions : record.other_collisions);
@@ -225,7 +226,7 @@ class DriveWatch {
   }
 
   std::string name_;
-  std::shared_ptr<const SimulationModel> model_;
+  std::shared_ptr<const simulation::Model> model_;
   std::deque<Instant> past_;
   std::optional<double> last_speed_mps_;
   bool is_noted_ = false, is_braking_hard_ = false, stands_ = false;

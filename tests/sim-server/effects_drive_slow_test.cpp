@@ -3,6 +3,7 @@
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/net/tick_publisher.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
@@ -21,16 +22,16 @@ struct Driven {
 /// Drives straight on for some seconds, then brakes: enough for what the scenario throws.
 Driven drive(const std::string& name, double seconds, std::uint64_t seed) {
   const LoadedDrive loaded = shipped_drive(name, "seven-screens", seed);
-  auto state = initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
+  auto state = simulation::initial_state(*loaded.model, traffic::own_traffic(loaded.model->roads, 1));
   REQUIRE(state);
   Driven driven;
   driven.warnings = loaded.warnings;
-  std::vector<SimulationEvent> events;
+  std::vector<simulation::Event> events;
   DriverInput input;
-  for (int tick = 0; tick < static_cast<int>(seconds * tick_rate_hz); ++tick) {
+  for (int tick = 0; tick < static_cast<int>(seconds * simulation::tick_rate_hz); ++tick) {
     input.accelerator = tick < 600 ? 0.3 : 0.0;
     input.brake = tick < 600 ? 0.0 : 0.3;
-    driven.last = server_step(*loaded.model, input, *state, events);
+    driven.last = simulation::server_step(*loaded.model, input, *state, events);
     driven.hashes.push_back(driven.last.state_hash);
   }
   for (const EffectKeyframe& keyframe : driven.last.effects) {

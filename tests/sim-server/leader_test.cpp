@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/road/lane_geometry.hpp"
-#include "sim-server/session_log.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 namespace septet::server {

@@ -1,4 +1,4 @@
-#include "sim-server/natural_end.hpp"
+#include "sim-server/drive/natural_end.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "engine/road/plan_curve.hpp"
 #include "engine/road/road_locate.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -32,10 +33,10 @@ TEST_CASE("a car that is more than ten metres beyond the last road's end is beyo
 
 TEST_CASE("a drive ends where the car leaves the end of the road and where the storyboard stops") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  auto state = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+  auto state = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
   REQUIRE(state.has_value());
-  std::vector<SimulationEvent> events;
-  server_step(*drive.model, {}, *state, events);
+  std::vector<simulation::Event> events;
+  simulation::server_step(*drive.model, {}, *state, events);
   CHECK_FALSE(natural_end(*drive.model, *state).has_value());
   // Where a road ends without a successor, in the lane beside the barrier in the middle, the car drives off the end: 30 m/s for a second.
   const road::RoadNetwork& roads = drive.model->roads;
@@ -56,7 +57,7 @@ TEST_CASE("a drive ends where the car leaves the end of the road and where the s
   state->car_road = road::RoadPosition{index, road.length_m, 0.0};
   int ticks = 0;
   while (!natural_end(*drive.model, *state) && ++ticks < 120) {
-    server_step(*drive.model, {}, *state, events);
+    simulation::server_step(*drive.model, {}, *state, events);
     state->scenario.finished = false;  // The storyboard stops near the road's end too.
   }
   INFO("on road " << (state->car_road ? static_cast<int>(state->car_road->road) : -1) << " of " << index << " at " << (state->car_road ? state->car_road->s_m : 0.0) << " of "

@@ -7,29 +7,30 @@
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/piece.hpp"
-#include "sim-server/traffic_choice.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
 namespace {
 
 struct Outing {
-  SimulationState state;
-  std::vector<SimulationEvent> events;
+  simulation::State state;
+  std::vector<simulation::Event> events;
   Snapshot last;
 
   std::vector<std::string> hit() const {
     std::vector<std::string> what;
-    for (const SimulationEvent& event : events)
+    for (const simulation::Event& event : events)
       if (event.kind == "collision" && !event.participant) what.push_back(event.detail);
     return what;
   }
 };
 
-const SimulationModel& model() {
+const simulation::Model& model() {
   static const LoadedDrive drive = [] {
     LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
-    auto alone = std::make_shared<SimulationModel>(*loaded.model);
+    auto alone = std::make_shared<simulation::Model>(*loaded.model);
     loaded.model = alone;
     return loaded;
   }();
@@ -38,7 +39,7 @@ const SimulationModel& model() {
 
 /// The driver's car, alone on the motorway, let loose at a place of the world.
 Outing let_loose(const Vec3& origin_m, double heading_rad, double speed_mps, double time_s, double accelerator = 0.0) {
-  auto state = initial_state(model(), traffic::own_traffic(model().roads, 1));
+  auto state = simulation::initial_state(model(), traffic::own_traffic(model().roads, 1));
   REQUIRE(state.has_value());
   Outing outing{std::move(*state), {}, {}};
   outing.state.traffic->stop();
@@ -46,7 +47,7 @@ Outing let_loose(const Vec3& origin_m, double heading_rad, double speed_mps, dou
   outing.state.car_road.reset();
   DriverInput input;
   input.accelerator = accelerator;
-  for (int tick = 0; tick < static_cast<int>(time_s * tick_rate_hz); ++tick) outing.last = server_step(model(), input, outing.state, outing.events);
+  for (int tick = 0; tick < static_cast<int>(time_s * simulation::tick_rate_hz); ++tick) outing.last = simulation::server_step(model(), input, outing.state, outing.events);
   CHECK(outing.state.diagnostics.bad_numbers == 0);
   return outing;
 }

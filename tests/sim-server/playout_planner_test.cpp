@@ -1,4 +1,4 @@
-#include "sim-server/playout_planner.hpp"
+#include "sim-server/host/playout_planner.hpp"
 
 #include <doctest/doctest.h>
 

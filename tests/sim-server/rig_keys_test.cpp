@@ -1,4 +1,4 @@
-#include "sim-server/rig_keys.hpp"
+#include "sim-server/host/rig_keys.hpp"
 
 #include <algorithm>
 #include <fstream>

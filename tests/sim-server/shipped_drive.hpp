@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "sim-server/drive_loader.hpp"
+#include "sim-server/drive/drive_loader.hpp"
 
 namespace septet::server {
 

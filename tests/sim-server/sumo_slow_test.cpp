@@ -9,10 +9,11 @@
 #include <map>
 
 #include "engine/road/road_locate.hpp"
-#include "sim-server/drive_loader.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
-#include "sim-server/traffic_choice.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -23,7 +24,7 @@ bool has_sumo() {
   return false;
 }
 
-std::shared_ptr<const SimulationModel> motorway() {
+std::shared_ptr<const simulation::Model> motorway() {
   ::setenv("SEPTET_DATA", SEPTET_SOURCE_DIR, 1);
   const auto scenario = find_resource("motorway-ambulance", "scenarios", ".xosc");
   const auto rig = find_resource("desktop", "rigs", ".toml");
@@ -36,28 +37,28 @@ std::shared_ptr<const SimulationModel> motorway() {
 
 /// A drive with the accelerator held, tick by tick.
 struct Ride {
-  std::shared_ptr<const SimulationModel> model = motorway();
-  SimulationState state;
-  std::vector<SimulationEvent> events;
+  std::shared_ptr<const simulation::Model> model = motorway();
+  simulation::State state;
+  std::vector<simulation::Event> events;
   DriverInput input;
 
   explicit Ride(const std::string& engine) {
     auto traffic = open_traffic(engine, *model);
     INFO((traffic ? "" : describe(traffic.error())));
     REQUIRE(traffic.has_value());
-    auto begun = initial_state(*model, std::move(*traffic));
+    auto begun = simulation::initial_state(*model, std::move(*traffic));
     INFO((begun ? "" : describe(begun.error())));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
     input.accelerator = 0.3;
   }
-  Snapshot step() { return server_step(*model, input, state, events); }
+  Snapshot step() { return simulation::server_step(*model, input, state, events); }
 };
 
 std::vector<Participant> traffic_of(const Snapshot& snapshot) {
   std::vector<Participant> traffic;
   for (const auto& p : snapshot.participants)
-    if (p.id >= first_traffic_participant) traffic.push_back(p);
+    if (p.id >= simulation::first_traffic_participant) traffic.push_back(p);
   return traffic;
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("SUMO moves the swarm that the scenario asks for and every tick follow
       }
       const auto before = last.find(p.id);
       if (before == last.end()) continue;
-      const Vec3 expected = before->second.world_from_vehicle.position_m + 0.5 / tick_rate_hz * (before->second.velocity_mps + p.velocity_mps);
+      const Vec3 expected = before->second.world_from_vehicle.position_m + 0.5 / simulation::tick_rate_hz * (before->second.velocity_mps + p.velocity_mps);
       const double off_m = glm::length(p.world_from_vehicle.position_m - expected);
       if (off_m > 50.0) {
         ++recycled;  // Out of the swarm at its rim, in again at the other or, where the car stands, at the same one.

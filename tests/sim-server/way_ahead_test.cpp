@@ -4,8 +4,10 @@
 
 #include "engine/effects/debris/piece.hpp"
 #include "engine/scenario/resolve_position.hpp"
-#include "sim-server/crashes.hpp"
-#include "sim-server/effect_surroundings.hpp"
+#include "engine/simulation/effects/body_box.hpp"
+#include "engine/simulation/effects/crashes.hpp"
+#include "engine/simulation/effects/effect_surroundings.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -14,13 +16,13 @@ namespace {
 /// The rescue lane without traffic, and the ambulance in it.
 struct EmptyRoad {
   LoadedDrive drive = shipped_drive("rescue-lane", "desktop");
-  std::vector<SimulationEvent> events;
-  SimulationState state;
+  std::vector<simulation::Event> events;
+  simulation::State state;
   scenario::EntityIndex ambulance = scenario::no_entity;
   Snapshot now;
 
   EmptyRoad() {
-    auto begun = initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
+    auto begun = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
     state.traffic->stop();
@@ -41,11 +43,11 @@ struct EmptyRoad {
   void drive_for(double seconds) {
     DriverInput input;
     input.brake = 0.5;
-    for (int tick = 0; tick < seconds * tick_rate_hz; ++tick) {
-      now = server_step(*drive.model, input, state, events);
-      const Participant* car = find_participant(now, driver_participant);
-      const Participant* other = find_participant(now, first_scripted_participant + ambulance);
-      if (other && contact_of(body_box(*car), body_box(*other))) touched = true;
+    for (int tick = 0; tick < seconds * simulation::tick_rate_hz; ++tick) {
+      now = simulation::server_step(*drive.model, input, state, events);
+      const Participant* car = find_participant(now, simulation::driver_participant);
+      const Participant* other = find_participant(now, simulation::first_scripted_participant + ambulance);
+      if (other && simulation::contact_of(simulation::body_box(*car), simulation::body_box(*other))) touched = true;
     }
   }
   bool touched = false;
@@ -61,8 +63,8 @@ TEST_CASE("an ambulance stops behind a car that stands in its way and goes on wh
   road.drive_for(25.0);
   CHECK_FALSE(road.touched);
   CHECK(road.entity().speed_mps < 0.5);
-  const auto& p = find_participant(road.now, first_scripted_participant + road.ambulance)->world_from_vehicle.position_m;
-  const double away_m = glm::distance(p, find_participant(road.now, driver_participant)->world_from_vehicle.position_m);
+  const auto& p = find_participant(road.now, simulation::first_scripted_participant + road.ambulance)->world_from_vehicle.position_m;
+  const double away_m = glm::distance(p, find_participant(road.now, simulation::driver_participant)->world_from_vehicle.position_m);
   CHECK(away_m > 6.0);
   CHECK(away_m < 12.0);
   road.put_car(8.0, 4.5);  // Aside.
@@ -86,7 +88,7 @@ TEST_CASE("a car across the whole bend is minded where the bend leads and not st
   road.drive_for(10.0);
   for (const double ahead_m : {60.0, 120.0}) {
     road.put_car(ahead_m, 0.0);
-    road.drive_for(1.0 / tick_rate_hz);
+    road.drive_for(1.0 / simulation::tick_rate_hz);
     REQUIRE(road.entity().in_the_way.has_value());
     CHECK(road.entity().in_the_way->gap_m == doctest::Approx(ahead_m - 5.9).epsilon(0.05));
   }
@@ -116,7 +118,7 @@ TEST_CASE("an ambulance drives over what lies on the road at walking pace and hu
 TEST_CASE("an ambulance that comes to the end of its road leaves, the log says so, and the drive goes on") {
   EmptyRoad road;
   road.drive_for(0.5);
-  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) != nullptr);
+  CHECK(find_participant(road.now, simulation::first_scripted_participant + road.ambulance) != nullptr);
   road::LanePosition& lane = road.entity().lane;
   lane.s_m = road.drive.model->roads.roads[lane.road].length_m - 1.0;
   // On to the last road of the chain.
@@ -127,10 +129,10 @@ TEST_CASE("an ambulance that comes to the end of its road leaves, the log says s
   }
   lane.s_m -= 5.0;
   road.drive_for(1.0);
-  CHECK(find_participant(road.now, first_scripted_participant + road.ambulance) == nullptr);
-  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &SimulationEvent::detail) == 1);
+  CHECK(find_participant(road.now, simulation::first_scripted_participant + road.ambulance) == nullptr);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &simulation::Event::detail) == 1);
   road.drive_for(1.0);
-  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &SimulationEvent::detail) == 1);
+  CHECK(std::ranges::count(road.events, "entity=ambulance state=left_at_road_end", &simulation::Event::detail) == 1);
 }
 
 }  // namespace septet::server

@@ -1,4 +1,4 @@
-#include "sim-server/wheel_ground.hpp"
+#include "engine/simulation/wheel_ground.hpp"
 
 #include <algorithm>
 #include <string>
@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/road/opendrive_reader.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
 namespace septet::server {
@@ -24,10 +25,10 @@ road::RoadNetwork straight_road(const std::string& objects) {
   return std::move(*network);
 }
 
-double friction_at(const road::RoadNetwork& roads, const RoadWeather& weather, double x_m, double y_m) {
+double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather& weather, double x_m, double y_m) {
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  REQUIRE(find_wheel_ground(roads, weather, {x_m, y_m, 0.3}, false, place, wheel));
+  REQUIRE(simulation::find_wheel_ground(roads, weather, {x_m, y_m, 0.3}, false, place, wheel));
   return wheel.friction;
 }
 
@@ -36,7 +37,7 @@ double friction_at(const road::RoadNetwork& roads, const RoadWeather& weather, d
 TEST_CASE("a patch of ice lies under one wheel and not under the others") {
   const auto roads = straight_road(
       "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\"><material surface=\"ice\"/></object>");
-  const RoadWeather frost{.temperature_k = 268.15};
+  const simulation::RoadWeather frost{.temperature_k = 268.15};
   const double ice = vehicle::peak_friction(vehicle::SurfaceKind::ice, frost.temperature_k);
   CHECK(friction_at(roads, frost, 50.0, -1.0) == doctest::Approx(ice));
   CHECK(friction_at(roads, frost, 50.0, -2.6) == doctest::Approx(0.9));
@@ -59,7 +60,7 @@ TEST_CASE("far from every road there is no surface to find") {
   const auto roads = straight_road("");
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  CHECK_FALSE(find_wheel_ground(roads, {}, {50.0, 500.0, 0.3}, false, place, wheel));
+  CHECK_FALSE(simulation::find_wheel_ground(roads, {}, {50.0, 500.0, 0.3}, false, place, wheel));
 }
 
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
@@ -75,8 +76,8 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(find_wheel_ground(*roads, {}, centre_m, false, place, wheel));
-    find_kerb(*roads, centre_m, ahead, 0.32, place, wheel);
+    REQUIRE(simulation::find_wheel_ground(*roads, {}, centre_m, false, place, wheel));
+    simulation::find_kerb(*roads, centre_m, ahead, 0.32, place, wheel);
     return wheel.edge_m;
   };
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
@@ -96,13 +97,13 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
 TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touch with height and speed") {
   // The lanes to the right of the car's own are raised: a pavement along the motorway.
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  SimulationModel model = *drive.model;
+  simulation::Model model = *drive.model;
   model.obstacles = nullptr;
-  auto begun = initial_state(model, traffic::own_traffic(model.roads, 1));
+  auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
   REQUIRE(begun.has_value());
-  SimulationState state = std::move(*begun);
+  simulation::State state = std::move(*begun);
   state.traffic->stop();
-  Snapshot now = capture_snapshot(model, state);
+  Snapshot now = simulation::capture_snapshot(model, state);
   const int lane = now.driver_car.lane;
   REQUIRE(lane < 0);
   road::Road& road = model.roads.roads[now.driver_car.road];
@@ -110,13 +111,13 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
   for (road::LaneSection& section : road.sections)
     for (road::Lane& other : section.lanes)
       if (other.id < lane) other.heights = {{section.s_m, 0.1, 0.1}};
-  const RigidTransform start = find_participant(now, driver_participant)->world_from_vehicle;
+  const RigidTransform start = find_participant(now, simulation::driver_participant)->world_from_vehicle;
   const Quat to_the_right = glm::angleAxis(-0.5, Vec3(0.0, 0.0, 1.0));
   state.car = vehicle::standstill(model.car, {start * Vec3(0.0, 0.6, 0.0), to_the_right * start.orientation}, 8.0);
-  std::vector<SimulationEvent> events;
-  for (int tick = 0; tick < 240; ++tick) now = server_step(model, {}, state, events);
+  std::vector<simulation::Event> events;
+  for (int tick = 0; tick < 240; ++tick) now = simulation::server_step(model, {}, state, events);
   std::vector<std::string> touches;
-  for (const SimulationEvent& event : events)
+  for (const simulation::Event& event : events)
     if (event.kind == "kerb") touches.push_back(event.detail);
   REQUIRE(touches.size() >= 4);
   CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);

@@ -8,7 +8,7 @@
 #include "car-io/simulated_hid_device.hpp"
 #include "engine/net/bad_network.hpp"
 #include "engine/scene/store.hpp"
-#include "sim-server/screen_host.hpp"
+#include "sim-server/host/screen_host.hpp"
 
 namespace septet::car_io {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "logging/records.hpp"
-#include "sim-server/simulation.hpp"
+#include "engine/simulation/server_step.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/road/road_files.hpp"
 
@@ -73,7 +73,7 @@ class StagedTraffic final : public traffic::TrafficEngine {
 
 class ClosedLoop {
  public:
-  static constexpr double tick_s = 1.0 / server::tick_rate_hz;
+  static constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
 
   ClosedLoop(const std::string& driver_name, std::uint64_t seed, int lane, double s_m,
              double speed_mps)
@@ -86,12 +86,12 @@ class ClosedLoop {
     model_.scenario = one_car();
     model_.driver_entity = 0;
     model_.car = car;
-    auto started = server::initial_state(model_, std::make_unique<StagedTraffic>(others));
+    auto started = simulation::initial_state(model_, std::make_unique<StagedTraffic>(others));
     REQUIRE_MESSAGE(started.has_value(), describe(started.error()));
     state_ = std::move(*started);
     const auto place = road::evaluate_lane(motorway(), {0, lane, s_m, 0.0});
     state_.car = vehicle::standstill(car, road::world_from_lane(place), speed_mps);
-    snapshot = server::capture_snapshot(model_, state_);
+    snapshot = simulation::capture_snapshot(model_, state_);
   }
   ClosedLoop(const ClosedLoop&) = delete;  // The traffic looks at `others`.
 
@@ -101,9 +101,9 @@ class ClosedLoop {
   void tick() {
     person_.drive(snapshot, tick_s);
     input = connection_.poll(state_.time_s()).input;
-    std::vector<server::SimulationEvent> events;
-    snapshot = server::server_step(model_, input, state_, events, std::move(snapshot));
-    if (logging::is_sample_due(snapshot.tick, server::tick_rate_hz))
+    std::vector<simulation::Event> events;
+    snapshot = simulation::server_step(model_, input, state_, events, std::move(snapshot));
+    if (logging::is_sample_due(snapshot.tick, simulation::tick_rate_hz))
       samples.push_back(logging::take_sample(snapshot, std::nullopt));
   }
   void run(double time_s) {
@@ -118,8 +118,8 @@ class ClosedLoop {
   bool engine_running() const { return state_.car.powertrain.engine_running; }
 
  private:
-  server::SimulationModel model_;
-  server::SimulationState state_;
+  simulation::Model model_;
+  simulation::State state_;
   SimulatedDriverCar person_;
   CarConnection connection_;
 };

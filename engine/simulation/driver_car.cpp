@@ -1,0 +1,157 @@
+#include "engine/simulation/driver_car.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "engine/road/lane_links.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/wheel_ground.hpp"
+#include "engine/world/indicator.hpp"
+
+namespace septet::simulation {
+namespace {
+
+constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
+
+/// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
+void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model, State& state,
+               std::vector<Event>& events) {
+  constexpr std::array names{"front_left", "front_right", "rear_left", "rear_right"};
+  const bool touches = ground.edge_m && glm::distance(centre_m, *ground.edge_m) <= model.car.tyre.radius_m;
+  if (touches && !state.at_kerb[wheel])
+    events.push_back({"kerb", std::nullopt,
+                      fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f}", names[wheel], ground.edge_m->z - ground.point_m.z,
+                                  glm::length(state.car.velocity_mps))});
+  state.at_kerb[wheel] = touches;
+}
+
+/// The road's surface under each wheel, and how slippery it is there.
+vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event>& events) {
+  const auto centres = vehicle::wheel_centres_m(model.car, state.car);
+  const Environment& sky = state.scenario.environment;
+  const RoadWeather weather{sky.road_wetness, sky.snow_cover, sky.temperature_k, state.scenario.friction_scale};
+  const Vec2 heading{state.car.world_from_body.orientation * Vec3(1.0, 0.0, 0.0)};
+  const Vec2 ahead = glm::length(heading) > 0.1 ? glm::normalize(heading) : Vec2(1.0, 0.0);
+  vehicle::Ground ground;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    vehicle::WheelGround& wheel = ground[i];
+    if (find_wheel_ground(model.roads, weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
+      find_kerb(model.roads, centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
+      note_kerb(i, centres[i], wheel, model, state, events);
+      wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
+      continue;
+    }
+    // Far off every road the ground goes on level at the height of the wheel's last contact.
+    wheel.point_m = {centres[i].x, centres[i].y, state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
+    wheel.friction = std::min(surface_friction(nullptr, weather), 0.5);
+    wheel.rolling_resistance = 4.0;
+  }
+  return ground;
+}
+
+/// What the hull met, for the log and for the debris.
+void note_hull(const vehicle::HullReport& report, State& state, std::vector<Event>& events) {
+  constexpr double least_mps = 0.5;  // Less is leaning on it.
+  state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(), report.begun.end());
+  for (const vehicle::HullTouch& touch : report.over) {
+    const double delta_v_mps = glm::length(touch.delta_v_mps);
+    if (touch.closing_speed_mps < least_mps && delta_v_mps < least_mps) continue;
+    ++state.diagnostics.collisions;
+    events.push_back({"collision", std::nullopt,
+                      fmt::format("{} closing_speed_mps={:.2f} delta_v_mps={:.2f}", name_of(touch.kind), touch.closing_speed_mps, delta_v_mps)});
+  }
+}
+
+Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car, double time_s) {
+  Lamps lamps;
+  const bool blink = indicator_is_lit(time_s);
+  lamps.set(Lamp::brake, input.brake > 0.02);
+  lamps.set(Lamp::reverse, car.gear < 0);
+  lamps.set(Lamp::indicator_left, blink && (input.hazard_lights || input.indicator == IndicatorStalk::left));
+  lamps.set(Lamp::indicator_right, blink && (input.hazard_lights || input.indicator == IndicatorStalk::right));
+  lamps.set(Lamp::low_beam, input.low_beam);
+  lamps.set(Lamp::high_beam, input.high_beam);
+  lamps.set(Lamp::horn, input.horn);
+  return lamps;
+}
+
+Participant car_participant(const Model& model, const State& state, const vehicle::VehicleOutputs& out) {
+  Participant car;
+  car.id = driver_participant;
+  car.model = model.scenario.entities[model.driver_entity].model;
+  car.paint = 7;
+  car.lamps = driver_lamps(state.input, out, state.time_s());
+  car.world_from_vehicle = out.world_from_vehicle;
+  car.velocity_mps = out.velocity_mps;
+  car.acceleration_mps2 = out.acceleration_mps2;
+  car.angular_velocity_radps = out.angular_velocity_radps;
+  car.front_steer_rad = out.front_steer_rad;
+  car.wheel_spin_rad = out.wheel_spin_rad;
+  car.wheel_spin_radps = out.wheel_spin_radps;
+  car.wheel_lift_m = out.wheel_lift_m;
+  return car;
+}
+
+}  // namespace
+
+void advance_car(const Model& model, State& state, std::vector<Event>& events) {
+  const auto ground = ground_below(model, state, events);
+  const std::uint32_t bad_before = state.car.bad_numbers;
+  const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
+  const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m), vehicle::hull_reach_m(model.car) + on_the_way_m)
+                                         : std::vector<Obstacle>{};
+  vehicle::HullReport met;
+  for (int i = 0; i < car_steps; ++i) {
+    vehicle::advance_vehicle(model.car, state.input, ground, tick_s / car_steps, state.car);
+    vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
+  }
+  note_hull(met, state, events);
+  note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
+  const Vec3 origin = vehicle::outputs(model.car, state.car).world_from_vehicle.position_m;
+  if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
+    state.car_road = place->position;
+}
+
+DrivenCar driven_car(const Model& model, const State& state) {
+  const auto outputs = vehicle::outputs(model.car, state.car);
+  return {outputs, car_participant(model, state, outputs)};
+}
+
+void push_car(const Model& model, const Vec3& impulse_ns, State& state, DrivenCar& car) {
+  if (impulse_ns == Vec3(0.0)) return;
+  state.car.velocity_mps += impulse_ns / model.car.body.mass_kg;
+  car = driven_car(model, state);
+}
+
+DriverCar driver_car(const Model& model, const State& state, const vehicle::VehicleOutputs& outputs) {
+  DriverCar car;
+  car.participant = driver_participant;
+  car.speed_mps = outputs.speed_mps;
+  car.engine_radps = outputs.engine_radps;
+  car.gear = static_cast<std::int8_t>(outputs.gear);
+  car.steering_wheel_rad = state.input.steering_wheel_rad;
+  car.steering_torque_nm = outputs.steering_torque_nm;
+  car.accelerator = state.input.accelerator;
+  car.brake = state.input.brake;
+  car.clutch = state.input.clutch;
+  car.yaw_rate_radps = outputs.yaw_rate_radps;
+  car.gaze_heading_rad = state.input.gaze_heading_rad;
+  // Lateral position is that of the middle of the front axle (SAE J2944, reference point 2), which the driver steers.
+  const Vec3 front = outputs.world_from_vehicle * Vec3(model.car.body.wheelbase_m, 0.0, 0.0);
+  const auto place = road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0);
+  if (place && place->lanes.lane != 0 && place->lanes.outside_m <= 0.0) {
+    car.road = place->position.road;
+    car.lane = place->lanes.lane;
+    car.road_s_m = place->position.s_m;
+    car.lane_width_m = road::lane_width_m(model.roads, car.road, car.lane, car.road_s_m);
+    const bool along = road::runs_along_s(model.roads, {car.road, car.lane, car.road_s_m, 0.0});
+    car.lateral_position_m = along ? place->lanes.offset_m : -place->lanes.offset_m;
+  }
+  return car;
+}
+
+}  // namespace septet::simulation

@@ -1,0 +1,164 @@
+#include "engine/simulation/effects/effects_stage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "engine/core/hash.hpp"
+#include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/debris/piece.hpp"
+#include "engine/simulation/effects/effect_surroundings.hpp"
+
+namespace septet::simulation {
+namespace {
+
+/// In the order of debris::Part.
+constexpr std::array<std::string_view, debris::part_count> part_names{"bumper",       "door",         "lamp",    "windscreen",
+                                                                      "traffic-cone", "barrier-post", "ice-slab"};
+
+Vec3 place_of(const debris::Piece& piece) { return debris::from_eigen(piece.body.position_m.front()); }
+
+/// What is far from the driver, fell off the world or is over the limit is gone.
+void retire(const EffectsWorld& world, debris::State& debris) {
+  const auto driver = std::ranges::find(world.participants, world.driver, &Participant::id);
+  if (driver == world.participants.end()) return;
+  const Vec3 eye = driver->world_from_vehicle.position_m;
+  const auto distance = [&](const Vec3& place) { return glm::length(place - eye); };
+  std::erase_if(debris.pieces, [&](const debris::Piece& piece) { return !(distance(place_of(piece)) < debris_reach_m); });
+  std::erase_if(debris.shards, [&](const debris::Shard& shard) { return !(distance(shard.position_m) < debris_reach_m); });
+  while (debris.pieces.size() > most_pieces)
+    debris.pieces.erase(std::ranges::max_element(debris.pieces, {}, [&](const debris::Piece& piece) { return distance(place_of(piece)); }));
+}
+
+void add_to_hash(const debris::State& debris, StateHash& hash) {
+  hash.add(debris.next_id);
+  for (const debris::Piece& piece : debris.pieces) {
+    hash.add(piece.id);
+    if (piece.asleep) continue;  // Hashed when it moved last.
+    for (const auto& x : piece.body.position_m)
+      for (int c = 0; c < 3; ++c) hash.add(x[c]);
+  }
+  for (const debris::Shard& shard : debris.shards)
+    if (shard.velocity_mps != Vec3(0.0))
+      for (int c = 0; c < 3; ++c) hash.add(shard.position_m[c]);
+}
+
+std::vector<EffectOffer> debris_offers(const debris::State& debris) {
+  std::vector<EffectOffer> offers;
+  const auto still = [](const debris::Shard& shard) { return shard.velocity_mps == Vec3(0.0); };
+  if (!debris.shards.empty())
+    offers.push_back({debris::first_effect_id, debris::keyframe_kind, 6, std::ranges::all_of(debris.shards, still),
+                      [&debris] { return debris::encode(debris::keyframe_of(debris.shards)); }});
+  for (const debris::Piece& piece : debris.pieces)
+    offers.push_back({debris::first_effect_id + (piece.id & 0xffffff), debris::keyframe_kind, 4, piece.asleep,
+                      [&piece] { return debris::encode(debris::keyframe_of(piece)); }});
+  return offers;
+}
+
+}  // namespace
+
+std::optional<debris::Part> part_of_name(std::string_view name) {
+  const auto found = std::ranges::find(part_names, name);
+  if (found == part_names.end()) return std::nullopt;
+  return static_cast<debris::Part>(found - part_names.begin());
+}
+
+EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard, std::uint64_t seed) {
+  EffectsState state;
+  state.random = Random(seed, 2);
+  for (std::size_t i = 0; i < scenario.entities.size(); ++i) {
+    const scenario::Entity& entity = scenario.entities[i];
+    const auto part = part_of_name(entity.type_name);
+    if (entity.kind != scenario::EntityKind::misc_object || !part || !storyboard.entities[i].active) continue;
+    RigidTransform place = storyboard.entities[i].world_from_entity;
+    const double half = 0.5 * debris::part_recipe(*part).size_m.z;
+    place.position_m += place.orientation * Vec3(0.0, 0.0, half + 0.002);
+    debris::spawn_part(state.debris, *part, place, Vec3(0.0), Vec3(0.0), state.random);
+    state.debris.pieces.back().asleep = true;
+  }
+  return state;
+}
+
+void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
+           EffectsState& state) {
+  const auto part = part_of_name(action.part);
+  if (!part || !from.active) return;
+  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m, half = 0.5 * debris::part_recipe(*part).size_m.z;
+  const Quat& turn = from.world_from_entity.orientation;
+  const Vec3 place = from.world_from_entity * Vec3(action.x_m, action.y_m, roof + half + 0.02);
+  debris::spawn_part(state.debris, *part, {place, turn}, from.velocity_mps - turn * Vec3(action.slide_mps, 0.0, 0.0),
+                     from.angular_velocity_radps, state.random);
+}
+
+bool effects_are_still(const EffectsState& state) {
+  return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
+         state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke;
+}
+
+EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
+  EffectsReport report;
+  const double step_s = static_cast<double>(effects_step_ticks) * world.tick_s;
+  retire(world, state.debris);
+  debris::ContactWorld contacts;
+  contacts.ground = [&](double x_m, double y_m) { return surface_below(world.roads, world.ground_friction, x_m, y_m, state); };
+  int driver_box = -1;
+  report.crashes = advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);
+  contacts.boxes = vehicle_boxes(world, state.debris, driver_box);
+  const std::vector<debris::Box> standing = standing_boxes(world.obstacles, moving_places(state.debris));
+  contacts.boxes.insert(contacts.boxes.end(), standing.begin(), standing.end());
+  const debris::Report stepped = debris::advance_debris(state.debris, contacts, step_s);
+  report.fractures = stepped.fractures;
+  report.bad_numbers = stepped.bad_numbers;
+  report.impulse_on_driver_ns = report.crashes.impulse_on_driver_ns;
+  if (driver_box >= 0) report.impulse_on_driver_ns += contacts.boxes[static_cast<std::size_t>(driver_box)].impulse_ns;
+
+  advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s, step_s, state.fires);
+
+  StateHash hash;
+  hash.add(state.hash);
+  // What is new of the smoke; its keyframes follow wholly from it.
+  for (const EffectKeyframe& keyframe : state.fires.keyframes)
+    if (keyframe.tick == world.tick) hash.add_bytes(keyframe.data);
+  add_to_hash(state.debris, hash);
+  for (const auto word : state.random.state()) hash.add(word);
+  state.hash = hash.value();
+
+  report.published = publish(debris_offers(state.debris), world.tick + effects_step_ticks, {}, state.published);
+  return report;
+}
+
+std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state) {
+  std::vector<EffectKeyframe> keyframes = state.fires.keyframes;
+  keyframes.insert(keyframes.end(), state.published.keyframes.begin(), state.published.keyframes.end());
+  return keyframes;
+}
+
+void show_damage(const EffectsState& state, std::vector<Participant>& participants) {
+  if (state.crashes.parts.empty()) return;
+  for (Participant& participant : participants) {
+    const auto parts = state.crashes.parts.find(participant.id);
+    if (parts == state.crashes.parts.end()) continue;
+    const auto has_lamp = [&](double side) {
+      return std::ranges::any_of(parts->second, [&](const debris::MountedPart& mounted) {
+        return mounted.part == debris::Part::lamp && side * mounted.box_from_part.position_m.x > 0.0;
+      });
+    };
+    if (!has_lamp(1.0))
+      for (const Lamp lamp : {Lamp::low_beam, Lamp::high_beam}) participant.lamps.set(lamp, false);
+    if (!has_lamp(-1.0))
+      for (const Lamp lamp : {Lamp::brake, Lamp::reverse}) participant.lamps.set(lamp, false);
+  }
+}
+
+double obstacle_height_m(const EffectsState& state, const Vec3& surface_point_m) {
+  constexpr double patch_m = 0.12, climbed_m = 0.10;  // Half a tyre's width; what a tyre takes without the rim.
+  const auto highest = debris::highest_debris_m(state.debris, surface_point_m.x, surface_point_m.y, patch_m);
+  if (!highest) return 0.0;
+  const double height = *highest - surface_point_m.z;
+  return height > 1.0 ? 0.0 : std::clamp(height, 0.0, climbed_m);  // What is in the air is no obstacle.
+}
+
+}  // namespace septet::simulation

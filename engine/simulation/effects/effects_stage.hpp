@@ -1,0 +1,54 @@
+#pragma once
+/// The effects of one drive: debris of what broke, and (with engine/effects/smoke) what burns, as a stage of the tick.
+///
+///     crash or storyboard → requests → advance_effects → keyframes → snapshot
+///
+/// Debris is stepped every second tick (16.7 ms, what its implicit step wants) and is then one step ahead of the rest: at
+/// tick n it stands as it will at n + 2, met by vehicles that go on with their velocity. So a screen, which shows the past,
+/// always has a keyframe on either side of what it shows. World frame; free of files and clocks; the same model, seed and
+/// inputs give the same hash.
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/scenario/scenario.hpp"
+#include "engine/scenario/scenario_state.hpp"
+#include "engine/simulation/effects/effects_state.hpp"
+
+namespace septet::simulation {
+
+struct EffectsReport {
+  int fractures = 0;
+  CrashOutcome crashes;
+  int bad_numbers = 0;
+  Vec3 impulse_on_driver_ns{0.0};  ///< What debris and crashes gave to the driver's car.
+  PublishReport published;
+};
+
+/// Objects of the scenario that can be hit: those whose type is a part's name (part_of_name) stand on their feet, asleep.
+EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard, std::uint64_t seed);
+
+/// "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab".
+std::optional<debris::Part> part_of_name(std::string_view name);
+
+/// Puts a part on the roof of a vehicle: see scenario::EffectAction.
+void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
+           EffectsState& state);
+
+/// Nothing would change: the stage may be skipped.
+bool effects_are_still(const EffectsState& state);
+
+/// All keyframes as a snapshot carries them, ascending id.
+std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state);
+
+/// Lamps that were torn off shine no more.
+void show_damage(const EffectsState& state, std::vector<Participant>& participants);
+
+EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state);
+
+/// How high debris stands under a wheel over the road's surface there, and what is thick enough to matter; at most what a
+/// tyre climbs.
+double obstacle_height_m(const EffectsState& state, const Vec3& surface_point_m);
+
+}  // namespace septet::simulation

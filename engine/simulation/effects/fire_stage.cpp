@@ -1,0 +1,173 @@
+#include "engine/simulation/effects/fire_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/tunnel_shape.hpp"
+#include "engine/simulation/effects/body_box.hpp"
+
+namespace septet::simulation {
+namespace {
+
+constexpr double cell_m = 1.0, upwind_m = 110.0, downwind_m = 110.0;
+/// All smoke together, beside what debris may take: net::max_tick_bytes holds both.
+constexpr std::size_t most_keyframe_bytes = 140 * 1024;
+
+/// Soot grows over minutes: once a second is often enough.
+constexpr std::uint64_t soot_interval_steps = 60;
+
+/// The tunnel that holds this place of a road, if any.
+const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
+  const auto found = std::ranges::find_if(road.structures, [&](const road::RoadStructure& structure) {
+    return structure.kind == road::RoadStructure::Kind::tunnel && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m;
+  });
+  return found == road.structures.end() ? nullptr : &*found;
+}
+
+/// Height of the tube's inside over the road at t; none outside of it. `left`: the tube with positive t.
+double clear_height_m(const road::Road& road, double s_m, double t_m, bool left) {
+  using namespace roadside::tunnel_shape;
+  const road::RoadExtent extent = road::road_extent(road, s_m);
+  const double from_middle = left ? t_m : -t_m;
+  const double to_wall = (left ? extent.left_t_m : -extent.right_t_m) + wall_clear_m - from_middle;
+  if (from_middle < middle_wall_m || to_wall < 0.0) return 0.0;
+  return to_wall < haunch_width_m ? std::lerp(haunch_m, ceiling_m, to_wall / haunch_width_m) : ceiling_m;
+}
+
+RigidTransform lower_corner(const RigidTransform& place, int ny) {
+  return {place * Vec3(-upwind_m, -0.5 * ny * cell_m, -0.5), place.orientation};
+}
+
+/// Where it burns: over the bonnet of a car, at the front of the load of anything bigger.
+Vec3 seat_of_fire(const Participant& vehicle) {
+  const VehicleModel& model = vehicle_models()[vehicle.model];
+  return vehicle.world_from_vehicle * Vec3(model.front_m() - 0.25 * model.length_m, 0.0, 0.85 * model.height_m);
+}
+
+void add_fire(const Participant& vehicle, FireState& state) {
+  if (state.smoke->emitters.size() + 2 > smoke::max_emitters) return;
+  smoke::Emitter flames, soot;
+  flames.position_m = soot.position_m = seat_of_fire(vehicle);
+  flames.radius_m = 1.0;
+  flames.heat = 2.5;
+  flames.lifetime_s = 1.6;
+  flames.albedo = {0.9f, 0.45f, 0.12f};
+  flames.extinction_area_m2 = 0.05;
+  flames.glow = 1.0;
+  soot.position_m.z += 0.8;
+  soot.radius_m = 1.2;
+  soot.heat = 1.5;
+  soot.lifetime_s = 64.0;
+  soot.albedo = {0.07f, 0.065f, 0.06f};
+  soot.extinction_area_m2 = 0.40;
+  state.fires.push_back({vehicle.id, state.smoke->emitters.size(), state.smoke->emitters.size() + 1, 0.0, true});
+  state.smoke->emitters.push_back(flames);
+  state.smoke->emitters.push_back(soot);
+}
+
+/// A fire grows to its full power within a quarter of a minute; most of what it gives off is soot.
+void feed(const std::vector<Participant>& participants, double step_s, FireState& state) {
+  for (Fire& fire : state.fires) {
+    smoke::Emitter &flames = state.smoke->emitters[fire.flames], &soot = state.smoke->emitters[fire.smoke];
+    fire.burning_s += step_s;
+    flames.rate_per_s = fire.burning ? std::min(140.0, 80.0 + 4.0 * fire.burning_s) : 0.0;
+    soot.rate_per_s = fire.burning ? std::min(300.0, 150.0 + 10.0 * fire.burning_s) : 0.0;
+    const auto vehicle = std::ranges::find(participants, fire.vehicle, &Participant::id);
+    if (vehicle == participants.end()) continue;
+    flames.position_m = seat_of_fire(*vehicle);
+    soot.position_m = flames.position_m + Vec3(0.0, 0.0, 0.8);
+  }
+}
+
+std::vector<smoke::Obstacle> obstacles_in(const smoke::Grid& grid, const std::vector<Participant>& participants) {
+  std::vector<smoke::Obstacle> obstacles;
+  for (const Participant& participant : participants) {
+    const Vec3 at = grid.grid_from_world(participant.world_from_vehicle.position_m);
+    if (!(at.x > -12.0 && at.y > -4.0 && at.x < grid.nx + 12.0 && at.y < grid.ny + 4.0 && std::abs(at.z) < grid.nz)) continue;
+    const debris::Box box = body_box(participant);
+    obstacles.push_back({box.world_from_box, box.half_size_m});
+  }
+  return obstacles;
+}
+
+}  // namespace
+
+smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& world_from_vehicle) {
+  const Vec3& at = world_from_vehicle.position_m;
+  const auto place = road::locate(roads, {at.x, at.y}, nullptr, 60.0);
+  const road::RoadStructure* tunnel = place ? tunnel_at(roads.roads[place->position.road], place->position.s_m) : nullptr;
+  constexpr int nx = static_cast<int>((upwind_m + downwind_m) / cell_m);
+  if (!tunnel) {
+    constexpr int ny = 48, nz = 40;
+    constexpr std::uint8_t open = smoke::open_x_low | smoke::open_x_high | smoke::open_y_low | smoke::open_y_high | smoke::open_z_high;
+    RigidTransform corner = lower_corner(world_from_vehicle, ny);
+    corner.position_m.z += 0.5;  // Without a roof the road is the box's floor.
+    return smoke::make_grid(corner, cell_m, nx, ny, nz, open);
+  }
+  const road::Road& road = roads.roads[place->position.road];
+  const bool left = place->position.t_m > 0.0;
+  const road::RoadExtent extent = road::road_extent(road, place->position.s_m);
+  const double width = left ? extent.left_t_m : -extent.right_t_m, middle = 0.5 * (left ? width : -width);
+  // Wide enough for the road's curve within the box.
+  const int ny = static_cast<int>(std::ceil(width + 8.0)), nz = 8;
+  const RigidTransform along = road::world_from_road(road::evaluate(roads, {place->position.road, place->position.s_m, middle}));
+  smoke::Grid grid = smoke::make_grid(lower_corner(along, ny), cell_m, nx, ny, nz, smoke::open_x_low | smoke::open_x_high);
+  road::RoadPosition hint = place->position;
+  smoke::add_walls(grid, [&](const Vec3& point) {
+    const auto surface = road::surface_at(roads, {point.x, point.y}, &hint, 60.0);
+    if (!surface) return true;
+    hint = surface->position;
+    const double height = point.z - surface->height_m;
+    const bool inside = hint.s_m >= tunnel->s_m && hint.s_m <= tunnel->s_m + tunnel->length_m;
+    return height < 0.0 || (inside && height > clear_height_m(roads.roads[hint.road], hint.s_m, hint.t_m, left));
+  });
+  return grid;
+}
+
+void ignite(const road::RoadNetwork& roads, const Participant& vehicle, std::uint64_t seed, FireState& state) {
+  if (std::ranges::find(state.fires, vehicle.id, &Fire::vehicle) != state.fires.end()) return;
+  if (!state.smoke) state.smoke = smoke::make_smoke(grid_around(roads, vehicle.world_from_vehicle), {}, seed);
+  add_fire(vehicle, state);
+}
+
+void extinguish(ParticipantId vehicle, FireState& state) {
+  for (Fire& fire : state.fires)
+    if (fire.vehicle == vehicle) fire.burning = false;
+}
+
+void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double time_s,
+                   double step_s, FireState& state) {
+  if (!state.smoke) return;
+  state.smoke->time_s = time_s - step_s;
+  feed(participants, step_s, state);
+  const Vec3 wind = environment.wind_speed_mps * Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
+  const smoke::Grid& grid = state.smoke->grid;
+  // In a tube only the wind along it blows, and less.
+  const Vec3 axis = grid.world_from_grid.orientation * Vec3(1.0, 0.0, 0.0);
+  const bool tube = (grid.open_faces & smoke::open_z_high) == 0;
+  smoke::advance_smoke(*state.smoke, tube ? 0.4 * glm::dot(wind, axis) * axis : wind, obstacles_in(grid, participants), step_s);
+
+  std::vector<EffectKeyframe> keyframes = smoke::advance_keyframes(state.track, *state.smoke);
+  std::size_t bytes = 0;
+  auto old = state.keyframes.begin();
+  for (EffectKeyframe& keyframe : keyframes) {
+    while (old != state.keyframes.end() && old->id < keyframe.id) ++old;
+    const bool same = old != state.keyframes.end() && old->id == keyframe.id && old->data == keyframe.data;
+    keyframe.tick = same ? old->tick : tick;
+    bytes += keyframe.data.size();
+  }
+  while (bytes > most_keyframe_bytes) {
+    bytes -= keyframes.back().data.size();
+    keyframes.pop_back();
+  }
+  if (state.smoke->tick % soot_interval_steps == 0)
+    if (Bytes soot = smoke::encode_soot(*state.smoke); !soot.empty() && soot != state.soot.data)
+      state.soot = {smoke::soot_effect_id, smoke::soot_kind, std::move(soot), tick};
+  if (!state.soot.data.empty()) keyframes.insert(keyframes.begin(), state.soot);
+  state.keyframes = std::move(keyframes);
+}
+
+}  // namespace septet::simulation

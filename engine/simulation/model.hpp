@@ -1,0 +1,33 @@
+#pragma once
+/// What does not change during a drive: roads, scenario, car, what stands beside the road, seed; and the numbers of who takes part.
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/physics/vehicle/vehicle_parameters.hpp"
+#include "engine/road/road_network.hpp"
+#include "engine/roadside/obstacles.hpp"
+#include "engine/scenario/scenario.hpp"
+#include "engine/world/wire_snapshot.hpp"
+
+namespace septet::simulation {
+
+inline constexpr double tick_rate_hz = 120.0;
+inline constexpr double tick_s = 1.0 / tick_rate_hz;
+inline constexpr ParticipantId driver_participant = 1;
+inline constexpr ParticipantId first_scripted_participant = 2;   ///< The scenario's entities, in its order.
+inline constexpr ParticipantId first_traffic_participant = 1000;
+
+static_assert(first_scripted_participant + scenario::most_entities <= first_traffic_participant);
+static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <= max_wire_participants);
+
+struct Model {
+  road::RoadNetwork roads;
+  scenario::Scenario scenario;
+  scenario::EntityIndex driver_entity = scenario::no_entity;  ///< Whom the scenario calls its driver's car.
+  vehicle::VehicleParameters car;
+  std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
+  std::uint64_t seed = 1;
+};
+
+}  // namespace septet::simulation

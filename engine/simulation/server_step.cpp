@@ -1,0 +1,124 @@
+#include "engine/simulation/server_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/effects/smoke/visibility.hpp"
+#include "engine/physics/vehicle/ground.hpp"
+#include "engine/simulation/collisions.hpp"
+#include "engine/simulation/driver_car.hpp"
+#include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/storyboard_stage.hpp"
+#include "engine/simulation/way_ahead.hpp"
+
+namespace septet::simulation {
+namespace {
+
+/// What came as no number counts as 0: nobody touches that control.
+std::uint32_t reset_bad_numbers(DriverInput& input) {
+  std::uint32_t count = 0;
+  for (double* value : {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch, &input.gaze_heading_rad})
+    if (!std::isfinite(*value)) {
+      *value = 0.0;
+      ++count;
+    }
+  return count;
+}
+
+/// Everybody who takes part, ascending id, in the memory of `participants`.
+std::vector<Participant> participants_now(const Model& model, const State& state, const Participant& car,
+                                          std::vector<Participant> participants) {
+  participants.clear();
+  participants.reserve(256);
+  participants.push_back(car);
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+  state.traffic->append_participants(participants);
+  if (!std::ranges::is_sorted(participants, {}, &Participant::id)) std::ranges::sort(participants, {}, &Participant::id);
+  return participants;
+}
+
+/// Once a second, where there is smoke around the driver: how far he sees.
+void note_visibility(const State& state, std::vector<Event>& events) {
+  if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
+  const double extinction = smoke::extinction_per_m(*state.effects.fires.smoke, state.car.world_from_body.position_m + Vec3(0.0, 0.0, 0.6));
+  const auto dull = smoke::visibility_m(extinction, false), shining = smoke::visibility_m(extinction, true);
+  if (dull && *dull < 200.0) events.push_back({"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
+}
+
+void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car, std::vector<Event>& events) {
+  if (state.tick % effects_step_ticks != 0) return;
+  if (effects_are_still(state.effects)) return;
+  const Environment& weather = state.scenario.environment;
+  const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
+  const EffectsReport report = advance_effects(
+      {model.roads, model.obstacles.get(), participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
+  push_car(model, report.impulse_on_driver_ns, state, car);
+  note_visibility(state, events);
+  if (report.crashes.pieces > 0) events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
+  if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
+  note_bad_numbers(static_cast<std::uint32_t>(report.bad_numbers), std::nullopt, "debris", state, events);
+}
+
+/// `participants` are those of this tick, as the effects found them.
+Snapshot capture(const Model& model, const State& state, const DrivenCar& car, std::vector<Participant> participants) {
+  Snapshot snapshot;
+  snapshot.tick = state.tick;
+  snapshot.simulated_time_s = state.time_s();
+  snapshot.state_hash = hash_state(state);
+  snapshot.environment = state.scenario.environment;
+  snapshot.driver_car = driver_car(model, state, car.outputs);
+  snapshot.participants = std::move(participants);
+  show_damage(state.effects, snapshot.participants);
+  snapshot.effects = effect_keyframes(state.effects);
+  snapshot.diagnostics = state.diagnostics;
+  return snapshot;
+}
+
+}  // namespace
+
+Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic) {
+  State state;
+  state.traffic = std::move(traffic);
+  scenario::StepResult init;
+  auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
+  if (!started) return tl::unexpected(started.error());
+  state.scenario = std::move(*started);
+  const auto& entity = state.scenario.entities[model.driver_entity];
+  if (!entity.active)
+    return tl::unexpected(scenario::why_without_place(model.scenario, model.driver_entity));
+  state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
+  const Participant car = driven_car(model, state).participant;
+  apply_swarms(model, init, car, state);
+  state.effects = initial_effects(model.scenario, state.scenario, model.seed);
+  apply_effects(model, init, car, state);
+  if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
+  return state;
+}
+
+Snapshot server_step(const Model& model, const DriverInput& input, State& state, std::vector<Event>& events, Snapshot old) {
+  ++state.tick;
+  state.input = input;
+  note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
+  advance_car(model, state, events);
+  DrivenCar car = driven_car(model, state);
+  advance_storyboard(model, car, state, events);
+  state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
+  note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);
+  auto participants = participants_now(model, state, car.participant, std::move(old.participants));
+  run_effects(model, participants, state, car, events);
+  participants.front() = car.participant;  // The lowest id; the effects may have pushed it.
+  find_collisions(car.participant, participants, state, events);
+  const Snapshot snapshot = capture(model, state, car, std::move(participants));
+  look_ahead(model, snapshot.participants, state.effects, state.scenario);
+  return snapshot;
+}
+
+Snapshot capture_snapshot(const Model& model, const State& state, Snapshot old) {
+  const DrivenCar car = driven_car(model, state);
+  return capture(model, state, car, participants_now(model, state, car.participant, std::move(old.participants)));
+}
+
+}  // namespace septet::simulation

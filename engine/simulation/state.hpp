@@ -1,0 +1,54 @@
+#pragma once
+/// Everything that changes during a drive, and what a step tells the log besides its snapshot.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/physics/vehicle/hull.hpp"
+#include "engine/physics/vehicle/vehicle.hpp"
+#include "engine/road/road_position.hpp"
+#include "engine/scenario/storyboard_runtime.hpp"
+#include "engine/simulation/effects/effects_state.hpp"
+#include "engine/simulation/model.hpp"
+#include "engine/traffic/traffic_engine.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::simulation {
+
+struct State {
+  Tick tick = 0;
+  vehicle::VehicleState car;
+  vehicle::HullState hull;
+  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
+  std::array<bool, vehicle::wheel_count> at_kerb{};  ///< Which wheels touch a kerb's edge: one event a touch.
+  std::optional<road::RoadPosition> car_road;
+  scenario::ScenarioState scenario;
+  std::unique_ptr<traffic::TrafficEngine> traffic;
+  EffectsState effects;
+  DriverInput input;  ///< Of the last step.
+  Diagnostics diagnostics;
+  std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.
+
+  double time_s() const { return static_cast<double>(tick) / tick_rate_hz; }
+};
+
+/// Something that happened in a step, for the log.
+struct Event {
+  std::string kind;  ///< "scenario", "collision", "kerb", "bad_number".
+  std::optional<ParticipantId> participant;
+  std::string detail;
+};
+
+/// A number that has gone bad is reset where it is; this counts it and tells of it. `reset` names what was reset.
+void note_bad_numbers(std::uint32_t count, std::optional<ParticipantId> participant, const char* reset, State& state,
+                      std::vector<Event>& events);
+
+/// The same model, seed and inputs give the same value at every tick, with any compiler.
+std::uint64_t hash_state(const State& state);
+
+}  // namespace septet::simulation

@@ -1,0 +1,78 @@
+#include "engine/simulation/storyboard_stage.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/simulation/effects/effects_stage.hpp"
+
+namespace septet::simulation {
+namespace {
+
+const char* name_of(scenario::ElementStatus status) {
+  switch (status) {
+    case scenario::ElementStatus::standby: return "standby";
+    case scenario::ElementStatus::running: return "running";
+    case scenario::ElementStatus::complete: return "complete";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const State& state, const Participant& car) {
+  std::vector<Participant> others{car};
+  scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, others);
+  std::vector<traffic::ForeignVehicle> foreign;
+  foreign.reserve(others.size());
+  for (const Participant& p : others) foreign.push_back({p.id, p.model, p.world_from_vehicle, p.velocity_mps, p.lamps});
+  return foreign;
+}
+
+void apply_swarms(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
+  for (const auto& swarm : step.swarms) {
+    traffic::TrafficParameters parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
+    parameters.first_id = first_traffic_participant;
+    if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
+      parameters.opposite_share = swarm.opposite_direction_weight / both;
+    std::vector<traffic::KindShare> mix;
+    for (const auto& entry : swarm.categories) mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
+    traffic::set_mix(parameters, mix);
+    state.traffic->start(parameters, foreign_vehicles(model, state, car));
+  }
+  if (!step.stopped_traffic.empty()) state.traffic->stop();
+}
+
+void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
+  using Kind = scenario::EffectAction::Kind;
+  for (const scenario::EffectAction& action : step.effects) {
+    if (action.kind == Kind::spill) {
+      spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], state.effects);
+      continue;
+    }
+    const ParticipantId id = action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
+    if (action.kind == Kind::extinguish) extinguish(id, state.effects.fires);
+    if (action.kind != Kind::ignite) continue;
+    std::vector<Participant> participants{car};
+    scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
+    if (const auto burning = std::ranges::find(participants, id, &Participant::id); burning != participants.end())
+      ignite(model.roads, *burning, model.seed, state.effects.fires);
+  }
+}
+
+void advance_storyboard(const Model& model, const DrivenCar& car, State& state,
+                        std::vector<Event>& events) {
+  scenario::place_external(model.roads, model.driver_entity, car.outputs.world_from_vehicle, car.outputs.velocity_mps, car.outputs.acceleration_mps2, state.scenario);
+  const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
+  for (const auto& event : step.events)
+    events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
+  for (const scenario::EntityIndex entity : step.left)
+    events.push_back({"scenario", first_scripted_participant + entity, fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
+  for (const scenario::EntityIndex entity : step.reset)
+    note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
+  apply_swarms(model, step, car.participant, state);
+  apply_effects(model, step, car.participant, state);
+}
+
+}  // namespace septet::simulation

@@ -1,0 +1,70 @@
+#include "engine/simulation/wheel_ground.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "engine/road/road_locate.hpp"
+#include "engine/road/surface_material.hpp"
+
+namespace septet::simulation {
+namespace {
+
+constexpr double near_m = 60.0;  ///< How far from a road its surface goes on.
+
+vehicle::SurfaceKind kind_of(const road::SurfaceMaterial& material) {
+  if (material.surface == "ice") return vehicle::SurfaceKind::ice;
+  if (material.surface == "snow") return vehicle::SurfaceKind::snow;
+  return material.surface == "wet" ? vehicle::SurfaceKind::wet : vehicle::SurfaceKind::dry;
+}
+
+}  // namespace
+
+double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather) {
+  const auto kind = material ? kind_of(*material) : vehicle::SurfaceKind::dry;
+  double friction = 0.0;
+  if (material && material->friction > 0.0)
+    friction = vehicle::given_friction(kind, material->friction, weather.wetness, weather.snow_cover, weather.temperature_k);
+  else if (kind == vehicle::SurfaceKind::dry)
+    friction = vehicle::weather_friction(weather.wetness, weather.snow_cover, weather.temperature_k);
+  else
+    friction = vehicle::peak_friction(kind, weather.temperature_k);
+  return friction * weather.friction_scale;
+}
+
+bool find_wheel_ground(const road::RoadNetwork& roads, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
+                       road::RoadPosition& place, vehicle::WheelGround& wheel) {
+  const auto surface = road::surface_at(roads, {centre_m.x, centre_m.y}, has_place ? &place : nullptr, near_m);
+  if (!surface) return false;
+  place = surface->position;
+  wheel.point_m = {centre_m.x, centre_m.y, surface->height_m};
+  wheel.normal = surface->normal;
+  wheel.friction = surface_friction(road::material_at(roads, place), weather);
+  return true;
+}
+
+void find_kerb(const road::RoadNetwork& roads, const Vec3& centre_m, const Vec2& ahead, double radius_m,
+               const road::RoadPosition& place, vehicle::WheelGround& wheel) {
+  constexpr double noticed_m = 0.03;  // A lower step is a bump: the plane under the wheel jumps by it.
+  if (roads.roads[place.road].flat) return;
+  // How far the surface there lies over the plane under the wheel.
+  const auto rise_m = [&](double ahead_m) {
+    const Vec2 at = Vec2(centre_m) + ahead_m * ahead;
+    const auto surface = road::surface_at(roads, at, &place, near_m);
+    if (!surface) return 0.0;
+    const Vec2 away = at - Vec2(wheel.point_m);
+    return surface->height_m - (wheel.point_m.z - glm::dot(Vec2(wheel.normal), away) / wheel.normal.z);
+  };
+  for (const double reach_m : {radius_m, -radius_m}) {
+    if (rise_m(reach_m) < noticed_m) continue;
+    double low_m = 0.0, high_m = reach_m;
+    for (int halving = 0; halving < 9; ++halving) {  // To a millimetre.
+      const double middle_m = 0.5 * (low_m + high_m);
+      (rise_m(middle_m) < noticed_m ? low_m : high_m) = middle_m;
+    }
+    if (rise_m(high_m) - rise_m(low_m) < noticed_m) continue;  // A ramp.
+    const Vec2 at = Vec2(centre_m) + high_m * ahead;
+    wheel.edge_m = Vec3(at, road::surface_at(roads, at, &place, near_m)->height_m);
+    return;
+  }
+}
+
+}  // namespace septet::simulation

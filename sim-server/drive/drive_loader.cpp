@@ -1,0 +1,146 @@
+#include "sim-server/drive/drive_loader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "engine/core/check.hpp"
+#include "engine/core/regular_file.hpp"
+#include "engine/physics/vehicle/read_vehicle.hpp"
+#include "engine/road/opendrive_reader.hpp"
+#include "engine/scenario/scenario_reader.hpp"
+#include "engine/scenery/road_world.hpp"
+#include "sim-server/resources.hpp"
+
+namespace septet::server {
+namespace fs = std::filesystem;
+namespace {
+
+/// Where a text comes from, by role and the name that another file calls it by.
+using ReadSource = std::function<Expected<logging::SourceFile>(const std::string& role, const std::string& name)>;
+
+/// The entity that the driver sits in: the one called "ego" or "Ego", else the first vehicle.
+scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
+  for (const char* name : {"ego", "Ego"})
+    if (const auto found = scenario::find_entity(scenario, name)) return *found;
+  for (std::size_t i = 0; i < scenario.entities.size(); ++i)
+    if (scenario.entities[i].kind == scenario::EntityKind::vehicle) return static_cast<scenario::EntityIndex>(i);
+  return scenario::no_entity;
+}
+
+/// `vehicle`: instead of the rig's, unless it is empty.
+Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle, std::vector<scenario::ParameterValue> parameters) {
+  LoadedDrive drive;
+  auto model = std::make_shared<simulation::Model>();
+  model->seed = seed;
+  const auto take = [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
+    auto source = read(role, name);
+    if (source) drive.sources.push_back(*source);
+    return source;
+  };
+
+  const auto rig_source = take("rig", "");
+  if (!rig_source) return tl::unexpected(rig_source.error());
+  auto rig = rig::read_rig(rig_source->content, rig_source->name);
+  if (!rig) return tl::unexpected(rig.error());
+  drive.rig = std::move(*rig);
+  if (!vehicle.empty()) drive.rig.car.vehicle = vehicle;
+
+  const auto scenario_source = take("scenario", "");
+  if (!scenario_source) return tl::unexpected(scenario_source.error());
+  scenario::ScenarioFiles files;
+  files.read = [&](const std::string& path) { return take("catalog", path).map([](const auto& source) { return source.content; }); };
+  files.list = [&](const std::string& folder) -> Expected<std::vector<std::string>> {
+    return take("catalog-folder", folder).map([](const auto& source) {
+      std::vector<std::string> names;
+      for (std::size_t begin = 0, end; begin < source.content.size(); begin = end + 1) {
+        end = std::min(source.content.find('\n', begin), source.content.size());
+        names.push_back(source.content.substr(begin, end - begin));
+      }
+      return names;
+    });
+  };
+  std::vector<road::Finding> findings;
+  auto scenario = scenario::read_scenario(scenario_source->content, scenario_source->name, files, &findings, parameters);
+  if (!scenario) return tl::unexpected(scenario.error());
+  model->scenario = std::move(*scenario);
+  model->driver_entity = driver_entity(model->scenario);
+  if (model->driver_entity == scenario::no_entity)
+    return failure("the scenario has no vehicle to drive", scenario_source->name, "add a ScenarioObject called Ego");
+
+  const auto road_source = take("road", model->scenario.road_file);
+  if (!road_source) return tl::unexpected(road_source.error());
+  auto roads = road::read_opendrive(road_source->content, road_source->name, &findings);
+  if (!roads) return tl::unexpected(roads.error());
+  model->roads = std::move(*roads);
+  if (const auto buildable = scenery::check_world_size(model->roads); !buildable)
+    return failure(buildable.error().what, road_source->name, buildable.error().remedy);
+  model->obstacles = std::make_shared<const roadside::Obstacles>(model->roads, seed);
+
+  const auto car_source = take("vehicle", drive.rig.car.vehicle);
+  if (!car_source) return tl::unexpected(car_source.error());
+  auto car = vehicle::read_vehicle(car_source->content, car_source->name);
+  if (!car) return tl::unexpected(car.error());
+  model->car = *car;
+  for (const auto& finding : findings) drive.warnings.push_back(describe(finding.error));
+  drive.model = std::move(model);
+  drive.parameters = std::move(parameters);
+  return drive;
+}
+
+Expected<logging::SourceFile> from_disk(const std::string& role, const fs::path& path) {
+  return read_regular_file(path).map([&](std::string text) { return logging::SourceFile{role, path.string(), std::move(text)}; });
+}
+
+}  // namespace
+
+const std::string& LoadedDrive::source(std::string_view role) const {
+  const auto found = std::ranges::find(sources, role, &logging::SourceFile::role);
+  SEPTET_CHECK(found != sources.end(), "a drive without {}", role);
+  return found->content;
+}
+
+std::string LoadedDrive::vehicle_name() const {
+  const auto found = std::ranges::find(sources, "vehicle", &logging::SourceFile::role);
+  return found == sources.end() ? "" : fs::path(found->name).stem().string();
+}
+
+Expected<LoadedDrive> load_drive(const DriveFiles& files) {
+  const fs::path scenario_folder = fs::path(files.scenario).parent_path();
+  return load(
+      [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
+        if (role == "rig") return from_disk(role, files.rig);
+        if (role == "scenario") return from_disk(role, files.scenario);
+        if (role == "vehicle")
+          return find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) { return from_disk(role, path); });
+        if (role == "catalog-folder") {
+          const auto names = scenario::files_in(scenario_folder.string()).list(name);
+          if (!names) return tl::unexpected(names.error());
+          std::string text;
+          for (const auto& entry : *names) text += (text.empty() ? "" : "\n") + entry;
+          return logging::SourceFile{role, name, text};
+        }
+        if (role == "catalog")
+          return scenario::files_in(scenario_folder.string()).read(name).map([&](std::string text) {
+            return logging::SourceFile{role, name, std::move(text)};
+          });
+        return from_disk(role, scenario_folder / name);
+      },
+      files.seed, files.vehicle, files.parameters);
+}
+
+Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {
+  const auto seed = session.seeds.find("drive");
+  std::vector<scenario::ParameterValue> parameters;
+  for (const auto& [name, value] : session.parameters) parameters.push_back({name, value});
+  return load(
+      [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
+        for (const auto& source : session.files)
+          if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
+        return failure(fmt::format("the session holds no {} {}", role, name), "session", "it was written by another version of Septet");
+      },
+      seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
+}
+
+}  // namespace septet::server

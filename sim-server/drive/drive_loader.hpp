@@ -1,0 +1,40 @@
+#pragma once
+/// A drive's model from files, or from the texts in a session.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/rig/rig.hpp"
+#include "engine/scenario/scenario_reader.hpp"
+#include "logging/records.hpp"
+#include "engine/simulation/model.hpp"
+
+namespace septet::server {
+
+/// What a drive is made from, as files on disk.
+struct DriveFiles {
+  std::string scenario;  ///< Path of the .xosc.
+  std::string rig;       ///< Path of the .toml.
+  std::uint64_t seed = 1;
+  std::string vehicle{};                               ///< A file or a name, instead of the rig's; empty: the rig's.
+  std::vector<scenario::ParameterValue> parameters{};  ///< Instead of the scenario's own values.
+};
+
+/// A model with the texts that it was read from: they go into the log, so that a session needs no file beside it.
+struct LoadedDrive {
+  std::shared_ptr<const simulation::Model> model;
+  rig::Rig rig;
+  std::vector<logging::SourceFile> sources;  ///< Roles: scenario, road, rig, vehicle, catalog.
+  std::vector<scenario::ParameterValue> parameters;  ///< Those that were given from outside.
+  std::vector<std::string> warnings;         ///< What the files hold that Septet does not do, by name and line.
+
+  const std::string& source(std::string_view role) const;
+  /// The name of the vehicle's file, without folder and ending.
+  std::string vehicle_name() const;
+};
+
+Expected<LoadedDrive> load_drive(const DriveFiles& files);
+Expected<LoadedDrive> load_drive(const logging::SessionInfo& session);
+
+}  // namespace septet::server

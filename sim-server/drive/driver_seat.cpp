@@ -1,0 +1,66 @@
+#include "sim-server/drive/driver_seat.hpp"
+
+#include "car-io/actuator_writer.hpp"
+#include "car-io/simulated_driver/simulated_driver.hpp"
+#include "sim-server/host/remote_car.hpp"
+
+namespace septet::server {
+
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, std::shared_ptr<const simulation::Model> model) {
+  DriverSeat seat;
+  if (car.source == rig::CarSource::simulated_driver) {
+    auto parameters = car_io::find_driver(car.driver);
+    if (!parameters) return tl::unexpected(parameters.error());
+    const vehicle::PowertrainParameters& powertrain = model->car.powertrain;
+    parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;
+    parameters->car.gears = powertrain.gear_count;
+    for (int gear = 0; gear < powertrain.gear_count; ++gear)
+      parameters->car.engine_radps_per_mps[gear] = powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
+    // The driver keeps the model alive: the road in it is what they see.
+    const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
+    seat.actuators = car.actuators;
+    sit_at_device(seat, person->opener(), {});
+    seat.look = [person, model](const Snapshot& snapshot) { person->drive(snapshot, 1.0 / simulation::tick_rate_hz); };
+    return seat;
+  }
+  if (car.source == rig::CarSource::keyboard) return seat;
+  const auto layout = car_io::find_car_layout(car.layout);
+  if (!layout) return tl::unexpected(layout.error());
+  car_io::CarConnectionOptions options{.layout = *layout, .calibration = car.calibration};
+  seat.actuators = car.actuators;
+  if (!car.machine.empty()) {
+    seat.remote = std::make_shared<RemoteCar>();
+    options.repeats = true;
+    options.retry_s = 0.0;  // Asking the relay costs nothing.
+    seat.car = std::make_unique<car_io::CarConnection>(seat.remote->device.opener(), options);
+    seat.actuate = [remote = seat.remote](Tick tick, const car_io::Actuators& actuators) -> std::optional<Error> {
+      remote->feedback = control::CarFeedback{tick, static_cast<float>(actuators.fan), static_cast<float>(actuators.vibration),
+                                              static_cast<float>(actuators.vibration_hz), static_cast<float>(actuators.steering)};
+      return std::nullopt;
+    };
+    return seat;
+  }
+  const car_io::HidAddress address{car.vendor_id, car.product_id, car.serial};
+  const auto open = [address] { return car_io::open_hid_device(address); };
+  // A missing device is noticed before the drive begins; one that is lost during it is opened again.
+  if (const auto device = open(); !device) {
+    if (car.source == rig::CarSource::automatic) return DriverSeat{};
+    Error error = device.error();
+    error.remedy += "; or set [car] source = \"automatic\", then a keyboard drives";
+    return tl::unexpected(error);
+  }
+  sit_at_device(seat, open, options);
+  return seat;
+}
+
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options) {
+  seat.car = std::make_unique<car_io::CarConnection>(open, options);
+  const auto writer = std::make_shared<car_io::ActuatorWriter>(
+      open, car_io::ActuatorWriterOptions{.layout = options.layout, .has_steering_force = seat.actuators.steering_most > 0.0});
+  seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
+    writer->set(actuators);
+    return writer->take_error();
+  };
+}
+
+}  // namespace septet::server

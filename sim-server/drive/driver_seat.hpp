@@ -1,0 +1,20 @@
+#pragma once
+/// Who drives: a simulated driver behind the HID interface, a person at a HID device, or a screen's keyboard.
+
+#include <memory>
+#include <string>
+
+#include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-server/drive/live_drive.hpp"
+
+namespace septet::server {
+
+/// The seat that the rig's `source` names. An automatic one without its device is a seat at a keyboard. Error: the device of any other
+/// is not there, or there is no such driver.
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, std::shared_ptr<const simulation::Model> model);
+
+/// Reads a device here and moves its actuators, within the seat's limits.
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options);
+
+}  // namespace septet::server

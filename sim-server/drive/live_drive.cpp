@@ -1,0 +1,122 @@
+#include "sim-server/drive/live_drive.hpp"
+
+#include <cmath>
+
+#include "engine/core/printable.hpp"
+#include "sim-server/drive/car_motion.hpp"
+#include "sim-server/drive/natural_end.hpp"
+
+namespace septet::server {
+namespace {
+
+/// For so long a screen's last controls are held. It sends them with every picture, and for two seconds after the last key.
+constexpr Tick silent_screen_ticks = 120;
+
+/// More than the trembling of a device that nobody touches.
+bool is_moved(const DriverInput& now, const DriverInput& found) {
+  constexpr double clearly = 0.1;  // Of a pedal's travel; of the hand wheel radians.
+  for (const auto control : {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
+    if (std::abs(now.*control - found.*control) > clearly) return true;
+  return now.selector != found.selector || now.gear != found.gear || now.indicator != found.indicator || now.hazard_lights != found.hazard_lights ||
+         now.horn != found.horn || now.low_beam != found.low_beam || now.high_beam != found.high_beam || now.parking_brake != found.parking_brake;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const simulation::Model> model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                                                      DriverSeat seat) {
+  auto state = simulation::initial_state(*model, std::move(traffic));
+  if (!state) return tl::unexpected(state.error());
+  return std::unique_ptr<LiveDrive>(new LiveDrive(std::move(model), std::move(seat), std::move(*state)));
+}
+
+LiveDrive::LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state)
+    : model_(std::move(model)), seat_(std::move(seat)), state_(std::move(state)) {
+  newest_ = memory_.share(simulation::capture_snapshot(*model_, state_));
+}
+
+void LiveDrive::log_to(SessionLog& log) {
+  log_ = &log;
+  log_->record_tick(newest_, {});
+}
+
+logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& controls) {
+  logging::InputRecord record;
+  record.tick = state_.tick + 1;
+  if (controls) {
+    held_ = *controls;
+    heard_tick_ = state_.tick;
+  }
+  record.input = held_;
+  // A window whose keys have all been let go is silent too, and holds nothing down.
+  if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks && held_.accelerator > 0.0) {
+    record.input = car_io::released(held_);
+    if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0) tell("the screen that drives is silent: the accelerator is released");
+  }
+  if (seat_.car) {
+    // The device's clock is simulated time, so that a slow machine does not see a stale driver.
+    const auto reading = seat_.car->poll(waited_s_ + state_.time_s());
+    if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
+    record.input = reading.input;
+    record.report = reading.report;
+    if (const auto error = seat_.car->take_error()) tell(describe(*error));
+    if (reading.is_connected && !car_was_there_ && state_.diagnostics.input_stale_ticks > 0) tell("the car's device is there");
+    car_was_there_ = reading.is_connected;
+  }
+  return record;
+}
+
+bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) {
+  if (controls) held_ = *controls;
+  if (controls || seat_.look) return true;
+  if (!seat_.car) return false;
+  waited_s_ = waited_s;
+  const auto reading = seat_.car->poll(waited_s);
+  if (const auto error = seat_.car->take_error()) tell(describe(*error));
+  if (!reading.is_connected || !reading.report) return false;
+  if (!found_) found_ = reading.input;
+  return is_moved(reading.input, *found_);
+}
+
+void LiveDrive::tell(const std::string& what) {
+  const auto said = limit_.take(printable(what), state_.time_s());
+  if (!said) return;
+  messages_.push_back("car: " + *said);
+  if (log_) log_->record_message("car", *said);
+}
+
+void LiveDrive::move_actuators() {
+  if (!seat_.actuate) return;
+  const auto motion = car_motion(*model_, state_);
+  if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
+}
+
+/// A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
+std::optional<Error> LiveDrive::take_error() {
+  auto error = log_ ? log_->take_error() : std::nullopt;
+  if (error) end_ = logging::DriveEnd::log_failed;
+  return error;
+}
+
+Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
+  if (end_) return std::shared_ptr<const TakenSnapshot>();
+  if (seat_.look) seat_.look(newest_->snapshot());
+  logging::InputRecord input = read_input(controls);
+  std::vector<simulation::Event> events;
+  newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
+  move_actuators();
+  if (auto error = state_.traffic->take_error()) {
+    if (log_) log_->record_message("traffic", describe(*error));
+    end_ = logging::DriveEnd::traffic_lost;
+    return tl::unexpected(std::move(*error));
+  }
+  if (log_) {
+    log_->record_input(std::move(input));
+    log_->record_tick(newest_, events);
+    if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));
+  }
+  end_ = natural_end(*model_, state_);
+  return newest_;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,73 @@
+#pragma once
+/// A drive that is being simulated: the car's device, the simulation and the session log, one tick after the other.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "car-io/actuators.hpp"
+#include "car-io/car_connection.hpp"
+#include "engine/core/message_limit.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-server/host/remote_car.hpp"
+#include "sim-server/drive/session_log.hpp"
+#include "engine/simulation/server_step.hpp"
+#include "sim-server/host/tick_source.hpp"
+
+namespace septet::server {
+
+/// Where the driver's input comes from, and where the car's feedback goes.
+struct DriverSeat {
+  /// A simulated driver looks at the world before each tick and moves the controls of its device; empty: a person drives.
+  std::function<void(const Snapshot&)> look;
+  std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
+  /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
+  std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
+  rig::CarActuators actuators;                ///< Their limits.
+  std::shared_ptr<RemoteCar> remote;   ///< Of a car on another machine.
+};
+
+class LiveDrive final : public TickSource {
+ public:
+  /// The drive as it stands at tick 0.
+  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const simulation::Model> model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                                                    DriverSeat seat);
+  /// From here on everything is logged, tick 0 first. `log` outlives the drive.
+  void log_to(SessionLog& log);
+
+  Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
+  std::optional<Error> take_error() override;
+  logging::DriveEnd end() const override { return end_.value_or(logging::DriveEnd::failed); }
+  std::shared_ptr<const TakenSnapshot> first() const override { return newest_; }
+  /// A person is ready when a screen sends controls, or those of the device are no longer as they were found.
+  bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
+  double tick_rate_hz() const override { return simulation::tick_rate_hz; }
+  std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
+  const Snapshot& newest() const { return newest_->snapshot(); }
+
+ private:
+  LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state);
+  logging::InputRecord read_input(const std::optional<DriverInput>& controls);
+  void move_actuators();
+  void tell(const std::string& what);
+
+  std::shared_ptr<const simulation::Model> model_;
+  DriverSeat seat_;
+  SessionLog* log_ = nullptr;
+  simulation::State state_;
+  DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
+  std::optional<Tick> heard_tick_;  ///< When they came.
+  SnapshotMemory memory_;
+  std::shared_ptr<const TakenSnapshot> newest_;
+  bool car_was_there_ = false;
+  std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
+  double waited_s_ = 0.0;             ///< For the driver, before the first tick.
+  std::optional<logging::DriveEnd> end_;
+  std::vector<std::string> messages_;
+  MessageLimit limit_;  ///< Of what the device causes to be said.
+};
+
+}  // namespace septet::server

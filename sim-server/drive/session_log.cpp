@@ -1,0 +1,192 @@
+#include "sim-server/drive/session_log.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/core.h>
+
+#include "engine/core/version.hpp"
+#include "engine/road/body_lanes.hpp"
+#include "engine/road/lane_links.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/scene/command_codec.hpp"
+#include "logging/input_hash.hpp"
+#include "logging/report/report.hpp"
+#include "logging/report/summary.hpp"
+#include "logging/session_reader.hpp"
+
+namespace septet::server {
+namespace {
+
+std::string now_utc() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::map<std::string, std::string> parameters_of(const LoadedDrive& drive) {
+  std::map<std::string, std::string> parameters;
+  for (const auto& parameter : drive.parameters) parameters[parameter.name] = parameter.value;
+  return parameters;
+}
+
+}  // namespace
+
+Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOptions& drive_options) {
+  logging::SessionInfo info;
+  info.septet_version = version;
+  info.git_revision = revision;
+  info.started_utc = now_utc();
+  info.ticks_per_second = simulation::tick_rate_hz;
+  info.participant = drive_options.participant;
+  info.seeds["drive"] = drive_options.seed;
+  info.parameters = parameters_of(drive);
+  info.files = drive.sources;
+  info.other["driver"] = drive.rig.car.source == rig::CarSource::simulated_driver ? drive.rig.car.driver : "";
+  info.other["traffic"] = drive_options.traffic;
+  info.other["compiler"] = __VERSION__;
+  logging::WriterOptions options;
+  const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
+  // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
+  if (real_time) options.queue_bytes = std::size_t{256} << 20;
+  auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
+  if (!writer) return tl::unexpected(writer.error());
+  return SessionLog(std::move(*writer), drive.model, real_time);
+}
+
+void SessionLog::record_scene(const scene::Store& store) {
+  scene::describe_store(store, [&](scene::Command command) {
+    Bytes bytes;
+    scene::encode(command, bytes);
+    writer_.record(logging::SceneEdit{0, std::move(bytes)});
+  });
+}
+
+void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events) {
+  const Snapshot& snapshot = taken->snapshot();
+  tick_ = snapshot.tick;
+  simulated_time_s_ = snapshot.simulated_time_s;
+  bad_numbers_ = snapshot.diagnostics.bad_numbers;
+  for (const auto& event : events)
+    writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
+  // The leader is looked for only where a sample wants it: ten times a second.
+  const auto leader = logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
+  auto observation = logging::observe(observer_, snapshot, leader);
+  for (auto& event : observation.events) writer_.record(std::move(event));
+  if (observation.sample) writer_.record(std::move(*observation.sample));
+  writer_.record(std::move(taken));
+}
+
+std::optional<std::string> SessionLog::take_warning() {
+  const double waited_s = writer_.waited_s();
+  if (!real_time_ || waited_s < told_waited_s_ + 0.1) return std::nullopt;
+  told_waited_s_ = waited_s;
+  record_message("log_slow", fmt::format("waited_s={:.2f}", waited_s));
+  return fmt::format("log: the disk is too slow for this drive, which has waited {:.1f} s for it so far; nothing is lost", waited_s);
+}
+
+void SessionLog::record_input(logging::InputRecord input) {
+  logging::add_to_hash(input, inputs_hash_);
+  writer_.record(std::move(input));
+}
+
+logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const {
+  logging::DriveOutcome outcome;
+  outcome.end = result.end;
+  if (result.error) outcome.error = describe(*result.error);
+  outcome.ticks = result.ticks;
+  outcome.simulated_s = result.simulated_s;
+  outcome.wall_s = result.wall_s;
+  outcome.state_hash = result.state_hash;
+  outcome.inputs_hash = inputs_hash_.value();
+  outcome.late_ticks = result.late_ticks;
+  outcome.bad_numbers = bad_numbers_;
+  outcome.lost_records = writer_.lost_records();
+  outcome.log_waited_s = writer_.waited_s();
+  for (const HostedScreen& screen : screens) {
+    logging::ScreenOutcome seen;
+    const auto report = screen.report.value_or(control::ScreenReport{});
+    seen.name = screen.name;
+    seen.frames = std::max(screen.frames, report.frames);  // The host's count knows all lives, the screen's own loses none on the way.
+    seen.frames_off_tick = report.frames_off_tick;
+    seen.datagrams_lost = report.datagrams_lost;
+    seen.datagrams_repaired = report.datagrams_repaired;
+    seen.refused_ticks = report.refused_ticks;
+    seen.frame_ms_p50 = report.frame_ms_p50;
+    seen.frame_ms_p99 = report.frame_ms_p99;
+    seen.submit_ms_p50 = report.submit_ms_p50;
+    seen.submit_ms_p99 = report.submit_ms_p99;
+    seen.connected_s = screen.connected_s;
+    seen.left_s = screen.left_s;
+    seen.left_behind_s = screen.left_behind_s;
+    seen.has_reported = screen.report.has_value();
+    outcome.screens.push_back(std::move(seen));
+  }
+  return outcome;
+}
+
+Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
+  return writer_.finish({{"ended_why", std::string(name_of(outcome.end))}, {"outcome", to_json(outcome)}});
+}
+
+std::string SessionLog::ending(const ServeResult& result) const {
+  std::string text = fmt::format("the drive ended after {:.1f} s: {}", result.simulated_s, text_of(result.end));
+  if (bad_numbers_ > 0) text += fmt::format("; {} numbers went bad and were reset: look for bad_number in the log", bad_numbers_);
+  if (const auto lost = writer_.lost_records(); lost > 0) text += fmt::format("; the log lacks the last {} records", lost);
+  if (real_time_ && writer_.waited_s() >= 0.1)
+    text += fmt::format("; the disk was too slow and made the drive wait for {:.1f} s", writer_.waited_s());
+  return text;
+}
+
+void SessionLog::record_message(const std::string& kind, const std::string& text) {
+  writer_.record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
+}
+
+std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads) {
+  const DriverCar& car = snapshot.driver_car;
+  const Participant* self = find_participant(snapshot, car.participant);
+  if (!self || car.lane == 0) return std::nullopt;
+  const double direction = road::runs_along_s(roads, {car.road, car.lane, car.road_s_m, 0.0}) ? 1.0 : -1.0;
+  const VehicleModel& own = vehicle_models()[self->model];
+  const Vec3 forward = self->world_from_vehicle.orientation * Vec3(1, 0, 0);
+  std::optional<logging::Leader> leader;
+  for (const Participant& other : snapshot.participants) {
+    if (other.id == self->id) continue;
+    const Vec3 away = other.world_from_vehicle.position_m - self->world_from_vehicle.position_m;
+    const double ahead_m = glm::dot(away, forward);
+    if (glm::dot(away, away) > 260.0 * 260.0 || ahead_m < 0.0) continue;
+    const road::RoadPosition hint{car.road, car.road_s_m + direction * ahead_m, 0.0};
+    const auto& position = other.world_from_vehicle.position_m;
+    const auto place = road::locate(roads, {position.x, position.y}, &hint);
+    if (!place || place->position.road != car.road) continue;
+    const VehicleModel& model = vehicle_models()[other.model];
+    const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
+    const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
+    if (!road::drivable_lanes_under(roads, place->position, body).contains(car.lane)) continue;
+    // The driver's station is that of the front axle; distances are between bumpers.
+    const double to_rear_axle = direction * (place->position.s_m - car.road_s_m);
+    const double own_front = own.front_m() - own.wheelbase_m;
+    const double gap = to_rear_axle - model.rear_overhang_m - own_front;
+    if (gap < -2.0 || gap > 250.0 || (leader && gap > leader->distance_gap_m)) continue;
+    leader = logging::Leader{other.id, gap, gap + model.length_m, glm::length(other.velocity_mps)};
+  }
+  return leader;
+}
+
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome) {
+  const auto reader = logging::SessionReader::open(options.out / "session.sqlite");
+  const auto log = reader.and_then(logging::summarise_log);
+  logging::DriveSummary summary{.scenario = std::filesystem::path(options.scenario).stem().string(), .rig = drive.rig.name, .vehicle = drive.vehicle_name(),
+                                .participant = options.participant, .parameters = parameters_of(drive), .seed = options.seed, .outcome = outcome, .log = {}};
+  if (log) summary.log = *log;
+  if (auto written = logging::write_summary(options.out / "summary.json", summary); !written) return written;
+  if (!log) return tl::unexpected(log.error());
+  return logging::write_report(*reader, options.out / "report.html", outcome);
+}
+
+}  // namespace septet::server

@@ -1,0 +1,65 @@
+#pragma once
+/// What the server writes into the session file, tick by tick, and what it says of the drive at the end.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/hash.hpp"
+#include "engine/road/road_network.hpp"
+#include "engine/scene/store.hpp"
+#include "engine/simulation/state.hpp"
+#include "logging/drive_observer.hpp"
+#include "logging/outcome.hpp"
+#include "logging/session_writer.hpp"
+#include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/host/serve.hpp"
+#include "sim-server/server_options.hpp"
+
+namespace septet::server {
+
+class SessionLog {
+ public:
+  /// session.sqlite in the drive's folder.
+  static Expected<SessionLog> create(const LoadedDrive& drive, const ServerOptions& options);
+
+  void record_scene(const scene::Store& store);
+  void record_input(logging::InputRecord input);
+  /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
+  void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
+  void record_message(const std::string& kind, const std::string& text);
+  std::optional<Error> take_error() { return writer_.take_error(); }
+  /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
+  std::optional<std::string> take_warning();
+  double waited_s() const { return writer_.waited_s(); }
+
+  /// What is known of the drive now that it has ended.
+  logging::DriveOutcome outcome(const ServeResult& result, const std::vector<HostedScreen>& screens) const;
+  /// Closes the file; it says what became of the drive.
+  Expected<void> finish(const logging::DriveOutcome& outcome);
+  /// The end in a line: why, when, and what of the log whoever drove should know.
+  std::string ending(const ServeResult& result) const;
+
+ private:
+  SessionLog(logging::SessionWriter writer, std::shared_ptr<const simulation::Model> model, bool real_time)
+      : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time) {}
+
+  logging::SessionWriter writer_;
+  std::shared_ptr<const simulation::Model> model_;
+  bool real_time_;
+  double told_waited_s_ = 0.0;
+  logging::DriveObserver observer_;
+  StateHash inputs_hash_;
+  std::uint32_t bad_numbers_ = 0;  ///< Of the last tick's diagnostics.
+  Tick tick_ = 0;
+  double simulated_time_s_ = 0.0;
+};
+
+/// The nearest participant ahead in the driver's lane, within 250 m.
+std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
+
+/// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome);
+
+}  // namespace septet::server

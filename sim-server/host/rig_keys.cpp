@@ -1,0 +1,130 @@
+#include "sim-server/host/rig_keys.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "engine/net/keys.hpp"
+#include "sim-server/host/remote_car.hpp"
+
+namespace septet::server {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* server_machine = "server";
+
+/// Written beside and renamed: a server that watches the file sees the old one or the new one, whole.
+Expected<void> replace_file(const fs::path& file, const std::string& text) {
+  const fs::path draft = file.string() + ".new";
+  std::ofstream stream(draft, std::ios::binary);
+  stream << text;
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(draft, file, error);
+  if (!stream || error) return failure("the file cannot be written", file.string(), "free space, or choose another folder with --out");
+  return {};
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// The list with this key under this name; comments and other lines stay. Answers whether another key stood there.
+bool put_client(std::string& list, const std::string& key, const std::string& name) {
+  std::istringstream lines(list);
+  std::string line, result;
+  bool there = false, replaced = false;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    const bool is_its = !first.starts_with('#') && second == name;
+    if (is_its && first != key) replaced = true;
+    if (is_its && (first != key || there)) continue;
+    there = there || is_its;
+    result += line + '\n';
+  }
+  if (!there) result += key + ' ' + name + '\n';
+  list = result;
+  return replaced;
+}
+
+bool is_listed(const std::string& list, const std::string& name) {
+  std::istringstream lines(list);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (!first.starts_with('#') && second == name) return true;
+  }
+  return false;
+}
+
+Expected<void> put_server_key(const fs::path& file, const std::string& key) {
+  std::error_code error;
+  if (!fs::exists(file, error)) return replace_file(file, key + '\n');
+  const auto there = net::load_public_key(file);
+  if (!there) return tl::unexpected(there.error());
+  if (net::to_text(*there) != key)
+    return failure("another server's public key is there", file.string(), "delete it if its server is no longer used, or choose another folder with --out");
+  return {};
+}
+
+}  // namespace
+
+std::vector<MachineKeys> machines_of(const rig::Rig& rig) {
+  std::vector<MachineKeys> machines{{server_machine, {}}};
+  const auto add = [&](const std::string& machine, const std::string& client) {
+    const std::string name = machine.empty() ? server_machine : machine;
+    auto found = std::ranges::find(machines, name, &MachineKeys::machine);
+    if (found == machines.end()) found = machines.insert(machines.end(), {name, {}});
+    found->clients.push_back(client);
+  };
+  for (const auto& screen : rig.screens) add(screen.machine, screen.name);
+  if ((rig.car.source == rig::CarSource::hid || rig.car.source == rig::CarSource::automatic) && !rig.car.machine.empty()) add(rig.car.machine, car_client_name);
+  return machines;
+}
+
+Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs::path& out) {
+  std::error_code error;
+  std::vector<std::string> said;
+  const fs::path server = out / server_machine, list_file = server / "allowed-clients";
+  const bool is_new_server = !fs::exists(server / "server.key", error);
+  const auto server_identity = net::load_or_create_identity(server / "server.key");
+  if (!server_identity) return tl::unexpected(server_identity.error());
+  const std::string server_key = net::to_text(server_identity->public_key());
+  std::string list = text_of(list_file);
+  if (list.empty()) list = "# Who may connect: a public key and the name that it stands for, one a line. The server follows changes at once.\n";
+  for (const MachineKeys& machine : machines_of(rig)) {
+    const fs::path folder = out / machine.machine;
+    std::string fresh = machine.machine == server_machine && is_new_server ? "server" : "", kept;
+    for (const auto& client : machine.clients) {
+      const fs::path file = folder / (client + ".key");
+      const bool existed = fs::exists(file, error);
+      const bool is_carried = !existed && is_listed(list, client);
+      std::string& names = existed || is_carried ? kept : fresh;
+      names += (names.empty() ? "" : ", ") + client;
+      if (is_carried) continue;
+      const auto identity = net::load_or_create_identity(file);
+      if (!identity) return tl::unexpected(identity.error());
+      if (put_client(list, net::to_text(identity->public_key()), client))
+        said.push_back(fmt::format("{}: another key stood for {}; it is no longer let in", list_file.string(), client));
+    }
+    fs::create_directories(folder, error);
+    fs::permissions(folder, fs::perms::owner_all, error);
+    if (auto put = put_server_key(folder / "server.public", server_key); !put) return tl::unexpected(put.error());
+    said.push_back(fmt::format("{}: {}{}{}", folder.string(), fresh.empty() ? "nothing new" : "new keys of " + fresh,
+                               kept.empty() ? "" : "; kept those of ", kept));
+  }
+  // A list that names what the rig names no more is the operator's business: a key leaves it by hand.
+  if (list != text_of(list_file))
+    if (auto put = replace_file(list_file, list); !put) return tl::unexpected(put.error());
+  return said;
+}
+
+}  // namespace septet::server

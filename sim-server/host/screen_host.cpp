@@ -1,0 +1,328 @@
+#include "sim-server/host/screen_host.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/core.h>
+
+#include "engine/core/printable.hpp"
+
+namespace septet::server {
+
+using namespace control;
+
+namespace {
+
+constexpr std::size_t scene_bytes_per_pump = 1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
+constexpr double deaf_after_s = 0.5, hung_after_s = 0.25;
+constexpr double strangers_told_every_s = 10.0;
+
+Bytes to_bytes(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+std::uint64_t instance_of(const net::SessionId& session) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, session.data(), sizeof number);
+  return number;
+}
+
+std::string other_protocol(std::uint16_t theirs) {
+  return fmt::format("it speaks version {} of the control messages, the server version {}; run the same Septet on all machines", theirs, protocol_version);
+}
+
+/// Of a screen that comes and goes all day the first moments and the newest are kept.
+void remember(std::vector<double>& moments_s, double now_s) {
+  if (moments_s.size() == most_moments) moments_s.erase(moments_s.begin() + most_moments / 2);
+  moments_s.push_back(now_s);
+}
+
+/// Does lockstep wait for this screen no more at `tick`?
+bool keeps_up(const HostedScreen& screen, Tick tick) {
+  if (screen.left_behind) return true;
+  if (!screen.live()) return !screen.expected;
+  if (screen.joined_at && tick <= *screen.joined_at) return screen.scene_arrived;
+  return screen.has_presented && screen.presented >= tick;
+}
+
+}  // namespace
+
+ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& tick_socket, const scene::Store& store,
+                       ScreenHostOptions options)
+    : options_(std::move(options)),
+      lane_(lane_socket, {options_.identity, options_.session, options_.allowed, options_.limits}),
+      publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
+      scene_(store, instance_of(options_.session)),
+      planner_(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz) {
+  if (options_.welcome.group_ip != 0) publisher_.add_destination({options_.welcome.group_ip, options_.welcome.group_port});
+  for (const auto& name : options_.screens) screens_.push_back({.name = name});
+}
+
+HostedScreen* ScreenHost::screen_of(net::ClientId client) {
+  const auto found = std::ranges::find(screens_, std::optional(client), &HostedScreen::client);
+  return found == screens_.end() ? nullptr : &*found;
+}
+
+void ScreenHost::send(net::ClientId client, const ControlMessage& message) {
+  lane_.send(client, net::share(encode_control(message)), net::Reliability::reliable);
+}
+
+void ScreenHost::pump(double now_s) {
+  for (const net::ServerEvent& event : lane_.pump(now_s)) {
+    switch (event.kind) {
+      case net::ServerEvent::Kind::connected: on_connected(event); break;
+      case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason, now_s); break;
+      case net::ServerEvent::Kind::message: on_message(event, now_s); break;
+      case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
+    }
+  }
+  tell_of_strangers(now_s);
+  if (options_.car)
+    if (const auto feedback = options_.car->take_feedback(); feedback && car_client_)
+      lane_.send(*car_client_, net::share(encode_control(*feedback)), net::Reliability::unreliable);
+  const std::vector<net::ClientId> clients = lane_.clients();
+  for (const net::ClientId client : clients)
+    scene_.pump(client, scene_bytes_per_pump / clients.size(), [&](std::span<const std::byte> message) {
+      const auto sent = lane_.send(client, control::scene_message(message), net::Reliability::reliable);
+      return sent == net::SendResult::queued || sent == net::SendResult::overwrote;
+    });
+  if (options_.welcome.group_ip != 0) send_unicast_to_the_deaf(now_s);
+}
+
+/// A screen that speaks on its lane but answers no tick does not hear the group: a switch that has dropped it, a firewall.
+void ScreenHost::send_unicast_to_the_deaf(double now_s) {
+  for (HostedScreen& screen : screens_) {
+    if (!screen.client || !screen.unanswered_since_s || unicast_.contains(*screen.client)) continue;
+    const auto* info = lane_.info(*screen.client);
+    if (!info) continue;
+    // One that is silent altogether hangs or has gone; its time counts from when it is heard again.
+    if (now_s - info->heard_s > hung_after_s) screen.unanswered_since_s = now_s;
+    if (now_s - *screen.unanswered_since_s < deaf_after_s) continue;
+    add_unicast(*screen.client, screen.tick_port);
+    // So far its silence told against it; from here on it can acknowledge.
+    baselines_.leave(*screen.client);
+    baselines_.join(*screen.client, now_s);
+    messages_.push_back(fmt::format("screen {} answers no tick of the group: it gets its own", screen.name));
+  }
+}
+
+void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
+  const auto* info = lane_.info(client);
+  if (!info) return;
+  const net::Address destination{info->address.ip, port};
+  if (const auto before = unicast_.find(client); before != unicast_.end()) publisher_.remove_destination(before->second);
+  unicast_[client] = destination;
+  publisher_.add_destination(destination);
+}
+
+void ScreenHost::on_connected(const net::ServerEvent& event) {
+  clients_[event.client] = event.name;
+  scene_.connect(event.client, event.name);
+  for (HostedScreen& screen : screens_)
+    if (screen.name == event.name && !screen.client) screen.expected = true;
+}
+
+void ScreenHost::on_message(const net::ServerEvent& event, double now_s) {
+  // What it sent before another connection took its place arrives after that.
+  if (!clients_.contains(event.client)) return;
+  baselines_.heard(event.client, now_s);
+  switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
+    case LaneMessage::scene:
+      // Screens only look: a change that one asks for is not made.
+      if (const auto requests = scene_.receive(event.client, std::span(event.bytes).subspan(1)); !requests)
+        lane_.disconnect(event.client, requests.error().what);
+      break;
+    case LaneMessage::control:
+      if (const auto message = decode_control(event.bytes))
+        on_control(event.client, *message, now_s);
+      else
+        lane_.disconnect(event.client, message.error().what);
+  }
+}
+
+void ScreenHost::on_control(net::ClientId client, const ControlMessage& message, double now_s) {
+  if (const auto* hello = std::get_if<Hello>(&message)) return on_hello(client, *hello, now_s);
+  if (const auto* car = std::get_if<CarHello>(&message)) return on_car_hello(client, *car, now_s);
+  if (const auto* report = std::get_if<CarReport>(&message)) {
+    if (car_client_ == client) options_.car->device.receive(report->number, to_bytes(report->report), report->problem);
+    return;
+  }
+  HostedScreen* screen = screen_of(client);
+  if (!screen) return;
+  if (const auto* arrived = std::get_if<TickArrived>(&message)) {
+    screen->unanswered_since_s.reset();
+    if (arrived->lost_baseline) return baselines_.join(client, now_s);
+    baselines_.acknowledge(client, arrived->tick, now_s);
+    planner_.observe(arrived->lateness_s, now_s);
+  } else if (std::holds_alternative<SceneArrived>(message)) {
+    screen->scene_arrived = true;
+  } else if (const auto* presented = std::get_if<Presented>(&message)) {
+    if (!screen->has_presented)
+      tell(client, fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s), now_s);
+    // Nobody has shown what was not sent.
+    const Tick newest = sent_.empty() ? 0 : sent_.back()->snapshot().tick;
+    screen->presented = std::max(screen->presented, std::min(presented->tick, newest));
+    screen->has_presented = true;
+    screen->left_behind = false;
+    ++screen->frames;
+  } else if (const auto* controls = std::get_if<Controls>(&message)) {
+    if (options_.drivers.contains(screen->name)) controls_ = controls->input;
+  } else if (const auto* quit = std::get_if<Quit>(&message)) {
+    end_requested_ = quit->by_escape ? logging::DriveEnd::escape : logging::DriveEnd::window_closed;
+  } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
+    screen->report = *report;
+  }
+}
+
+void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s) {
+  const auto screen = std::ranges::find(screens_, hello.screen, &HostedScreen::name);
+  const std::string& name = clients_.at(client);
+  if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
+  if (hello.screen != name)
+    return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen), now_s);
+  if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
+  // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
+  if (screen->client && *screen->client != client) {
+    const net::ClientId old = *screen->client;
+    on_disconnected(old, "replaced by a new connection", now_s);
+    lane_.disconnect(old, "replaced by a new connection");
+  }
+  screen->client = client;
+  screen->expected = screen->scene_arrived = screen->has_presented = screen->left_behind = false;
+  ++screen->joined;
+  remember(screen->connected_s, simulated_time_s());
+  screen->joined_s = now_s;
+  screen->joined_at = sent_.empty() ? std::nullopt : std::optional(sent_.back()->snapshot().tick);
+  baselines_.join(client, now_s);
+  screen->tick_port = hello.tick_port;
+  screen->unanswered_since_s.reset();
+  if (options_.welcome.group_ip == 0) add_unicast(client, hello.tick_port);
+  tell(client, fmt::format("screen {} connected", hello.screen), now_s);
+  send(client, options_.welcome);
+  send(client, notice_);
+}
+
+void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, double now_s) {
+  const std::string& name = clients_.at(client);
+  if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
+  if (!options_.car) return refuse(client, "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)", now_s);
+  if (name != car_client_name) return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be the car", name), now_s);
+  car_client_ = client;
+  options_.car->device.lose("septet-car has connected and has not read its device yet");
+  tell(client, "the car connected", now_s);
+  send(client, CarWelcome{options_.welcome.rig});
+}
+
+void ScreenHost::refuse(net::ClientId client, const std::string& reason, double now_s) {
+  const auto* info = lane_.info(client);
+  tell(client, fmt::format("refused the client {} at {}: {}", clients_.at(client), info ? net::to_text(info->address) : "?", reason), now_s);
+  send(client, Refusal{printable(reason)});
+}
+
+void ScreenHost::tell(net::ClientId client, const std::string& text, double now_s) {
+  if (auto said = limits_[clients_.at(client)].take(printable(text), now_s)) messages_.push_back(std::move(*said));
+}
+
+/// What nobody with a key has sent, or not whole: an attack, a wrong server.public, another program on the port.
+void ScreenHost::tell_of_strangers(double now_s) {
+  if (now_s - told_s_ < strangers_told_every_s) return;
+  told_s_ = now_s;
+  const net::ChannelCounters now = lane_.counters();
+  // A connection that never was takes its counters with it.
+  const auto rise = [](std::uint64_t after, std::uint64_t before) { return after > before ? after - before : 0; };
+  const auto forged = rise(now.forged, told_.forged), malformed = rise(now.malformed, told_.malformed), cookies = rise(now.bad_cookies, told_.bad_cookies);
+  told_ = now;
+  if (forged + malformed + cookies == 0) return;
+  messages_.push_back(fmt::format("datagrams that were refused in {:.0f} s: {} forged or sealed for another server's key, {} malformed, {} with a bad cookie",
+                                  strangers_told_every_s, forged, malformed, cookies));
+}
+
+void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason, double now_s) {
+  const auto known = clients_.find(client);
+  if (known == clients_.end()) return;
+  for (HostedScreen& screen : screens_)
+    if (screen.name == known->second) screen.expected = false;
+  scene_.disconnect(client);
+  baselines_.leave(client);
+  if (const auto destination = unicast_.find(client); destination != unicast_.end()) {
+    publisher_.remove_destination(destination->second);
+    unicast_.erase(destination);
+  }
+  if (car_client_ == client) {
+    tell(client, fmt::format("the car left: {}", reason), now_s);
+    options_.car->device.lose("the connection to septet-car was lost");
+    car_client_.reset();
+  }
+  if (HostedScreen* screen = screen_of(client)) {
+    tell(client, fmt::format("screen {} left: {}", screen->name, reason), now_s);
+    screen->client.reset();
+    screen->scene_arrived = false;
+    if (!is_finishing_) remember(screen->left_s, simulated_time_s());
+  }
+  clients_.erase(known);
+}
+
+void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_s) {
+  baselines_.advance_to(now_s);
+  const WireSnapshot* baseline = nullptr;
+  if (const auto tick = baselines_.baseline()) {
+    const auto found = std::ranges::find(sent_, *tick, [](const auto& sent) { return sent->snapshot().tick; });
+    if (found != sent_.end()) baseline = &(*found)->wire();
+  }
+  Bytes payload;
+  ByteWriter writer(payload);
+  put_tick_header(writer, planner_.header(now_s, taken->snapshot().simulated_time_s));
+  encode_snapshot(taken->wire(), baseline, payload);
+  last_tick_bytes_ = payload.size();
+  publisher_.publish(taken->snapshot().tick, payload);
+  for (HostedScreen& screen : screens_)
+    if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+  sent_.push_back(std::move(taken));
+  if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
+}
+
+std::vector<std::string> ScreenHost::missing() const {
+  std::vector<std::string> names;
+  for (const HostedScreen& screen : screens_)
+    if (!screen.live() || !screen.scene_arrived) names.push_back(screen.name);
+  if (options_.car && !car_client_) names.push_back("the car");
+  return names;
+}
+
+bool ScreenHost::all_presented(Tick tick) const {
+  return std::ranges::all_of(screens_, [&](const HostedScreen& screen) { return keeps_up(screen, tick); });
+}
+
+void ScreenHost::leave_behind(Tick tick) {
+  for (HostedScreen& screen : screens_) {
+    if (keeps_up(screen, tick)) continue;
+    screen.left_behind = true;
+    remember(screen.left_behind_s, simulated_time_s());
+    messages_.push_back(fmt::format("screen {} has not shown tick {}: the others go on without it", screen.name, tick));
+  }
+}
+
+std::optional<DriverInput> ScreenHost::take_controls() { return std::exchange(controls_, std::nullopt); }
+
+void ScreenHost::give_notice(const Notice& notice) {
+  if (notice == notice_) return;
+  notice_ = notice;
+  for (const HostedScreen& screen : screens_)
+    if (screen.client) send(*screen.client, notice_);
+}
+
+void ScreenHost::restart_shown_time() { planner_ = PlayoutPlanner(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz); }
+
+void ScreenHost::finish(const std::string& reason) {
+  is_finishing_ = true;
+  for (const auto& screen : screens_)
+    if (screen.client) send(*screen.client, Finish{reason});
+  if (car_client_) send(*car_client_, Finish{reason});
+}
+
+bool ScreenHost::all_reported() const {
+  return std::ranges::all_of(screens_, [](const HostedScreen& screen) { return !screen.live() || screen.report; });
+}
+
+}  // namespace septet::server

@@ -1,0 +1,211 @@
+#include "sim-server/host/serve.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace septet::server {
+namespace {
+
+using logging::DriveEnd;
+
+/// The loop's parts share these. A part returns once `result.end` says why, or where it has nothing more to do.
+struct Loop {
+  TickSource& source;
+  const ServeEnvironment& environment;
+  std::uint64_t ticks;
+  double started_s;
+  ServeResult result = {};
+
+  void report(std::string what) {
+    environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), environment.now_s() - started_s,
+                        std::move(what)});
+  }
+  /// What the source says; it has logged it itself.
+  void show_messages() {
+    for (const auto& text : source.take_messages()) (environment.show ? environment.show : environment.message)(text);
+  }
+  /// The next tick; nothing at the end, with the reason in the result.
+  std::shared_ptr<const TakenSnapshot> take_tick(const std::optional<DriverInput>& controls) {
+    auto snapshot = source.next(controls);
+    show_messages();
+    if (!snapshot) result.error = std::move(snapshot.error());
+    if (!snapshot || !*snapshot) {
+      result.end = source.end();
+      return nullptr;
+    }
+    ++result.ticks;
+    result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
+    result.state_hash = (*snapshot)->snapshot().state_hash;
+    return std::move(*snapshot);
+  }
+  /// Whether somebody wants the drive to end or its log is lost; the result says so.
+  bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
+    if (auto error = source.take_error()) {
+      result.error = std::move(*error);
+      result.end = source.end();
+    }
+    if (result.error) return true;
+    const auto asked = environment.end_requested();
+    if (!asked && !by_a_screen) return false;
+    result.end = asked ? *asked : *by_a_screen;
+    return true;
+  }
+  /// Whether all ticks that were asked for are there; the result says so.
+  bool is_time_over() {
+    if (ticks == 0 || result.ticks < ticks) return false;
+    result.end = DriveEnd::time_over;
+    return true;
+  }
+};
+
+/// A loop with screens.
+struct ScreenLoop : Loop {
+  ScreenHost& host;
+  const ServeOptions& options;
+
+  void pump() {
+    if (environment.changed_list)
+      if (auto list = environment.changed_list()) host.set_allowed(std::move(*list));
+    host.pump(environment.now_s());
+    for (const auto& text : host.take_messages()) environment.message(text);
+  }
+  bool is_stopped() { return Loop::is_stopped(host.end_requested()); }
+  bool is_over() { return is_stopped() || is_time_over(); }
+
+  /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. `every_s` runs `nudge` now and then.
+  template <class Condition, class Nudge>
+  bool pump_until(Condition satisfied, double patience_s, double every_s, Nudge nudge) {
+    const double begun_s = environment.now_s();
+    double nudged_s = begun_s;
+    while (true) {
+      pump();
+      if (satisfied()) return true;
+      const double now_s = environment.now_s();
+      if (now_s - begun_s > patience_s || is_stopped()) return false;
+      if (now_s - nudged_s > every_s) {
+        nudged_s = now_s;
+        nudge();
+      }
+      environment.wait(host.has_backlog() ? 0.0 : 0.005);
+    }
+  }
+};
+
+/// All who belong to the rig are there, or the operator or patience does without those who are not. Simulated time begins after that.
+/// In lockstep there is no drive where not one screen came.
+bool wait_for_screens(ScreenLoop& loop) {
+  const auto missing = [&] { return fmt::format("{}", fmt::join(loop.host.missing(), ", ")); };
+  const double patience_s = loop.options.lockstep ? loop.options.patience_s : loop.options.wait_for_screens_s;
+  const bool can_go = loop.environment.told_to_go != nullptr;
+  const auto told_to_go = [&] { return can_go && loop.environment.told_to_go(); };
+  if (patience_s > 0.0)
+    loop.pump_until([&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
+                    [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
+  loop.started_s = loop.environment.now_s();
+  if (patience_s <= 0.0 || loop.host.all_ready()) return true;
+  if (loop.is_stopped()) return false;
+  if (loop.options.lockstep && !told_to_go() && loop.host.missing().size() == loop.host.screens().size()) {
+    loop.result.end = DriveEnd::no_screens;
+    loop.result.error = Error{fmt::format("no answer within {:.0f} s from: {}", patience_s, missing()), "screens",
+                              "look into their logs, and check that they run and reach this machine"};
+    return false;
+  }
+  loop.environment.message("the drive begins without " + missing());
+  return true;
+}
+
+void run_lockstep(ScreenLoop& loop) {
+  if (!wait_for_screens(loop)) return;
+  while (!loop.is_over()) {
+    const auto snapshot = loop.take_tick(loop.host.take_controls());
+    if (!snapshot) return;
+    const Tick tick = snapshot->snapshot().tick;
+    if (tick % loop.options.draw_every_ticks != 0) continue;
+    loop.host.publish(snapshot, loop.environment.now_s());
+    const double asked_s = loop.environment.now_s();
+    const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,
+                                          [&] { loop.host.repeat_newest(); });
+    if (!together && loop.environment.now_s() - asked_s > loop.options.lockstep_patience_s) loop.host.leave_behind(tick);
+    loop.report("driving");
+  }
+}
+
+/// The world stands still at its first instant, seen on all screens, until the driver takes the controls.
+void wait_for_driver(ScreenLoop& loop) {
+  const auto first = loop.source.first();
+  if (!first || loop.options.wait_for_driver.empty()) return;
+  loop.host.give_notice({loop.options.wait_for_driver, loop.host.notice().keys});
+  loop.environment.message(fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
+  const double begun_s = loop.environment.now_s();
+  loop.host.publish(first, begun_s);
+  const auto waited_s = [&] { return loop.environment.now_s() - begun_s; };
+  const bool is_ready = loop.pump_until([&] { return loop.source.driver_is_ready(loop.host.take_controls(), waited_s()); },
+                                        std::numeric_limits<double>::infinity(), 0.1, [&] {
+                                          loop.show_messages();
+                                          loop.host.repeat_newest();
+                                          loop.report("waiting for the driver");
+                                        });
+  loop.host.give_notice({"", loop.host.notice().keys});
+  loop.host.restart_shown_time();
+  loop.started_s = loop.environment.now_s();
+  if (is_ready) loop.environment.message(fmt::format("the driver took the controls after {:.1f} s", waited_s()));
+}
+
+void run_real_time(ScreenLoop& loop) {
+  if (!wait_for_screens(loop)) return;
+  wait_for_driver(loop);
+  const double tick_s = 1.0 / loop.source.tick_rate_hz();
+  double due_s = loop.environment.now_s();
+  double reported_s = due_s;
+  while (!loop.is_over()) {
+    loop.pump();
+    const double now_s = loop.environment.now_s();
+    if (now_s < due_s) {
+      loop.environment.wait(loop.host.has_backlog() ? 0.0 : due_s - now_s);
+      continue;
+    }
+    // A machine that cannot keep up slows the simulation down; it does not skip ticks.
+    if (now_s - due_s > tick_s) {
+      ++loop.result.late_ticks;
+      due_s = now_s;
+    }
+    due_s += tick_s;
+    const auto snapshot = loop.take_tick(loop.host.take_controls());
+    if (!snapshot) return;
+    loop.host.publish(snapshot, now_s);
+    if (now_s - reported_s > 0.5) {
+      reported_s = now_s;
+      loop.report("driving");
+    }
+  }
+}
+
+}  // namespace
+
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const ServeEnvironment& environment) {
+  ScreenLoop loop{{source, environment, options.ticks, environment.now_s()}, host, options};
+  options.lockstep ? run_lockstep(loop) : run_real_time(loop);
+  loop.result.wall_s = environment.now_s() - loop.started_s;
+  // Whatever happened, the screens hear that it is over and say what they have seen.
+  host.finish(loop.result.error ? loop.result.error->what : std::string(text_of(loop.result.end)));
+  const double asked_s = environment.now_s();
+  do {
+    loop.pump();
+    environment.wait(host.has_backlog() ? 0.0 : 0.005);
+  } while (!host.all_reported() && environment.now_s() - asked_s < 10.0);
+  return loop.result;
+}
+
+ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment) {
+  Loop loop{source, environment, ticks, environment.now_s()};
+  while (!loop.is_stopped(std::nullopt) && !loop.is_time_over()) {
+    if (!loop.take_tick(std::nullopt)) break;
+    if (loop.result.ticks % 120 == 0) loop.report("driving");
+  }
+  loop.result.wall_s = environment.now_s() - loop.started_s;
+  return loop.result;
+}
+
+}  // namespace septet::server
