@@ -16,6 +16,7 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   build_far_road(world);
   build_land(world);
   build_barriers(world);
+  build_kerbs(world);
   build_bridges(world);
   build_tunnels(world);
   build_gantries(world);

@@ -52,6 +52,7 @@ void build_verges(const WorldContext& world);    ///< From the asphalt's edge in
 void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
 void build_barriers(
     const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
+void build_kerbs(const WorldContext& world);  ///< Kerbs and islands that are objects.
 void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);  ///< With signs and speed displays.

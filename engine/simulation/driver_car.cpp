@@ -39,8 +39,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   vehicle::Ground ground;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     vehicle::WheelGround& wheel = ground[i];
-    if (find_wheel_ground(model.roads, weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
-      find_kerb(model.roads, centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
+    if (find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
+      find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
       note_kerb(i, centres[i], wheel, model, state, events);
       wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
       continue;

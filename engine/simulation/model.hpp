@@ -7,6 +7,7 @@
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/roadside/obstacles.hpp"
+#include "engine/roadside/raised_areas.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
@@ -27,6 +28,7 @@ struct Model {
   scenario::EntityIndex driver_entity = scenario::no_entity;  ///< Whom the scenario calls its driver's car.
   vehicle::VehicleParameters car;
   std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
+  std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; nothing where empty.
   std::uint64_t seed = 1;
 };
 

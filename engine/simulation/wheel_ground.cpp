@@ -1,5 +1,7 @@
 #include "engine/simulation/wheel_ground.hpp"
 
+#include <optional>
+
 #include <glm/geometric.hpp>
 
 #include "engine/road/road_locate.hpp"
@@ -16,6 +18,10 @@ vehicle::SurfaceKind kind_of(const road::SurfaceMaterial& material) {
   return material.surface == "wet" ? vehicle::SurfaceKind::wet : vehicle::SurfaceKind::dry;
 }
 
+double ground_height_m(const roadside::RaisedAreas* raised, const Vec2& at, double road_z_m) {
+  return raised ? raised->ground_at(at, road_z_m) : road_z_m;
+}
+
 }  // namespace
 
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather) {
@@ -30,39 +36,52 @@ double surface_friction(const road::SurfaceMaterial* material, const RoadWeather
   return friction * weather.friction_scale;
 }
 
-bool find_wheel_ground(const road::RoadNetwork& roads, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
+bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                        road::RoadPosition& place, vehicle::WheelGround& wheel) {
   const auto surface = road::surface_at(roads, {centre_m.x, centre_m.y}, has_place ? &place : nullptr, near_m);
   if (!surface) return false;
   place = surface->position;
-  wheel.point_m = {centre_m.x, centre_m.y, surface->height_m};
+  wheel.point_m = {centre_m.x, centre_m.y, ground_height_m(raised, centre_m, surface->height_m)};
   wheel.normal = surface->normal;
   wheel.friction = surface_friction(road::material_at(roads, place), weather);
   return true;
 }
 
-void find_kerb(const road::RoadNetwork& roads, const Vec3& centre_m, const Vec2& ahead, double radius_m,
+void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m, const Vec2& ahead, double radius_m,
                const road::RoadPosition& place, vehicle::WheelGround& wheel) {
   constexpr double noticed_m = 0.03;  // A lower step is a bump: the plane under the wheel jumps by it.
-  if (roads.roads[place.road].flat) return;
-  // How far the surface there lies over the plane under the wheel.
+  const bool near = raised && raised->is_near(centre_m, radius_m);
+  if (roads.roads[place.road].flat && !near) return;
+  const auto height_m = [&](const Vec2& at) -> std::optional<double> {
+    const auto surface = road::surface_at(roads, at, &place, near_m);
+    if (!surface) return std::nullopt;
+    return near ? ground_height_m(raised, at, surface->height_m) : surface->height_m;
+  };
+  // How far the ground there lies over the plane under the wheel.
   const auto rise_m = [&](double ahead_m) {
     const Vec2 at = Vec2(centre_m) + ahead_m * ahead;
-    const auto surface = road::surface_at(roads, at, &place, near_m);
-    if (!surface) return 0.0;
+    const auto height = height_m(at);
+    if (!height) return 0.0;
     const Vec2 away = at - Vec2(wheel.point_m);
-    return surface->height_m - (wheel.point_m.z - glm::dot(Vec2(wheel.normal), away) / wheel.normal.z);
+    return *height - (wheel.point_m.z - glm::dot(Vec2(wheel.normal), away) / wheel.normal.z);
   };
+  const int looks = near ? 4 : 1;  // A kerb stone is narrower than a wheel, a lane is not.
   for (const double reach_m : {radius_m, -radius_m}) {
-    if (rise_m(reach_m) < noticed_m) continue;
-    double low_m = 0.0, high_m = reach_m;
+    double low_m = 0.0, high_m = 0.0;
+    int look = 1;
+    for (; look <= looks; ++look) {
+      high_m = reach_m * look / looks;
+      if (rise_m(high_m) >= noticed_m) break;
+      low_m = high_m;
+    }
+    if (look > looks) continue;
     for (int halving = 0; halving < 9; ++halving) {  // To a millimetre.
       const double middle_m = 0.5 * (low_m + high_m);
       (rise_m(middle_m) < noticed_m ? low_m : high_m) = middle_m;
     }
     if (rise_m(high_m) - rise_m(low_m) < noticed_m) continue;  // A ramp.
     const Vec2 at = Vec2(centre_m) + high_m * ahead;
-    wheel.edge_m = Vec3(at, road::surface_at(roads, at, &place, near_m)->height_m);
+    wheel.edge_m = Vec3(at, *height_m(at));
     return;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a wheel of the driver's car stands on: the road's surface, and how slippery it is just there.
+/// What a wheel of the driver's car stands on: the road's surface or what lies raised on it, and how slippery it is just there.
 ///
 /// Friction comes from the weather (wetness, snow and temperature of the scenario's environment), from the material of the lane,
 /// and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other is paved and goes with
@@ -8,6 +8,7 @@
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
+#include "engine/roadside/raised_areas.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
@@ -19,13 +20,13 @@ struct RoadWeather {
 };
 
 /// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes where it is.
-/// Nothing where no road is near: the caller knows how the land goes on.
-bool find_wheel_ground(const road::RoadNetwork& roads, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
+/// Nothing where no road is near: the caller knows how the land goes on. `raised` may be null: there is nothing.
+bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
                        road::RoadPosition& place, vehicle::WheelGround& wheel);
 
 /// Looks for a kerb, a wheel's radius before and behind its centre: sets `wheel.edge_m`. `ahead`: the car's heading, level, unit
-/// length. Costs nothing on roads whose lanes have one height.
-void find_kerb(const road::RoadNetwork& roads, const Vec3& centre_m, const Vec2& ahead, double radius_m,
+/// length. Costs nothing on roads whose lanes have one height, far from what is raised.
+void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m, const Vec2& ahead, double radius_m,
                const road::RoadPosition& place, vehicle::WheelGround& wheel);
 
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather);

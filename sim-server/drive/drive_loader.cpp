@@ -77,6 +77,8 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
   if (const auto buildable = scenery::check_world_size(model->roads); !buildable)
     return failure(buildable.error().what, road_source->name, buildable.error().remedy);
   model->obstacles = std::make_shared<const roadside::Obstacles>(model->roads, seed);
+  model->raised = std::make_shared<const roadside::RaisedAreas>(model->roads);
+  if (!model->raised->complete()) drive.warnings.push_back(road_source->name + ": too many kerbs and islands, or too large ones; the rest is not met");
 
   const auto car_source = take("vehicle", drive.rig.car.vehicle);
   if (!car_source) return tl::unexpected(car_source.error());

@@ -28,7 +28,7 @@ road::RoadNetwork straight_road(const std::string& objects) {
 double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather& weather, double x_m, double y_m) {
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  REQUIRE(simulation::find_wheel_ground(roads, weather, {x_m, y_m, 0.3}, false, place, wheel));
+  REQUIRE(simulation::find_wheel_ground(roads, nullptr, weather, {x_m, y_m, 0.3}, false, place, wheel));
   return wheel.friction;
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("far from every road there is no surface to find") {
   const auto roads = straight_road("");
   vehicle::WheelGround wheel;
   road::RoadPosition place;
-  CHECK_FALSE(simulation::find_wheel_ground(roads, {}, {50.0, 500.0, 0.3}, false, place, wheel));
+  CHECK_FALSE(simulation::find_wheel_ground(roads, nullptr, {}, {50.0, 500.0, 0.3}, false, place, wheel));
 }
 
 TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the road there is none") {
@@ -76,8 +76,8 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
     vehicle::WheelGround wheel;
     road::RoadPosition place;
-    REQUIRE(simulation::find_wheel_ground(*roads, {}, centre_m, false, place, wheel));
-    simulation::find_kerb(*roads, centre_m, ahead, 0.32, place, wheel);
+    REQUIRE(simulation::find_wheel_ground(*roads, nullptr, {}, centre_m, false, place, wheel));
+    simulation::find_kerb(*roads, nullptr, centre_m, ahead, 0.32, place, wheel);
     return wheel.edge_m;
   };
   CHECK_FALSE(edge({50.0, -2.0, 0.3}, {0.0, -1.0}).has_value());
@@ -94,39 +94,108 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   CHECK_FALSE(edge({50.0, -3.7, 0.4}, {0.0, -1.0}).has_value());  // Up on it the way goes on level.
 }
 
+TEST_CASE("an island and a kerb stone that are objects are met as kerbs and paint and walls are not") {
+  const auto roads = straight_road(
+      "<object id=\"1\" type=\"trafficIsland\" subtype=\"island\" s=\"50\" t=\"0\"><outlines><outline id=\"0\">"
+      "<cornerRoad s=\"50\" t=\"0\" dz=\"0\" height=\"0.12\"/><cornerRoad s=\"55\" t=\"0\" dz=\"0\" height=\"0.12\"/>"
+      "<cornerRoad s=\"56\" t=\"0\" dz=\"0\" height=\"0.01\"/><cornerRoad s=\"60\" t=\"0\" dz=\"0\" height=\"0.01\"/>"
+      "<cornerRoad s=\"60\" t=\"2\" dz=\"0\" height=\"0.01\"/><cornerRoad s=\"56\" t=\"2\" dz=\"0\" height=\"0.01\"/>"
+      "<cornerRoad s=\"55\" t=\"2\" dz=\"0\" height=\"0.12\"/><cornerRoad s=\"50\" t=\"2\" dz=\"0\" height=\"0.12\"/>"
+      "</outline></outlines><borders><border outlineId=\"0\" type=\"curb\" width=\"0.1\"/></borders></object>"
+      "<object id=\"2\" type=\"barrier\" name=\"Curb\" s=\"80\" t=\"-2\" height=\"0.1\" width=\"0.15\">"
+      "<repeat s=\"80\" length=\"30\" distance=\"0\" tStart=\"-2\" tEnd=\"-2\" heightStart=\"0.1\" heightEnd=\"0.1\" widthStart=\"0.15\" widthEnd=\"0.15\"/></object>"
+      "<object id=\"3\" type=\"none\" name=\"kerb at a bus stop\" s=\"130\" t=\"2\" height=\"0.2\" length=\"4\" width=\"1\" hdg=\"1.5707963\"/>"
+      "<object id=\"4\" type=\"roadMark\" name=\"curb\" s=\"20\" t=\"2\" height=\"0.1\" length=\"4\" width=\"1\"/>"
+      "<object id=\"5\" type=\"trafficIsland\" s=\"30\" t=\"2\" height=\"0.8\" length=\"4\" width=\"1\"/>");
+  const roadside::RaisedAreas raised(roads);
+  CHECK(raised.complete());
+  struct Met {
+    double height_m;
+    std::optional<Vec3> edge_m;
+  };
+  const auto met = [&](double x_m, double y_m, const Vec2& ahead) {
+    vehicle::WheelGround wheel;
+    road::RoadPosition place;
+    REQUIRE(simulation::find_wheel_ground(roads, &raised, {}, {x_m, y_m, 0.3}, false, place, wheel));
+    simulation::find_kerb(roads, &raised, {x_m, y_m, 0.3}, ahead, 0.32, place, wheel);
+    return Met{wheel.point_m.z, wheel.edge_m};
+  };
+  const Vec2 along(1.0, 0.0), left(0.0, 1.0);
+  CHECK(met(52.0, 1.0, along).height_m == doctest::Approx(0.12));
+  CHECK(met(58.0, 1.0, along).height_m == doctest::Approx(0.01));
+  CHECK(met(55.5, 0.3, along).height_m == doctest::Approx(0.065));
+  CHECK(met(52.0, -0.5, along).height_m == 0.0);
+  const Met island = met(49.8, 1.0, along);
+  CHECK(island.height_m == 0.0);
+  REQUIRE(island.edge_m.has_value());
+  CHECK(island.edge_m->x == doctest::Approx(50.0).epsilon(0.0001));
+  CHECK(island.edge_m->z == doctest::Approx(0.12));
+  CHECK_FALSE(met(58.0, -0.2, left).edge_m.has_value());  // Lowered for those on foot.
+  CHECK_FALSE(met(49.5, 1.0, along).edge_m.has_value());
+  // 15 cm of stone, all within the wheel's radius: its near edge is the one.
+  CHECK(met(95.0, -2.0, left).height_m == doctest::Approx(0.1));
+  for (const double before_m : {0.05, 0.15, 0.3}) {
+    CAPTURE(before_m);
+    const Met stone = met(95.0, -2.075 - before_m, left);
+    CHECK(stone.height_m == 0.0);
+    REQUIRE(stone.edge_m.has_value());
+    CHECK(stone.edge_m->y == doctest::Approx(-2.075).epsilon(0.001));
+  }
+  CHECK(met(130.0, 3.9, along).height_m == doctest::Approx(0.2));  // The box stands across the road.
+  CHECK(met(131.0, 2.0, along).height_m == 0.0);
+  CHECK(met(20.0, 2.0, along).height_m == 0.0);
+  CHECK(met(30.0, 2.0, along).height_m == 0.0);
+}
+
 TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touch with height and speed") {
-  // The lanes to the right of the car's own are raised: a pavement along the motorway.
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-  simulation::Model model = *drive.model;
-  model.obstacles = nullptr;
-  auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
-  REQUIRE(begun.has_value());
-  simulation::State state = std::move(*begun);
-  state.traffic->stop();
-  Snapshot now = simulation::capture_snapshot(model, state);
-  const int lane = now.driver_car.lane;
-  REQUIRE(lane < 0);
-  road::Road& road = model.roads.roads[now.driver_car.road];
-  road.flat = false;
-  for (road::LaneSection& section : road.sections)
-    for (road::Lane& other : section.lanes)
-      if (other.id < lane) other.heights = {{section.s_m, 0.1, 0.1}};
-  const RigidTransform start = find_participant(now, simulation::driver_participant)->world_from_vehicle;
-  const Quat to_the_right = glm::angleAxis(-0.5, Vec3(0.0, 0.0, 1.0));
-  state.car = vehicle::standstill(model.car, {start * Vec3(0.0, 0.6, 0.0), to_the_right * start.orientation}, 8.0);
-  std::vector<simulation::Event> events;
-  for (int tick = 0; tick < 240; ++tick) now = simulation::server_step(model, {}, state, events);
-  std::vector<std::string> touches;
-  for (const simulation::Event& event : events)
-    if (event.kind == "kerb") touches.push_back(event.detail);
-  REQUIRE(touches.size() >= 4);
-  CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);
-  for (const char* wheel : {"front_left", "rear_right", "rear_left"})
-    CHECK(std::ranges::any_of(touches, [&](const std::string& text) { return text.find(wheel) != std::string::npos; }));
-  CHECK(touches[0].find("speed_mps=7.") != std::string::npos);
-  CHECK(now.diagnostics.bad_numbers == 0);
-  CHECK(now.driver_car.lane < lane);
-  CHECK(now.driver_car.speed_mps > 4.0);
+  // What lies to the right of the car's own lane is raised, as lanes or as an object: a pavement along the motorway.
+  for (const bool as_object : {false, true}) {
+    CAPTURE(as_object);
+    const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+    simulation::Model model = *drive.model;
+    model.obstacles = nullptr;
+    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
+    REQUIRE(begun.has_value());
+    simulation::State state = std::move(*begun);
+    state.traffic->stop();
+    Snapshot now = simulation::capture_snapshot(model, state);
+    const int lane = now.driver_car.lane;
+    REQUIRE(lane < 0);
+    road::Road& road = model.roads.roads[now.driver_car.road];
+    const RigidTransform start = find_participant(now, simulation::driver_participant)->world_from_vehicle;
+    if (as_object) {
+      const auto place = road::locate(model.roads, Vec2(start.position_m));
+      REQUIRE(place.has_value());
+      const double edge_t_m = place->position.t_m - now.driver_car.lateral_position_m - 0.5 * now.driver_car.lane_width_m;
+      road::RoadObject kerb;
+      kerb.type = "none";
+      kerb.name = "kerb";
+      kerb.repeats = {{.s_m = place->position.s_m - 10.0, .length_m = 100.0, .t_start_m = edge_t_m - 3.0, .t_end_m = edge_t_m - 3.0,
+                       .width_start_m = 6.0, .width_end_m = 6.0, .height_start_m = 0.1, .height_end_m = 0.1}};
+      road.objects.push_back(kerb);
+      model.raised = std::make_shared<const roadside::RaisedAreas>(model.roads);
+    } else {
+      road.flat = false;
+      for (road::LaneSection& section : road.sections)
+        for (road::Lane& other : section.lanes)
+          if (other.id < lane) other.heights = {{section.s_m, 0.1, 0.1}};
+    }
+    const Quat to_the_right = glm::angleAxis(-0.5, Vec3(0.0, 0.0, 1.0));
+    state.car = vehicle::standstill(model.car, {start * Vec3(0.0, 0.6, 0.0), to_the_right * start.orientation}, 8.0);
+    std::vector<simulation::Event> events;
+    for (int tick = 0; tick < 240; ++tick) now = simulation::server_step(model, {}, state, events);
+    std::vector<std::string> touches;
+    for (const simulation::Event& event : events)
+      if (event.kind == "kerb") touches.push_back(event.detail);
+    REQUIRE(touches.size() >= 4);
+    CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);
+    for (const char* wheel : {"front_left", "rear_right", "rear_left"})
+      CHECK(std::ranges::any_of(touches, [&](const std::string& text) { return text.find(wheel) != std::string::npos; }));
+    CHECK(touches[0].find("speed_mps=7.") != std::string::npos);
+    CHECK(now.diagnostics.bad_numbers == 0);
+    CHECK(now.driver_car.lane < lane);
+    CHECK(now.driver_car.speed_mps > 4.0);
+  }
 }
 
 }  // namespace septet::server
