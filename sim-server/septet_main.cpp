@@ -18,6 +18,7 @@
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
 #include "sim-server/resources.hpp"
+#include "sim-server/stop_signal.hpp"
 
 namespace septet::server {
 namespace {
@@ -168,6 +169,7 @@ int run(int argc, char** argv) {
 }  // namespace septet::server
 
 int main(int argc, char** argv) {
+  septet::server::survive_failed_writes();
   try {
     return septet::server::run(argc, argv);
   } catch (const std::exception& error) {

@@ -1,10 +1,13 @@
 #pragma once
 /// What `septet-server` is told on its command line.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "engine/core/expected.hpp"
 
 namespace septet::server {
 
@@ -27,5 +30,11 @@ struct ServerOptions {
   bool no_screens = false;
   bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.
 };
+
+inline constexpr std::size_t most_participant_characters = 100;
+
+/// What can be said of them before any file is read.
+/// Error: no such driver or traffic engine; a participant's code that cannot be printed on one line of a report.
+Expected<void> check_names(const ServerOptions& options);
 
 }  // namespace septet::server

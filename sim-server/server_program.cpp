@@ -205,6 +205,7 @@ Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, co
 }
 
 Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, ProgressLine& progress) {
+  if (auto known = check_names(options); !known) return known;
   auto parameters = read_parameters(options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
   auto loaded = load_drive({options.scenario, options.rig, options.seed, options.vehicle, std::move(*parameters)});

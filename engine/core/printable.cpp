@@ -50,4 +50,15 @@ std::string printable(std::string_view text, std::size_t most_bytes) {
   return shown;
 }
 
+std::optional<std::size_t> printable_characters(std::string_view text) {
+  std::size_t count = 0;
+  for (; !text.empty(); ++count) {
+    std::uint32_t code = 0;
+    const std::size_t length = read_character(text, code);
+    if (length == 0 || !is_shown(code)) return std::nullopt;
+    text.remove_prefix(length);
+  }
+  return count;
+}
+
 }  // namespace septet

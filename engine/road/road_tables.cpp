@@ -60,7 +60,7 @@ Expected<void> sample_table(const RoadNetwork& network, std::istream& in, std::o
       << ",x_m,y_m,z_m,heading_rad,pitch_rad,roll_rad,lane_width_m,curvature_per_m,t_m,drive_"
          "heading_rad\n";
   std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
+  for (std::size_t number = 1; out && std::getline(in, line); ++number) {
     const auto fields = split(line);
     if (trimmed(line).empty() || (number == 1 && fields[0] == "road_id")) continue;
     if (fields.size() < 4)
@@ -100,7 +100,7 @@ Expected<void> locate_table(const RoadNetwork& network, std::istream& in, std::o
   out << locate_columns
       << ",road_id,lane_id,s_m,t_m,lane_offset_m,lane_id_any,residual_m,s_true_m,t_true_m\n";
   std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
+  for (std::size_t number = 1; out && std::getline(in, line); ++number) {
     const auto fields = split(line);
     if (trimmed(line).empty() || (number == 1 && fields[0] == "x_m")) continue;
     if (fields.size() < 2)

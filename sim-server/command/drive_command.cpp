@@ -239,7 +239,6 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
 }  // namespace
 
 int run_drive(DriveOptions options) {
-  survive_failed_writes();
   if (!has_display()) options.virtual_screens = true;
   if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
   const auto rig_file = find_resource(options.rig, "rigs", ".toml");

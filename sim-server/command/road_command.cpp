@@ -15,7 +15,11 @@ int answer(const std::string& file, std::istream& in, std::ostream& out, Answer 
   std::vector<road::Finding> warnings;
   const auto outcome = read_regular_file(file)
                            .and_then([&](const std::string& text) { return road::read_opendrive(text, file, &warnings); })
-                           .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); });
+                           .and_then([&](const road::RoadNetwork& network) { return table(network, in, out); })
+                           .and_then([&]() -> Expected<void> {
+                             if (out.flush()) return {};
+                             return failure("the table cannot be written", "standard output", "free space, or let who reads it read on");
+                           });
   for (const road::Finding& warning : warnings) fmt::print(stderr, "warning: {}\n", describe(warning.error));
   if (outcome) return 0;
   fmt::print(stderr, "septet: {}\n", describe(outcome.error()));

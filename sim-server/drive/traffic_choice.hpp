@@ -9,6 +9,9 @@
 
 namespace septet::server {
 
+/// Error: no such engine.
+Expected<void> check_traffic(const std::string& name);
+
 /// "own": Septet's models; "sumo": SUMO as another process. `model` outlives the engine.
 /// Error: no such engine, or SUMO is not there.
 Expected<std::unique_ptr<traffic::TrafficEngine>> open_traffic(const std::string& name, const simulation::Model& model);

@@ -140,6 +140,21 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
   CHECK(run("septet", {"replay", "--verify", (folder / "limited" / "session.sqlite").string()}, folder / "verify.err").code == 0);
 }
 
+TEST_CASE("a killed drive's session is checked also where no file may grow") {
+  const TemporaryFolder folder;
+  auto server = start("septet-server", {"--no-screens", "--keys", folder.path().string(), "--out", (folder / "out").string()}, folder / "err");
+  const fs::path session = folder / "out" / "session.sqlite", wal = session.string() + "-wal";
+  REQUIRE(becomes_true([&] { return (fs::exists(wal) && fs::file_size(wal) > 0) || server.poll(); }));
+  server.send_signal(SIGKILL);
+  CHECK(exit_code(server) == -1);
+  REQUIRE(fs::exists(wal));
+  fs::remove(session.string() + "-shm");  // The WAL's index, which whoever reads it makes anew.
+  auto check = start("/bin/sh", {"-c", fmt::format("ulimit -f 8; exec '{}' check '{}'", (fs::path(SEPTET_BINARY_DIR) / "septet").string(), session.string())},
+                     folder / "check.err");
+  CHECK(exit_code(check) == 1);  // Not −1, ended by a signal.
+  CHECK(last_words(check) == "1 files, 1 errors, 0 warnings");
+}
+
 TEST_CASE("a log that is deleted while the server waits for its screens ends it") {
   const TemporaryFolder folder;
   write_text(folder / "small.toml", small_rig(1));

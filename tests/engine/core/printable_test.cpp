@@ -23,6 +23,12 @@ TEST_CASE("text from outside is cut at a whole character") {
   CHECK(printable(std::string(1000, '\n'), 12) == "\\x0a\\x0a\\x0a…");
 }
 
+TEST_CASE("characters are counted where all of them can be printed") {
+  CHECK(printable_characters("") == 0);
+  CHECK(printable_characters("Müller \\ 7") == 10);
+  for (const std::string_view text : {"a\nb", "\x1b[31m", "\x7f", "\xc2\x9b", "\xe2\x80\xae", "\xff"}) CHECK_FALSE(printable_characters(text).has_value());
+}
+
 TEST_CASE("one source says ten things at once and then one a second and what was left out is counted") {
   MessageLimit limit;
   int said = 0;

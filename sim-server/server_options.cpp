@@ -1,0 +1,23 @@
+#include "sim-server/server_options.hpp"
+
+#include <fmt/core.h>
+
+#include "car-io/simulated_driver/driver_parameters.hpp"
+#include "engine/core/printable.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
+
+namespace septet::server {
+
+Expected<void> check_names(const ServerOptions& options) {
+  if (!options.driver.empty())
+    if (const auto driver = car_io::find_driver(options.driver); !driver)
+      return failure(driver.error().what, "--driver", driver.error().remedy);
+  if (auto traffic = check_traffic(options.traffic); !traffic) return traffic;
+  const auto characters = printable_characters(options.participant);
+  if (!characters || *characters > most_participant_characters)
+    return failure(fmt::format("\"{}\" is no participant's code", printable(options.participant)), "--participant",
+                   fmt::format("use at most {} characters, none of them a control character", most_participant_characters));
+  return {};
+}
+
+}  // namespace septet::server
