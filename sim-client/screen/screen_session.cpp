@@ -16,6 +16,7 @@
 #include "sim-client/frame/instruments.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 #include "sim-client/frame/playout.hpp"
+#include "sim-client/screen/departure.hpp"
 #include "sim-client/screen/frame_times.hpp"
 #include "sim-client/screen/picture_rate.hpp"
 #include "sim-client/screen/screen_display.hpp"
@@ -59,13 +60,6 @@ class Session {
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
-  /// The person at this screen wants the drive to end.
-  struct Departure {
-    bool by_escape = false;
-    double since_s = 0.0;
-    std::optional<std::uint32_t> told_welcome;  ///< Of which connection the server has been told.
-  };
-  bool tell_of(Departure& departure, double now_s);
   void say_goodbye();
   /// Instruments, and on the screen ahead what the driver is to read.
   void add_driver_texts(render::FrameInput& input, const Snapshot& snapshot);
@@ -258,16 +252,6 @@ void Session::wait(double seconds) {
   net::wait_readable(sockets, seconds);
 }
 
-/// Nothing is drawn meanwhile: a server that had dropped this screen is to hear of it as soon as it is back. True: it is not coming.
-bool Session::tell_of(Departure& departure, double now_s) {
-  if (link_.state() == net::ClientState::connected && departure.told_welcome != link_.welcomes()) {
-    link_.send(control::Quit{departure.by_escape}, net::Reliability::reliable);
-    departure.told_welcome = link_.welcomes();
-  }
-  const double waited_s = now_s - departure.since_s;
-  return waited_s > 10.0 || (waited_s > 2.0 && link_.server_is_gone());
-}
-
 void Session::say_goodbye() {
   if (display_) {
     const auto& last = display_->renderer().statistics();
@@ -303,7 +287,8 @@ Expected<void> Session::run() {
       return pictures_.finish();
     }
     if (departure) {
-      if (tell_of(*departure, now_s)) break;
+      // Nothing is drawn meanwhile: a server that had dropped this screen is to hear of it as soon as it is back.
+      if (departure->is_in_vain(link_, now_s)) break;
       wait(0.005);
       continue;
     }
@@ -311,7 +296,7 @@ Expected<void> Session::run() {
     if (link_.welcome()) drawn = take_welcome();
     if (drawn && display_) {
       if (const auto leaving = display_->poll_leaving(); leaving != Display::Leaving::no) {
-        departure = Departure{leaving == Display::Leaving::escape, now_s};
+        departure.emplace(leaving == Display::Leaving::escape, now_s);
         continue;
       }
       if (link_.server_is_gone()) drawn = draw_lost(now_s);

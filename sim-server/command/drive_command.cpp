@@ -209,8 +209,8 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
     }
   }
   while (!last_words && listen(0ms)) {}
-  // The screens have had Finish and their reports are in; whoever still runs is not waited for long.
-  for (int i = 0; i < 250 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i) std::this_thread::sleep_for(20ms);
+  // The screens have had Finish and their reports are in; whoever still runs writes its last pictures, or hangs.
+  for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i) std::this_thread::sleep_for(20ms);
   return ending_of(*server->poll(), last_words, was_ready);
 }
 
