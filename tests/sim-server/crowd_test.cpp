@@ -3,19 +3,13 @@
 #include <doctest/doctest.h>
 
 #include "engine/net/secure_client.hpp"
-#include "engine/net/udp_socket.hpp"
 #include "engine/replication/message.hpp"
 #include "engine/scene/builder.hpp"
 #include "sim-server/host/screen_host.hpp"
+#include "tests/engine/net/simulated_machine.hpp"
 
 namespace septet::server {
 namespace {
-
-net::UdpSocket open_socket() {
-  auto socket = net::UdpSocket::open({{net::loopback_ip, 0}});
-  REQUIRE_MESSAGE(socket.has_value(), describe(socket.error()));
-  return std::move(*socket);
-}
 
 net::Identity identity_of(std::size_t who) {
   std::array<std::uint8_t, 32> seed{};
@@ -25,25 +19,26 @@ net::Identity identity_of(std::size_t who) {
 
 /// The server's socket, before which the others go on talking while it reads.
 struct LaneSocket final : net::DatagramSocket {
-  bool send(const net::Address& to, std::span<const std::byte> bytes) override { return socket.send(to, bytes); }
-  void flush() override { socket.flush(); }
+  explicit LaneSocket(std::unique_ptr<net::DatagramSocket> its_socket) : socket(std::move(its_socket)) {}
+  bool send(const net::Address& to, std::span<const std::byte> bytes) override { return socket->send(to, bytes); }
+  void flush() override { socket->flush(); }
   std::optional<net::ReceivedDatagram> receive() override {
     while (true) {
-      if (auto datagram = socket.receive()) return datagram;
+      if (auto datagram = socket->receive()) return datagram;
       if (interruptions == 0) return std::nullopt;
       --interruptions;
-      socket.flush();
+      socket->flush();
       talk();
     }
   }
-  std::size_t receive_buffer_bytes() const override { return socket.receive_buffer_bytes(); }
+  std::size_t receive_buffer_bytes() const override { return socket->receive_buffer_bytes(); }
 
-  net::UdpSocket socket = open_socket();
+  std::unique_ptr<net::DatagramSocket> socket;
   std::function<void()> talk;
   int interruptions = 0;
 };
 
-/// Screens as they start up: they connect, say who they are and ask for the scene.
+/// Screens as they start up, each on a machine with a clock of its own: they connect, say who they are and ask for the scene.
 struct Crowd {
   explicit Crowd(std::size_t count) {
     scene::SceneBuilder(store).add_object("post", {});
@@ -52,17 +47,23 @@ struct Crowd {
       options.allowed.push_back({identity_of(who).public_key(), fmt::format("screen-{}", who)});
       options.screens.push_back(options.allowed.back().name);
     }
-    lane.talk = [this] { talk(); };
-    host = std::make_unique<ScreenHost>(lane, tick, store, std::move(options));
-    for (std::size_t who = 1; who <= count; ++who) sockets.push_back(open_socket());
-    for (std::size_t who = 1; who <= count; ++who)
+    lane.talk = [this] {
+      now_s += 0.001;
+      talk();
+    };
+    host = std::make_unique<ScreenHost>(lane, *tick, store, std::move(options));
+    for (std::size_t who = 1; who <= count; ++who) {
+      machines.push_back(net::machine_of_its_own(network, server_address.ip + static_cast<std::uint32_t>(who), server_address.ip, random));
+      sockets.push_back(machines.back()->open(5000));
       clients.push_back(std::make_unique<net::SecureClient>(
-          sockets[who - 1], net::SecureClientOptions{lane.socket.local_address(), identity_of(0).public_key(), identity_of(who), {}}));
+          *sockets.back(), net::SecureClientOptions{server_address, identity_of(0).public_key(), identity_of(who), {}}));
+    }
   }
 
   void talk() {
+    network.advance_to(now_s);
     for (std::size_t i = 0; i < clients.size(); ++i)
-      for (const net::ClientEvent& event : clients[i]->pump(now_s))
+      for (const net::ClientEvent& event : clients[i]->pump(machines[i]->clock_s(now_s)))
         if (event.kind == net::ClientEvent::Kind::connected) {
           ++connections;
           clients[i]->send(net::share(control::encode_control(control::Hello{fmt::format("screen-{}", i + 1), 5000})), net::Reliability::reliable);
@@ -74,7 +75,7 @@ struct Crowd {
   void let_wait(double seconds) {
     for (const double until_s = now_s + seconds; now_s < until_s; now_s += 0.05) talk();
     lane.interruptions = 6;
-    host->pump(now_s);
+    host->pump(server_machine->clock_s(now_s));
   }
 
   std::size_t live() const {
@@ -83,14 +84,19 @@ struct Crowd {
     return count;
   }
 
-  LaneSocket lane;
-  net::UdpSocket tick = open_socket();
+  net::BadNetwork network{{}, 1};
+  Random random{5};
+  net::Address server_address{0x0a000001, 4750};
+  std::unique_ptr<net::SimulatedMachine> server_machine = net::machine_of_its_own(network, server_address.ip, server_address.ip, random);
+  LaneSocket lane{server_machine->open(server_address.port)};
+  std::unique_ptr<net::DatagramSocket> tick = server_machine->open(4999);
   scene::Store store;
   std::unique_ptr<ScreenHost> host;
-  std::vector<net::UdpSocket> sockets;
+  std::vector<std::unique_ptr<net::SimulatedMachine>> machines;
+  std::vector<std::unique_ptr<net::DatagramSocket>> sockets;
   std::vector<std::unique_ptr<net::SecureClient>> clients;
   std::size_t connections = 0;
-  double now_s = 1.0;
+  double now_s = 1.0;  ///< True time.
 };
 
 }  // namespace

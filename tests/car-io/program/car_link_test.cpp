@@ -9,6 +9,7 @@
 #include "engine/net/bad_network.hpp"
 #include "engine/scene/store.hpp"
 #include "sim-server/host/screen_host.hpp"
+#include "tests/engine/net/simulated_machine.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -19,12 +20,15 @@ constexpr const char* rig_text =
     "[[screen]]\nname = \"a\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m "
     "= [2, 1, 1]\n";
 
-/// A car's machine and the server on a network, simulated time, and the device in the car.
+/// A car's machine and the server on a network, each with a clock of its own, and the device in the car.
 struct Rig {
   net::BadNetwork network;
+  Random random{5};
+  net::Address server_address{0x0a000001, 4750};
+  std::unique_ptr<net::SimulatedMachine> server_machine = net::machine_of_its_own(network, server_address.ip, server_address.ip, random),
+                                         car_machine = net::machine_of_its_own(network, 0x0a000002, server_address.ip, random);
   net::Identity server_identity = net::Identity::generate(),
                 car_identity = net::Identity::generate();
-  net::Address server_address{0x0a000001, 4750};
   std::unique_ptr<net::DatagramSocket> lane, tick, car_socket;
   scene::Store store;
   std::shared_ptr<server::RemoteCar> remote = std::make_shared<server::RemoteCar>();
@@ -32,15 +36,15 @@ struct Rig {
   SimulatedHidPort port;
   std::unique_ptr<CarLink> link;
   std::unique_ptr<CarConnection> at_server;
-  double now_s = 0.0;
+  double now_s = 0.0;  ///< True time.
   std::uint8_t sequence = 0;
   double accelerator = 0.5;
 
   explicit Rig(const net::NetworkFaults& faults = {}, const std::string& name = "car")
       : network(faults, 1) {
-    lane = network.open(server_address);
-    tick = network.open({server_address.ip, 4999});
-    car_socket = network.open({0x0a000002, 5000});
+    lane = server_machine->open(server_address.port);
+    tick = server_machine->open(4999);
+    car_socket = car_machine->open(5000);
     server::ScreenHostOptions options{.identity = server_identity,
                                       .session = net::random_session_id()};
     options.allowed.push_back({car_identity.public_key(), name});
@@ -67,12 +71,13 @@ struct Rig {
         input.sequence = ++sequence;
         port.send(encode_controls(input));
       }
-      link->pump(now_s);
-      host->pump(now_s);
-      if (ms % 10 == 5) reading = at_server->poll(now_s);
+      link->pump(car_machine->clock_s(now_s));
+      host->pump(server_machine->clock_s(now_s));
+      if (ms % 10 == 5) reading = poll();
     }
     return reading;
   }
+  CarReading poll() { return at_server->poll(server_machine->clock_s(now_s)); }
 };
 
 bool has(const std::vector<std::string>& messages, const std::string& part) {
@@ -145,7 +150,7 @@ TEST_CASE("a client whose key is not called car is refused as a car") {
   rig.run_for(0.5);
   REQUIRE(rig.link->refusal().has_value());
   CHECK(rig.link->refusal()->what.find("allowed-clients") != std::string::npos);
-  CHECK(rig.at_server->poll(rig.now_s).is_stale);
+  CHECK(rig.poll().is_stale);
 }
 
 TEST_CASE("a car whose device is missing at the start says so and does not drive") {
