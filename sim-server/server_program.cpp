@@ -230,6 +230,17 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, Progres
   return {};
 }
 
+/// 0 for a drive that lasts until it is ended; one that is to last, however short, has a tick.
+std::uint64_t ticks_of(double seconds, double tick_rate_hz) {
+  return seconds > 0.0 ? std::max<std::uint64_t>(static_cast<std::uint64_t>(seconds * tick_rate_hz + 0.5), 1) : 0;
+}
+
+/// A picture is kept once a second, and of a drive that is shorter one: at a tick that is drawn in lockstep.
+std::uint32_t picture_every(std::uint64_t ticks, std::uint64_t draw_every_ticks, double tick_rate_hz) {
+  const auto second = static_cast<std::uint64_t>(tick_rate_hz);
+  return static_cast<std::uint32_t>(ticks == 0 || ticks >= second ? second : ticks - ticks % draw_every_ticks);
+}
+
 /// Begins the log, once everything that could be missing is there: a failed start leaves no file behind.
 Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
   std::error_code error;
@@ -272,6 +283,8 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
   if (!prepared) return tl::unexpected(prepared.error());
   const rig::Rig& rig = drive.loaded.rig;
+  ServeOptions serve_options{.lockstep = options.lockstep, .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz())};
+  if (serve_options.ticks > 0) serve_options.draw_every_ticks = std::min(serve_options.draw_every_ticks, serve_options.ticks);
   std::optional<Endpoint> endpoint;
   std::optional<ScreenHostOptions> for_screens;
   if (!options.no_screens) {
@@ -280,7 +293,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
     endpoint.emplace(std::move(*opened));
     ScreenHostOptions& host_options = for_screens.emplace(ScreenHostOptions{.identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)});
     host_options.welcome = {.rig = drive.loaded.source("rig"), .lockstep = options.lockstep, .tick_rate_hz = drive.source->tick_rate_hz(),
-                            .picture_every_ticks = static_cast<std::uint32_t>(drive.source->tick_rate_hz())};
+                            .picture_every_ticks = picture_every(serve_options.ticks, serve_options.draw_every_ticks, drive.source->tick_rate_hz())};
     host_options.max_datagram_bytes = rig.network.max_payload_bytes;
     host_options.limits.max_datagram_bytes = rig.network.max_payload_bytes;
     // A screen that compiles its shaders is silent for a while and costs nobody anything: ticks do not wait for it in real
@@ -297,8 +310,6 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   catch_stop_signals();
   if (options.replay.empty())
     if (auto begun = begin_drive(options, drive); !begun) return tl::unexpected(begun.error());
-  const auto ticks = static_cast<std::uint64_t>(options.seconds * drive.source->tick_rate_hz() + 0.5);
-
   ServeEnvironment environment;
   environment.now_s = monotonic_s;
   environment.end_requested = end_by_signal;
@@ -312,7 +323,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   std::vector<HostedScreen> screens;
   if (!endpoint) {
     announce("ready 0");
-    result = run_headless(*drive.source, ticks, environment);
+    result = run_headless(*drive.source, serve_options.ticks, environment);
   } else {
     Sockets& sockets = endpoint->sockets;
     ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
@@ -331,7 +342,6 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
                                 : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
-    ServeOptions serve_options{.lockstep = options.lockstep, .ticks = ticks};
     const bool by_keyboard = drive.by_person && rig.car.source == rig::CarSource::keyboard;
     host.give_notice({"", by_keyboard});
     if (by_keyboard) progress.message(car_io::driving_keys_text());

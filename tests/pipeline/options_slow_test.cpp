@@ -52,6 +52,19 @@ TEST_CASE("no program takes a number that is none, and each ends with status 2 f
   CHECK(!fs::exists(out));
 }
 
+TEST_CASE("a drive off-screen may be shorter than a second, and than a tick") {
+  const TemporaryFolder folder;
+  write_text(folder / "small.toml", small_rig(2));
+  for (const auto& [seconds, tick] : {std::pair("0.25", 24), std::pair("0.001", 1)}) {
+    const fs::path out = folder / seconds;
+    const Ended ended = run("septet", {"drive", "--virtual", "--seconds", seconds, "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err");
+    INFO(ended.error);
+    CHECK(ended.code == 0);
+    CHECK(fs::exists(out / "panorama.png"));
+    CHECK(newest_picture(out / "screens" / "a") == tick);
+  }
+}
+
 TEST_CASE("a drive into a folder where another one is going on is refused, and the other goes on") {
   const TemporaryFolder folder;
   const std::string out = (folder / "out").string();
