@@ -63,6 +63,7 @@ double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario
   LateralControl& control = entity.lateral_control;
   if (!control.active) return 0.0;
   if (control.distance) return distance_step_m(network, scenario, state, dt_s, who, entity, ended);
+  if (entity.beside_is_taken && has_yet_to_move_aside(entity)) return 0.0;
   const double before = entity.lane.offset_m;
   advance_transition(control.transition, dt_s, std::abs(way_m));
   entity.lane.offset_m = value_of(control.transition);
@@ -275,9 +276,18 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   return finite(entity) || reset();
 }
 
-void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, ScenarioState& state) {
+void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, bool beside_is_taken,
+                  ScenarioState& state) {
   SEPTET_CHECK(index < state.entities.size(), "entity {} of {}", index, state.entities.size());
   state.entities[index].in_the_way = in_the_way;
+  state.entities[index].beside_is_taken = beside_is_taken;
+}
+
+bool has_yet_to_move_aside(const EntityState& entity) {
+  constexpr double begun_m = 0.02;
+  const LateralControl& control = entity.lateral_control;
+  return control.active && !control.distance && !is_done(control.transition) &&
+         std::abs(entity.lane.offset_m - control.transition.from) < begun_m;
 }
 
 void place_external(const road::RoadNetwork& network, EntityIndex index,

@@ -101,6 +101,7 @@ struct EntityState {
   double acceleration_mps2 = 0.0;
   Vec3 velocity_mps{0.0}, acceleration_vector_mps2{0.0}, angular_velocity_radps{0.0};  ///< World.
   std::optional<InTheWay> in_the_way;  ///< What it brakes for, whatever its script says (mind_the_way).
+  bool beside_is_taken = false;        ///< A lateral action that has not begun waits for that, likewise.
   double held_back_mps = 0.0;          ///< How much slower than its script it drives for that, or after it.
   double travelled_m = 0.0;
   double at_road_end_s = 0.0;  ///< How long ago it came to the end of its road: it has left.

@@ -56,8 +56,12 @@ void place_external(const road::RoadNetwork& network, EntityIndex entity,
                     const Vec3& acceleration_mps2, ScenarioState& state);
 
 /// Tells what a scripted entity would drive into, each step anew; nothing: its way is clear. It brakes for that and
-/// gains the speed of its script again afterwards. Who is never told drives as the script says, into others too.
-void mind_the_way(EntityIndex entity, std::optional<InTheWay> in_the_way, ScenarioState& state);
+/// gains the speed of its script again afterwards. `beside_is_taken`: somebody is where its lateral action takes it, which
+/// then begins when that place is free. Who is never told drives as the script says, into others too.
+void mind_the_way(EntityIndex entity, std::optional<InTheWay> in_the_way, bool beside_is_taken, ScenarioState& state);
+
+/// Whether the entity has still to begin to move aside as its lateral action says.
+bool has_yet_to_move_aside(const EntityState& entity);
 
 /// One step of dt_s, from state.time_s.
 StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,

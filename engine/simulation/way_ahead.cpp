@@ -40,18 +40,57 @@ struct Way {
   }
 };
 
-Way way_of(const Model& model, const scenario::EntityState& entity, const VehicleModel& body) {
+/// `moves_over`: the way leads to where the entity's lateral action takes it.
+Way way_of(const Model& model, const scenario::EntityState& entity, const VehicleModel& body, bool moves_over) {
   Way way;
   way.world_from_way = scenario::lane_pose(model.roads, entity.lane, entity.along_s, 0.0, 0.0);
   const double side = entity.along_s ? 1.0 : -1.0;
   way.curvature_per_m = side * road::evaluate_lane(model.roads, entity.lane).road.curvature_per_m;
   const auto& control = entity.lateral_control;
-  const double goes_left_m = control.active ? side * (control.transition.to - entity.lane.offset_m) : 0.0;
+  const double goes_left_m = control.active && moves_over ? side * (control.transition.to - entity.lane.offset_m) : 0.0;
   way.right_m = std::min(0.0, goes_left_m) - 0.5 * body.width_m;
   way.left_m = std::max(0.0, goes_left_m) + 0.5 * body.width_m;
   way.front_m = body.front_m();
   way.middle_m = body.centre_x_m();
   return way;
+}
+
+/// A body as a box along and across the way: its middle, and half of what it takes.
+struct Seen {
+  Vec2 middle{0.0}, half_m{0.0};
+};
+
+Seen seen_on(const Way& way, const Participant& other, double ahead_m) {
+  const VehicleModel& body = vehicle_models()[other.model];
+  const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
+  const Vec3 seen = glm::conjugate(way.world_from_way.orientation) * heads;
+  // The lane bends: its direction there is not the one here.
+  const double bend = way.curvature_per_m * ahead_m;
+  const double across = std::abs(seen.y - bend * seen.x), along = std::abs(seen.x);
+  return {way.along(other.world_from_vehicle * Vec3(body.centre_x_m(), 0.0, 0.0)),
+          {0.5 * (along * body.length_m + across * body.width_m), 0.5 * (across * body.length_m + along * body.width_m)}};
+}
+
+/// Whether somebody is beside the body where the way widens to, or would have to brake for who comes there, or be braked for,
+/// harder than people like.
+bool is_taken_beside(const std::vector<Participant>& participants, ParticipantId self, double own_mps, const VehicleModel& body, const Way& way) {
+  const double half_width_m = 0.5 * body.width_m, rear_m = 0.5 * body.length_m;
+  const double from_m = way.right_m < -half_width_m ? way.right_m : half_width_m;
+  const double to_m = way.right_m < -half_width_m ? -half_width_m : way.left_m;
+  constexpr double reach_m = 120.0, least_gap_m = 4.0, braking_mps2 = 2.0;
+  const Vec3 forward = way.world_from_way.orientation * Vec3(1.0, 0.0, 0.0);
+  return std::ranges::any_of(participants, [&](const Participant& other) {
+    const Vec3 away = other.world_from_vehicle.position_m - way.world_from_way.position_m;
+    const double ahead_m = glm::dot(away, forward);
+    if (other.id == self || std::abs(ahead_m) > reach_m || std::abs(away.z) > 4.0) return false;
+    const Seen seen = seen_on(way, other, ahead_m);
+    if (seen.middle.y + seen.half_m.y <= from_m || seen.middle.y - seen.half_m.y >= to_m) return false;
+    const double mps = glm::dot(other.velocity_mps, forward);
+    const bool is_ahead = seen.middle.x > way.middle_m;
+    const double gap_m = is_ahead ? seen.middle.x - seen.half_m.x - way.front_m : way.middle_m - rear_m - (seen.middle.x + seen.half_m.x);
+    const double closing_mps = std::max(0.0, is_ahead ? own_mps - mps : mps - own_mps);
+    return gap_m < least_gap_m + closing_mps * closing_mps / (2.0 * braking_mps2);
+  });
 }
 
 void look_at_vehicles(const std::vector<Participant>& participants, ParticipantId self, double own_mps, Way& way) {
@@ -60,14 +99,7 @@ void look_at_vehicles(const std::vector<Participant>& participants, ParticipantI
     const Vec3 away = other.world_from_vehicle.position_m - way.world_from_way.position_m;
     const double ahead_m = glm::dot(away, forward);
     if (other.id == self || ahead_m < -20.0 || ahead_m > sight_m + 20.0 || std::abs(away.z) > 4.0) continue;
-    const VehicleModel& body = vehicle_models()[other.model];
-    const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
-    const Vec3 seen = glm::conjugate(way.world_from_way.orientation) * heads;
-    // The lane bends: its direction there is not the one here.
-    const double bend = way.curvature_per_m * ahead_m;
-    const double across = std::abs(seen.y - bend * seen.x), along = std::abs(seen.x);
-    const Vec2 half_m{0.5 * (along * body.length_m + across * body.width_m), 0.5 * (across * body.length_m + along * body.width_m)};
-    const Vec2 middle = way.along(other.world_from_vehicle * Vec3(body.centre_x_m(), 0.0, 0.0));
+    const auto [middle, half_m] = seen_on(way, other, ahead_m);
     if (way.holds(middle, half_m)) way.mind(middle.x - half_m.x - way.front_m, std::max(0.0, glm::dot(other.velocity_mps, forward)), own_mps);
   }
 }
@@ -92,13 +124,17 @@ void look_ahead(const Model& model, const std::vector<Participant>& participants
     const scenario::EntityState& entity = state.entities[i];
     const bool hurries = entity.lamps.has(Lamp::beacon) || entity.lamps.has(Lamp::siren);
     if (!hurries || !entity.active || entity.external || !entity.on_road || !(entity.speed_mps + entity.held_back_mps > 0.0)) {
-      scenario::mind_the_way(i, std::nullopt, state);
+      scenario::mind_the_way(i, std::nullopt, false, state);
       continue;
     }
-    Way way = way_of(model, entity, vehicle_models()[model.scenario.entities[i].model]);
-    look_at_vehicles(participants, first_scripted_participant + i, entity.speed_mps, way);
+    const VehicleModel& body = vehicle_models()[model.scenario.entities[i].model];
+    const ParticipantId self = first_scripted_participant + i;
+    Way way = way_of(model, entity, body, true);
+    const bool is_taken = scenario::has_yet_to_move_aside(entity) && is_taken_beside(participants, self, entity.speed_mps, body, way);
+    if (is_taken) way = way_of(model, entity, body, false);
+    look_at_vehicles(participants, self, entity.speed_mps, way);
     look_at_debris(effects.debris, entity.speed_mps, way);
-    scenario::mind_the_way(i, way.nearest, state);
+    scenario::mind_the_way(i, way.nearest, is_taken, state);
   }
 }
 

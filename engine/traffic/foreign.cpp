@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -10,9 +11,22 @@ namespace septet::traffic {
 namespace {
 
 constexpr double over_the_line_m = 0.2;
+constexpr double flash_s = 0.5;  ///< An indicator that was lit so short a time ago is on.
+
+/// Whether the left and the right indicator are on.
+struct Signals {
+  bool left = false, right = false;
+};
+
+Signals signals_of(const Lamps& lamps, double dt_s, std::array<double, 2>& since_s) {
+  since_s[0] = lamps.has(Lamp::indicator_left) ? 0.0 : since_s[0] + dt_s;
+  since_s[1] = lamps.has(Lamp::indicator_right) ? 0.0 : since_s[1] + dt_s;
+  return {since_s[0] < flash_s, since_s[1] < flash_s};
+}
 
 void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle,
-                       std::int32_t index, double acceleration_mps2, const road::Location& place,
+                       std::int32_t index, double acceleration_mps2, const Signals& signals,
+                       const road::Location& place,
                        const CorridorTraffic& traffic, ForeignTraffic& found) {
   const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
   if (!x) return;
@@ -36,7 +50,13 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   entry.straddles = over > over_the_line_m;
   found.entries.push_back({lane, entry});
   // Over the line: it is in the way in the next lane too.
-  if (entry.straddles) found.entries.push_back({offset_left > 0.0 ? lane - 1 : lane + 1, entry});
+  const bool over_left = entry.straddles && offset_left > 0.0;
+  const bool over_right = entry.straddles && !over_left;
+  // Who indicates means to be there: nobody else changes into that place. It is driven past as long as there is room.
+  const bool both = signals.left && signals.right;  // Hazard lights say nothing of a side.
+  entry.straddles = true;
+  if (over_left || (signals.left && !both)) found.entries.push_back({lane - 1, entry});
+  if (over_right || (signals.right && !both)) found.entries.push_back({lane + 1, entry});
   if (vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren)) {
     found.emergencies.push_back({entry.x_m, entry.length_m, entry.lateral_m, half_width});
   }
@@ -49,6 +69,7 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
                                           TrafficState& state) {
   state.foreign_places.resize(foreign.size());
   state.foreign_speeds_mps.resize(foreign.size(), no_leader);
+  state.foreign_signals_s.resize(foreign.size(), {no_leader, no_leader});
   std::vector<ForeignTraffic> found(state.corridors.size());
   for (std::size_t i = 0; i < foreign.size(); ++i) {
     const double now_mps = glm::length(foreign[i].velocity_mps);
@@ -59,13 +80,14 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
     const auto place = road::locate(network, {middle.x, middle.y}, hint ? &*hint : nullptr);
     if (!place || place->lanes.lane == 0) continue;
     hint = place->position;
+    const Signals signals = signals_of(foreign[i].lamps, dt_s, state.foreign_signals_s[i]);
     const double change_mps = now_mps - before_mps;
     // Who was put somewhere else has not braked.
     const double braking_mps2 =
         change_mps > -hardest_braking_mps2 * 2.0 * dt_s ? change_mps / dt_s : 0.0;
     for (std::size_t c = 0; c < state.corridors.size(); ++c) {
-      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, *place,
-                        state.corridors[c], found[c]);
+      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, signals,
+                        *place, state.corridors[c], found[c]);
     }
   }
   return found;

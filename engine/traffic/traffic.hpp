@@ -132,6 +132,8 @@ struct TrafficState {
   std::vector<std::optional<road::RoadPosition>>
       foreign_places;                        ///< Hints, one per foreign vehicle.
   std::vector<double> foreign_speeds_mps;  ///< A tick ago.
+  /// How long ago each one's left and right indicator were lit.
+  std::vector<std::array<double, 2>> foreign_signals_s;
   std::uint32_t bad_numbers = 0;           ///< Accelerations that were no numbers, and were taken for 0.
 };
 

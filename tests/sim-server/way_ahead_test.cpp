@@ -13,15 +13,15 @@
 namespace septet::server {
 namespace {
 
-/// The rescue lane without traffic, and the ambulance in it.
+/// A scenario's road without traffic, and its ambulance.
 struct EmptyRoad {
-  LoadedDrive drive = shipped_drive("rescue-lane", "desktop");
+  LoadedDrive drive;
   std::vector<simulation::Event> events;
   simulation::State state;
   scenario::EntityIndex ambulance = scenario::no_entity;
   Snapshot now;
 
-  EmptyRoad() {
+  explicit EmptyRoad(const std::string& scenario = "rescue-lane") : drive(shipped_drive(scenario, "desktop")) {
     auto begun = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
     REQUIRE(begun.has_value());
     state = std::move(*begun);
@@ -32,14 +32,23 @@ struct EmptyRoad {
   }
   scenario::EntityState& entity() { return state.scenario.entities[ambulance]; }
   /// The driver's car, at rest, so far ahead of the ambulance and so far to its left.
-  void put_car(double ahead_m, double left_m) {
+  void put_car(double ahead_m, double left_m, double speed_mps = 0.0) {
     road::LanePosition lane = entity().lane;
     lane.s_m += ahead_m;
     lane.offset_m += left_m;
     const RigidTransform pose = scenario::lane_pose(drive.model->roads, lane, true, 0.0, 0.0);
-    state.car = vehicle::standstill(drive.model->car, pose, 0.0);
+    state.car = vehicle::standstill(drive.model->car, pose, speed_mps);
     state.car_road.reset();
   }
+  /// The driver's car beside the ambulance, its middle so far to the left, as fast.
+  void keep_beside(double left_m, double seconds) {
+    for (int tick = 0; tick < seconds * simulation::tick_rate_hz; ++tick) {
+      put_car(0.0, left_m, entity().speed_mps);
+      drive_for(1.0 / simulation::tick_rate_hz);
+      hardest_mps2 = std::min(hardest_mps2, entity().acceleration_mps2);
+    }
+  }
+  double hardest_mps2 = 0.0;
   void drive_for(double seconds) {
     DriverInput input;
     input.brake = 0.5;
@@ -81,6 +90,27 @@ TEST_CASE("an ambulance passes a car that leaves it room without braking") {
   road.drive_for(6.0);
   CHECK_FALSE(road.touched);
   CHECK(road.entity().speed_mps > before_mps - 0.1);
+}
+
+TEST_CASE("an ambulance does not move over into a car beside it nor brake hard for it but waits until that place is free") {
+  EmptyRoad road("motorway-ambulance");
+  while (!road.entity().lateral_control.active || road.now.simulated_time_s < 10.0) {  // Between the lanes first; then back.
+    road.drive_for(1.0 / simulation::tick_rate_hz);
+    REQUIRE(road.now.simulated_time_s < 60.0);
+  }
+  // Where its action takes it, which the lane's offset knows; a car is 3 m beside the body's middle there.
+  const auto& control = road.entity().lateral_control.transition;
+  const double aside_m = control.to > control.from ? 3.0 : -3.0;
+  const double before_m = road.entity().lane.offset_m;
+  road.keep_beside(aside_m, 4.0);
+  CHECK(scenario::has_yet_to_move_aside(road.entity()));
+  CHECK(road.entity().lane.offset_m == doctest::Approx(before_m).epsilon(0.001));
+  CHECK_FALSE(road.touched);
+  CHECK(road.hardest_mps2 > -2.5);
+  road.put_car(-150.0, 0.0);
+  road.drive_for(6.0);
+  CHECK_FALSE(scenario::has_yet_to_move_aside(road.entity()));
+  CHECK(std::abs(road.entity().lane.offset_m - before_m) > 1.0);
 }
 
 TEST_CASE("a car across the whole bend is minded where the bend leads and not straight ahead") {

@@ -46,7 +46,46 @@ bool changes_left(double politeness) {
   return ring.traffic().lane[0] == 1;
 }
 
+/// Whether a driver in lane 3 changes behind somebody slow into the free lane 2, while a foreign car in lane 1 drives beside that place
+/// with these lamps on, `lit_s` ago last.
+bool changes_beside(const Lamps& lamps, double lit_s) {
+  Ring ring;
+  Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  constexpr double x_m = 500.0, mps = 20.0, dt_s = 0.05;
+  const double length = vehicle_models()[model_named("saloon")].length_m;
+  ring.add(3, x_m, mps, driver);
+  ring.add(3, x_m + 25.0 + length, mps, driver);
+  ring.add(4, x_m, mps, driver);
+  ForeignVehicle car{.id = 1, .model = model_named("volvo-s80")};
+  const auto advance_beside = [&](const Lamps& now) {
+    car.lamps = now;
+    car.world_from_vehicle = road::world_from_lane(road::evaluate_lane(ring.network, {0, -1, ring.traffic().x_m[0] - 3.0, 0.0}));
+    car.velocity_mps = car.world_from_vehicle.orientation * Vec3(mps, 0.0, 0.0);
+    ring.advance_one(std::span(&car, 1), dt_s);
+  };
+  advance_beside(lamps);
+  for (double s = dt_s; s < lit_s; s += dt_s) advance_beside({});
+  ring.traffic().next_decision_s[0] = 0.0;
+  advance_beside(lit_s > 0.0 ? Lamps{} : lamps);
+  return ring.traffic().lane[0] == 2;
+}
+
 }  // namespace
+
+TEST_CASE("nobody changes into the place that somebody on its other side indicates to be going to") {
+  Lamps none, left, right, hazard;
+  left.set(Lamp::indicator_left, true);
+  right.set(Lamp::indicator_right, true);
+  hazard.set(Lamp::indicator_left, true);
+  hazard.set(Lamp::indicator_right, true);
+  CHECK(changes_beside(none, 0.0));
+  CHECK(changes_beside(left, 0.0));
+  CHECK(changes_beside(hazard, 0.0));
+  CHECK_FALSE(changes_beside(right, 0.0));
+  CHECK_FALSE(changes_beside(right, 0.3));  // Between two flashes.
+  CHECK(changes_beside(none, 0.7));
+  CHECK(changes_beside(right, 0.7));  // Switched off.
+}
 
 TEST_CASE("an egoist takes a gap that costs somebody else more than it gains, and a polite driver does not") {
   CHECK(changes_left(0.0));
