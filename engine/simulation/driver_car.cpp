@@ -17,16 +17,35 @@ namespace {
 
 constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
 
+constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left", "rear_right"};
+
 /// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
 void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model, State& state,
                std::vector<Event>& events) {
-  constexpr std::array names{"front_left", "front_right", "rear_left", "rear_right"};
-  const bool touches = ground.edge_m && glm::distance(centre_m, *ground.edge_m) <= model.car.tyre.radius_m;
-  if (touches && !state.at_kerb[wheel])
-    events.push_back({"kerb", std::nullopt,
-                      fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f}", names[wheel], ground.edge_m->z - ground.point_m.z,
-                                  glm::length(state.car.velocity_mps))});
-  state.at_kerb[wheel] = touches;
+  std::optional<KerbTouch>& kerb = state.kerbs[wheel];
+  if (!ground.edge_m || glm::distance(centre_m, *ground.edge_m) > model.car.tyre.radius_m) return kerb.reset();
+  if (kerb) return;
+  const Vec3 to_edge = *ground.edge_m - centre_m;
+  kerb = {ground.edge_m->z - ground.point_m.z, glm::dot(state.car.velocity_mps, to_edge) / std::max(glm::length(to_edge), 0.01)};
+  events.push_back({"kerb", std::nullopt,
+                    fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f} closing_speed_mps={:.2f}", wheel_names[wheel], kerb->height_m,
+                                glm::length(state.car.velocity_mps), kerb->closing_speed_mps)});
+}
+
+/// A wheel whose damage has grown in this tick is being struck; one whose damage grows no longer has been.
+void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double squeeze_m, State& state, std::vector<Event>& events) {
+  const vehicle::WheelDamage& damage = state.car.wheels[wheel].damage;
+  std::optional<WheelStrike>& strike = state.strikes[wheel];
+  if (damage.any() != before.any() || damage.rim_bend_m > before.rim_bend_m) {
+    if (!strike) strike = {state.kerbs[wheel]};
+    strike->squeeze_m = std::max(strike->squeeze_m, squeeze_m);
+  } else if (strike) {
+    const std::string kerb = strike->kerb ? fmt::format(" height_m={:.3f} closing_speed_mps={:.2f}", strike->kerb->height_m, strike->kerb->closing_speed_mps) : "";
+    events.push_back({"wheel_damage", std::nullopt,
+                      fmt::format("wheel={}{} squeeze_m={:.3f} rim_bend_m={:.4f} toe_out_rad={:.4f} tyre=cut", wheel_names[wheel], kerb,
+                                  strike->squeeze_m, damage.rim_bend_m, damage.toe_out_rad())});
+    strike.reset();
+  }
 }
 
 /// The road's surface under each wheel, and how slippery it is there.
@@ -42,7 +61,9 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
     if (find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
       find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
       note_kerb(i, centres[i], wheel, model, state, events);
-      wheel.point_m.z += obstacle_height_m(state.effects, wheel.point_m);
+      const double debris_m = obstacle_height_m(state.effects, wheel.point_m);
+      wheel.point_m.z += debris_m;
+      wheel.yields = debris_m > 0.0;
       continue;
     }
     // Far off every road the ground goes on level at the height of the wheel's last contact.
@@ -105,10 +126,14 @@ void advance_car(const Model& model, State& state, std::vector<Event>& events) {
   const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m), vehicle::hull_reach_m(model.car) + on_the_way_m)
                                          : std::vector<Obstacle>{};
   vehicle::HullReport met;
+  const auto wheels_before = state.car.wheels;
+  std::array<double, vehicle::wheel_count> squeeze_m{};
   for (int i = 0; i < car_steps; ++i) {
     vehicle::advance_vehicle(model.car, state.input, ground, tick_s / car_steps, state.car);
     vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
+    for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel) squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);
   }
+  for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel) note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
   note_hull(met, state, events);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const Vec3 origin = vehicle::outputs(model.car, state.car).world_from_vehicle.position_m;

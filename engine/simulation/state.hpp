@@ -20,12 +20,25 @@
 
 namespace septet::simulation {
 
+/// A kerb's edge that a wheel touches, as it was when they met.
+struct KerbTouch {
+  double height_m = 0.0;
+  double closing_speed_mps = 0.0;  ///< Of the wheel's centre towards the edge.
+};
+
+/// A wheel is being damaged: for the log, which tells it once it is over.
+struct WheelStrike {
+  std::optional<KerbTouch> kerb;
+  double squeeze_m = 0.0;  ///< Of the tyre, the most.
+};
+
 struct State {
   Tick tick = 0;
   vehicle::VehicleState car;
   vehicle::HullState hull;
   std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
-  std::array<bool, vehicle::wheel_count> at_kerb{};  ///< Which wheels touch a kerb's edge: one event a touch.
+  std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;     ///< One event a touch.
+  std::array<std::optional<WheelStrike>, vehicle::wheel_count> strikes;  ///< One event a strike.
   std::optional<road::RoadPosition> car_road;
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
@@ -39,7 +52,7 @@ struct State {
 
 /// Something that happened in a step, for the log.
 struct Event {
-  std::string kind;  ///< "scenario", "collision", "kerb", "bad_number".
+  std::string kind;  ///< "scenario", "collision", "kerb", "wheel_damage", "bad_number".
   std::optional<ParticipantId> participant;
   std::string detail;
 };

@@ -198,4 +198,43 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
   }
 }
 
+TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log tells each once and at 2 m/s none") {
+  for (const double speed_mps : {15.0, 2.0}) {
+    CAPTURE(speed_mps);
+    const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+    simulation::Model model = *drive.model;
+    model.obstacles = nullptr;
+    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
+    REQUIRE(begun.has_value());
+    simulation::State state = std::move(*begun);
+    state.traffic->stop();
+    const Snapshot before = simulation::capture_snapshot(model, state);
+    const RigidTransform start = find_participant(before, simulation::driver_participant)->world_from_vehicle;
+    const auto place = road::locate(model.roads, Vec2(start.position_m));
+    REQUIRE(place.has_value());
+    road::RoadObject kerb;  // Across the whole road, its edge some metres before the front axle.
+    kerb.type = "none";
+    kerb.name = "kerb";
+    kerb.repeats = {{.s_m = place->position.s_m + 8.0, .length_m = 100.0, .t_start_m = place->position.t_m, .t_end_m = place->position.t_m,
+                     .width_start_m = 12.0, .width_end_m = 12.0, .height_start_m = 0.12, .height_end_m = 0.12}};
+    model.roads.roads[place->position.road].objects.push_back(kerb);
+    model.raised = std::make_shared<const roadside::RaisedAreas>(model.roads);
+    state.car = vehicle::standstill(model.car, start, speed_mps);
+    DriverInput rolling;
+    rolling.selector = GearSelector::neutral;
+    std::vector<simulation::Event> events;
+    for (int tick = 0; tick < (speed_mps > 10.0 ? 120 : 480); ++tick) simulation::server_step(model, rolling, state, events);
+    const auto told = [&](const std::string& text) {
+      return std::ranges::count_if(events, [&](const simulation::Event& event) { return (event.kind + " " + event.detail).find(text) != std::string::npos; });
+    };
+    CHECK(told("kerb wheel=front_") >= 2);
+    CHECK(told("closing_speed_mps=") >= 2);
+    const int times = speed_mps > 10.0 ? 1 : 0;
+    CHECK(told("wheel_damage wheel=front_left height_m=0.1") == times);
+    CHECK(told("wheel_damage wheel=front_right height_m=0.1") == times);
+    for (const int wheel : {0, 1}) CHECK(state.car.wheels[wheel].damage.any() == (times == 1));
+    CHECK(state.diagnostics.bad_numbers == 0);
+  }
+}
+
 }  // namespace septet::server

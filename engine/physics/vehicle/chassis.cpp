@@ -96,6 +96,8 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   double rolling_nm = 0.0;
   wheel.force_n = Vec3(0.0);
   wheel.aligning_nm = 0.0;
+  wheel.squeeze_m = touching ? deflection_m : 0.0;
+  press_wheel(tyre, ground.yields ? 0.0 : wheel.squeeze_m, dt_s, wheel.damage);
   if (touching) {
     const Vec3 body_forward = level_forward(normal), body_left = glm::cross(normal, body_forward);
     // The published heading is the steer angle's alone, although a wheel that leans on a pitched body turns by that.
@@ -108,11 +110,12 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) +
                            wheel.travel_rate_mps * path;
     const double load_n =
-        std::max(0.0, tyre.vertical_stiffness_npm * deflection_m -
+        std::max(0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) -
                           tyre.vertical_damping_nspm * glm::dot(patch_mps, normal));
     TyreContact contact;
     contact.load_n = load_n;
-    contact.friction = ground.friction;
+    contact.friction = ground.friction * wheel.damage.grip();
+    contact.firmness = wheel.damage.firmness();
     contact.rolling_mps = wheel.spin_radps * effective_radius_m;
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
@@ -144,7 +147,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
           load_n * force_n.y * parameters.suspension[axle_of(index)].contact_by_lateral_force_mpn;
       load.aligning_nm = wheel.aligning_nm * normal;
       rolling_nm =
-          ground.rolling_resistance * load_n * effective_radius_m *
+          ground.rolling_resistance * wheel.damage.rolling_resistance() * load_n * effective_radius_m *
           (tyre.rolling_resistance + tyre.rolling_resistance_s2pm2 * square(contact.rolling_mps));
     }
   }

@@ -25,6 +25,7 @@ struct WheelGround {
   /// deeper, plane or edge: so it meets a kerb before its centre is over it, and climbs it along its own roundness (rigid ring
   /// enveloping: Zegelaar 1998, The dynamic response of tyres to brake torque variations and road unevennesses, ch. 4).
   std::optional<Vec3> edge_m;
+  bool yields = false;         ///< Gives way before a rim does: debris.
   double friction = 0.9;       ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
   double rolling_resistance =
       1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.

@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "engine/core/parse_toml.hpp"
+#include "engine/physics/vehicle/wheel_damage.hpp"
 
 namespace septet::vehicle {
 namespace {
@@ -221,6 +222,8 @@ void read_tyre(Entries& in, TyreParameters& tyre) {
     in.fail("is not a tyre model", "tyre.model", "write \"load-sensitive\" or \"published\"");
   in.number("tyre.reference_friction", tyre.reference_friction, 0.05, 2);
   in.number("tyre.radius_m", tyre.radius_m, 0.15, 1);
+  in.number("tyre.rim_radius_m", tyre.rim_radius_m, 0.1, 0.9);
+  if (sidewall_m(tyre) < 0.02) in.fail("leaves the tyre no sidewall", "tyre.rim_radius_m", "keep it 40 mm below tyre.radius_m or more");
   in.number("tyre.vertical_stiffness_npm", tyre.vertical_stiffness_npm, 5e4, 2e6);
   in.number("tyre.vertical_damping_nspm", tyre.vertical_damping_nspm, 0, 5e3);
   in.number("tyre.rolling_resistance", tyre.rolling_resistance, 0, 0.1);

@@ -68,6 +68,7 @@ double wheel_steer_rad(const VehicleParameters& parameters, int wheel, const Whe
   }
   steer_rad -= suspension.toe_out_by_lateral_force_radpn * state.force_n.y;
   steer_rad += suspension.steer_by_aligning_torque_radpnm * state.aligning_nm;
+  if (state.damage.any()) steer_rad += side * state.damage.toe_out_rad();
   return steer_rad;
 }
 

@@ -35,7 +35,7 @@ struct WheelPlace {
 WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& statics, int wheel,
                        const WheelState& state, double steer_rad);
 
-/// Steer of one wheel: its share of the mean angle, toe, and what the forces of the last step bend.
+/// Steer of one wheel: its share of the mean angle, toe, what the forces of the last step bend, and what a strike has bent.
 double wheel_steer_rad(const VehicleParameters& parameters, int wheel, const WheelState& state,
                        double mean_steer_rad);
 

@@ -19,18 +19,19 @@ double between(double at_nominal, double at_double, double load_ratio) {
 }
 
 SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load_ratio,
-                   double friction_ratio) {
+                   double friction_ratio, double firmness) {
   // Beyond two and a half times the nominal load the parabola is no longer trusted: proportional
   // from there.
   const double q = std::min(load_ratio, 2.5);
   const double beyond = load_ratio / q;
   const double slip_load = std::clamp(q, 0.2, 2.5);
+  const double slip_scale = friction_ratio / firmness;  // The same force, at more slip.
   return {
-      .slope_n = beyond * over_load(nominal.slope_n, twice.slope_n, q),
-      .peak_slip = friction_ratio * between(nominal.peak_slip, twice.peak_slip, slip_load),
+      .slope_n = firmness * beyond * over_load(nominal.slope_n, twice.slope_n, q),
+      .peak_slip = slip_scale * between(nominal.peak_slip, twice.peak_slip, slip_load),
       .peak_force_n =
           beyond * friction_ratio * over_load(nominal.peak_force_n, twice.peak_force_n, q),
-      .sliding_slip = friction_ratio * between(nominal.sliding_slip, twice.sliding_slip, slip_load),
+      .sliding_slip = slip_scale * between(nominal.sliding_slip, twice.sliding_slip, slip_load),
       .sliding_force_n =
           beyond * friction_ratio * over_load(nominal.sliding_force_n, twice.sliding_force_n, q),
   };
@@ -83,9 +84,9 @@ TyreForce load_sensitive_force(const TyreParameters& parameters, const TyreConta
   const double load_ratio = contact.load_n / tyre.nominal_load_n;
   const double friction_ratio = std::max(contact.friction / parameters.reference_friction, 0.01);
   const SlipCurve x =
-      curve_at(tyre.longitudinal_nominal, tyre.longitudinal_double, load_ratio, friction_ratio);
+      curve_at(tyre.longitudinal_nominal, tyre.longitudinal_double, load_ratio, friction_ratio, contact.firmness);
   const SlipCurve y =
-      curve_at(tyre.lateral_nominal, tyre.lateral_double, load_ratio, friction_ratio);
+      curve_at(tyre.lateral_nominal, tyre.lateral_double, load_ratio, friction_ratio, contact.firmness);
 
   TyreForce result;
   result.transport_mps = std::abs(contact.rolling_mps) + smallest_transport_mps;
@@ -99,7 +100,7 @@ TyreForce load_sensitive_force(const TyreParameters& parameters, const TyreConta
       y.peak_slip / (x.peak_slip + y.peak_slip) + force_slip_y / (force_slip_x + force_slip_y)};
   const Vec2 normalised = slip / unit;
   const double size = std::sqrt(normalised.x * normalised.x + normalised.y * normalised.y);
-  result.stiffness_npm = {tyre.longitudinal_stiffness_npm, tyre.lateral_stiffness_npm};
+  result.stiffness_npm = contact.firmness * Vec2(tyre.longitudinal_stiffness_npm, tyre.lateral_stiffness_npm);
   result.damping_nspm = {tyre.longitudinal_damping_nspm, tyre.lateral_damping_nspm};
   if (size < 1e-12) {
     result.secant_n = {x.slope_n, y.slope_n};

@@ -52,6 +52,7 @@ struct TyreParameters {
   PublishedTyre magic_formula;
   double reference_friction = 0.9;  ///< Friction of the surface on which the forces above hold.
   double radius_m = 0.0;            ///< Unloaded.
+  double rim_radius_m = 0.0;        ///< Of the flange, the rim's outermost.
   double vertical_stiffness_npm = 0.0;
   double vertical_damping_nspm = 0.0;
   double rolling_resistance = 0.0;        ///< Force over load at walking speed.

@@ -31,7 +31,7 @@ bool finite(const VehicleState& state) {
                state.powertrain.engine_torque_nm + state.brakes.pedal + state.brakes.torque_cut;
   for (const WheelState& wheel : state.wheels)
     sum += wheel.travel_m + wheel.travel_rate_mps + wheel.spin_rad + wheel.spin_radps +
-           wheel.deflection_m.x + wheel.deflection_m.y;
+           wheel.deflection_m.x + wheel.deflection_m.y + wheel.damage.rim_bend_m + wheel.damage.lost_air;
   return std::isfinite(sum) && finite(state.world_from_body.position_m) &&
          finite(state.velocity_mps) && finite(state.angular_velocity_radps);
 }
@@ -44,13 +44,14 @@ bool finite(const Ground& ground) {
   return result;
 }
 
-/// What remains of a state after a bad step: the place, and nothing moving.
+/// What remains of a state after a bad step: the place, what is broken, and nothing moving.
 VehicleState halted(const VehicleState& state) {
   VehicleState result;
   result.world_from_body = state.world_from_body;
   result.steering = state.steering;
   result.powertrain.engine_radps = state.powertrain.engine_radps;
   result.powertrain.engine_running = state.powertrain.engine_running;
+  for (int i = 0; i < wheel_count; ++i) result.wheels[i].damage = state.wheels[i].damage;
   result.bad_numbers = state.bad_numbers + 1;
   return result;
 }
@@ -74,6 +75,7 @@ VehicleState standstill(const VehicleParameters& parameters,
     const double effective_m =
         parameters.tyre.radius_m - (parameters.tyre.published ? 0.0 : deflection_m / 3.0);
     state.wheels[i].spin_radps = speed_mps / effective_m;
+    state.wheels[i].squeeze_m = deflection_m;
     state.wheels[i].force_n.z = deflection_m * parameters.tyre.vertical_stiffness_npm;
   }
   const PowertrainParameters& powertrain = parameters.powertrain;
@@ -190,8 +192,7 @@ double mechanical_energy_j(const VehicleParameters& parameters, const VehicleSta
                    axle.spring_force_n(z));
     const double twist = z - state.wheels[i ^ 1].travel_m;
     energy += 0.25 * axle.anti_roll_npm * twist * twist;
-    const double squeeze = wheel.force_n.z / parameters.tyre.vertical_stiffness_npm;
-    energy += 0.5 * parameters.tyre.vertical_stiffness_npm * squeeze * squeeze;
+    energy += radial_energy_j(parameters.tyre, wheel.damage, wheel.squeeze_m);
   }
   return energy;
 }

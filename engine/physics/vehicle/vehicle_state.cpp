@@ -35,6 +35,13 @@ void hash_state(StateHash& hash, const VehicleState& state) {
     hash.add(state.brakes.stabilising[i]);
   }
   hash.add(state.bad_numbers);
+  for (int i = 0; i < wheel_count; ++i) {  // Undamaged cars hash as those that cannot be damaged.
+    const WheelDamage& damage = state.wheels[i].damage;
+    if (!damage.any()) continue;
+    hash.add(i);
+    hash.add(damage.rim_bend_m);
+    hash.add(damage.lost_air);
+  }
 }
 
 }  // namespace septet::vehicle

@@ -8,6 +8,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/physics/vehicle/ground.hpp"
+#include "engine/physics/vehicle/wheel_damage.hpp"
 
 namespace septet::vehicle {
 
@@ -16,7 +17,9 @@ struct WheelState {
   double spin_rad = 0.0, spin_radps = 0.0;
   Vec2 deflection_m{
       0.0};  ///< Of the contact patch against the rim: forward, left. Carries the relaxation.
+  WheelDamage damage;
   // Of the last step.
+  double squeeze_m = 0.0;  ///< Of the tyre against the rim, towards what the wheel stands on.
   Vec3 force_n{0.0};  ///< On the wheel, in the contact's frame: forward, left, along the normal.
   double aligning_nm = 0.0;  ///< On the wheel, about the normal, positive turns it to the left.
   double steer_rad = 0.0;    ///< Against the body, with toe and compliance, positive to the left.

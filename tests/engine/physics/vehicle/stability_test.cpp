@@ -59,7 +59,7 @@ TEST_CASE("the car drives off and stops on ice without a bad number") {
 
 TEST_CASE("a car in the air falls freely and lands on its wheels") {
   const VehicleParameters car = read_car("volvo-s80");
-  VehicleState state = standstill(car, {Vec3(0.0, 0.0, 0.6), Quat(1, 0, 0, 0)}, 20.0);
+  VehicleState state = standstill(car, {Vec3(0.0, 0.0, 0.3), Quat(1, 0, 0, 0)}, 20.0);
   DriverInput input;
   input.selector = GearSelector::neutral;
   const double height_m = state.world_from_body.position_m.z;
