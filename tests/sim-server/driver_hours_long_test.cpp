@@ -6,10 +6,10 @@
 // SEPTET_DRIVER_FIRST_SEED takes other seeds (1 by default), SEPTET_DRIVER_SCENARIO another motorway, SEPTET_DRIVER_REPORT names a
 // file to which every drive adds a line, and a line for what it did that people do not, as soon as it ends.
 
-#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "tests/sim-server/driver_hours.hpp"
@@ -18,7 +18,7 @@
 namespace septet::server {
 namespace {
 
-constexpr int seeds = 10;
+constexpr std::uint64_t seeds = 10;
 /// The drives of a seed follow each other with seeds of their own.
 constexpr std::uint64_t next_drive = 1000;
 constexpr double drive_s = 285.0;  ///< Until just before the scenario's end, 8.5 km on.
@@ -28,21 +28,19 @@ std::string from_environment(const char* name, const char* otherwise) {
   return value ? value : otherwise;
 }
 
-/// Adds what a drive did to the report, for those who wait.
+/// Adds what a drive did to the report, for those who wait; one thread at a time.
 class Report {
  public:
   explicit Report(const std::string& path) {
     if (!path.empty()) file_.open(path, std::ios::app);
   }
   void add(const std::string& driver, std::uint64_t seed, const DrivingRecord& record) {
-    const std::lock_guard lock(mutex_);
     file_ << driver << " seed " << seed << ": " << describe(record) << '\n';
     for (const std::string& incident : record.incidents) file_ << "  " << incident << '\n';
     file_ << std::flush;
   }
 
  private:
-  std::mutex mutex_;
   std::ofstream file_;
 };
 
@@ -51,22 +49,26 @@ DrivingRecord drive_for_hours(const std::string& driver) {
   const std::string scenario = from_environment("SEPTET_DRIVER_SCENARIO", "motorway-ambulance");
   const std::uint64_t first_seed = std::stoull(from_environment("SEPTET_DRIVER_FIRST_SEED", "1"));
   Report report(from_environment("SEPTET_DRIVER_REPORT", ""));
-  const int drives = std::max(1, static_cast<int>(std::ceil(hours * 3600.0 / drive_s)));
-  std::vector<DrivingRecord> records(static_cast<std::size_t>(drives));
-  std::atomic<int> next = 0;
+  std::mutex mutex;
+  DrivingRecord all;
+  std::uint64_t next = 0;
+  const auto next_seed = [&]() -> std::optional<std::uint64_t> {
+    const std::lock_guard lock(mutex);
+    if (all.time_s >= hours * 3600.0) return std::nullopt;
+    const std::uint64_t i = next++;
+    return first_seed + i % seeds + next_drive * (i / seeds);
+  };
   const auto work = [&] {
-    for (int i = next++; i < drives; i = next++) {
-      const auto seed = first_seed + static_cast<std::uint64_t>(i % seeds) + next_drive * static_cast<std::uint64_t>(i / seeds);
-      DrivingRecord& record = records[static_cast<std::size_t>(i)];
-      record = watch_drive(scenario, driver, seed, drive_s).finish();
-      report.add(driver, seed, record);
+    for (auto seed = next_seed(); seed; seed = next_seed()) {
+      const DrivingRecord record = watch_drive(scenario, driver, *seed, drive_s).finish();
+      const std::lock_guard lock(mutex);
+      all.add(record);
+      report.add(driver, *seed, record);
     }
   };
   std::vector<std::thread> workers;
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
-  DrivingRecord all;
-  for (const DrivingRecord& record : records) all.add(record);
   return all;
 }
 
