@@ -119,7 +119,7 @@ Participant car_participant(const Model& model, const State& state, const vehicl
 
 }  // namespace
 
-void advance_car(const Model& model, State& state, std::vector<Event>& events) {
+DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& events) {
   const auto ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
@@ -136,9 +136,11 @@ void advance_car(const Model& model, State& state, std::vector<Event>& events) {
   for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel) note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
   note_hull(met, state, events);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
-  const Vec3 origin = vehicle::outputs(model.car, state.car).world_from_vehicle.position_m;
+  const DrivenCar car = driven_car(model, state);
+  const Vec3 origin = car.outputs.world_from_vehicle.position_m;
   if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
     state.car_road = place->position;
+  return car;
 }
 
 DrivenCar driven_car(const Model& model, const State& state) {

@@ -14,8 +14,8 @@ struct DrivenCar {
   Participant participant;
 };
 
-/// One tick of the car: eight steps of the vehicle and of what its body touches. Events are appended.
-void advance_car(const Model& model, State& state, std::vector<Event>& events);
+/// One tick of the car: eight steps of the vehicle and of what its body touches; returns where that leaves it. Events are appended.
+DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& events);
 
 /// The car as everybody else sees it.
 DrivenCar driven_car(const Model& model, const State& state);

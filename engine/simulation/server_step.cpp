@@ -102,8 +102,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   ++state.tick;
   state.input = input;
   note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);
-  advance_car(model, state, events);
-  DrivenCar car = driven_car(model, state);
+  DrivenCar car = advance_car(model, state, events);
   advance_storyboard(model, car, state, events);
   state.traffic->advance(foreign_vehicles(model, state, car.participant), tick_s);
   note_bad_numbers(state.traffic->take_bad_numbers(), std::nullopt, "traffic", state, events);

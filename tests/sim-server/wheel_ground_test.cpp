@@ -32,6 +32,21 @@ double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather
   return wheel.friction;
 }
 
+/// The motorway with nothing on it and nothing beside it but the driver's car.
+struct EmptyMotorway {
+  simulation::Model model = *shipped_drive("motorway-ambulance", "desktop").model;
+  simulation::State state;
+
+  EmptyMotorway() {
+    model.obstacles = nullptr;
+    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
+    REQUIRE(begun.has_value());
+    state = std::move(*begun);
+    state.traffic->stop();
+  }
+  EmptyMotorway(const EmptyMotorway&) = delete;  // The traffic looks at the roads.
+};
+
 }  // namespace
 
 TEST_CASE("a patch of ice lies under one wheel and not under the others") {
@@ -151,13 +166,9 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
   // What lies to the right of the car's own lane is raised, as lanes or as an object: a pavement along the motorway.
   for (const bool as_object : {false, true}) {
     CAPTURE(as_object);
-    const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-    simulation::Model model = *drive.model;
-    model.obstacles = nullptr;
-    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
-    REQUIRE(begun.has_value());
-    simulation::State state = std::move(*begun);
-    state.traffic->stop();
+    EmptyMotorway motorway;
+    simulation::Model& model = motorway.model;
+    simulation::State& state = motorway.state;
     Snapshot now = simulation::capture_snapshot(model, state);
     const int lane = now.driver_car.lane;
     REQUIRE(lane < 0);
@@ -201,13 +212,9 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
 TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log tells each once and at 2 m/s none") {
   for (const double speed_mps : {15.0, 2.0}) {
     CAPTURE(speed_mps);
-    const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
-    simulation::Model model = *drive.model;
-    model.obstacles = nullptr;
-    auto begun = simulation::initial_state(model, traffic::own_traffic(model.roads, 1));
-    REQUIRE(begun.has_value());
-    simulation::State state = std::move(*begun);
-    state.traffic->stop();
+    EmptyMotorway motorway;
+    simulation::Model& model = motorway.model;
+    simulation::State& state = motorway.state;
     const Snapshot before = simulation::capture_snapshot(model, state);
     const RigidTransform start = find_participant(before, simulation::driver_participant)->world_from_vehicle;
     const auto place = road::locate(model.roads, Vec2(start.position_m));

@@ -58,15 +58,23 @@ struct TraceRow {
   double acceleration_mps2 = 0.0;  ///< The greater one of those before and after this row.
 };
 
-std::vector<TraceRow> trace(const std::string& name) {
-  std::ifstream in(conformance_data("scenarios") / "traces" / (name + ".trace.csv"));
-  std::vector<TraceRow> rows;
+/// The rows of a table of the set, without its header, as cells.
+std::vector<std::vector<std::string>> table(const std::string& file) {
+  std::ifstream in(conformance_data("scenarios") / "traces" / file);
+  std::vector<std::vector<std::string>> rows;
   std::string line;
   std::getline(in, line);
   while (std::getline(in, line)) {
-    std::vector<std::string> cells;
+    std::vector<std::string>& cells = rows.emplace_back();
     std::stringstream stream(line);
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  }
+  return rows;
+}
+
+std::vector<TraceRow> trace(const std::string& name) {
+  std::vector<TraceRow> rows;
+  for (const auto& cells : table(name + ".trace.csv")) {
     rows.push_back({std::stod(cells[0]),
                     cells[1],
                     {std::stod(cells[2]), std::stod(cells[3]), std::stod(cells[4])},
@@ -195,14 +203,8 @@ void check_against_trace(const std::string& name, const Exceptions& but = {}) {
 using EventTimes = std::map<std::string, std::vector<double>>;
 
 EventTimes events_of_trace(const std::string& name) {
-  std::ifstream in(conformance_data("scenarios") / "traces" / (name + ".events.csv"));
   EventTimes times;
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::vector<std::string> cells;
-    std::stringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  for (const auto& cells : table(name + ".events.csv")) {
     // Init actions are no elements of a storyboard here, and standby is where every element begins.
     if (cells[1].starts_with("Init ") || cells[3] == "initToStandbyTransition") continue;
     times[cells[1] + (cells[3] == "startTransition" ? " starts" : " is over")].push_back(std::stod(cells[0]));
