@@ -3,24 +3,17 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/math/polygon.hpp"
 #include "engine/road/lane_geometry.hpp"
 
 namespace septet::road {
 namespace {
 
-/// Even-odd rule.
 bool holds(const SurfacePatch& patch, const Vec2& point) {
   if (point.x < patch.low_st_m.x || point.x > patch.high_st_m.x || point.y < patch.low_st_m.y ||
       point.y > patch.high_st_m.y)
     return false;
-  bool inside = false;
-  for (std::size_t i = 0, before = patch.corners_st_m.size() - 1; i < patch.corners_st_m.size();
-       before = i++) {
-    const Vec2 &a = patch.corners_st_m[i], &b = patch.corners_st_m[before];
-    if ((a.y > point.y) == (b.y > point.y)) continue;
-    if (point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  }
-  return inside;
+  return is_inside(patch.corners_st_m, point);
 }
 
 }  // namespace

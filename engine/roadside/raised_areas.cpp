@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/math/polygon.hpp"
 #include "engine/road/road_position.hpp"
 
 namespace septet::roadside {
@@ -153,15 +154,9 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y) {
 std::int64_t cell_index(double x) { return static_cast<std::int64_t>(std::floor(x / cell_m)); }
 std::uint64_t cell_of(const Vec2& p) { return key_of(cell_index(p.x), cell_index(p.y)); }
 
-/// Even-odd rule.
 bool holds(const RaisedArea& area, const Vec2& p) {
   if (p.x < area.low_m.x || p.x > area.high_m.x || p.y < area.low_m.y || p.y > area.high_m.y) return false;
-  bool inside = false;
-  for (std::size_t i = 0, before = area.top_m.size() - 1; i < area.top_m.size(); before = i++) {
-    const Vec3 &a = area.top_m[i], &b = area.top_m[before];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-  }
-  return inside;
+  return is_inside(area.top_m, p);
 }
 
 double height_of(const RaisedArea& area, const Vec2& p) {
