@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ Expected<fs::path> data_folder() {
     return failure("it holds no rigs/ and scenarios/", fmt::format("SEPTET_DATA={}", chosen), "point it at Septet's folder");
   }
   std::error_code ignored;
-  for (fs::path start : {program_folder(), fs::current_path(ignored)})
+  for (fs::path start : {program::own_folder(), fs::current_path(ignored)})
     for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
       if (is_data_folder(folder)) return folder;
       if (folder == folder.root_path()) break;

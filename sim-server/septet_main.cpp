@@ -1,12 +1,14 @@
 /// `septet`: the command people type.
 
+#include <functional>
 #include <iostream>
 
 #include <fmt/core.h>
 
 #include "car-io/driving_keys.hpp"
-#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
+#include "program/command_line.hpp"
+#include "program/console.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
 #include "sim-server/command/film_command.hpp"
@@ -17,11 +19,11 @@
 #include "sim-server/command/road_command.hpp"
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
-#include "sim-server/resources.hpp"
-#include "sim-server/stop_signal.hpp"
 
 namespace septet::server {
 namespace {
+
+using program::number_between, program::seed_number;
 
 /// Options that `drive` and `replay` share.
 void add_drive_options(CLI::App& command, DriveOptions& options) {
@@ -40,7 +42,7 @@ int run(int argc, char** argv) {
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
     return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
   });
-  int status = 0;
+  std::function<Expected<int>()> work;
 
   app.option_defaults()->always_capture_default();
   DriveOptions drive;
@@ -56,7 +58,7 @@ int run(int argc, char** argv) {
   drive_command->add_option("--traffic", drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
   drive_command->add_flag("--no-screens", drive.no_screens, "Server and car only, as fast as it goes");
   drive_command->footer(car_io::driving_keys_text());
-  drive_command->callback([&] { status = run_drive(drive); });
+  drive_command->callback([&] { work = [&] { return run_drive(drive); }; });
 
   DriveOptions replay;
   bool verify = false;
@@ -65,30 +67,30 @@ int run(int argc, char** argv) {
   add_drive_options(*replay_command, replay);
   replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at")->check(number_between(0.0, 1e6));
   replay_command->add_flag("--verify", verify, "Run the recorded input again and compare every tick's state hash");
-  replay_command->callback([&] { status = verify ? run_verify(replay.replay) : run_drive(replay); });
+  replay_command->callback([&] { work = [&] { return verify ? run_verify(replay.replay) : run_drive(replay); }; });
 
   // Its options are those of septet-film, which explains them too.
   auto* film_command = app.add_subcommand("film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
   film_command->set_help_flag();
-  film_command->callback([&] { status = run_film({argv + 2, argv + argc}); });
+  film_command->callback([&] { work = [&] { return run_film({argv + 2, argv + argc}); }; });
 
   std::string session;
   std::filesystem::path report_out;
   auto* report_command = app.add_subcommand("report", "Write report.html for a session");
   report_command->add_option("session", session, "Session file")->required();
   report_command->add_option("--out", report_out, "Where to write")->default_str("report.html beside the session");
-  report_command->callback([&] { status = run_report(session, report_out); });
+  report_command->callback([&] { work = [&] { return run_report(session, report_out); }; });
 
   auto* road_command = app.add_subcommand("road", "Questions to a road file");
   road_command->require_subcommand(1);
   std::string road_file;
   auto* sample = road_command->add_subcommand("sample", "Lines road_id,lane_id,s_m,lane_offset_m in, poses out");
   sample->add_option("file", road_file, "OpenDRIVE file")->required();
-  sample->callback([&] { status = run_road_sample(road_file, std::cin, std::cout); });
+  sample->callback([&] { work = [&] { return run_road_sample(road_file, std::cin, std::cout); }; });
   auto* locate = road_command->add_subcommand("locate", "Lines x_m,y_m in, road positions out");
   locate->add_option("file", road_file, "OpenDRIVE file")->required();
-  locate->callback([&] { status = run_road_locate(road_file, std::cin, std::cout); });
+  locate->callback([&] { work = [&] { return run_road_locate(road_file, std::cin, std::cout); }; });
 
   auto* rig_command = app.add_subcommand("rig", "What a rig of several machines needs");
   rig_command->require_subcommand(1);
@@ -97,15 +99,14 @@ int run(int argc, char** argv) {
   auto* rig_keys = rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
   rig_keys->add_option("rig", rig_name, "Rig: a file or a name")->required();
   rig_keys->add_option("--out", keys_out, "Folder for the folders; keys that are there stay")->capture_default_str();
-  rig_keys->callback([&] { status = run_rig_keys(rig_name, keys_out); });
+  rig_keys->callback([&] { work = [&] { return run_rig_keys(rig_name, keys_out); }; });
 
   auto* vehicle_command = app.add_subcommand("vehicle", "A car on the test track");
   vehicle_command->require_subcommand(1);
   VehicleTestOptions track;
-  std::string car = "volvo-s80";
   auto* vehicle_test = vehicle_command->add_subcommand("test", "Run a standard manoeuvre: figures, time series and a plot");
   auto* manoeuvre = vehicle_test->add_option("--manoeuvre", track.manoeuvre, "steady-circle, step-steer, double-lane-change, sine-with-dwell, stop, coast-down, acceleration or all");
-  vehicle_test->add_option("--vehicle", car, "Vehicle file, or a name of septet list vehicles");
+  vehicle_test->add_option("--vehicle", track.vehicle, "Vehicle file, or a name of septet list vehicles");
   vehicle_test->add_option("--out", track.out, "Folder for the files; without it the figures are only printed");
   auto* inputs = vehicle_test->add_option("--inputs", track.inputs, "Drive these inputs instead: CSV with time_s and any of steering_wheel_deg, accelerator, brake, clutch, gear, parking_brake");
   inputs->excludes(manoeuvre);
@@ -118,14 +119,7 @@ int run(int argc, char** argv) {
   vehicle_test->callback([&] {
     if (track.manoeuvre.empty() && track.inputs.empty()) throw CLI::RequiredError("--manoeuvre or --inputs");
     track.conditions.speed_mps = track_speed_kmh / 3.6;
-    const auto file = find_resource(car, "vehicles", ".toml");
-    if (!file) {
-      fmt::print(stderr, "septet: {}\n", describe(file.error()));
-      status = 1;
-      return;
-    }
-    track.vehicle = *file;
-    status = run_vehicle_test(track);
+    work = [&] { return run_vehicle_test(track); };
   });
 
   auto* traffic_command = app.add_subcommand("traffic", "Septet's traffic on the test track");
@@ -135,19 +129,19 @@ int run(int argc, char** argv) {
   traffic_diagram->add_option("--lanes", diagram.lanes, "Of the ring")->check(CLI::Range(1, 8))->capture_default_str();
   traffic_diagram->add_option("--seed", diagram.seed, "Of vehicles and drivers")->check(seed_number())->capture_default_str();
   traffic_diagram->add_option("--out", diagram.out, "Folder for the files; without it the figures are only printed");
-  traffic_diagram->callback([&] { status = run_traffic_diagram(diagram); });
+  traffic_diagram->callback([&] { work = [&] { return run_traffic_diagram(diagram); }; });
 
   std::string kind;
   auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
   list_command->add_option("kind", kind, "What of")->required()->check(CLI::IsMember(listed_kinds()));
-  list_command->callback([&] { status = run_list(kind); });
+  list_command->callback([&] { work = [&] { return run_list(kind); }; });
 
   CheckOptions check;
   auto* check_command = app.add_subcommand("check", "Say what is wrong with files; exit status 1: a file has an error");
   check_command->add_option("files", check.files, "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), sessions (.sqlite)")->required();
   check_command->add_flag("--json", check.json, "Answer in JSON (docs/check.md)");
   check_command->add_flag("--strict", check.strict, "Warnings count as errors in the exit status");
-  check_command->callback([&] { status = run_check(check, std::cout); });
+  check_command->callback([&] { work = [&]() -> Expected<int> { return run_check(check, std::cout); }; });
 
   // The parser's own message does not name the word that it did not know.
   if (const std::string word = argc > 1 ? argv[1] : "-"; !word.starts_with('-')) {
@@ -158,22 +152,14 @@ int run(int argc, char** argv) {
       known = known || command->get_name() == word;
     }
     if (!known) {
-      fmt::print(stderr, "septet: there is no command \"{}\"; use one of: {}\n", word, commands);
-      return 2;
+      program::say(fmt::format("septet: there is no command \"{}\"; use one of: {}", word, commands));
+      return program::wrong_use_status;
     }
   }
-  return wrong_use(app, argc, argv).value_or(status);
+  return program::run("septet", app, argc, argv, [&] { return work(); });
 }
 
 }  // namespace
 }  // namespace septet::server
 
-int main(int argc, char** argv) {
-  septet::server::survive_failed_writes();
-  try {
-    return septet::server::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "septet: {}\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return septet::server::run(argc, argv); }

@@ -1,16 +1,12 @@
 /// `septet-server`: the simulation of one drive, for the screens of a rig.
 
-#include <cstdio>
-
-#include <fmt/core.h>
-
-#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
-#include "sim-server/resources.hpp"
+#include "program/command_line.hpp"
 #include "sim-server/server_program.hpp"
 
 int main(int argc, char** argv) {
   using namespace septet;
+  using program::number_between, program::seed_number;
   server::ServerOptions options;
   options.scenario = "motorway-ambulance";
   options.rig = "seven-screens";
@@ -37,24 +33,5 @@ int main(int argc, char** argv) {
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");
-  if (const auto status = wrong_use(app, argc, argv)) return *status;
-
-  const auto fail = [](const Error& error) {
-    std::fputs(fmt::format("septet-server: {}\n", describe(error)).c_str(), stderr);
-    return 1;
-  };
-  try {
-    const auto rig = server::find_resource(options.rig, "rigs", ".toml");
-    if (!rig) return fail(rig.error());
-    options.rig = rig->string();
-    if (options.replay.empty()) {
-      const auto scenario = server::find_resource(options.scenario, "scenarios", ".xosc");
-      if (!scenario) return fail(scenario.error());
-      options.scenario = scenario->string();
-    }
-    const auto end = server::run_server(options);
-    return end ? exit_status(*end) : fail(end.error());
-  } catch (const std::exception& error) {
-    return fail({error.what(), "", ""});
-  }
+  return program::run("septet-server", app, argc, argv, [&] { return server::run_server(options).map(logging::exit_status); });
 }

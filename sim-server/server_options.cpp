@@ -5,6 +5,7 @@
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/printable.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
+#include "sim-server/resources.hpp"
 
 namespace septet::server {
 
@@ -17,6 +18,17 @@ Expected<void> check_names(const ServerOptions& options) {
   if (!characters || *characters > most_participant_characters)
     return failure(fmt::format("\"{}\" is no participant's code", printable(options.participant)), "--participant",
                    fmt::format("use at most {} characters, none of them a control character", most_participant_characters));
+  return {};
+}
+
+Expected<void> find_files(ServerOptions& options) {
+  const auto rig = find_resource(options.rig, "rigs", ".toml");
+  if (!rig) return tl::unexpected(rig.error());
+  options.rig = rig->string();
+  if (!options.replay.empty()) return {};
+  const auto scenario = find_resource(options.scenario, "scenarios", ".xosc");
+  if (!scenario) return tl::unexpected(scenario.error());
+  options.scenario = scenario->string();
   return {};
 }
 

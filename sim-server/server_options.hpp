@@ -37,4 +37,7 @@ inline constexpr std::size_t most_participant_characters = 100;
 /// Error: no such driver or traffic engine; a participant's code that cannot be printed on one line of a report.
 Expected<void> check_names(const ServerOptions& options);
 
+/// Makes rig and scenario, which may be names or folders, the files that they mean. Error: there is no such file.
+Expected<void> find_files(ServerOptions& options);
+
 }  // namespace septet::server

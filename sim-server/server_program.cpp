@@ -1,12 +1,8 @@
 #include "sim-server/server_program.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 
@@ -21,25 +17,26 @@
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
 #include "logging/recorded_scene.hpp"
+#include "program/clock.hpp"
+#include "program/console.hpp"
+#include "program/stop_signal.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
-#include "sim-server/host/go_word.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
+#include "sim-server/host/go_word.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/replay_source.hpp"
-#include "sim-server/resources.hpp"
 #include "sim-server/host/serve.hpp"
-#include "sim-server/stop_signal.hpp"
-#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
 
 /// What a signal means for the drive.
 std::optional<logging::DriveEnd> end_by_signal() {
-  const auto signal = stop_signal();
+  const auto signal = program::stop_signal();
   if (!signal) return std::nullopt;
-  obey_stop_signal();
+  program::obey_stop_signal();
   switch (*signal) {
     case SIGINT: return logging::DriveEnd::interrupted;
     case SIGHUP: return logging::DriveEnd::hung_up;
@@ -47,39 +44,6 @@ std::optional<logging::DriveEnd> end_by_signal() {
     default: return logging::DriveEnd::terminated;
   }
 }
-
-double monotonic_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// One line that is written over on a terminal; elsewhere a line every ten seconds.
-class ProgressLine {
- public:
-  void show(const Progress& progress) {
-    const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    // Time passed begins anew when the driver has taken the controls.
-    if (std::abs(progress.wall_s - shown_s_) < (terminal ? 0.1 : 10.0) && shown_s_ >= 0.0) return;
-    shown_s_ = progress.wall_s;
-    const std::string total = progress.total_s > 0.0 ? fmt::format(" of {:.0f}", progress.total_s) : "";
-    say(fmt::format("{}{:6.1f}{} s driven, {:.0f} s passed, {}{}", terminal ? "\r\033[K" : "", progress.simulated_s, total,
-                    progress.wall_s, progress.what, terminal ? "" : "\n"));
-    open_ = terminal;
-  }
-  void message(const std::string& text) {
-    say(fmt::format("{}{}\n", open_ ? "\n" : "", text));
-    open_ = false;
-  }
-  /// Ends a line that is still open.
-  void close() {
-    if (std::exchange(open_, false)) say("\n");
-  }
-
- private:
-  /// Not fmt::print, which throws where standard error is a file on a full disk.
-  static void say(const std::string& text) { std::fputs(text.c_str(), stderr); }
-  double shown_s_ = -1.0;
-  bool open_ = false;
-};
 
 struct Sockets {
   net::UdpSocket lane, tick;
@@ -101,7 +65,7 @@ Expected<Sockets> open_sockets(const ServerOptions& options, const rig::Network&
 
 /// Multicast if the rig wants it, or if it does not mind and the machine's own loopback carries it.
 Expected<void> choose_transport(const rig::Network& network, Sockets& sockets, bool any_port, control::Welcome& welcome,
-                                ProgressLine& progress) {
+                                program::ProgressLine& progress) {
   if (network.transport == rig::TickTransport::unicast) return {};
   const auto group_ip = net::parse_ip(network.tick_group, "rig, network.tick_group");
   if (!group_ip) return tl::unexpected(group_ip.error());
@@ -188,7 +152,7 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
 }
 
 /// The seat that command line and rig ask for; `car` says in the end what it became.
-Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const simulation::Model>& model, ProgressLine& progress) {
+Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const simulation::Model>& model, program::ProgressLine& progress) {
   const auto let_drive = [&](const std::string& driver) {
     car.source = rig::CarSource::simulated_driver;
     car.driver = driver;
@@ -204,8 +168,7 @@ Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, co
   return open_driver_seat(car, options.seed, model);
 }
 
-Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, ProgressLine& progress) {
-  if (auto known = check_names(options); !known) return known;
+Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program::ProgressLine& progress) {
   auto parameters = read_parameters(options.parameters);
   if (!parameters) return tl::unexpected(parameters.error());
   auto loaded = load_drive({options.scenario, options.rig, options.seed, options.vehicle, std::move(*parameters)});
@@ -255,7 +218,7 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
 }
 
 /// Closes the log and writes summary and report. A log that cannot be closed is the drive's end, unless something else was.
-void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result, const std::vector<HostedScreen>& screens, ProgressLine& progress) {
+void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result, const std::vector<HostedScreen>& screens, program::ProgressLine& progress) {
   SessionLog& log = *drive.log;
   const auto failed = [&](const Error& error) {
     if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
@@ -268,17 +231,20 @@ void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result,
   if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written) failed(written.error());
 }
 
-/// Standard output is for whoever started this program: what it may not miss. Not fmt::print, which throws where that one has gone.
-void announce(const std::string& line) {
-  std::fputs((line + '\n').c_str(), stdout);
-  std::fflush(stdout);
+void show(const Progress& now, program::ProgressLine& progress) {
+  // Time passed begins anew when the driver has taken the controls.
+  if (!progress.is_due(now.wall_s)) return;
+  const std::string total = now.total_s > 0.0 ? fmt::format(" of {:.0f}", now.total_s) : "";
+  progress.show(fmt::format("{:6.1f}{} s driven, {:.0f} s passed, {}", now.simulated_s, total, now.wall_s, now.what));
 }
 
 }  // namespace
 
-Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
-  survive_failed_writes();
-  ProgressLine progress;
+Expected<logging::DriveEnd> run_server(ServerOptions options) {
+  if (options.replay.empty())
+    if (auto known = check_names(options); !known) return tl::unexpected(known.error());
+  if (auto found = find_files(options); !found) return tl::unexpected(found.error());
+  program::ProgressLine progress;
   Drive drive;
   auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
   if (!prepared) return tl::unexpected(prepared.error());
@@ -307,13 +273,13 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
       return tl::unexpected(chosen.error());
   }
   // From here on there is something to be ended in order.
-  catch_stop_signals();
+  program::catch_stop_signals();
   if (options.replay.empty())
     if (auto begun = begin_drive(options, drive); !begun) return tl::unexpected(begun.error());
   ServeEnvironment environment;
-  environment.now_s = monotonic_s;
+  environment.now_s = program::monotonic_s;
   environment.end_requested = end_by_signal;
-  environment.report = [&](const Progress& now) { progress.show(now); };
+  environment.report = [&](const Progress& now) { show(now, progress); };
   environment.message = [&](const std::string& text) {
     progress.message(text);
     if (drive.log) drive.log->record_message("screen", text);
@@ -322,12 +288,12 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   ServeResult result;
   std::vector<HostedScreen> screens;
   if (!endpoint) {
-    announce("ready 0");
+    program::announce("ready 0");
     result = run_headless(*drive.source, serve_options.ticks, environment);
   } else {
     Sockets& sockets = endpoint->sockets;
     ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
-    announce(fmt::format("ready {}", sockets.lane.local_address().port));
+    program::announce(fmt::format("ready {}", sockets.lane.local_address().port));
     environment.wait = [&](double seconds) {
       const net::UdpSocket* waiting[] = {&sockets.lane};
       net::wait_readable(waiting, seconds);
@@ -336,7 +302,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
     environment.told_to_go = [&] { return go.said(); };
     net::AllowedClientsWatch watch(options.keys / "allowed-clients");
     environment.changed_list = [&]() -> std::optional<std::vector<net::AllowedClient>> {
-      auto list = watch.changed(monotonic_s());
+      auto list = watch.changed(program::monotonic_s());
       if (!list) return std::nullopt;
       environment.message(*list ? fmt::format("allowed-clients has changed: {} clients may connect", (*list)->size())
                                 : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
@@ -355,7 +321,7 @@ Expected<logging::DriveEnd> run_server(const ServerOptions& options) {
   progress.close();
   if (result.error) progress.message(fmt::format("septet-server: {}", describe(*result.error)));
   if (drive.log) finish_log(options, drive, result, screens, progress);
-  announce(fmt::format("ended {} {}", name_of(result.end), drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
+  program::announce(fmt::format("ended {} {}", name_of(result.end), drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
   return result.end;
 }
 

@@ -12,6 +12,6 @@ namespace septet::server {
 /// begun, whatever ends it: the log is closed, summary and report are written, and the answer says why.
 ///
 /// A signal ends the program at once while it still reads its files, and the drive in order afterwards.
-Expected<logging::DriveEnd> run_server(const ServerOptions& options);
+Expected<logging::DriveEnd> run_server(ServerOptions options);
 
 }  // namespace septet::server

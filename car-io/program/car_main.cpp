@@ -1,21 +1,20 @@
 /// `septet-car`: the car's HID device, on the machine that it is plugged into.
 
-#include <cstdio>
 #include <string>
 
 #include "car-io/program/car_program.hpp"
-#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
+#include "program/command_line.hpp"
 
 int main(int argc, char** argv) {
   using namespace septet;
+  using program::number_between;
   car_io::DriveOptions drive;
   car_io::CalibrateOptions calibrate;
   car_io::ActuateOptions actuate;
   CLI::App app{
       "septet-car: carries the car's controls to the server, and fan, vibration and steering force "
-      "to "
-      "the car. Run it on the machine that the rig's [car] machine names."};
+      "to the car. Run it on the machine that the rig's [car] machine names."};
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", version_text());
   app.add_option("--server", drive.server, "Server's address and port");
@@ -41,23 +40,8 @@ int main(int argc, char** argv) {
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
   });
-  if (const auto status = wrong_use(app, argc, argv)) return *status;
-
-  const auto run = [&]() -> Expected<void> {
-    if (calibration->parsed()) return car_io::run_calibration(calibrate);
-    if (trial->parsed()) return car_io::run_actuators(actuate);
-    if (drive.keys.empty())
-      return failure("it needs the folder of its keys", "--keys",
-                     "give one; --help lists the options");
-    return car_io::run_car(drive);
-  };
-  Expected<void> outcome;
-  try {
-    outcome = run();
-  } catch (const std::exception& error) {
-    outcome = failure(error.what(), "", "");
-  }
-  if (outcome) return 0;
-  std::fputs(("septet-car: " + describe(outcome.error()) + "\n").c_str(), stderr);
-  return 1;
+  return program::run("septet-car", app, argc, argv, [&] {
+    const auto done = calibration->parsed() ? car_io::run_calibration(calibrate) : trial->parsed() ? car_io::run_actuators(actuate) : car_io::run_car(drive);
+    return done.map([] { return 0; });
+  });
 }

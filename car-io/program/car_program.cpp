@@ -1,7 +1,6 @@
 #include "car-io/program/car_program.hpp"
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <thread>
 
@@ -12,25 +11,14 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
+#include "program/clock.hpp"
+#include "program/console.hpp"
+#include "program/stop_signal.hpp"
 
 namespace septet::car_io {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-void on_signal(int) { stop_requested = 1; }
-
-void stop_on_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_signal);  // The terminal was closed, the connection to it broke.
-}
-
-double monotonic_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Not fmt::print, which throws where standard error is a file on a full disk.
-void say(const std::string& what) { std::fputs(("septet-car: " + what + "\n").c_str(), stderr); }
+void say(const std::string& what) { program::say("septet-car: " + what); }
 
 OpenHidDevice find_device(const rig::Car& car) {
   return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] {
@@ -64,7 +52,8 @@ void sleep_s(double seconds) {
 }  // namespace
 
 Expected<void> run_car(const DriveOptions& options) {
-  stop_on_signals();
+  if (options.keys.empty()) return failure("it needs the folder of its keys", "--keys", "give one; --help lists the options");
+  program::catch_stop_signals();
   const auto server = net::parse_address(options.server, "--server");
   if (!server) return tl::unexpected(server.error());
   const auto server_key = net::load_public_key(options.keys / "server.public");
@@ -77,8 +66,8 @@ Expected<void> run_car(const DriveOptions& options) {
                   net::to_text(identity->public_key())));
 
   CarLink link(*socket, {*server, *server_key, *identity, {}}, find_device);
-  while (!stop_requested && !link.finished()) {
-    link.pump(monotonic_s());
+  while (!program::should_stop() && !link.finished()) {
+    link.pump(program::monotonic_s());
     for (const auto& text : link.take_messages()) say(text);
     if (link.refusal()) return tl::unexpected(*link.refusal());
     // The device is asked twice a millisecond or so; whatever the server sends wakes this at once.
@@ -90,7 +79,7 @@ Expected<void> run_car(const DriveOptions& options) {
 }
 
 Expected<void> run_calibration(const CalibrateOptions& options) {
-  stop_on_signals();
+  program::catch_stop_signals();
   auto here = open_car(options.rig);
   if (!here) return tl::unexpected(here.error());
   say(fmt::format(
@@ -98,8 +87,8 @@ Expected<void> run_calibration(const CalibrateOptions& options) {
       "both ends and press each pedal down once",
       options.seconds));
   CalibrationRecord record;
-  for (const double end_s = monotonic_s() + options.seconds;
-       monotonic_s() < end_s && !stop_requested; sleep_s(0.001)) {
+  for (const double end_s = program::monotonic_s() + options.seconds;
+       program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.001)) {
     const auto report = here->device->read_newest();
     if (!report) return tl::unexpected(report.error());
     if (!*report) continue;
@@ -117,7 +106,7 @@ Expected<void> run_calibration(const CalibrateOptions& options) {
 }
 
 Expected<void> run_actuators(const ActuateOptions& options) {
-  stop_on_signals();
+  program::catch_stop_signals();
   auto here = open_car(options.rig);
   if (!here) return tl::unexpected(here.error());
   if (!here->layout->has_actuators)
@@ -127,8 +116,8 @@ Expected<void> run_actuators(const ActuateOptions& options) {
       find_device(here->car),
       {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
   std::optional<Error> fault;
-  for (const double end_s = monotonic_s() + options.seconds;
-       monotonic_s() < end_s && !stop_requested; sleep_s(0.02)) {
+  for (const double end_s = program::monotonic_s() + options.seconds;
+       program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.02)) {
     writer.set(options.actuators);
     if (auto error = writer.take_error(); error && !fault) fault = std::move(error);
   }

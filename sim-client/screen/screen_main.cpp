@@ -1,16 +1,10 @@
 /// `septet-screen`: one screen of a rig, in a window, full screen or off-screen.
 
-#include <cstdio>
 #include <string>
 
-#include "engine/core/command_line.hpp"
 #include "engine/core/version.hpp"
+#include "program/command_line.hpp"
 #include "sim-client/screen/screen_session.hpp"
-
-namespace {
-/// Not fmt::print, which throws where the log's disk is full.
-void say(const std::string& what) { std::fputs(("septet-screen: " + what + "\n").c_str(), stderr); }
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace septet;
@@ -27,19 +21,10 @@ int main(int argc, char** argv) {
   app.add_flag("--full-screen", options.full_screen, "Cover a whole monitor");
   app.add_option("--monitor", options.monitor, "Which monitor of this machine, from 0, instead of the rig's")->check(CLI::Range(0, 63));
   app.add_flag("--validation", options.validation, "Turn on Vulkan's validation layer");
-  if (const auto status = wrong_use(app, argc, argv)) return *status;
-
-  try {
+  return program::run("septet-screen", app, argc, argv, [&]() -> Expected<int> {
     const auto address = net::parse_address(server, "--server");
-    auto outcome = address ? Expected<void>{} : Expected<void>(tl::unexpected(address.error()));
-    if (outcome) {
-      options.server = *address;
-      outcome = screen::run_screen(options);
-    }
-    if (outcome) return 0;
-    say(describe(outcome.error()));
-  } catch (const std::exception& error) {
-    say(error.what());
-  }
-  return 1;
+    if (!address) return tl::unexpected(address.error());
+    options.server = *address;
+    return screen::run_screen(options).map([] { return 0; });
+  });
 }

@@ -1,7 +1,5 @@
 #include "sim-client/screen/screen_session.hpp"
 
-#include <chrono>
-#include <csignal>
 #include <stop_token>
 #include <thread>
 
@@ -11,6 +9,9 @@
 #include "engine/net/udp_socket.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
+#include "program/clock.hpp"
+#include "program/console.hpp"
+#include "program/stop_signal.hpp"
 #include "sim-client/frame/client_frame.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/instruments.hpp"
@@ -24,13 +25,6 @@
 
 namespace septet::screen {
 namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-void on_signal(int) { stop_requested = 1; }
-
-double monotonic_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// What stays from one welcome of the server to the next.
 class Session {
@@ -112,7 +106,7 @@ Expected<void> Session::take_welcome() {
   // It takes a tenth of a second, in which the scene arrives.
   std::jthread receiving([this](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      link_.pump(monotonic_s());
+      link_.pump(program::monotonic_s());
       wait(0.001);
     }
   });
@@ -137,25 +131,23 @@ Expected<void> Session::bring_scene_up() {
 }
 
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
-  const double begun_s = monotonic_s();
+  const double begun_s = program::monotonic_s();
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
   effects_.add_to(input);
   if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
   else add_driver_texts(input, snapshot);
   if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
-  last_submit_ms_ = static_cast<float>(1e3 * (monotonic_s() - begun_s));
+  last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
 }
 
 /// After each picture. Whoever started this program hears of the first.
 void Session::count_frame() {
-  const double now_s = monotonic_s();
+  const double now_s = program::monotonic_s();
   if (last_picture_s_) frame_times_.add(1e3 * (now_s - *last_picture_s_));
   last_picture_s_ = now_s;
   submit_times_.add(last_submit_ms_);
-  if (frames_++ != 0) return;
-  std::fputs("showing\n", stdout);
-  std::fflush(stdout);
+  if (frames_++ == 0) program::announce("showing");
 }
 
 void Session::take_effects(const Snapshot& snapshot) {
@@ -255,9 +247,8 @@ void Session::wait(double seconds) {
 void Session::say_goodbye() {
   if (display_) {
     const auto& last = display_->renderer().statistics();
-    // Not fmt::print, which throws where the log's disk is full.
-    std::fputs(fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances\n", options_.name,
-                           frames_, last.triangles, last.shadow_triangles, last.draws, last.instances).c_str(), stderr);
+    program::say(fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances", options_.name,
+                             frames_, last.triangles, last.shadow_triangles, last.draws, last.instances));
   }
   const auto percentile = [](const FrameTimes& times, double fraction) { return static_cast<float>(times.percentile_ms(fraction)); };
   control::ScreenReport report{.frames = frames_, .frames_off_tick = frames_off_tick_};
@@ -266,9 +257,9 @@ void Session::say_goodbye() {
   report.submit_ms_p50 = percentile(submit_times_, 0.5);
   report.submit_ms_p99 = percentile(submit_times_, 0.99);
   link_.report(report);
-  const double until_s = monotonic_s() + 1.0;
-  while (monotonic_s() < until_s && link_.state() == net::ClientState::connected) {
-    link_.pump(monotonic_s());
+  const double until_s = program::monotonic_s() + 1.0;
+  while (program::monotonic_s() < until_s && link_.state() == net::ClientState::connected) {
+    link_.pump(program::monotonic_s());
     wait(0.01);
   }
   link_.close();
@@ -276,11 +267,10 @@ void Session::say_goodbye() {
 
 Expected<void> Session::run() {
   std::optional<Departure> departure;
-  while (!stop_requested) {
-    const double now_s = monotonic_s();
+  while (!program::should_stop()) {
+    const double now_s = program::monotonic_s();
     link_.pump(now_s);
-    // Not fmt::print, which throws where the log's disk is full.
-    for (const auto& text : link_.take_messages()) std::fputs(fmt::format("{}: {}\n", options_.name, text).c_str(), stderr);
+    for (const auto& text : link_.take_messages()) program::say(fmt::format("{}: {}", options_.name, text));
     if (link_.refusal()) return tl::unexpected(*link_.refusal());
     if (link_.finished()) {
       say_goodbye();
@@ -313,10 +303,7 @@ Expected<void> Session::run() {
 }  // namespace
 
 Expected<void> run_screen(const ScreenOptions& options) {
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGHUP, on_signal);
-  std::signal(SIGXFSZ, SIG_IGN);  // A picture that grows over a limit is an error and not this screen's end.
+  program::catch_stop_signals();
   const auto identity = net::load_identity(options.keys / (options.name + ".key"));
   if (!identity) return tl::unexpected(identity.error());
   const auto server_key = net::load_public_key(options.keys / "server.public");

@@ -14,7 +14,7 @@ struct CheckOptions {
   bool strict = false;  ///< Warnings count in the exit status.
 };
 
-/// Answers 1 if any file has an error, or with `strict` a warning, else 0.
+/// Returns 1 if any file has an error, or with `strict` a warning, else 0.
 int run_check(const CheckOptions& options, std::ostream& out);
 
 }  // namespace septet::server

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -15,12 +14,13 @@
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
 #include "logging/drive_end.hpp"
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
+#include "program/console.hpp"
+#include "program/stop_signal.hpp"
+#include "program/temporary_folder.hpp"
 #include "sim-server/command/drive_folder.hpp"
 #include "sim-server/command/panorama_file.hpp"
 #include "sim-server/resources.hpp"
-#include "sim-server/stop_signal.hpp"
-#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -29,14 +29,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// Not fmt::print, which throws where the terminal has gone.
-void say(const std::string& line) { std::fputs((line + '\n').c_str(), stderr); }
-
 bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
 /// The keys of a drive whose machines are all this one: made for it, gone with it.
-Expected<TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
-  auto folder = TemporaryFolder::make("septet");
+Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
+  auto folder = program::TemporaryFolder::make("septet");
   if (!folder) return folder;
   std::ofstream allowed(folder->path() / "allowed-clients");
   for (const auto& client : clients) {
@@ -54,7 +51,7 @@ Expected<TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
 /// that dies again and again before it shows a picture is tried more and more rarely.
 class RunningScreen {
  public:
-  RunningScreen(std::string name, ChildOptions options) : name_(std::move(name)), options_(std::move(options)) {}
+  RunningScreen(std::string name, program::ChildOptions options) : name_(std::move(name)), options_(std::move(options)) {}
 
   void keep_running() {
     if (!process_) return start();
@@ -70,7 +67,7 @@ class RunningScreen {
       const auto pause = deaths_ == 1 ? 0ms : std::min(100ms * (1 << std::min(deaths_, 10)), 10'000ms);
       next_start_ = Clock::now() + pause;
       const std::string how = exit->signal != 0 ? fmt::format("was ended by signal {}", exit->signal) : fmt::format("ended with status {}", exit->code);
-      say(fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how, pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
+      program::say(fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how, pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
                       options_.log.string()));
       return;
     }
@@ -79,23 +76,23 @@ class RunningScreen {
   /// It has died three times and never shown a picture.
   bool is_hopeless() const { return !has_shown_ && deaths_ >= 3; }
   bool is_running() { return process_ && !process_->poll(); }
-  const ChildOptions& options() const { return options_; }
+  const program::ChildOptions& options() const { return options_; }
 
  private:
   void start() {
     is_told_ = false;
-    auto process = ChildProcess::start(options_);
+    auto process = program::ChildProcess::start(options_);
     if (process) {
       process_ = std::move(*process);
       return;
     }
     ++deaths_;
-    say(describe(process.error()));
+    program::say(describe(process.error()));
   }
 
   std::string name_;
-  ChildOptions options_;
-  std::optional<ChildProcess> process_;
+  program::ChildOptions options_;
+  std::optional<program::ChildProcess> process_;
   bool has_shown_ = false, is_told_ = false;
   int deaths_ = 0;  ///< Since it last showed a picture.
   Clock::time_point next_start_{};
@@ -110,9 +107,9 @@ std::string last_line_of(const fs::path& file) {
   return last;
 }
 
-ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
-  ChildOptions server;
-  server.program = (program_folder() / "septet-server").string();
+program::ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
+  program::ChildOptions server;
+  server.program = (program::own_folder() / "septet-server").string();
   server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
                       "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", *options.seconds), "--any-port", "--wait-for-screens", "60"};
   const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
@@ -132,9 +129,9 @@ ChildOptions server_options(const DriveOptions& options, const fs::path& rig, co
   return server;
 }
 
-ChildOptions screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
-  ChildOptions running;
-  running.program = (program_folder() / "septet-screen").string();
+program::ChildOptions screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
+  program::ChildOptions running;
+  running.program = (program::own_folder() / "septet-screen").string();
   running.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
                        "--pictures", (options.out / "screens" / screen.name).string()};
   running.log = options.out / "screens" / (screen.name + ".log");
@@ -155,12 +152,12 @@ struct Ending {
 };
 
 /// What the server's "ended NAME TEXT" says, and what its exit tells without it.
-Ending ending_of(const ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
+Ending ending_of(const program::ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
   if (last_words) {
     const auto text = last_words->find(' ', std::string_view("ended ").size());
     return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1)};
   }
-  if (exit.signal != 0 && stop_signal() && !was_ready) return {false, logging::stopped_status, "stopped before the drive began"};
+  if (exit.signal != 0 && program::stop_signal() && !was_ready) return {false, logging::stopped_status, "stopped before the drive began"};
   if (exit.signal != 0)
     return {was_ready, logging::failed_status, fmt::format("the server was ended by signal {}; what it had logged is in the session file", exit.signal)};
   if (exit.code == 127) return {false, logging::failed_status, "the server does not start; check that septet-server lies beside septet"};
@@ -171,12 +168,12 @@ Ending ending_of(const ChildExit& exit, const std::optional<std::string>& last_w
 
 /// Server and screens from start to end.
 Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
-  catch_stop_signals();
+  program::catch_stop_signals();
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
   const auto keys = make_keys(clients);
   if (!keys) return tl::unexpected(keys.error());
-  auto server = ChildProcess::start(server_options(options, rig_file, keys->path()));
+  auto server = program::ChildProcess::start(server_options(options, rig_file, keys->path()));
   if (!server) return tl::unexpected(server.error());
 
   // The server says on its standard output which port it got, once it has read and built everything, and why the drive has ended.
@@ -196,15 +193,15 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   };
   while (!server->poll()) {
     listen(20ms);
-    if (const auto signal = stop_signal(); signal && !std::exchange(has_forwarded, true)) {
-      obey_stop_signal();
+    if (const auto signal = program::stop_signal(); signal && !std::exchange(has_forwarded, true)) {
+      program::obey_stop_signal();
       server->send_signal(*signal);
     }
     if (!last_words && !has_given_up)
       for (auto& screen : screens) screen.keep_running();
     if (!screens.empty() && std::ranges::all_of(screens, &RunningScreen::is_hopeless) && !std::exchange(has_given_up, true)) {
       const fs::path& log = screens.front().options().log;
-      say(fmt::format("septet: no screen can be started; {} says: {}", log.string(), last_line_of(log)));
+      program::say(fmt::format("septet: no screen can be started; {} says: {}", log.string(), last_line_of(log)));
       server->send_signal(SIGUSR1);
     }
   }
@@ -214,14 +211,9 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   return ending_of(*server->poll(), last_words, was_ready);
 }
 
-int fail(const Error& error) {
-  say(fmt::format("septet: {}", describe(error)));
-  return logging::failed_status;
-}
-
 /// What there is to look at after a drive.
 Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, int status) {
-  const auto tell = [](const fs::path& file, const std::string& what) { std::fputs(fmt::format("{}: {}\n", file.string(), what).c_str(), stdout); };
+  const auto tell = [](const fs::path& file, const std::string& what) { program::announce(fmt::format("{}: {}", file.string(), what)); };
   Expected<void> done;
   if (options.virtual_screens && !options.no_screens) {
     done = write_panorama(options.out, rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
@@ -238,39 +230,42 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
 
 }  // namespace
 
-int run_drive(DriveOptions options) {
+Expected<int> run_drive(DriveOptions options) {
   if (!has_display()) options.virtual_screens = true;
   if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
   const auto rig_file = find_resource(options.rig, "rigs", ".toml");
-  if (!rig_file) return fail(rig_file.error());
+  if (!rig_file) return tl::unexpected(rig_file.error());
   const auto rig_text = read_regular_file(*rig_file);
-  if (!rig_text) return fail(rig_text.error());
+  if (!rig_text) return tl::unexpected(rig_text.error());
   const auto rig = rig::read_rig(*rig_text, rig_file->string());
-  if (!rig) return fail(rig.error());
+  if (!rig) return tl::unexpected(rig.error());
   if (options.replay.empty()) {
     const auto scenario = find_resource(options.scenario, "scenarios", ".xosc");
-    if (!scenario) return fail(scenario.error());
+    if (!scenario) return tl::unexpected(scenario.error());
     options.scenario = scenario->string();
   }
   if (!options.seconds) options.seconds = (options.virtual_screens || options.no_screens) && options.replay.empty() ? seconds_unless_told : 0.0;
   if (options.out.empty()) {
     const auto data = data_folder();
-    if (!data) return fail(data.error());
+    if (!data) return tl::unexpected(data.error());
     options.out = *data / "out" / "latest";
   }
   const auto folder = DriveFolder::prepare(options.out);
-  if (!folder) return fail(folder.error());
+  if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();
   const auto ending = run_processes(options, *rig_file, *rig);
   if (!ending || !ending->driven) folder->undo();
-  if (!ending) return fail(ending.error());
+  if (!ending) return tl::unexpected(ending.error());
   int status = ending->status;
   if (ending->driven) {
-    if (!folder->aside().empty()) say(fmt::format("The earlier drive is in {}", folder->aside().string()));
+    if (!folder->aside().empty()) program::say(fmt::format("The earlier drive is in {}", folder->aside().string()));
     const auto shown = show_results(options, *rig, status);
-    if (!shown && status == logging::finished_status) status = fail(shown.error());
+    if (!shown && status == logging::finished_status) {
+      program::say("septet: " + describe(shown.error()));
+      status = logging::failed_status;
+    }
   }
-  if (!ending->text.empty()) std::fputs((ending->text + '\n').c_str(), status == logging::failed_status && !ending->driven ? stderr : stdout);
+  if (!ending->text.empty()) (status == logging::failed_status && !ending->driven ? program::say : program::announce)(ending->text);
   return status;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
 struct DriveOptions {
@@ -31,8 +33,8 @@ struct DriveOptions {
 /// Of a drive that is not told how long to last, off-screen. One in a window, and a replay, last as for `--seconds 0`.
 inline constexpr double seconds_unless_told = 30.0;
 
-/// Runs the whole drive; answers the exit status (logging/drive_end.hpp). Prints progress to standard error, and at the end to
+/// Runs the whole drive; returns the exit status (logging/drive_end.hpp). Prints progress to standard error, and at the end to
 /// standard output what there is to look at and, in the last line, why the drive has ended.
-int run_drive(DriveOptions options);
+Expected<int> run_drive(DriveOptions options);
 
 }  // namespace septet::server

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
-/// Does not return but where that program cannot be started.
-int run_film(std::vector<std::string> arguments);
+/// Returns only where that program cannot be started.
+Expected<int> run_film(std::vector<std::string> arguments);
 
 }  // namespace septet::server

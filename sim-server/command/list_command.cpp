@@ -67,12 +67,9 @@ const std::vector<std::string>& listed_kinds() {
   return kinds;
 }
 
-int run_list(const std::string& kind) {
+Expected<int> run_list(const std::string& kind) {
   const auto entries = entries_of(kind);
-  if (!entries) {
-    fmt::print(stderr, "septet: {}\n", describe(entries.error()));
-    return 1;
-  }
+  if (!entries) return tl::unexpected(entries.error());
   std::size_t width = 0;
   for (const auto& entry : *entries) width = std::max(width, entry.name.size());
   for (const auto& entry : *entries) fmt::print("{:<{}}  {}\n", entry.name, width, entry.description);

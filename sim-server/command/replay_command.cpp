@@ -114,12 +114,9 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
 
 }  // namespace
 
-int run_verify(const std::filesystem::path& session) {
+Expected<int> run_verify(const std::filesystem::path& session) {
   const auto ticks = verify(session);
-  if (!ticks) {
-    fmt::print(stderr, "septet: {}\n", describe(ticks.error()));
-    return 1;
-  }
+  if (!ticks) return tl::unexpected(ticks.error());
   fmt::print("{} ticks run again: every state hash agrees\n", *ticks);
   return 0;
 }

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
-int run_verify(const std::filesystem::path& session);
+Expected<int> run_verify(const std::filesystem::path& session);
 
 }  // namespace septet::server

@@ -7,14 +7,11 @@
 
 namespace septet::server {
 
-int run_report(const std::string& session, const std::filesystem::path& out) {
+Expected<int> run_report(const std::string& session, const std::filesystem::path& out) {
   const auto path = out.empty() ? std::filesystem::path(session).parent_path() / "report.html" : out;
   const auto written = logging::SessionReader::open(session).and_then(
       [&](const logging::SessionReader& reader) { return logging::write_report(reader, path); });
-  if (!written) {
-    fmt::print(stderr, "septet: {}\n", describe(written.error()));
-    return 1;
-  }
+  if (!written) return tl::unexpected(written.error());
   fmt::print("{}\n", path.string());
   return 0;
 }

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
-int run_report(const std::string& session, const std::filesystem::path& out);
+Expected<int> run_report(const std::string& session, const std::filesystem::path& out);
 
 }  // namespace septet::server

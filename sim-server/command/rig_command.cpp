@@ -4,8 +4,8 @@
 
 #include "engine/core/regular_file.hpp"
 #include "engine/rig/rig.hpp"
-#include "sim-server/resources.hpp"
 #include "sim-server/host/rig_keys.hpp"
+#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -22,12 +22,9 @@ Expected<std::vector<std::string>> write_keys(const std::string& name, const std
 
 }  // namespace
 
-int run_rig_keys(const std::string& rig, const std::filesystem::path& out) {
+Expected<int> run_rig_keys(const std::string& rig, const std::filesystem::path& out) {
   const auto said = write_keys(rig, out);
-  if (!said) {
-    fmt::print(stderr, "septet: {}\n", describe(said.error()));
-    return 1;
-  }
+  if (!said) return tl::unexpected(said.error());
   for (const auto& line : *said) fmt::print("{}\n", line);
   return 0;
 }

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
-/// Writes the keys of a rig's machines below `out` (sim-server/rig_keys.hpp) and says what is new. Answers the exit status.
-int run_rig_keys(const std::string& rig, const std::filesystem::path& out);
+/// Writes the keys of a rig's machines below `out` (sim-server/rig_keys.hpp) and says what is new.
+Expected<int> run_rig_keys(const std::string& rig, const std::filesystem::path& out);
 
 }  // namespace septet::server

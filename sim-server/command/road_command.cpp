@@ -1,17 +1,16 @@
 #include "sim-server/command/road_command.hpp"
 
-#include <fmt/core.h>
-
 #include "engine/core/regular_file.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_tables.hpp"
+#include "program/console.hpp"
 
 namespace septet::server {
 namespace {
 
-using Answer = Expected<void> (*)(const road::RoadNetwork&, std::istream&, std::ostream&);
+using Table = Expected<void> (*)(const road::RoadNetwork&, std::istream&, std::ostream&);
 
-int answer(const std::string& file, std::istream& in, std::ostream& out, Answer table) {
+Expected<int> write(const std::string& file, std::istream& in, std::ostream& out, Table table) {
   std::vector<road::Finding> warnings;
   const auto outcome = read_regular_file(file)
                            .and_then([&](const std::string& text) { return road::read_opendrive(text, file, &warnings); })
@@ -20,15 +19,14 @@ int answer(const std::string& file, std::istream& in, std::ostream& out, Answer 
                              if (out.flush()) return {};
                              return failure("the table cannot be written", "standard output", "free space, or let who reads it read on");
                            });
-  for (const road::Finding& warning : warnings) fmt::print(stderr, "warning: {}\n", describe(warning.error));
-  if (outcome) return 0;
-  fmt::print(stderr, "septet: {}\n", describe(outcome.error()));
-  return 1;
+  for (const road::Finding& warning : warnings) program::say("warning: " + describe(warning.error));
+  if (!outcome) return tl::unexpected(outcome.error());
+  return 0;
 }
 
 }  // namespace
 
-int run_road_sample(const std::string& file, std::istream& in, std::ostream& out) { return answer(file, in, out, road::sample_table); }
-int run_road_locate(const std::string& file, std::istream& in, std::ostream& out) { return answer(file, in, out, road::locate_table); }
+Expected<int> run_road_sample(const std::string& file, std::istream& in, std::ostream& out) { return write(file, in, out, road::sample_table); }
+Expected<int> run_road_locate(const std::string& file, std::istream& in, std::ostream& out) { return write(file, in, out, road::locate_table); }
 
 }  // namespace septet::server

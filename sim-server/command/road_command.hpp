@@ -4,9 +4,11 @@
 #include <iosfwd>
 #include <string>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
-int run_road_sample(const std::string& file, std::istream& in, std::ostream& out);
-int run_road_locate(const std::string& file, std::istream& in, std::ostream& out);
+Expected<int> run_road_sample(const std::string& file, std::istream& in, std::ostream& out);
+Expected<int> run_road_locate(const std::string& file, std::istream& in, std::ostream& out);
 
 }  // namespace septet::server

@@ -107,7 +107,7 @@ std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& dia
 
 }  // namespace
 
-int run_traffic_diagram(const TrafficDiagramOptions& options) {
+Expected<int> run_traffic_diagram(const TrafficDiagramOptions& options) {
   const Diagram diagram = measure(options);
   fmt::print("{:>18} {:>16} {:>10} {:>14}\n", "vehicles/km/lane", "vehicles/h/lane", "m/s",
              "deviation m/s");
@@ -121,9 +121,8 @@ int run_traffic_diagram(const TrafficDiagramOptions& options) {
       write_text_files(options.out, {{"traffic-diagram.json", diagram_json(options, diagram)},
                                      {"traffic-diagram.csv", points_csv(diagram.measured)},
                                      {"traffic-diagram.svg", diagram_svg(options, diagram)}});
-  if (written) return 0;
-  fmt::print(stderr, "septet: {}\n", describe(written.error()));
-  return 1;
+  if (!written) return tl::unexpected(written.error());
+  return 0;
 }
 
 }  // namespace septet::server

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "engine/core/expected.hpp"
+
 namespace septet::server {
 
 struct TrafficDiagramOptions {
@@ -13,8 +15,7 @@ struct TrafficDiagramOptions {
   int lanes = 3;
 };
 
-/// Prints flow, speed and its deviation for each density. Answers the exit status: 0, or 1 after
-/// one message on standard error.
-int run_traffic_diagram(const TrafficDiagramOptions& options);
+/// Prints flow, speed and its deviation for each density, and writes the files.
+Expected<int> run_traffic_diagram(const TrafficDiagramOptions& options);
 
 }  // namespace septet::server

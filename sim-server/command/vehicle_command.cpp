@@ -1,16 +1,17 @@
 #include "sim-server/command/vehicle_command.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
 #include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
+#include "program/console.hpp"
 #include "sim-server/command/input_table.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
 #include "sim-server/command/text_files.hpp"
+#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -23,11 +24,9 @@ Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
   });
 }
 
-Expected<void> write_report(const VehicleTestOptions& options,
-                            const vehicle::ManoeuvreReport& report) {
-  const std::string car = options.vehicle.stem().string();
+Expected<void> write_report(const fs::path& folder, const std::string& car, const vehicle::ManoeuvreReport& report) {
   const std::string name = fmt::format("{}-{}", car, report.manoeuvre);
-  return write_text_files(options.out, {{name + ".json", figures_json(car, report)},
+  return write_text_files(folder, {{name + ".json", figures_json(car, report)},
                                         {name + ".csv", series_csv(report)},
                                         {name + ".svg", manoeuvre_svg(car, report)}});
 }
@@ -36,17 +35,20 @@ Expected<void> write_report(const VehicleTestOptions& options,
 void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio) {
   const auto warn = [](const char* what, double value, const char* unit, double low, double high) {
     if (value != 0.0 && !(value >= low && value <= high))
-      fmt::print(stderr, "septet: warning: {} {:g} {} is outside of what is tested, {:g} to {:g}\n", what, value, unit, low, high);
+      program::say(fmt::format("septet: warning: {} {:g} {} is outside of what is tested, {:g} to {:g}", what, value, unit, low, high));
   };
   warn("--speed", conditions.speed_mps * 3.6, "km/h", 10.0, 250.0);
   warn("--friction", conditions.friction, "", 0.05, 1.2);
   warn("--amplitude", std::abs(conditions.steer_rad) * steering_ratio * degrees_per_radian, "deg", 1.0, 400.0);
 }
 
-/// Answers whether all figures mean something.
-Expected<bool> test_vehicle(const VehicleTestOptions& options) {
-  const auto parameters = load_vehicle(options.vehicle);
-  if (!parameters) return tl::unexpected<Error>(parameters.error());
+}  // namespace
+
+Expected<int> run_vehicle_test(const VehicleTestOptions& options) {
+  const auto file = find_resource(options.vehicle, "vehicles", ".toml");
+  if (!file) return tl::unexpected(file.error());
+  const auto parameters = load_vehicle(*file);
+  if (!parameters) return tl::unexpected(parameters.error());
   vehicle::ManoeuvreOptions conditions = options.conditions;
   conditions.steer_rad = options.amplitude_deg / degrees_per_radian / parameters->steering.ratio;
   warn_of(conditions, parameters->steering.ratio);
@@ -55,37 +57,29 @@ Expected<bool> test_vehicle(const VehicleTestOptions& options) {
     const auto rows = read_regular_file(options.inputs).and_then([&](const std::string& text) {
       return read_input_table(text, options.inputs.filename().string());
     });
-    if (!rows) return tl::unexpected<Error>(rows.error());
+    if (!rows) return tl::unexpected(rows.error());
     reports.push_back(vehicle::drive_inputs(*parameters, conditions, *rows));
   } else {
     std::vector<std::string_view> names{options.manoeuvre};
     if (options.manoeuvre == "all") names = vehicle::manoeuvre_names();
     for (const std::string_view name : names) {
       auto report = vehicle::run_manoeuvre(name, *parameters, conditions);
-      if (!report) return tl::unexpected<Error>(report.error());
+      if (!report) return tl::unexpected(report.error());
       reports.push_back(std::move(*report));
     }
   }
+  const std::string car = file->stem().string();
   bool sound = true;
   for (const vehicle::ManoeuvreReport& report : reports) {
-    fmt::print("{} {} ({})\n", options.vehicle.stem().string(), report.manoeuvre, report.standard);
+    fmt::print("{} {} ({})\n", car, report.manoeuvre, report.standard);
     for (const Figure& figure : report.figures)
       fmt::print("  {:<36} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
     for (const std::string& fault : report.faults) fmt::print("  no valid result: {}\n", fault);
     sound &= report.faults.empty();
     if (options.out.empty()) continue;
-    if (const auto written = write_report(options, report); !written) return tl::unexpected<Error>(written.error());
+    if (const auto written = write_report(options.out, car, report); !written) return tl::unexpected(written.error());
   }
-  return sound;
-}
-
-}  // namespace
-
-int run_vehicle_test(const VehicleTestOptions& options) {
-  const auto sound = test_vehicle(options);
-  if (sound) return *sound ? 0 : 2;
-  fmt::print(stderr, "septet: {}\n", describe(sound.error()));
-  return 1;
+  return sound ? 0 : 2;
 }
 
 }  // namespace septet::server

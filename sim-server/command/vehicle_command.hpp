@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/core/expected.hpp"
 #include "engine/physics/vehicle/manoeuvre.hpp"
 
 namespace septet::server {
 
 struct VehicleTestOptions {
-  std::filesystem::path vehicle;  ///< Parameter file, such as vehicles/volvo-s80.toml.
+  std::string vehicle = "volvo-s80";  ///< A file, or a name below vehicles/.
   std::string manoeuvre;          ///< One of vehicle::manoeuvre_names(), or "all".
   std::filesystem::path
       out;  ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
@@ -18,9 +19,8 @@ struct VehicleTestOptions {
   vehicle::ManoeuvreOptions conditions;
 };
 
-/// Prints the figures of each manoeuvre and writes the files, named VEHICLE-MANOEUVRE. Answers the
-/// exit status: 0; 1 after one message on standard error; 2 where a result says nothing about the
-/// car, as its output tells.
-int run_vehicle_test(const VehicleTestOptions& options);
+/// Prints the figures of each manoeuvre and writes the files, named VEHICLE-MANOEUVRE. The exit
+/// status is 2 where a result says nothing about the car, as its output tells.
+Expected<int> run_vehicle_test(const VehicleTestOptions& options);
 
 }  // namespace septet::server

@@ -2,12 +2,12 @@
 
 #include <dlfcn.h>
 
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
 
 namespace septet::server {
 
 Expected<ConnectSumo> load_sumo_module() {
-  const auto file = program_folder() / "septet-sumo.so";
+  const auto file = program::own_folder() / "septet-sumo.so";
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     return failure("this Septet was built without SUMO's client library", "--traffic sumo", "install the package sumo and build again, or drive with --traffic own");

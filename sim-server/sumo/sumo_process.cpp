@@ -70,7 +70,7 @@ std::string first_error_in(const fs::path& log) {
 }  // namespace
 
 Expected<std::unique_ptr<SumoProcess>> SumoProcess::start(const SumoNetwork& network, const SumoOptions& options) {
-  auto folder = TemporaryFolder::make("septet-sumo");
+  auto folder = program::TemporaryFolder::make("septet-sumo");
   if (!folder) return tl::unexpected(folder.error());
   std::unique_ptr<SumoProcess> sumo(new SumoProcess(std::move(*folder)));
   auto done = sumo->write_files(network).and_then([&] { return sumo->convert_network(); }).and_then([&] { return sumo->run(options); });
@@ -89,7 +89,7 @@ Expected<void> SumoProcess::convert_network() {
   const auto program = find_program("netconvert");
   if (!program) return tl::unexpected(program.error());
   const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
-  auto process = ChildProcess::start({.program = program->string(),
+  auto process = program::ChildProcess::start({.program = program->string(),
                                       .arguments = {"--node-files", in("nodes.xml"), "--edge-files", in("edges.xml"), "--connection-files",
                                                     in("connections.xml"), "--output-file", in("net.xml"), "--precision", "4",
                                                     "--offset.disable-normalization", "true", "--no-turnarounds", "true", "--no-warnings", "true",
@@ -115,7 +115,7 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
   const auto port = free_port();
   if (!port) return tl::unexpected(port.error());
   const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
-  auto process = ChildProcess::start(
+  auto process = program::ChildProcess::start(
       {.program = program->string(),
        .arguments = {"--net-file", in("net.xml"), "--additional-files", in("types.xml"), "--remote-port", std::to_string(*port),
                      "--step-length", fmt::format("{}", options.step_s), "--step-method.ballistic", "true", "--lateral-resolution", "0.8",

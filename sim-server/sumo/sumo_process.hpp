@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "engine/core/expected.hpp"
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
+#include "program/temporary_folder.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
 #include "sim-server/sumo/sumo_network.hpp"
-#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 
@@ -26,14 +26,14 @@ class SumoProcess {
   SumoClient& client() { return *client_; }
 
  private:
-  explicit SumoProcess(TemporaryFolder folder) : folder_(std::move(folder)) {}
+  explicit SumoProcess(program::TemporaryFolder folder) : folder_(std::move(folder)) {}
   Expected<void> write_files(const SumoNetwork& network);
   Expected<void> convert_network();
   Expected<void> run(const SumoOptions& options);
 
   // They end in the opposite order: who talks to SUMO, SUMO, the files that it reads.
-  TemporaryFolder folder_;
-  std::optional<ChildProcess> process_;
+  program::TemporaryFolder folder_;
+  std::optional<program::ChildProcess> process_;
   std::unique_ptr<SumoClient> client_;
 };
 

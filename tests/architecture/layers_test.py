@@ -11,7 +11,7 @@ import sys
 ALLOWED_IN_HEADERS = ("glm/", "tl/expected.hpp", "fmt/", "Eigen/")
 # Headers that only their own folder, or only the programs' mains, include may show the library that they are made for.
 ALLOWED_IN_FOLDER = {"engine/render/vulkan/": "volk.h", "logging/outcome_json.hpp": "nlohmann/json_fwd.hpp",
-                     "engine/core/command_line.hpp": "CLI/CLI.hpp"}
+                     "program/command_line.hpp": "CLI/CLI.hpp"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Programs join everything: tests, and the folder of a program's own main.
 FREE = ("tests/",)
@@ -55,7 +55,7 @@ def violations(root):
     for folder in level_of:
         if not (root / folder).is_dir():
             yield f"layers.txt: {folder} is no folder of the tree"
-    for top in ("engine", "sim-server", "sim-client", "car-io", "logging"):
+    for top in ("engine", "program", "sim-server", "sim-client", "car-io", "logging"):
         for file in sorted((root / top).rglob("*")):
             if file.suffix not in (".hpp", ".cpp"):
                 continue

@@ -8,10 +8,10 @@
 #include "engine/core/check.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
+#include "program/temporary_folder.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/resources.hpp"
-#include "sim-server/temporary_folder.hpp"
 
 namespace septet::server {
 namespace {
@@ -65,7 +65,7 @@ BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecon
 /// own figure is the CPU time of the thread that simulates; by the clock the log's thread, which encodes and writes, counts too.
 void server_realtime_factor(benchmark::State& bench) {
   const LoadedDrive loaded = motorway_drive();
-  const auto folder = TemporaryFolder::make("septet-bench");
+  const auto folder = program::TemporaryFolder::make("septet-bench");
   SEPTET_CHECK(folder.has_value(), "{}", describe(folder.error()));
   auto log = SessionLog::create(loaded, {.out = folder->path(), .lockstep = true});
   SEPTET_CHECK(log.has_value(), "{}", describe(log.error()));

@@ -33,7 +33,7 @@ std::size_t entries(const fs::path& folder) {
 }
 
 /// The last line of what a program has said on its standard output, once it has ended.
-std::string last_words(server::ChildProcess& process) {
+std::string last_words(program::ChildProcess& process) {
   std::string last;
   while (const auto line = process.read_line(1s)) last = *line;
   return last;

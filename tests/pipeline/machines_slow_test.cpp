@@ -29,12 +29,12 @@ struct Machines {
     INFO(name << " says:\n" << text_of(log(name)));
     REQUIRE_MESSAGE(said, words);
   }
-  server::ChildProcess start_server(const std::string& name, std::vector<std::string> more = {}) const {
+  program::ChildProcess start_server(const std::string& name, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments{"--rig", rig.string(), "--keys", (keys / "server").string(), "--out", (folder / name).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return start("septet-server", arguments, log(name));
   }
-  server::ChildProcess start_screen(const std::string& screen, const fs::path& its_keys, const std::string& log_name) const {
+  program::ChildProcess start_screen(const std::string& screen, const fs::path& its_keys, const std::string& log_name) const {
     return start("septet-screen", {"--name", screen, "--server", "127.0.0.1:" + port, "--keys", its_keys.string(), "--virtual"}, log(log_name));
   }
 };

@@ -16,7 +16,7 @@
 
 #include "engine/net/keys.hpp"
 #include "engine/net/udp_socket.hpp"
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -51,10 +51,10 @@ inline std::string small_rig(int screens, const std::string& network = "", const
   return rig;
 }
 
-inline server::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
+inline program::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
                                   std::map<std::string, std::string> environment = {}) {
   environment.insert({{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}});
-  auto process = server::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
+  auto process = program::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
                                               .arguments = std::move(arguments),
                                               .environment = std::move(environment),
                                               .log = log});
@@ -63,7 +63,7 @@ inline server::ChildProcess start(const std::string& program, std::vector<std::s
 }
 
 /// Waits for the end; −2 where it does not come.
-inline int exit_code(server::ChildProcess& process, std::chrono::milliseconds within = patience) {
+inline int exit_code(program::ChildProcess& process, std::chrono::milliseconds within = patience) {
   if (!becomes_true([&] { return process.poll().has_value(); }, within)) return -2;
   return process.poll()->code;
 }
@@ -117,7 +117,7 @@ inline std::uint16_t free_port() {
 }
 
 /// Waits for the server's "ready PORT".
-inline std::string ready_port(server::ChildProcess& server, const fs::path& log) {
+inline std::string ready_port(program::ChildProcess& server, const fs::path& log) {
   const auto line = server.read_line(patience);
   INFO(text_of(log));
   REQUIRE(line.has_value());
@@ -125,7 +125,7 @@ inline std::string ready_port(server::ChildProcess& server, const fs::path& log)
   return line->substr(6);
 }
 
-inline server::ChildProcess start_screen(const std::string& name, const std::string& port, const fs::path& keys, const fs::path& pictures) {
+inline program::ChildProcess start_screen(const std::string& name, const std::string& port, const fs::path& keys, const fs::path& pictures) {
   fs::create_directories(pictures);
   return start("septet-screen", {"--name", name, "--server", "127.0.0.1:" + port, "--keys", keys.string(), "--virtual", "--pictures",
                                  (pictures / name).string()}, pictures / (name + ".log"));

@@ -46,7 +46,7 @@ int snapshots_in(const fs::path& session) {
 TEST_CASE("without SUMO one message says what to install and nothing is left behind") {
   const TemporaryFolder folder;
   const auto log = folder / "err";
-  auto process = server::ChildProcess::start({.program = SEPTET_BINARY_DIR "/septet",
+  auto process = program::ChildProcess::start({.program = SEPTET_BINARY_DIR "/septet",
                                               .arguments = {"drive", "--no-screens", "--seconds", "1", "--traffic", "sumo", "--out", (folder / "out").string()},
                                               .environment = {{"SEPTET_DATA", SEPTET_SOURCE_DIR}, {"PATH", (folder / "empty").string()}},
                                               .log = log});

@@ -11,8 +11,8 @@
 namespace septet::pipeline {
 namespace {
 
-server::ChildProcess start_server() {
-  auto process = server::ChildProcess::start({.program = "/usr/bin/Xvfb",
+program::ChildProcess start_server() {
+  auto process = program::ChildProcess::start({.program = "/usr/bin/Xvfb",
                                               .arguments = {"-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"},
                                               .environment = {},
                                               .log = "/dev/null"});

@@ -27,7 +27,7 @@ class XDisplay {
  private:
   void send_key(const std::string& title, unsigned long key, bool pressed) const;
 
-  server::ChildProcess server_;
+  program::ChildProcess server_;
   std::string name_;
 };
 

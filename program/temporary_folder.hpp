@@ -11,7 +11,7 @@
 
 #include "engine/core/expected.hpp"
 
-namespace septet::server {
+namespace septet::program {
 
 class TemporaryFolder {
  public:
@@ -31,4 +31,4 @@ class TemporaryFolder {
   pid_t keeper_ = -1;           ///< Who waits for that; −1: nobody.
 };
 
-}  // namespace septet::server
+}  // namespace septet::program

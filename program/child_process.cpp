@@ -1,4 +1,4 @@
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-namespace septet::server {
+namespace septet::program {
 
 namespace {
 
@@ -132,9 +132,9 @@ void ChildProcess::stop() {
   if (::waitpid(process_id_, &status, 0) == process_id_) exit_ = ChildExit{-1, SIGKILL};
 }
 
-std::filesystem::path program_folder() {
+std::filesystem::path own_folder() {
   std::error_code ignored;
   return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,9 +1,9 @@
 #pragma once
-/// The signals that end a drive in order, and those that must not end it out of order.
+/// The signals that end a program in order, and those that must not end it out of order.
 
 #include <optional>
 
-namespace septet::server {
+namespace septet::program {
 
 /// From here on SIGINT, SIGTERM and SIGHUP are remembered instead of ending the program, and SIGUSR1, by which `septet drive`
 /// says that no screen can be started. SIGHUP stays ignored where it was (nohup). Called once what is started has to be
@@ -17,7 +17,10 @@ std::optional<int> stop_signal();
 /// `stop_signal` within `patience_s` is stuck and is ended by SIGALRM. Call this once the end is under way.
 void obey_stop_signal();
 
+/// For a program that just ends: whether one of them has come, and who asks is not stuck.
+bool should_stop();
+
 /// A full pipe or file is an error of whoever writes, and not this program's end: SIGPIPE and SIGXFSZ are ignored.
 void survive_failed_writes();
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,4 +1,4 @@
-#include "sim-server/temporary_folder.hpp"
+#include "program/temporary_folder.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 #include "tests/temporary_folder.hpp"
 
-namespace septet::server {
+namespace septet::program {
 namespace fs = std::filesystem;
 
 namespace {
@@ -82,4 +82,4 @@ TEST_CASE("the folder of a run that is killed is gone with it") {
   ::close(told[1]);
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

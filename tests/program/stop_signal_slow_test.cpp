@@ -1,4 +1,4 @@
-#include "sim-server/stop_signal.hpp"
+#include "program/stop_signal.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-namespace septet::server {
+namespace septet::program {
 namespace {
 
 constexpr int still_threatened = 200;  ///< An exit status that is no signal.
@@ -56,4 +56,4 @@ TEST_CASE("a program that is stuck is ended after its patience") {
   }) == -SIGALRM);
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

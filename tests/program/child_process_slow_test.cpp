@@ -1,10 +1,10 @@
-#include "sim-server/child_process.hpp"
+#include "program/child_process.hpp"
 
 #include <thread>
 
 #include <doctest/doctest.h>
 
-namespace septet::server {
+namespace septet::program {
 
 using namespace std::chrono_literals;
 
@@ -17,4 +17,4 @@ TEST_CASE("a line that has been said is read however late it is asked for") {
   CHECK_FALSE(child->read_line(-5ms).has_value());
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

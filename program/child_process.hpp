@@ -10,7 +10,7 @@
 
 #include "engine/core/expected.hpp"
 
-namespace septet::server {
+namespace septet::program {
 
 struct ChildOptions {
   std::string program;  ///< Path; no search through PATH.
@@ -51,6 +51,6 @@ class ChildProcess {
 };
 
 /// The folder of the running program, where its sister programs lie.
-std::filesystem::path program_folder();
+std::filesystem::path own_folder();
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,4 +1,4 @@
-#include "sim-server/temporary_folder.hpp"
+#include "program/temporary_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -14,7 +14,7 @@
 
 #include <fmt/core.h>
 
-namespace septet::server {
+namespace septet::program {
 namespace fs = std::filesystem;
 namespace {
 
@@ -98,4 +98,4 @@ TemporaryFolder::~TemporaryFolder() {
   if (keeper_ > 0) ::waitpid(keeper_, nullptr, 0);
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,10 +1,10 @@
-#include "sim-server/stop_signal.hpp"
+#include "program/stop_signal.hpp"
 
 #include <unistd.h>
 
 #include <csignal>
 
-namespace septet::server {
+namespace septet::program {
 namespace {
 
 volatile std::sig_atomic_t patience = 0;
@@ -35,9 +35,15 @@ std::optional<int> stop_signal() {
 
 void obey_stop_signal() { ::alarm(0); }
 
+bool should_stop() {
+  if (first_signal == 0) return false;
+  obey_stop_signal();
+  return true;
+}
+
 void survive_failed_writes() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,8 +1,8 @@
-#include "engine/core/command_line.hpp"
+#include "program/command_line.hpp"
 
 #include <doctest/doctest.h>
 
-using namespace septet;
+using namespace septet::program;
 
 TEST_CASE("an option's number lies within its bounds, and nan does not") {
   const CLI::Validator between = number_between(0.0, 1e6);

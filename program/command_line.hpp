@@ -2,14 +2,17 @@
 /// What every program asks of its command line beyond CLI11's own checks.
 
 #include <charconv>
+#include <functional>
 #include <iostream>
-#include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-namespace septet {
+#include "program/run.hpp"
+
+namespace septet::program {
 
 /// A number from `least` to `most`. CLI11's Range lets "nan" pass.
 inline CLI::Validator number_between(double least, double most) {
@@ -33,14 +36,14 @@ inline CLI::Validator seed_number() {
           ""};
 }
 
-/// Reads the command line. With what the program ends at once, if so: 0 after --help and --version, 2 for a wrong command line.
-inline std::optional<int> wrong_use(CLI::App& app, int argc, char** argv) {
+/// Reads the command line, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.
+inline int run(std::string_view name, CLI::App& app, int argc, char** argv, const std::function<Expected<int>()>& work) {
   try {
     app.parse(argc, argv);
-    return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
+    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : wrong_use_status;
   }
+  return run(name, work);
 }
 
-}  // namespace septet
+}  // namespace septet::program

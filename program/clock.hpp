@@ -1,0 +1,11 @@
+#pragma once
+/// The clock of a running program; below the programs time is an argument.
+
+#include <chrono>
+
+namespace septet::program {
+
+/// Seconds since the machine was started, or so: they never jump or go back.
+inline double monotonic_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+}  // namespace septet::program

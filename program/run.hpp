@@ -1,0 +1,17 @@
+#pragma once
+/// A program from its command line to its exit status.
+
+#include <functional>
+#include <string_view>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::program {
+
+inline constexpr int failed_status = 1, wrong_use_status = 2;
+
+/// Does the work of the program `name` and returns its exit status. An error, or an exception that a library throws, is said once and is 1.
+/// A failed write is an error of whoever writes, and not the program's end.
+int run(std::string_view name, const std::function<Expected<int>()>& work);
+
+}  // namespace septet::program
