@@ -49,6 +49,7 @@ Expected<fs::path> data_folder() {
     if (is_data_folder(chosen)) return fs::path(chosen);
     return failure("it holds no rigs/ and scenarios/", fmt::format("SEPTET_DATA={}", chosen), "point it at Septet's folder");
   }
+  if (const fs::path installed = program::own_folder().parent_path() / "share/septet"; is_data_folder(installed)) return installed;
   std::error_code ignored;
   for (fs::path start : {program::own_folder(), fs::current_path(ignored)})
     for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {

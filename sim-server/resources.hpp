@@ -9,8 +9,8 @@
 
 namespace septet::server {
 
-/// The root of the tree of data: SEPTET_DATA, else the nearest folder above the program (or the working folder) that holds
-/// `rigs/` and `scenarios/`.
+/// The root of the tree of data: SEPTET_DATA; else, of an installed program, `../share/septet`; else the nearest folder above the
+/// program (or the working folder) that holds `rigs/` and `scenarios/`.
 Expected<std::filesystem::path> data_folder();
 
 /// A rig, scenario or vehicle: the file itself; a folder that holds one file of that extension; or a name below the data

@@ -7,8 +7,9 @@
 namespace septet::server {
 
 Expected<ConnectSumo> load_sumo_module() {
-  const auto file = program::own_folder() / "septet-sumo.so";
   std::error_code ignored;
+  auto file = program::own_folder() / "septet-sumo.so";  // As it is built; else as it is installed.
+  if (!std::filesystem::exists(file, ignored)) file = program::own_folder().parent_path() / "lib/septet/modules/septet-sumo.so";
   if (!std::filesystem::exists(file, ignored))
     return failure("this Septet was built without SUMO's client library", "--traffic sumo", "install the package sumo and build again, or drive with --traffic own");
   void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.

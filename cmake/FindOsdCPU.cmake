@@ -1,0 +1,8 @@
+# OpenSubdiv's shared library, as OpenSubdiv::osdCPU. (Debian's OpenSubdivConfig names static libraries that are not packaged.)
+find_library(OsdCPU_LIBRARY osdCPU)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OsdCPU REQUIRED_VARS OsdCPU_LIBRARY)
+if(OsdCPU_FOUND AND NOT TARGET OpenSubdiv::osdCPU)
+  add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
+  set_target_properties(OpenSubdiv::osdCPU PROPERTIES IMPORTED_LOCATION ${OsdCPU_LIBRARY})
+endif()
