@@ -27,7 +27,7 @@ float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const Fr
 }
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
-                          const FrameView& view, const ShadowCascades& shadows, const PlacedParticipants& participants,
+                          const FrameView& view, const PreparedFrame& frame, const PlacedParticipants& participants,
                           const DynamicSurfaces& dynamic, std::span<const SmokePuff> smoke) {
   PreparedView prepared;
   prepared.view = &view;
@@ -44,8 +44,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.draws = prepare_draws(
       context, scene, participants.meshes, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
-  const float exposure = adapted_exposure(scene, light, view);
-  const ViewUniforms uniforms = view_uniforms(view, input, light, shadows, participants.headlights, exposure);
+  const ViewUniforms uniforms = view_uniforms(view, input, light, frame.shadows, participants.headlights, frame.exposure);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
   const std::vector<PuffRecord> puffs = puff_records(smoke, scene, light, view, eye_m);
@@ -54,7 +53,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   std::vector<LampGlow> lamps = participants.glows;
   if (!smoke.empty())
     for (LampGlow& lamp : lamps) lamp.share = transmittance(smoke, eye_m, lamp.position_m);
-  const std::vector<GlowRecord> glows = glow_records(lamps, eye_m, exposure);
+  const std::vector<GlowRecord> glows = glow_records(lamps, eye_m, frame.exposure);
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   context.statistics.instances += prepared.draws.instances;
@@ -105,9 +104,10 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, input.meshes);
   const std::vector<SmokePuff> smoke = merged_puffs(input.smoke, world_eye(input.views.front()));
   PreparedFrame frame;
+  frame.exposure = adapted_exposure(scene, light, input.views.front());
   frame.shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
   for (const FrameView& view : input.views)
-    frame.views.push_back(prepare_view(context, scene, light, input, view, frame.shadows, participants, dynamic, smoke));
+    frame.views.push_back(prepare_view(context, scene, light, input, view, frame, participants, dynamic, smoke));
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes, dynamic);
   return frame;

@@ -24,6 +24,7 @@ struct PreparedView {
 };
 
 struct PreparedFrame {
+  float exposure = 1.0f;  ///< From radiance to the tone curve (tone_curve.hpp): one for all views, and for all screens of a rig.
   std::vector<PreparedView> views;
   ShadowCascades shadows;
   std::array<SurfaceDraws, cascade_count> casters;

@@ -10,26 +10,27 @@ namespace septet::render {
 
 struct FrameTargets {
   std::uint32_t width = 0, height = 0;
-  vulkan::DeviceImage samples;  ///< Four colours a pixel; absent without multisampling.
-  vulkan::DeviceImage depth;
-  vulkan::DeviceImage drawn;    ///< One colour a pixel, before smoothing; absent without it.
-  vulkan::DeviceImage picture;  ///< The finished frame, sRGB codes.
+  /// What the views give, linear, before exposure; with multisampling four samples a pixel. A pass that draws after the opaque
+  /// surfaces may sample it and the depth, to show what lies behind (ice, glass): it ends the rendering, takes both with
+  /// Access::sampled, and draws on with what they hold loaded.
+  vulkan::DeviceImage radiance, depth;
+  vulkan::DeviceImage mapped;   ///< The display's codes, before smoothing; absent without it.
+  vulkan::DeviceImage picture;  ///< The finished frame, the display's codes.
   vulkan::DeviceImage shadow_map;
   /// How each was left by the last frame.
-  Access samples_access = Access::none, depth_access = Access::none, drawn_access = Access::none,
+  Access radiance_access = Access::none, depth_access = Access::none, mapped_access = Access::none,
          picture_access = Access::none, shadow_access = Access::none;
 
-  bool multisampled() const { return samples.image != VK_NULL_HANDLE; }
-  bool smoothed() const { return drawn.image != VK_NULL_HANDLE; }
+  bool smoothed() const { return mapped.image != VK_NULL_HANDLE; }
 };
 
 void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, const TargetFormats& formats,
                           std::uint32_t width, std::uint32_t height, bool smoothed);
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
-/// Begins drawing into all of the target, cleared to an empty depth.
+/// Begins drawing into all of radiance and depth, cleared to darkness and an empty depth.
 void begin_view_rendering(PassContext& context, const FrameTargets& targets);
-/// Empties the depth of a part of the target, for a view that lies over another, and draws a dark rim around it.
+/// Empties the depth of a part of the target, for a view that lies over another, and draws a black rim around it.
 void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle);
 
 /// Replaces an image's texels by way of the frame's arena.
@@ -37,5 +38,7 @@ void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::
 /// Waits, and copies the picture's pixels.
 void read_picture(const FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
                   std::span<std::uint8_t> rgba);
+/// The same of the radiance, the mean of its samples, as half floats; it leaves its access changed.
+void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory, std::span<std::uint64_t> rgba);
 
 }  // namespace septet::render

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.hpp"
 #include "engine/render/atmosphere.hpp"
@@ -21,6 +22,7 @@
 #include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/smoothing_pass.hpp"
 #include "engine/render/passes/surface_pass.hpp"
+#include "engine/render/passes/tone_mapping_pass.hpp"
 #include "engine/render/vulkan/swapchain.hpp"
 #include "engine/render/window.hpp"
 #include "engine/render/window_surface.hpp"
@@ -54,6 +56,7 @@ struct Renderer::Parts {
   SkyPass sky_pass;
   GlowPass glow_pass;
   SmokePass smoke_pass;
+  ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;  ///< That `light` was computed for.
@@ -61,6 +64,7 @@ struct Renderer::Parts {
   Access sky_table_access = Access::none, atlas_access = Access::none;
   bool smoothed = false;
   bool drawn = false;
+  float exposure = 1.0f;  ///< Of the last frame.
   RenderStatistics statistics;
 
   ~Parts() { destroy(); }
@@ -78,7 +82,9 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   if (wanted.window) add_window(device_options, *wanted.window);
   create_device(device, device_options);
   const VkSampleCountFlags samples = device.properties.limits.framebufferColorSampleCounts &
-                                     device.properties.limits.framebufferDepthSampleCounts;
+                                     device.properties.limits.framebufferDepthSampleCounts &
+                                     device.properties.limits.sampledImageColorSampleCounts &
+                                     device.properties.limits.sampledImageDepthSampleCounts;
   const bool software = device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   Antialiasing antialiasing = wanted.antialiasing;
   if (antialiasing == Antialiasing::automatic)
@@ -102,7 +108,8 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);
-  create_smoothing_pass(smoothing_pass, device, layout, formats.color);
+  create_tone_mapping_pass(tone_mapping_pass, device, layout, formats);
+  create_smoothing_pass(smoothing_pass, device, layout, formats.picture);
   Expected<image::Font> font = image::Font::find(image::FontStyle::bold);
   if (!font) throw vulkan::Failure{font.error()};
   overlay_pass.emplace(OverlayPass{VK_NULL_HANDLE, std::move(*font), {}, {}, {}});
@@ -117,6 +124,7 @@ void Renderer::Parts::destroy() {
   vkDeviceWaitIdle(device.device);
   if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
   destroy_smoothing_pass(smoothing_pass, device);
+  destroy_tone_mapping_pass(tone_mapping_pass, device);
   destroy_smoke_pass(smoke_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
@@ -176,6 +184,7 @@ void Renderer::Parts::draw(const FrameInput& input) {
   lit_environment = input.environment;
 
   const PreparedFrame frame = prepare_frame(context, scene, light, input);
+  exposure = frame.exposure;
   const bool new_text = lay_out(*overlay_pass, input.overlay);
 
   RenderGraph graph;
@@ -186,12 +195,12 @@ void Renderer::Parts::draw(const FrameInput& input) {
   };
   const ResourceId table = add_image("sky table", sky_table, sky_table_access);
   const ResourceId shadow_map = add_image("shadow map", targets.shadow_map, targets.shadow_access);
+  const ResourceId radiance = add_image("radiance", targets.radiance, targets.radiance_access);
   const ResourceId depth = add_image("depth", targets.depth, targets.depth_access);
   const ResourceId picture = add_image("picture", targets.picture, targets.picture_access);
   const ResourceId atlas = add_image("text atlas", overlay_pass->atlas, atlas_access);
-  std::optional<ResourceId> samples, stairs;
-  if (targets.smoothed()) stairs = add_image("before smoothing", targets.drawn, targets.drawn_access);
-  if (targets.multisampled()) samples = add_image("samples", targets.samples, targets.samples_access);
+  std::optional<ResourceId> mapped;
+  if (targets.smoothed()) mapped = add_image("before smoothing", targets.mapped, targets.mapped_access);
 
   if (new_light)
     graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}},
@@ -204,13 +213,17 @@ void Renderer::Parts::draw(const FrameInput& input) {
       draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
                    targets.shadow_map.layer_views[i]);
   });
-  PassUses view_uses{{{table, Access::sampled}, {shadow_map, Access::sampled}},
-                     {{stairs.value_or(picture), Access::color_attachment}, {depth, Access::depth_attachment}}};
-  if (samples) view_uses.writes.push_back({*samples, Access::color_attachment});
-  graph.add_pass("views", view_uses, [&] { draw_views(context, frame.views, input); });
-  if (stairs)
-    graph.add_pass("smoothing", {{{*stairs, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
-      draw_smoothed(smoothing_pass, context, targets.drawn.view, targets.picture.view, targets.width, targets.height);
+  graph.add_pass("views",
+                 {{{table, Access::sampled}, {shadow_map, Access::sampled}},
+                  {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
+                 [&] { draw_views(context, frame.views, input); });
+  graph.add_pass("tone mapping", {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
+    draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view, targets.smoothed() ? targets.mapped.view : targets.picture.view,
+                     targets.width, targets.height, frame.exposure);
+  });
+  if (mapped)
+    graph.add_pass("smoothing", {{{*mapped, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
+      draw_smoothed(smoothing_pass, context, targets.mapped.view, targets.picture.view, targets.width, targets.height);
     });
   if (new_text)
     graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}}, [&] { upload_atlas(*overlay_pass, context); });
@@ -244,8 +257,8 @@ void Renderer::Parts::draw(const FrameInput& input) {
   targets.depth_access = left[depth];
   targets.picture_access = left[picture];
   atlas_access = left[atlas];
-  if (stairs) targets.drawn_access = left[*stairs];
-  if (samples) targets.samples_access = left[*samples];
+  targets.radiance_access = left[radiance];
+  if (mapped) targets.mapped_access = left[*mapped];
   if (window_image) {
     submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});
     present(swapchain, device, *window_image);
@@ -326,6 +339,22 @@ Expected<image::Image> Renderer::read_back() {
     return tl::unexpected(refused.error);
   }
   return picture;
+}
+
+float Renderer::exposure() const { return parts_->exposure; }
+
+Expected<RadianceImage> Renderer::read_radiance() {
+  RadianceImage result{parts_->targets.width, parts_->targets.height, {}};
+  result.radiance.resize(std::size_t{result.width} * result.height, glm::vec3(0.0f));
+  if (!parts_->drawn) return result;
+  std::vector<std::uint64_t> halves(result.radiance.size());
+  try {
+    render::read_radiance(parts_->targets, parts_->device, parts_->memory, halves);
+  } catch (const vulkan::Failure& refused) {
+    return tl::unexpected(refused.error);
+  }
+  std::ranges::transform(halves, result.radiance.begin(), [](std::uint64_t half) { return glm::vec3(glm::unpackHalf4x16(half)); });
+  return result;
 }
 
 std::uint32_t Renderer::width() const { return parts_->targets.width; }

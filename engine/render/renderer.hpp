@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 #include "engine/image/image.hpp"
@@ -50,6 +51,14 @@ struct RenderStatistics {
   std::string first_validation_message;
 };
 
+/// What a frame's pixels received, before exposure and tone mapping: linear Rec. 709, rows from the top, in the units of
+/// atmosphere.hpp, overlay not included.
+struct RadianceImage {
+  std::uint32_t width = 0, height = 0;
+  std::vector<glm::vec3> radiance;
+  const glm::vec3& at(std::uint32_t x, std::uint32_t y) const { return radiance[std::size_t{y} * width + x]; }
+};
+
 class Renderer {
  public:
   static Expected<Renderer> create(const RendererOptions& options);
@@ -68,6 +77,10 @@ class Renderer {
 
   /// The last frame: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
   Expected<image::Image> read_back();
+  /// The light of the same frame, of which the picture is what a display shows at `exposure` (tone_curve.hpp).
+  Expected<RadianceImage> read_radiance();
+  /// Of the last frame: from radiance to the tone curve.
+  float exposure() const;
 
   std::uint32_t width() const;
   std::uint32_t height() const;

@@ -9,7 +9,7 @@ VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan:
   description.vertex_code = vertex_code;
   description.fragment_code = fragment_code;
   description.vertex_input = vulkan::VertexInput::none;
-  description.color_format = formats.color;
+  description.color_format = formats.radiance;
   description.depth_format = formats.depth;
   description.samples = formats.samples;
   description.blend = blend;

@@ -29,15 +29,16 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     if (distance_m < 0.3f || distance_m > 3000.0f) continue;
     const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
     const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / distance_m);
-    const float share = glow.share * std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
-    if (share <= 1e-3f) continue;
+    const float turned = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
+    if (turned <= 1e-3f || glow.share <= 1e-3f) continue;
     const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
     // The core is whiter than the halo: an eye (and a camera) saturates there.
     const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);
     // By day a lamp is hardly more than its lens; a beacon is made to be seen.
     const float radius_m = glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark);
-    const float strength = around ? 1.8f + 1.8f * dark : 0.6f + 2.6f * dark;
-    records.push_back({glm::vec4(relative, radius_m), glm::vec4(hue * (share * strength), 0.0f)});
+    const float strength = around ? 3.2f + 0.4f * dark : 0.7f + 2.5f * dark;
+    const glm::vec3 brightness = hue * (turned * strength);  // As it looks: about the root of light, 1 white.
+    records.push_back({glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (glow.share / exposure), 0.0f)});
   }
   return records;
 }

@@ -13,7 +13,7 @@ namespace septet::render {
 /// The twin of Glow in shaders/glow.vert.
 struct GlowRecord {
   glm::vec4 position_size{0.0f};  ///< Relative to the eye; radius, m.
-  glm::vec4 color{0.0f};
+  glm::vec4 color{0.0f};          ///< Radiance at its middle.
 };
 
 struct GlowPass {
@@ -24,7 +24,8 @@ void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan
                       const TargetFormats& formats);
 void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device);
 
-/// Those of the lamps that face the eye; larger and brighter in the dark.
+/// Those of the lamps that face the eye; larger and brighter in the dark. Light scattered in the eye, as bright as it looks beside
+/// what the eye has adapted to (`exposure`).
 std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure);
 
 void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);

@@ -35,7 +35,7 @@ void create_overlay_pass(OverlayPass& pass, const vulkan::Device& device, vulkan
   description.vertex_code = shaders::overlay_vert();
   description.fragment_code = shaders::overlay_frag();
   description.vertex_input = vulkan::VertexInput::none;
-  description.color_format = formats.color;
+  description.color_format = formats.picture;
   description.blend = vulkan::Blend::over;
   description.depth_write = false;
   pass.pipeline = create_pipeline(device, layout, description);

@@ -33,11 +33,17 @@ constexpr std::uint32_t smoke_vert_code[] = {
 constexpr std::uint32_t smoke_frag_code[] = {
 #include "engine/render/shaders/smoke.frag.inc"
 };
-constexpr std::uint32_t smoothing_vert_code[] = {
-#include "engine/render/shaders/smoothing.vert.inc"
+constexpr std::uint32_t whole_target_vert_code[] = {
+#include "engine/render/shaders/whole_target.vert.inc"
 };
 constexpr std::uint32_t smoothing_frag_code[] = {
 #include "engine/render/shaders/smoothing.frag.inc"
+};
+constexpr std::uint32_t tone_mapping_frag_code[] = {
+#include "engine/render/shaders/tone_mapping.frag.inc"
+};
+constexpr std::uint32_t tone_mapping_samples_frag_code[] = {
+#include "engine/render/shaders/tone_mapping_samples.frag.inc"
 };
 constexpr std::uint32_t overlay_vert_code[] = {
 #include "engine/render/shaders/overlay.vert.inc"
@@ -58,8 +64,10 @@ std::span<const std::uint32_t> glow_vert() { return glow_vert_code; }
 std::span<const std::uint32_t> glow_frag() { return glow_frag_code; }
 std::span<const std::uint32_t> smoke_vert() { return smoke_vert_code; }
 std::span<const std::uint32_t> smoke_frag() { return smoke_frag_code; }
-std::span<const std::uint32_t> smoothing_vert() { return smoothing_vert_code; }
+std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
+std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_code; }
+std::span<const std::uint32_t> tone_mapping_samples_frag() { return tone_mapping_samples_frag_code; }
 std::span<const std::uint32_t> overlay_vert() { return overlay_vert_code; }
 std::span<const std::uint32_t> overlay_frag() { return overlay_frag_code; }
 

@@ -16,8 +16,10 @@ std::span<const std::uint32_t> glow_vert();
 std::span<const std::uint32_t> glow_frag();
 std::span<const std::uint32_t> smoke_vert();
 std::span<const std::uint32_t> smoke_frag();
-std::span<const std::uint32_t> smoothing_vert();
+std::span<const std::uint32_t> whole_target_vert();
 std::span<const std::uint32_t> smoothing_frag();
+std::span<const std::uint32_t> tone_mapping_frag();
+std::span<const std::uint32_t> tone_mapping_samples_frag();
 std::span<const std::uint32_t> overlay_vert();
 std::span<const std::uint32_t> overlay_frag();
 

@@ -62,7 +62,7 @@ void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry) {
     description.vertex_code = shaders::sky_vert();
     description.fragment_code = shaders::sky_frag();
     description.vertex_input = vulkan::VertexInput::none;
-    description.color_format = context.formats.color;
+    description.color_format = context.formats.radiance;
     description.depth_format = context.formats.depth;
     description.samples = context.formats.samples;
     description.depth_write = false;  // At depth 0 it passes only where the depth is still cleared.

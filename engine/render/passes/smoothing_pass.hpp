@@ -1,5 +1,6 @@
 #pragma once
-/// Smooths the stairs of edges in a picture of one sample a pixel; where multisampling costs too much.
+/// Smooths the stairs of edges in a picture of one sample a pixel; where multisampling costs too much. It looks for edges as
+/// the eye sees them, so it works on the display's codes, after tone mapping.
 
 #include "engine/render/passes/pass_context.hpp"
 

@@ -30,7 +30,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::surface_vert();
   description.fragment_code = shaders::surface_frag();
-  description.color_format = context.formats.color;
+  description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
   description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;

@@ -57,7 +57,8 @@ ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const
   uniforms.far_from_near = far_from_near(shadows);
 
   uniforms.light_direction = glm::vec4(light.light_direction, shadows.cascades[0].texel_m);
-  uniforms.light_irradiance = glm::vec4(light.light_irradiance, exposure);
+  // A lamp seen by an eye that has adapted to the dark glares less than its radiance says.
+  uniforms.light_irradiance = glm::vec4(light.light_irradiance, 1.0f / std::max(1.0f, 0.35f * exposure));
   uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, light.fog_per_m * std::numbers::log2e_v<float>);
   uniforms.ground_irradiance = glm::vec4(light.ground_irradiance, light.night);
   uniforms.sun_direction = glm::vec4(light.sun_direction, shadows.cascades[1].texel_m);

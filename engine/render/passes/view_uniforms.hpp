@@ -33,7 +33,7 @@ static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8 + 4) * 16);
 /// Eye of a view in the world.
 Vec3 world_eye(const FrameView& view);
 
-/// `exposure`: from scene radiance to the tone curve. Of the headlights the nearest count.
+/// `exposure`: from radiance to the tone curve, which says how dark it is. Of the headlights the nearest count.
 ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const SkyLight& light,
                            const ShadowCascades& shadows, std::span<const Headlight> headlights, float exposure);
 

@@ -5,7 +5,7 @@
 // A lamp's glow: a square that faces the viewer. The host's twin is GlowRecord in passes/glow_pass.hpp.
 struct Glow {
   vec4 position_size;  // Relative to the eye; radius, m.
-  vec4 color;          // Display light of the glow at its middle.
+  vec4 color;          // Radiance of the glow at its middle.
 };
 layout(set = 0, binding = 1, std430) readonly buffer Glows { Glow glows[]; };
 
@@ -22,7 +22,7 @@ void main() {
   float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 2.5);
   middle *= 1.0 - min(0.5, (0.25 + 0.2 * radius) / distance_m);
   out_at = at;
-  out_color = glow.color.rgb * (exp2(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 0.7));
+  out_color = glow.color.rgb * (exp2(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 1.4));
   gl_Position = view.clip_from_relative *
                 vec4(middle + (view.billboard_right.xyz * at.x + view.billboard_up.xyz * at.y) * radius, 1.0);
 }

@@ -48,5 +48,5 @@ void main() {
     radiance += vec3(step(0.0, d.z) * star * 0.05 * view.ground_irradiance.w * (1.0 - cover) * clear);
   }
   radiance += sun_color * ((disc * 60.0 + glare) * clear * step(-0.01, d.z) * (1.0 - 0.97 * cover));
-  result = vec4(tone_mapped(radiance), 1.0);
+  result = vec4(radiance, 1.0);
 }

@@ -16,5 +16,5 @@ void main() {
   float billows = 0.45 + 1.1 * textureLod(noise, at * 0.11 + shift_fog.xy, 0.0).r;
   float alpha = 1.0 - exp2(-1.4427 * radiance_depth.w * falloff * billows);
   vec3 radiance = radiance_depth.rgb * (1.1 - 0.25 * square - 0.2 * at.y * at.y);
-  result = vec4(tone_mapped(mix(radiance, fog, shift_fog.z)) * alpha, alpha);
+  result = vec4(mix(radiance, fog, shift_fog.z) * alpha, alpha);
 }

@@ -6,7 +6,6 @@
 layout(set = 0, binding = 5) uniform sampler2D image;
 layout(push_constant) uniform Target { vec4 pixel; } target;  // xy: size of a pixel in texture coordinates.
 
-layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 result;
 
 float luma(vec3 c) { return dot(c, vec3(0.299, 0.587, 0.114)); }
@@ -14,6 +13,7 @@ float luma_at(ivec2 at) { return luma(texelFetch(image, clamp(at, ivec2(0), text
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
+  vec2 uv = gl_FragCoord.xy * target.pixel.xy;
   vec3 middle = texelFetch(image, at, 0).rgb;
   float nw = luma_at(at + ivec2(-1, -1)), ne = luma_at(at + ivec2(1, -1));
   float sw = luma_at(at + ivec2(-1, 1)), se = luma_at(at + ivec2(1, 1));

@@ -140,13 +140,12 @@ void main() {
     radiance += min(shine, vec3(40.0)) * sunlight * (max(facing, 0.0) * (road ? wet : 1.0));
     if (blended != 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
   }
-  // A lamp seen by an eye that has adapted to the dark glares less than its radiance says.
-  radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) / max(1.0, 0.35 * view.light_irradiance.w);
+  radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();
 
   float fog = 1.0 - exp2(-distance_m * view.sky_irradiance.w);
   float azimuth = -dot(to_eye.xy, view.sun_level.xy) * inversesqrt(dot(to_eye.xy, to_eye.xy) + 1e-6);
   radiance = mix(radiance, view.fog_middle.rgb + azimuth * (view.fog_slope.rgb + azimuth * view.fog_bend.rgb), fog);
-  result = vec4(tone_mapped(radiance), alpha);
+  result = vec4(radiance, alpha);
   if (blended != 0) result.rgb *= alpha;
 }

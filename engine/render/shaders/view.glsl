@@ -7,7 +7,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   mat4 shadow_from_relative;  // To texture coordinates and depth of the near cascade.
   vec4 far_from_near;         // Texture coordinates of the far cascade: xy·near + zw.
   vec4 light_direction;    // xyz: to the sun or moon. w: side of a near cascade's texel, m.
-  vec4 light_irradiance;   // rgb. w: exposure.
+  vec4 light_irradiance;   // rgb. w: share of their radiance with which lamps glare.
   vec4 sky_irradiance;     // rgb. w: halvings by fog per metre.
   vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
   vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
@@ -38,13 +38,6 @@ vec2 sky_coordinates(vec3 direction) {
 }
 
 vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
-
-// Scene radiance to the display's code: the filmic curve of Hejl and Burgess-Dawson (2010), which holds the display's
-// gamma, so that neither a power nor an sRGB target is needed.
-vec3 tone_mapped(vec3 radiance) {
-  vec3 x = max(vec3(0.0), radiance * view.light_irradiance.w - 0.004);
-  return x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
-}
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }
