@@ -105,10 +105,21 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
                              ? std::cos(wheel.steer_rad) * body_forward + std::sin(wheel.steer_rad) * body_left
                              : across / across_size;
     const Vec3 left = glm::cross(normal, forward);
-    load.contact_m = met.edge_m ? centre_m - height_m * normal : Vec3(load.place.contact_m, centre_m.z - height_m / normal.z);
-    const Vec3 path{load.place.contact_slope, 1.0};
-    const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) +
-                           wheel.travel_rate_mps * path;
+    // A round wheel's lowest point lies under its centre, however the body pitches; sideways it lies where the axle leads it.
+    load.contact_m = centre_m - height_m * normal;
+    if (!met.edge_m) {
+      load.contact_m.y = load.place.contact_left_m;
+      load.contact_m.z = centre_m.z - height_m * (1.0 - square(normal.x)) / normal.z;
+    }
+    const SuspensionParameters& suspension = parameters.suspension[axle_of(index)];
+    Vec3 path_mps = wheel.travel_rate_mps * Vec3(load.place.contact_slope, 1.0);
+    if (suspension.rigid_axle) {
+      // Its joint hangs on the axle: the lower the wheel's centre, the deeper the joint lies under the contact, which moves only
+      // as the axle leans.
+      load.place.contact_slope.y += side_of(index) * (height_m - known.centre_z_m[axle_of(index)]) / (0.5 * suspension.track_m);
+      path_mps.y = 0.5 * (wheel.travel_rate_mps - opposite_rate_mps) * load.place.contact_slope.y;
+    }
+    const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) + path_mps;
     const double load_n =
         std::max(0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) -
                           tyre.vertical_damping_nspm * glm::dot(patch_mps, normal));
@@ -119,18 +130,13 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.rolling_mps = wheel.spin_radps * effective_radius_m;
     contact.forward_mps = glm::dot(patch_mps, forward);
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
-    if (parameters.as_published) {
-      const double axle_roll_radps = state.angular_velocity_radps.x +
-                                     side_of(index) * (wheel.travel_rate_mps - opposite_rate_mps) /
-                                         parameters.suspension[axle_of(index)].track_m;
-      const Vec3 yaw = glm::dot(state.angular_velocity_radps, normal) * normal;
-      const double sideways_mps = glm::dot(velocity_mps + glm::cross(yaw, centre_m), body_left) +
-                                  axle_roll_radps * height_m;
-      const double ahead_mps = glm::dot(velocity_mps + glm::cross(yaw, centre_m), body_forward);
-      contact.sliding_mps.y =
-          ahead_mps * glm::dot(body_forward, left) + sideways_mps * glm::dot(body_left, left);
-    }
     contact.inclination_rad = glm::dot(axis, normal);
+    if (parameters.as_published) {
+      const Vec2 published_mps = published_contact_velocity_mps(parameters, known, index, state, velocity_mps, normal, height_m);
+      contact.forward_mps = published_mps.x;
+      contact.sliding_mps = {published_mps.x - contact.rolling_mps, published_mps.y};
+      contact.inclination_rad = published_inclination_rad(axis, normal);
+    }
     contact.length_m = std::sqrt(8.0 * tyre.radius_m * deflection_m);
     if (load_n > 1.0) {
       const TyreForce steady = steady_force(tyre, contact);
@@ -144,7 +150,7 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
       load.rolling_n = force_n.x * forward;
       load.rolling_torque_nm = force_n.x * effective_radius_m;
       load.lean_nm =
-          load_n * force_n.y * parameters.suspension[axle_of(index)].contact_by_lateral_force_mpn;
+          load_n * force_n.y * suspension.contact_by_lateral_force_mpn;
       load.aligning_nm = wheel.aligning_nm * normal;
       rolling_nm =
           ground.rolling_resistance * wheel.damage.rolling_resistance() * load_n * effective_radius_m *
@@ -217,19 +223,21 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     force_n += tyre_n;
     moment_nm += load.aligning_nm;
     moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y + load.lean_nm;
-    moment_nm.y +=
-        contact.z * tyre_n.x - contact.x * tyre_n.z + load.rolling_torque_nm - load.shaft_torque_nm;
+    moment_nm.y += contact.z * tyre_n.x - contact.x * tyre_n.z;
+    if (!parameters.as_published) moment_nm.y += load.rolling_torque_nm - load.shaft_torque_nm;  // What spins the wheel.
     moment_nm.z += parameters.as_published ? published_yaw_moment_nm(parameters, known, i, up, tyre_n)
                                            : contact.x * tyre_n.y - contact.y * tyre_n.x;
 
-    // A rigid axle leans about its one joint, so the difference of its wheels' forces works on a
-    // lean.
+    // A rigid axle leans about its one joint: both wheels' forces work on either wheel's travel, their sum at the contacts'
+    // height over the joint, their difference on the lean that there is.
     const SuspensionParameters& suspension = parameters.suspension[axle_of(i)];
     double sideways_n = tyre_n.y * place.contact_slope.y;
     if (suspension.rigid_axle) {
+      const Vec3& opposite_n = loads[i ^ 1].force_n;
       const double lean = side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) /
                           suspension.track_m;
-      sideways_n += 0.5 * (tyre_n.y - loads[i ^ 1].force_n.y) * lean;
+      sideways_n = 0.5 * (tyre_n.y * place.contact_slope.y - opposite_n.y * places[i ^ 1].contact_slope.y);
+      sideways_n += 0.5 * (tyre_n.y - opposite_n.y) * lean;
       sideways_n += side_of(i) * (load.lean_nm + loads[i ^ 1].lean_nm) / suspension.track_m;
     } else {
       sideways_n -=
@@ -265,12 +273,13 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   if (parameters.as_published) {
     add_upright_axles(parameters, spring_n, state, generalised);
     add_yawing_axles(parameters, places, yaw_radps2, generalised);
+    add_weightless_axles(parameters, places, up, force_n, generalised);
   }
 
   const Coordinates felt = accelerations(parameters, known, places, generalised);
   const Vec3 linear = Vec3(felt[0], felt[1], felt[2]) + gravity;
   const Vec3 angular{felt[3], felt[4],
-                     parameters.as_published ? published_yaw_acceleration(yaw_radps2, up, felt[3], felt[4]) : yaw_radps2};
+                     parameters.as_published ? published_yaw_acceleration(yaw_radps2, up, omega, felt[4]) : yaw_radps2};
   for (int i = 0; i < wheel_count; ++i) {
     WheelState& wheel = state.wheels[i];
     wheel.travel_rate_mps += dt_s * felt[5 + i];

@@ -1,8 +1,29 @@
 #include "engine/physics/vehicle/published_chassis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace septet::vehicle {
+
+Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const Statics& known, int wheel,
+                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal, double height_m) {
+  const Vec3& omega = state.angular_velocity_radps;
+  const double track_m = parameters.suspension[axle_of(wheel)].track_m, side = side_of(wheel);
+  const double heading_radps = (normal.y * omega.y + normal.z * omega.z) / (normal.y * normal.y + normal.z * normal.z);
+  const double roll_radps = omega.x - normal.x * heading_radps;
+  const double axle_roll_radps =
+      roll_radps + side * (state.wheels[wheel].travel_rate_mps - state.wheels[wheel ^ 1].travel_rate_mps) / track_m;
+  const Vec3 forward = level_forward(normal), left = glm::cross(normal, forward);
+  const double forward_mps = glm::dot(velocity_mps, forward) - 0.5 * side * track_m * heading_radps;
+  const double left_mps =
+      glm::dot(velocity_mps, left) + known.axle_x_m[axle_of(wheel)] * heading_radps + axle_roll_radps * height_m;
+  const double cosine = std::cos(state.wheels[wheel].steer_rad), sine = std::sin(state.wheels[wheel].steer_rad);
+  return {cosine * forward_mps + sine * left_mps, cosine * left_mps - sine * forward_mps};
+}
+
+double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal) {
+  return std::sqrt(1.0 - spin_axis.z * spin_axis.z) * normal.y + spin_axis.z * normal.z;
+}
 
 double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel,
                                const Vec3& up, const Vec3& tyre_n) {
@@ -13,8 +34,9 @@ double published_yaw_moment_nm(const VehicleParameters& parameters, const Static
   return known.axle_x_m[axle] * glm::dot(tyre_n, left) - left_m * glm::dot(tyre_n, forward);
 }
 
-double published_yaw_acceleration(double yaw_radps2, const Vec3& up, double roll_radps2, double pitch_radps2) {
-  return (yaw_radps2 - up.x * roll_radps2 - up.y * pitch_radps2) / std::max(up.z, 0.1);
+double published_yaw_acceleration(double yaw_radps2, const Vec3& up, const Vec3& omega_radps, double pitch_radps2) {
+  const double turned_radps2 = omega_radps.x * (up.z * omega_radps.y - up.y * omega_radps.z);  // By the turning of `up`.
+  return (yaw_radps2 - turned_radps2 - up.y * pitch_radps2) / std::max(up.z, 0.1);
 }
 
 void add_upright_axles(const VehicleParameters& parameters, const std::array<double, wheel_count>& spring_n,
@@ -38,6 +60,13 @@ void add_yawing_axles(const VehicleParameters& parameters, const std::array<Whee
     const Coordinates sideways = centre_jacobian(places[i], i)[1];
     for (int k = 0; k < coordinate_count; ++k) generalised[k] += sideways[k] * force_n;
   }
+}
+
+void add_weightless_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places, const Vec3& up,
+                          const Vec3& force_n, Coordinates& generalised) {
+  const double forward_mps2 = glm::dot(force_n, level_forward(up)) / parameters.body.mass_kg;
+  for (int i = 0; i < wheel_count; ++i)
+    generalised[4] += parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.z * forward_mps2;
 }
 
 }  // namespace septet::vehicle

@@ -38,8 +38,7 @@ WheelPlace place_wheel(const VehicleParameters& parameters, const Statics& stati
   place.centre_m = {statics.axle_x_m[axle] + path_m(suspension.centre_longitudinal_slope),
                     side * (0.5 * suspension.track_m + path_m(suspension.centre_lateral_slope)),
                     statics.centre_z_m[axle] - parameters.body.mass_centre_z_m + travel};
-  place.contact_m = {statics.axle_x_m[axle] + path_m(suspension.contact_longitudinal_slope),
-                     side * (0.5 * suspension.track_m + path_m(suspension.contact_lateral_slope))};
+  place.contact_left_m = side * (0.5 * suspension.track_m + path_m(suspension.contact_lateral_slope));
   place.contact_slope = {suspension.contact_longitudinal_slope(travel),
                          side * suspension.contact_lateral_slope(travel)};
   place.centre_slope = {suspension.centre_longitudinal_slope(travel),

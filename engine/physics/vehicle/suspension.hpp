@@ -25,7 +25,7 @@ Statics statics(const VehicleParameters& parameters);
 /// One wheel against the body, in the body's axes from the centre of the sprung mass.
 struct WheelPlace {
   Vec3 centre_m{0.0};
-  Vec2 contact_m{0.0};      ///< Forward, left; the contact lies below, on the ground.
+  double contact_left_m = 0.0;  ///< The contact lies on the ground, ahead of the mass centre as far as the wheel's centre stands over it.
   Vec2 contact_slope{0.0};  ///< d(forward, left)/d travel of the contact's path.
   Vec2 centre_slope{0.0};   ///< Of the centre's path.
   Vec3 spin_axis{0.0, 1.0, 0.0};

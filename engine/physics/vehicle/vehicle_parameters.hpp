@@ -122,8 +122,8 @@ struct VehicleParameters {
   SteeringParameters steering;
   PowertrainParameters powertrain;
   BrakeParameters brakes;
-  /// Verification only: three simplifications of the published equations (slip, height of the
-  /// axles, yawing of the axles), named in vehicles/README.md.
+  /// Verification only: what the published equations simplify, as published_chassis.hpp says and
+  /// vehicles/README.md measures.
   bool as_published = false;
 };
 
