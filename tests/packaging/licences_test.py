@@ -27,12 +27,12 @@ def source_of(package):
     return next((line[3:].strip() for line in shown.splitlines() if line.startswith("ii")), "")
 
 
-def linked_packages(program):
-    """(library, the package it is in) of what the program itself names."""
-    dynamic = subprocess.run(["readelf", "--dynamic", "--wide", program], capture_output=True, text=True, check=True).stdout
-    for library in re.findall(r"\(NEEDED\).*\[(.+)\]", dynamic):
-        owners = subprocess.run(["dpkg-query", "--search", f"*/{library}"], capture_output=True, text=True).stdout
-        yield library, owners.split(":")[0]
+def linked_packages(programs):
+    """The package of each library that the programs themselves name."""
+    dynamic = subprocess.run(["readelf", "--dynamic", "--wide", *programs], capture_output=True, text=True, check=True).stdout
+    libraries = sorted(set(re.findall(r"\(NEEDED\).*\[(.+)\]", dynamic)))
+    owners = subprocess.run(["dpkg-query", "--search", *(f"*/{library}" for library in libraries)], capture_output=True, text=True).stdout
+    return {library: next((line.split(":")[0] for line in owners.splitlines() if line.endswith("/" + library)), "") for library in libraries}
 
 
 def faults(root, programs):
@@ -45,7 +45,7 @@ def faults(root, programs):
     for name in wanted:
         if name not in names:
             yield f"{name} of .ci/packages.txt has no line"
-    linked = dict(found for program in programs for found in linked_packages(program))
+    linked = linked_packages(programs)
     for row in rows:
         if row[0] not in wanted and row[0] not in linked.values():
             yield f"{row[0]} has a line and is not used"
