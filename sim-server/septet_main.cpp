@@ -25,11 +25,11 @@ namespace {
 
 using program::number_between, program::seed_number;
 
-/// Options that `drive` and `replay` share.
-void add_drive_options(CLI::App& command, DriveOptions& options) {
+/// Options that `drive` and `replay` share, and what they are by default.
+void add_drive_options(CLI::App& command, DriveOptions& options, const std::string& out, const std::string& seconds) {
   command.add_option("--rig", options.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
-  command.add_option("--out", options.out, "Folder for pictures, log and report; an earlier drive there is moved aside")->default_str("out/latest");
-  command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until the scenario ends or somebody stops it (default: 0 in a window, 30 off-screen)")->check(number_between(0.0, 1e6));
+  command.add_option("--out", options.out, "Folder for pictures, log and report; what an earlier one left there is moved aside")->default_str(out);
+  command.add_option("--seconds", options.seconds, "Simulated seconds to run; 0: until its own end, or until somebody stops it")->default_str(seconds)->check(number_between(0.0, 1e6));
   command.add_flag("--full-screen", options.full_screen, "Cover whole monitors: those that the rig names, else the first");
   command.add_flag("--virtual", options.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
 }
@@ -47,7 +47,7 @@ int run(int argc, char** argv) {
   app.option_defaults()->always_capture_default();
   DriveOptions drive;
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
-  add_drive_options(*drive_command, drive);
+  add_drive_options(*drive_command, drive, "out/latest", "0 in a window, 30 off-screen");
   drive_command->add_option("--scenario", drive.scenario, "OpenSCENARIO file, its folder, or a name of septet list scenarios");
   drive_command->add_option("--parameter", drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
   drive_command->add_option("--vehicle", drive.vehicle, "Vehicle file, or a name of septet list vehicles")->default_str("the rig's");
@@ -64,7 +64,7 @@ int run(int argc, char** argv) {
   bool verify = false;
   auto* replay_command = app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
   replay_command->add_option("session", replay.replay, "Session file")->required();
-  add_drive_options(*replay_command, replay);
+  add_drive_options(*replay_command, replay, "replay, beside the session", "0");
   replay_command->add_option("--from", replay.replay_from_s, "Simulated second to begin at")->check(number_between(0.0, 1e6));
   replay_command->add_flag("--verify", verify, "Run the recorded input again and compare every tick's state hash");
   replay_command->callback([&] { work = [&] { return verify ? run_verify(replay.replay) : run_drive(replay); }; });

@@ -211,6 +211,24 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
   return ending_of(*server->poll(), last_words, was_ready);
 }
 
+/// Where the drive or the replay writes. What is there is moved aside, so a replay's own session must not be.
+Expected<fs::path> folder_of(const DriveOptions& options) {
+  if (options.replay.empty()) {
+    if (!options.out.empty()) return options.out;
+    const auto data = data_folder();
+    if (!data) return tl::unexpected(data.error());
+    return *data / "out" / "latest";
+  }
+  std::error_code error;
+  const fs::path session = fs::canonical(options.replay, error);
+  if (error) return failure("there is no such file", options.replay.string(), "check the path");
+  if (options.out.empty()) return options.replay.parent_path() / "replay";
+  const fs::path out = fs::weakly_canonical(options.out, error);
+  if (std::ranges::mismatch(out, session).in1 == out.end())
+    return failure("the session that is to be shown lies in this folder", options.out.string(), "choose another folder with --out, or leave --out away");
+  return options.out;
+}
+
 /// What there is to look at after a drive.
 Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, int status) {
   const auto tell = [](const fs::path& file, const std::string& what) { program::announce(fmt::format("{}: {}", file.string(), what)); };
@@ -245,11 +263,9 @@ Expected<int> run_drive(DriveOptions options) {
     options.scenario = scenario->string();
   }
   if (!options.seconds) options.seconds = (options.virtual_screens || options.no_screens) && options.replay.empty() ? seconds_unless_told : 0.0;
-  if (options.out.empty()) {
-    const auto data = data_folder();
-    if (!data) return tl::unexpected(data.error());
-    options.out = *data / "out" / "latest";
-  }
+  const auto out = folder_of(options);
+  if (!out) return tl::unexpected(out.error());
+  options.out = *out;
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();

@@ -14,7 +14,7 @@ namespace septet::server {
 struct DriveOptions {
   std::string scenario = "motorway-ambulance";  ///< A file, a folder, or a name below scenarios/.
   std::string rig;                              ///< A file, or a name below rigs/; empty: by whether there is a display.
-  std::filesystem::path out;                    ///< Empty: out/latest.
+  std::filesystem::path out;                    ///< Empty: out/latest; of a replay: replay, beside the session.
   std::optional<double> seconds;                ///< Simulated; 0: until the scenario ends or somebody stops it.
   std::uint64_t seed = 1;
   bool virtual_screens = false;

@@ -95,6 +95,17 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   CHECK(fs::exists(folder / "shown" / "panorama.png"));
   CHECK(fs::exists(folder / "shown" / "screens" / "c" / "240.png"));
 
+  // Where nothing is said, beside the session; never where the session would be moved away from under its readers.
+  const Ended beside = run("septet", {"replay", session.string(), "--virtual", "--seconds", "0.1", "--rig", (folder / "other.toml").string()}, folder / "beside.err");
+  INFO(beside.error);
+  CHECK(beside.code == 0);
+  CHECK(fs::exists(folder / "out" / "replay" / "panorama.png"));
+  check_refused(run("septet", {"replay", session.string(), "--virtual", "--out", (folder / "out").string()}, folder / "same.err"), {"lies in this folder", "--out"},
+                folder / "nothing");
+  check_refused(run("septet", {"replay", (folder / "typo" / "session.sqlite").string(), "--virtual"}, folder / "typo.err"), {"typo/session.sqlite", "no such file"},
+                folder / "typo");
+  CHECK(fs::exists(session));
+
   // One verdict, and the cause of it.
   const auto refuse = [&](const std::string& name, const std::string& statement, const std::vector<std::string>& words) {
     const fs::path copy = folder / (name + ".sqlite");
