@@ -116,6 +116,11 @@ bool wait_for_screens(ScreenLoop& loop) {
   return true;
 }
 
+/// Somebody who is waited for has shown nothing yet: its first frame takes as long as a start does.
+bool awaits_first_frame(const ScreenHost& host) {
+  return std::ranges::any_of(host.screens(), [](const HostedScreen& screen) { return screen.live() && !screen.has_presented && !screen.left_behind; });
+}
+
 void run_lockstep(ScreenLoop& loop) {
   if (!wait_for_screens(loop)) return;
   while (!loop.is_over()) {
@@ -125,9 +130,10 @@ void run_lockstep(ScreenLoop& loop) {
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(snapshot, loop.environment.now_s());
     const double asked_s = loop.environment.now_s();
-    const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, loop.options.lockstep_patience_s, 0.1,
+    const double patience_s = awaits_first_frame(loop.host) ? loop.options.patience_s : loop.options.lockstep_patience_s;
+    const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, patience_s, 0.1,
                                           [&] { loop.host.repeat_newest(); });
-    if (!together && loop.environment.now_s() - asked_s > loop.options.lockstep_patience_s) loop.host.leave_behind(tick);
+    if (!together && loop.environment.now_s() - asked_s > patience_s) loop.host.leave_behind(tick);
     loop.report("driving");
   }
 }
