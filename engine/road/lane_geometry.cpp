@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/core/check.hpp"
 
@@ -71,34 +72,25 @@ double lane_height_m(const Road& road, double s_m, double t_m) {
   return height;
 }
 
-/// One profile: the cubics of equal station beginning at `first`.
-double shape_profile_m(const std::vector<LateralShape>& shapes, std::size_t first, double t_m) {
-  std::size_t best = first;
-  for (std::size_t i = first;
-       i < shapes.size() && shapes[i].s_m == shapes[first].s_m && shapes[i].t_m <= t_m; ++i)
-    best = i;
-  const LateralShape& shape = shapes[best];
+/// Of the profile at this station: the cubics of equal s, in the order of t.
+double shape_profile_m(const std::vector<LateralShape>& shapes, double profile_s_m, double t_m) {
+  const auto first = std::ranges::lower_bound(shapes, profile_s_m, {}, &LateralShape::s_m);
+  const auto end = std::ranges::upper_bound(first, shapes.end(), profile_s_m, {}, &LateralShape::s_m);
+  const auto next = std::ranges::upper_bound(first, end, t_m, {}, &LateralShape::t_m);
+  const LateralShape& shape = next == first ? *first : *std::prev(next);
   const double dt = t_m - shape.t_m;
   return shape.a + dt * (shape.b + dt * (shape.c + dt * shape.d));
 }
 
 /// Linear between the profiles before and after s.
 double shape_height_m(const std::vector<LateralShape>& shapes, double s_m, double t_m) {
-  std::size_t before = 0, after = 0;
-  bool found_after = false;
-  for (std::size_t i = 0; i < shapes.size() && !found_after; ++i) {
-    if (i > 0 && shapes[i].s_m == shapes[i - 1].s_m) continue;
-    if (shapes[i].s_m > s_m) {
-      after = i;
-      found_after = true;
-    } else {
-      before = i;
-    }
-  }
-  const double low = shape_profile_m(shapes, before, t_m);
-  if (!found_after || shapes[before].s_m > s_m) return low;
-  const double high = shape_profile_m(shapes, after, t_m);
-  return low + (high - low) * (s_m - shapes[before].s_m) / (shapes[after].s_m - shapes[before].s_m);
+  const auto after = std::ranges::upper_bound(shapes, s_m, {}, &LateralShape::s_m);
+  if (after == shapes.begin()) return shape_profile_m(shapes, after->s_m, t_m);
+  const double before_s_m = std::prev(after)->s_m;
+  const double low = shape_profile_m(shapes, before_s_m, t_m);
+  if (after == shapes.end()) return low;
+  const double high = shape_profile_m(shapes, after->s_m, t_m);
+  return low + (high - low) * (s_m - before_s_m) / (after->s_m - before_s_m);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double cell_m = 16.0, margin_m = 1.0;
 constexpr double stone_m = 0.15;  // Width of a kerb stone where the file gives none.
 constexpr double step_m = 2.0;    // Of a long kerb, so that it bends with its road.
 constexpr double lowest_m = 0.005;
-constexpr std::size_t most_areas = 50'000, most_cells = 1'000'000;
+constexpr std::size_t most_areas = 50'000, most_corners = 1'000, most_corners_of_all = 500'000, most_cells = 1'000'000;
 constexpr double widest_m = 500.0, storey_m = 1.0;
 
 bool says_kerb(std::string text) {
@@ -72,6 +72,8 @@ class Builder {
 
   void add_area(const road::RoadPosition& at, const std::vector<Corner>& corners) {
     if (corners.size() < 3) return;
+    // Whoever is on an area asks each of its sides, and its top is cut into triangles: that goes with the square of its corners.
+    if (corners.size() > most_corners || corners.size() > corners_left_) return void(complete_ = false);
     const double most_m = std::ranges::max(corners, {}, &Corner::over_m).over_m;
     if (!(most_m > lowest_m && most_m <= highest_kerb_m)) return;
     RaisedArea area{at.road, at.s_m, {}, Vec2(corners.front().top_m), Vec2(corners.front().top_m)};
@@ -81,10 +83,9 @@ class Builder {
       area.high_m = glm::max(area.high_m, Vec2(corner.top_m));
     }
     const Vec2 size = area.high_m - area.low_m;
-    if (areas_.size() < most_areas && std::max(size.x, size.y) <= widest_m)
-      areas_.push_back(std::move(area));
-    else
-      complete_ = false;
+    if (areas_.size() >= most_areas || std::max(size.x, size.y) > widest_m) return void(complete_ = false);
+    corners_left_ -= corners.size();
+    areas_.push_back(std::move(area));
   }
 
   void add_box(const Stand& stand, const road::RoadObject& object, double length_m, double width_m, double height_m) {
@@ -146,6 +147,7 @@ class Builder {
   const road::RoadNetwork& network_;
   std::vector<RaisedArea>& areas_;
   bool& complete_;
+  std::size_t corners_left_ = most_corners_of_all;
 };
 
 std::uint64_t key_of(std::int64_t x, std::int64_t y) {

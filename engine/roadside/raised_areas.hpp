@@ -38,7 +38,7 @@ class RaisedAreas {
   bool is_near(const Vec2& p, double reach_m) const;
 
   std::span<const RaisedArea> all() const { return areas_; }
-  /// False where the file has more or larger ones than can be (50,000, 500 m): the rest is left out.
+  /// False where the file has more or larger ones than can be (engine/road/CHECKS.md): the rest is left out.
   bool complete() const { return complete_; }
 
  private:

@@ -85,12 +85,14 @@ BoundingBox read_bounding_box(const Element& parent) {
 }
 
 void read_entities(Reading& reading, const Element& entities) {
+  bool too_many = false;
   for (const Element& object : entities.children("ScenarioObject")) {
     if (reading.scenario.entities.size() == most_entities) {
-      object.error(fmt::format("there are more than {} entities", most_entities),
-                   "leave the others to a traffic swarm");
-      reading.names_are_elsewhere = true;  // That is one fault, not one for each that is named below.
-      break;
+      // That is one fault, not one for each of the others, nor for each that is named below.
+      if (!too_many) object.error(fmt::format("there are more than {} entities", most_entities), "leave the others to a traffic swarm");
+      too_many = reading.names_are_elsewhere = true;
+      object.ignore();
+      continue;
     }
     Entity entity;
     entity.name = object.text("name");

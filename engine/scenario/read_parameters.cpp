@@ -8,28 +8,33 @@
 namespace septet::scenario {
 namespace {
 
-/// Whether the value keeps the constraints: all of a group, of any group.
-bool keeps_constraints(const Element& declaration, std::string_view value) {
-  bool any = false, some = false;
+/// The constraints that the value breaks, in words; empty where it keeps all of a group, of any group.
+std::string broken_constraints(const Element& declaration, std::string_view value) {
+  bool any = false;
+  std::string groups;
   for (const Element& group : declaration.children("ConstraintGroup")) {
     bool all = true;
-    for (const Element& constraint : group.children("ValueConstraint"))
-      all = compare_values(read_rule(constraint), value, constraint.text("value")) && all;
-    some = true;
+    std::string rules;
+    for (const Element& constraint : group.children("ValueConstraint")) {
+      const std::string limit = constraint.text("value");
+      all = compare_values(read_rule(constraint), value, limit) && all;
+      rules += fmt::format("{}{} {}", rules.empty() ? "" : " and ", constraint.text_or("rule", ""), limit);
+    }
     any = any || all;
+    groups += (groups.empty() ? "" : ", or ") + rules;
   }
-  return any || !some;
+  return any ? "" : groups;
 }
 
 }  // namespace
 
 Element with_declared_parameters(const Element& element, const Parameters& assigned) {
   if (!element) return element;
-  Parameters parameters = element.parameters();
-  for (const auto& [name, value] : assigned) parameters[name] = value;
+  // One table for all declarations, which grows from one to the next: a value may hang on parameters that were declared before it.
+  const auto parameters = std::make_shared<Parameters>(element.parameters());
+  for (const auto& [name, value] : assigned) (*parameters)[name] = value;
   for (const Element& found :
        element.child("ParameterDeclarations").children("ParameterDeclaration")) {
-    // A value may hang on parameters that were declared before it.
     const Element declaration = found.with(parameters);
     const std::string name = declaration.text("name");
     const std::string type = declaration.text_or("parameterType", "");
@@ -44,14 +49,14 @@ Element with_declared_parameters(const Element& element, const Parameters& assig
         declaration.error(what, fmt::format("give a value of type {}", type));
       else
         declaration.warning(what, "correct the value or its type");
-    } else if (!keeps_constraints(declaration, value)) {
+    } else if (const std::string broken = broken_constraints(declaration, value); !broken.empty()) {
       declaration.error(fmt::format("\"{}\" {} {} breaks its constraints", value.substr(0, 60), whose,
                                     name),
-                        "give a value that the <ConstraintGroup> allows");
+                        "give a value that is " + broken.substr(0, 200));
     }
-    parameters[name] = std::move(value);
+    (*parameters)[name] = std::move(value);
   }
-  return element.with(std::move(parameters));
+  return element.with(parameters);
 }
 
 Element with_outside_parameters(const Element& root, const std::vector<ParameterValue>& values) {

@@ -116,9 +116,9 @@ void Element::report_unread() const {
 
 std::string Element::name() const { return pugi::xml_node(node_).name(); }
 
-Element Element::with(Parameters parameters) const {
+Element Element::with(std::shared_ptr<const Parameters> parameters) const {
   Element other = *this;
-  other.parameters_ = std::make_shared<const Parameters>(std::move(parameters));
+  other.parameters_ = std::move(parameters);
   return other;
 }
 

@@ -44,7 +44,7 @@ class Element {
   std::string name() const;
   const Parameters& parameters() const { return *parameters_; }
   /// The same element with other parameters.
-  Element with(Parameters parameters) const;
+  Element with(std::shared_ptr<const Parameters> parameters) const;
 
   /// The first child of this name, marked as read; empty if there is none.
   Element child(const char* name) const;

@@ -28,11 +28,13 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
     }
     return true;
   };
+  std::size_t k = 0;
   while (left.size() >= 3) {
-    std::size_t k = 0;
-    while (k < left.size() && !is_ear(k)) ++k;
-    if (k == left.size()) return;
     const std::size_t n = left.size();
+    // From the last ear on, beside which the next one mostly is.
+    std::size_t tried = 0;
+    for (k %= n; tried < n && !is_ear(k); ++tried) k = (k + 1) % n;
+    if (tried == n) return;
     builder.triangle(builder.vertex(top[left[(k + n - 1) % n]]), builder.vertex(top[left[k]]), builder.vertex(top[left[(k + 1) % n]]));
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
   }

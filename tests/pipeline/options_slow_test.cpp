@@ -145,6 +145,7 @@ TEST_CASE("a vehicle or a parameter that is not there is refused before anything
   refuse({"--parameter", "ego_speed"}, {"NAME=VALUE"});
   refuse({"--parameter", "warp=9"}, {"warp", "ego_speed"});
   refuse({"--parameter", "ego_speed=fast"}, {"fast", "ego_speed"});
+  refuse({"--parameter", "ego_speed=-5"}, {"\"-5\" given to ego_speed", "greaterOrEqual 0"});
   refuse({"--parameter", "ego_speed=20", "--parameter", "ego_speed=30"}, {"twice", "ego_speed"});
 }
 

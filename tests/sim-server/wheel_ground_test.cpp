@@ -1,9 +1,11 @@
 #include "engine/simulation/wheel_ground.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/simulation/server_step.hpp"
@@ -160,6 +162,19 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
   CHECK(met(131.0, 2.0, along).height_m == 0.0);
   CHECK(met(20.0, 2.0, along).height_m == 0.0);
   CHECK(met(30.0, 2.0, along).height_m == 0.0);
+}
+
+TEST_CASE("an island of more corners than can be met in a tick is left out and said") {
+  for (const int corners : {1'000, 1'001, 100'000}) {
+    CAPTURE(corners);
+    std::string round;
+    for (int i = 0; i < corners; ++i)
+      round += fmt::format("<cornerLocal u=\"{:.6f}\" v=\"{:.6f}\" z=\"0\" height=\"0.1\"/>", 2.0 * std::cos(6.2831853 * i / corners), 2.0 * std::sin(6.2831853 * i / corners));
+    const auto roads = straight_road("<object id=\"1\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\">" + round + "</outline></outlines></object>");
+    const roadside::RaisedAreas raised(roads);
+    CHECK(raised.complete() == (corners == 1'000));
+    CHECK(raised.ground_at({50.0, 0.0}, 0.0) == (corners == 1'000 ? doctest::Approx(0.1) : doctest::Approx(0.0)));
+  }
 }
 
 TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touch with height and speed") {

@@ -42,4 +42,22 @@ TEST_CASE("a border that lies inside its inner neighbour's leaves the lane witho
   CHECK(beside.lane == -3);
 }
 
+TEST_CASE("a lateral shape is found among two hundred thousand a million times") {
+  RoadNetwork network = read_or_fail(SmallRoad{}.xml());
+  Road& road = network.roads[0];
+  road.flat = false;
+  for (int s = 0; s < 2; ++s)
+    for (int t = 0; t < 100'000; ++t) road.shapes.push_back({10.0 + 80.0 * s, -50.0 + 0.001 * t, 0.001 * t, 0.0, 0.0, 0.0});
+  for (LateralShape& shape : road.shapes)
+    if (shape.s_m > 50.0) shape.a += 1.0;
+  CHECK(surface_offset_m(road, 0.0, -60.0) == doctest::Approx(0.0));
+  CHECK(surface_offset_m(road, 10.0, -49.9985) == doctest::Approx(0.001));
+  CHECK(surface_offset_m(road, 50.0, -50.0) == doctest::Approx(0.5));
+  CHECK(surface_offset_m(road, 90.0, 0.0) == doctest::Approx(51.0));
+  CHECK(surface_offset_m(road, 200.0, 100.0) == doctest::Approx(100.999));
+  double sum = 0.0;
+  for (int i = 0; i < 1'000'000; ++i) sum += surface_offset_m(road, 30.0, 49.9995);
+  CHECK(sum == doctest::Approx(1e6 * (99.999 + 0.25)));
+}
+
 }  // namespace septet::road
