@@ -12,6 +12,8 @@
 namespace septet::logging {
 namespace {
 
+using document::Json, document::number;
+
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 std::uint64_t from_hex(const std::string& text) {
@@ -61,10 +63,6 @@ ScreenOutcome screen_of(const Json& json) {
 
 }  // namespace
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
 Json json_of(const DriveOutcome& outcome) {
   Json screens = Json::array();
   for (const ScreenOutcome& screen : outcome.screens) screens.push_back(json_of(screen));
@@ -83,7 +81,7 @@ Json json_of(const DriveOutcome& outcome) {
           {"screens", std::move(screens)}};
 }
 
-std::string to_json(const DriveOutcome& outcome) { return text_of(json_of(outcome)); }
+std::string to_json(const DriveOutcome& outcome) { return document::text_of(json_of(outcome)); }
 
 Expected<DriveOutcome> read_outcome(const std::string& text) {
   const auto refused = [] { return failure("the meta row outcome is not what Septet writes", "session", "the file was altered: use a copy"); };

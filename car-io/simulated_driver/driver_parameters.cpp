@@ -49,7 +49,7 @@ struct Difference {
   double value;
 };
 struct Kind {
-  const char* name;
+  NamedDriver driver;
   std::initializer_list<Difference> differences;  ///< From the plain driver.
 };
 
@@ -74,19 +74,26 @@ constexpr std::initializer_list<Difference> from_escort = {
     {time_gap, 1.1},        {reaction, 0.6},        {distance_noise, 0.04},  {glance_interval, 10.0},
     {glance, 0.55},         {in_tracks, 120.0}};
 
+constexpr Kind kinds[] = {{{"plain", "An ordinary driver"}, {}},
+                      {{"novice", "Looks less often and longer, keeps more distance, reacts later"}, from_novice},
+                      {{"experienced", "Looks often and shortly, keeps the lane closely, reacts early"}, from_experienced},
+                      {{"tired", "Corrects late and slowly, so that the lane is kept loosely"}, from_tired},
+                      {{"escort", "Follows an ambulance in its tracks, through the lane that opens for it"}, from_escort}};
+
 }  // namespace
 
+std::vector<NamedDriver> simulated_drivers() {
+  std::vector<NamedDriver> drivers;
+  for (const Kind& kind : kinds) drivers.push_back(kind.driver);
+  return drivers;
+}
+
 Expected<DriverParameters> find_driver(std::string_view name) {
-  const Kind kinds[] = {{"plain", {}},
-                        {"novice", from_novice},
-                        {"experienced", from_experienced},
-                        {"tired", from_tired},
-                        {"escort", from_escort}};
   std::string known;
   for (const Kind& kind : kinds) {
-    known += (known.empty() ? "" : ", ") + std::string(kind.name);
-    if (kind.name != name) continue;
-    DriverParameters driver{.name = kind.name};
+    known += (known.empty() ? "" : ", ") + std::string(kind.driver.name);
+    if (kind.driver.name != name) continue;
+    DriverParameters driver{.name = std::string(kind.driver.name)};
     for (const Difference& difference : kind.differences)
       difference.parameter(driver) = difference.value;
     return driver;

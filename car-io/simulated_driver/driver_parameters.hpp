@@ -9,6 +9,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 
@@ -106,7 +107,13 @@ struct DriverParameters {
   MirrorParameters mirrors;
 };
 
-/// One of: plain, novice, experienced, tired, escort.
+struct NamedDriver {
+  std::string_view name, description;
+};
+/// Whom there is to choose from.
+std::vector<NamedDriver> simulated_drivers();
+
+/// Error: there is no such driver, and who there is.
 Expected<DriverParameters> find_driver(std::string_view name);
 
 }  // namespace septet::car_io

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include "engine/core/parse_toml.hpp"
-#include "engine/rig/table_reader.hpp"
+#include "engine/document/table_reader.hpp"
+#include "engine/document/toml_table.hpp"
 
 namespace septet::film {
 namespace {
@@ -13,7 +13,7 @@ constexpr double longest_s = 1e6;
 constexpr double radians = std::numbers::pi / 180.0;
 constexpr const char* documented_in = "sim-client/film/FILM.md";
 
-using rig::TableReader;
+using document::TableReader;
 
 double get_angle(TableReader& reader, std::string_view key, double fallback_rad, double most_deg) {
   return radians * reader.get_double(key, fallback_rad / radians, -most_deg, most_deg);
@@ -83,7 +83,7 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
 }  // namespace
 
 Expected<Script> read_script(std::string_view text, std::string_view name) {
-  const auto document = parse_toml(text, name);
+  const auto document = document::parse_toml(text, name);
   if (!document) return tl::unexpected(document.error());
   Error error;
   TableReader reader(*document, name, "film", error);

@@ -8,11 +8,15 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include "engine/core/parse_toml.hpp"
-#include "engine/rig/table_reader.hpp"
+#include "engine/document/table_reader.hpp"
+#include "engine/document/toml_table.hpp"
 
 namespace septet::rig {
 namespace {
+
+using document::TableReader;
+
+constexpr const char* documented_in = "rigs/README.md";
 
 void read_window(TableReader& reader, Window& window) {
   window.lower_left_m = reader.get_point("lower_left_m");
@@ -38,7 +42,7 @@ View read_inset(const toml::table& table, std::string_view file, Error& error) {
   if (view.left + view.width > 1.0 || view.top + view.height > 1.0)
     reader.report("left", "an inset reaches over the edge of its screen", "keep left + width and top + height at most 1");
   read_window(reader, view.window);
-  reader.finish();
+  reader.finish(documented_in);
   return view;
 }
 
@@ -70,7 +74,7 @@ Screen read_screen(const toml::table& table, std::string_view file, Error& error
   read_window(reader, whole.window);
   screen.views.push_back(whole);
   for (const toml::table* inset : reader.get_tables("inset")) screen.views.push_back(read_inset(*inset, file, error));
-  reader.finish();
+  reader.finish(documented_in);
   return screen;
 }
 
@@ -86,7 +90,7 @@ Network read_network(const toml::table& table, std::string_view file, Error& err
   network.max_payload_bytes =
       static_cast<std::uint32_t>(reader.get_integer("max_payload_bytes", network.max_payload_bytes, 512, 8900));
   network.playout_delay_ticks = reader.get_double("playout_delay_ticks", network.playout_delay_ticks, 0.0, 60.0);
-  reader.finish();
+  reader.finish(documented_in);
   return network;
 }
 
@@ -105,7 +109,7 @@ AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisC
     reader.report("max", fmt::format("the {}'s max is not above its min by 0.05 or more", axis), "calibrate it again with septet-car calibrate");
   else if (is_wheel && (result.centre - result.min < 0.02 || result.max - result.centre < 0.02))
     reader.report("centre", fmt::format("the {}'s centre does not lie between min and max", axis), "calibrate it again with septet-car calibrate");
-  reader.finish();
+  reader.finish(documented_in);
   return result;
 }
 
@@ -118,7 +122,7 @@ CarCalibration read_calibration(const toml::table& table, std::string_view file,
   calibration.accelerator = read_axis(reader, "accelerator", calibration.accelerator, file, error);
   calibration.brake = read_axis(reader, "brake", calibration.brake, file, error);
   calibration.clutch = read_axis(reader, "clutch", calibration.clutch, file, error);
-  reader.finish();
+  reader.finish(documented_in);
   return calibration;
 }
 
@@ -131,7 +135,7 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
   actuators.vibration_most = reader.get_double("vibration_most", actuators.vibration_most, 0.0, 1.0);
   actuators.steering_full_nm = reader.get_double("steering_full_nm", actuators.steering_full_nm, 0.1, 100.0);
   actuators.steering_most = reader.get_double("steering_most", actuators.steering_most, 0.0, 1.0);
-  reader.finish();
+  reader.finish(documented_in);
   return actuators;
 }
 
@@ -149,7 +153,7 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.driver = reader.get_string("driver", car.driver);
   if (const auto* calibration = reader.get_table("calibration")) car.calibration = read_calibration(*calibration, file, error);
   if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
-  reader.finish();
+  reader.finish(documented_in);
   return car;
 }
 
@@ -192,7 +196,7 @@ const Screen& screen_ahead(const Rig& rig) {
 }
 
 Expected<Rig> read_rig(std::string_view text, std::string_view name) {
-  const auto document = parse_toml(text, name);
+  const auto document = document::parse_toml(text, name);
   if (!document) return tl::unexpected(document.error());
   Error error;
   TableReader reader(*document, name, "rig", error);
@@ -210,7 +214,7 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   check_keyboard(rig, reader);
   if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");
   if (rig.screens.size() > 64) reader.report("screen", "the rig has more than 64 screens", "split it");
-  reader.finish();
+  reader.finish(documented_in);
   if (!error.what.empty()) return tl::unexpected(error);
   return rig;
 }

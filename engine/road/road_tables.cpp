@@ -1,17 +1,15 @@
 #include "engine/road/road_tables.hpp"
 
 #include <array>
-#include <charconv>
 #include <istream>
 #include <numbers>
-#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
+#include "engine/document/table_line.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
@@ -19,31 +17,7 @@
 namespace septet::road {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) {
-    text.remove_suffix(1);
-  }
-  return text;
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number value{};
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
+using document::cells_of, document::number_in, document::trimmed;
 
 tl::unexpected<Error> wrong_line(std::size_t number, std::string what, std::string_view columns) {
   return failure(std::move(what), fmt::format("line {} of the table", number),
@@ -61,13 +35,13 @@ Expected<void> sample_table(const RoadNetwork& network, std::istream& in, std::o
          "heading_rad\n";
   std::string line;
   for (std::size_t number = 1; out && std::getline(in, line); ++number) {
-    const auto fields = split(line);
+    const auto fields = cells_of(line);
     if (trimmed(line).empty() || (number == 1 && fields[0] == "road_id")) continue;
     if (fields.size() < 4)
       return wrong_line(number, "it has fewer than four fields", sample_columns);
     const auto road_index = find_road(network, fields[0]);
-    const auto lane = parse<int>(fields[1]);
-    const auto s = parse<double>(fields[2]), offset = parse<double>(fields[3]);
+    const auto lane = number_in<int>(fields[1]);
+    const auto s = number_in<double>(fields[2]), offset = number_in<double>(fields[3]);
     if (!road_index)
       return wrong_line(number, fmt::format("road {} does not exist", fields[0]), sample_columns);
     if (!lane || !s || !offset)
@@ -101,11 +75,11 @@ Expected<void> locate_table(const RoadNetwork& network, std::istream& in, std::o
       << ",road_id,lane_id,s_m,t_m,lane_offset_m,lane_id_any,residual_m,s_true_m,t_true_m\n";
   std::string line;
   for (std::size_t number = 1; out && std::getline(in, line); ++number) {
-    const auto fields = split(line);
+    const auto fields = cells_of(line);
     if (trimmed(line).empty() || (number == 1 && fields[0] == "x_m")) continue;
     if (fields.size() < 2)
       return wrong_line(number, "it has fewer than two fields", locate_columns);
-    const auto x = parse<double>(fields[0]), y = parse<double>(fields[1]);
+    const auto x = number_in<double>(fields[0]), y = number_in<double>(fields[1]);
     if (!x || !y) return wrong_line(number, "a field is not a number", locate_columns);
     const auto found = locate(network, {*x, *y});
     if (!found) {

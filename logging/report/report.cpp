@@ -6,10 +6,10 @@
 
 #include <fmt/core.h>
 
+#include "engine/document/text_file.hpp"
 #include "logging/report/chart.hpp"
 #include "logging/report/measure_table.hpp"
 #include "logging/report/report_style.hpp"
-#include "logging/report/text_file.hpp"
 
 namespace septet::logging {
 namespace {
@@ -270,7 +270,7 @@ Expected<void> write_report(const SessionReader& reader, const std::filesystem::
   auto data = read_report_data(reader);
   if (!data) return tl::unexpected(data.error());
   if (!data->outcome) data->outcome = outcome;
-  return write_text_file(path, to_html(*data));
+  return document::write_text_file(path, to_html(*data));
 }
 
 }  // namespace septet::logging

@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/document/text_file.hpp"
 #include "logging/outcome_json.hpp"
-#include "logging/report/text_file.hpp"
 
 namespace septet::logging {
 namespace {
+
+using document::Json, document::number;
 
 Json optional_number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
@@ -54,11 +56,11 @@ std::string to_json(const DriveSummary& s) {
     add_measures(s.log->measures, json);
     json["events"] = s.log->events;
   }
-  return text_of(json);
+  return document::text_of(json);
 }
 
 Expected<void> write_summary(const std::filesystem::path& path, const DriveSummary& summary) {
-  return write_text_file(path, to_json(summary));
+  return document::write_text_file(path, to_json(summary));
 }
 
 }  // namespace septet::logging

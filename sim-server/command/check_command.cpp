@@ -8,8 +8,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/parse_toml.hpp"
 #include "engine/core/regular_file.hpp"
+#include "engine/document/json.hpp"
+#include "engine/document/toml_table.hpp"
 #include "engine/film_script/film_script.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/rig/rig.hpp"
@@ -44,7 +45,7 @@ void add_error(const Expected<Value>& result, Checked& checked) {
 }
 
 void check_toml(const std::string& text, Checked& checked) {
-  const auto keys = top_keys_of_toml(text, checked.file);
+  const auto keys = document::top_keys_of_toml(text, checked.file);
   const auto has = [&](const char* key) { return keys && std::ranges::find(*keys, key) != keys->end(); };
   checked.kind = !keys ? "TOML" : has("shot") ? "film script" : has("body") ? "vehicle" : "rig";
   if (!keys)
@@ -104,7 +105,7 @@ void print_lines(const std::vector<Checked>& all, std::size_t errors, std::size_
 }
 
 void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t warnings, std::ostream& out) {
-  using Json = nlohmann::ordered_json;
+  using document::Json;
   Json files = Json::array();
   for (const Checked& checked : all) {
     Json findings = Json::array();
@@ -120,8 +121,7 @@ void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t
                      {"findings", std::move(findings)}});
   }
   const Json answer = {{"format", "septet check"}, {"version", 1}, {"errors", errors}, {"warnings", warnings}, {"files", std::move(files)}};
-  // Names from files may be anything; JSON is UTF-8.
-  out << answer.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+  out << document::text_of(answer);
 }
 
 }  // namespace

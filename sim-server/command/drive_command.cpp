@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/document/text_file.hpp"
 #include "engine/net/keys.hpp"
 #include "engine/rig/rig.hpp"
 #include "logging/drive_end.hpp"
@@ -35,15 +36,16 @@ bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPL
 Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& clients) {
   auto folder = program::TemporaryFolder::make("septet");
   if (!folder) return folder;
-  std::ofstream allowed(folder->path() / "allowed-clients");
+  std::string allowed;
   for (const auto& client : clients) {
     const auto identity = net::load_or_create_identity(folder->path() / (client + ".key"));
     if (!identity) return tl::unexpected(identity.error());
-    allowed << net::to_text(identity->public_key()) << ' ' << client << '\n';
+    allowed += net::to_text(identity->public_key()) + ' ' + client + '\n';
   }
   const auto server = net::load_or_create_identity(folder->path() / "server.key");
   if (!server) return tl::unexpected(server.error());
-  std::ofstream(folder->path() / "server.public") << net::to_text(server->public_key()) << '\n';
+  const auto written = document::write_text_files(folder->path(), {{"allowed-clients", allowed}, {"server.public", net::to_text(server->public_key()) + '\n'}});
+  if (!written) return tl::unexpected(written.error());
   return folder;
 }
 

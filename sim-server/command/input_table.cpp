@@ -1,12 +1,12 @@
 #include "sim-server/command/input_table.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include <fmt/core.h>
 
+#include "engine/document/table_line.hpp"
 #include "engine/math/angle_units.hpp"
 
 namespace septet::server {
@@ -32,23 +32,6 @@ constexpr std::array<Column, 7> columns{{
      }},
     {"parking_brake", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.parking_brake = value > 0.5; }},
 }};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r\xEF\xBB\xBF";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 std::string known_columns() {
   std::string known;
@@ -78,11 +61,11 @@ Expected<std::vector<vehicle::TimedInput>> read_input_table(std::string_view tex
   std::vector<vehicle::TimedInput> rows;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const auto end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = document::trimmed(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     if (line.empty() || line.front() == '#') continue;
     const std::string where = fmt::format("{}:{}", name, number);
-    const auto cells = cells_of(line);
+    const auto cells = document::cells_of(line);
     if (header.empty()) {
       auto read = read_header(cells, where);
       if (!read) return tl::unexpected(read.error());
@@ -93,13 +76,11 @@ Expected<std::vector<vehicle::TimedInput>> read_input_table(std::string_view tex
       return failure(fmt::format("{} numbers for {} columns", cells.size(), header.size()), where, "give each column one");
     vehicle::TimedInput row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      double value = 0.0;
-      const auto read = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
-      const bool whole = read.ec == std::errc{} && read.ptr == cells[i].data() + cells[i].size();
-      if (!whole || !(value >= header[i]->low && value <= header[i]->high))
+      const auto value = document::number_in<double>(cells[i]);
+      if (!value || !(*value >= header[i]->low && *value <= header[i]->high))
         return failure(fmt::format("{} is \"{}\"", header[i]->name, cells[i].substr(0, 60)), where,
                        fmt::format("give a number from {:g} to {:g}", header[i]->low, header[i]->high));
-      header[i]->set(row, value);
+      header[i]->set(row, *value);
     }
     if (!rows.empty() && row.time_s <= rows.back().time_s)
       return failure(fmt::format("time_s {} follows {}", row.time_s, rows.back().time_s), where, "give ascending times");

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "sim-server/resources.hpp"
@@ -31,12 +32,10 @@ std::string first_comment(const std::string& text) {
 
 Expected<std::vector<Entry>> entries_of(const std::string& kind) {
   std::vector<Entry> entries;
-  if (kind == "drivers")
-    return std::vector<Entry>{{"plain", "An ordinary driver"},
-                              {"novice", "Looks less often and longer, keeps more distance, reacts later"},
-                              {"experienced", "Looks often and shortly, keeps the lane closely, reacts early"},
-                              {"tired", "Corrects late and slowly, so that the lane is kept loosely"},
-                              {"escort", "Follows an ambulance in its tracks, through the lane that opens for it"}};
+  if (kind == "drivers") {
+    for (const auto& driver : car_io::simulated_drivers()) entries.push_back({std::string(driver.name), std::string(driver.description)});
+    return entries;
+  }
   const bool scenarios = kind == "scenarios";
   const auto data = data_folder();
   if (!data) return tl::unexpected(data.error());

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/document/figure_text.hpp"
 #include "engine/math/angle_units.hpp"
-#include "sim-server/command/figure_text.hpp"
 #include "sim-server/command/line_chart.hpp"
 
 namespace septet::server {
@@ -62,10 +62,8 @@ std::vector<Panel> panels_of(const std::string& manoeuvre) {
 }  // namespace
 
 std::string figures_json(const std::string& vehicle, const ManoeuvreReport& report) {
-  return figures_json(
-      fmt::format("\"vehicle\": \"{}\",\n  \"manoeuvre\": \"{}\",\n  \"standard\": \"{}\",\n  \"faults\": {}", vehicle,
-                  report.manoeuvre, report.standard, nlohmann::json(report.faults).dump()),
-      report.figures);
+  return document::figures_json(
+      {{"vehicle", vehicle}, {"manoeuvre", report.manoeuvre}, {"standard", report.standard}, {"faults", report.faults}}, report.figures);
 }
 
 std::string series_csv(const ManoeuvreReport& report) {
@@ -93,7 +91,7 @@ std::string manoeuvre_svg(const std::string& vehicle, const ManoeuvreReport& rep
     charts.push_back(std::move(chart));
   }
   return chart_page_svg(fmt::format("{}: {}", vehicle, report.manoeuvre), report.standard, charts,
-                        figure_notes(report.figures));
+                        document::figure_notes(report.figures));
 }
 
 }  // namespace septet::server

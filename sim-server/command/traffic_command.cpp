@@ -8,11 +8,12 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "engine/document/figure_text.hpp"
+#include "engine/document/text_file.hpp"
 #include "engine/traffic/fundamental_diagram.hpp"
-#include "sim-server/command/figure_text.hpp"
 #include "sim-server/command/line_chart.hpp"
-#include "sim-server/command/text_files.hpp"
 
 namespace septet::server {
 namespace {
@@ -75,8 +76,7 @@ Diagram measure(const TrafficDiagramOptions& options) {
 }
 
 std::string diagram_json(const TrafficDiagramOptions& options, const Diagram& diagram) {
-  return figures_json(
-      fmt::format("\"seed\": {},\n  \"lanes\": {}", options.seed, options.lanes), diagram.figures);
+  return document::figures_json({{"seed", options.seed}, {"lanes", options.lanes}}, diagram.figures);
 }
 
 std::string points_csv(const std::vector<FlowPoint>& points) {
@@ -102,7 +102,7 @@ std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& dia
        chart(diagram.equilibrium, "flow of equal cars in equilibrium", &FlowPoint::flow_per_h),
        chart(diagram.measured, "speed, m/s", &FlowPoint::speed_mps),
        chart(diagram.measured, "deviation of speed, m/s", &FlowPoint::deviation_mps)},
-      figure_notes(diagram.figures));
+      document::figure_notes(diagram.figures));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ Expected<int> run_traffic_diagram(const TrafficDiagramOptions& options) {
     fmt::print("  {:<38} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
   if (options.out.empty()) return 0;
   const auto written =
-      write_text_files(options.out, {{"traffic-diagram.json", diagram_json(options, diagram)},
+      document::write_text_files(options.out, {{"traffic-diagram.json", diagram_json(options, diagram)},
                                      {"traffic-diagram.csv", points_csv(diagram.measured)},
                                      {"traffic-diagram.svg", diagram_svg(options, diagram)}});
   if (!written) return tl::unexpected(written.error());

@@ -5,12 +5,12 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/document/text_file.hpp"
 #include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "program/console.hpp"
 #include "sim-server/command/input_table.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
-#include "sim-server/command/text_files.hpp"
 #include "sim-server/resources.hpp"
 
 namespace septet::server {
@@ -26,7 +26,7 @@ Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
 
 Expected<void> write_report(const fs::path& folder, const std::string& car, const vehicle::ManoeuvreReport& report) {
   const std::string name = fmt::format("{}-{}", car, report.manoeuvre);
-  return write_text_files(folder, {{name + ".json", figures_json(car, report)},
+  return document::write_text_files(folder, {{name + ".json", figures_json(car, report)},
                                         {name + ".csv", series_csv(report)},
                                         {name + ".svg", manoeuvre_svg(car, report)}});
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/document/text_file.hpp"
 #include "engine/net/keys.hpp"
 #include "sim-server/host/remote_car.hpp"
 
@@ -14,18 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* server_machine = "server";
-
-/// Written beside and renamed: a server that watches the file sees the old one or the new one, whole.
-Expected<void> replace_file(const fs::path& file, const std::string& text) {
-  const fs::path draft = file.string() + ".new";
-  std::ofstream stream(draft, std::ios::binary);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(draft, file, error);
-  if (!stream || error) return failure("the file cannot be written", file.string(), "free space, or choose another folder with --out");
-  return {};
-}
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -67,7 +56,7 @@ bool is_listed(const std::string& list, const std::string& name) {
 
 Expected<void> put_server_key(const fs::path& file, const std::string& key) {
   std::error_code error;
-  if (!fs::exists(file, error)) return replace_file(file, key + '\n');
+  if (!fs::exists(file, error)) return document::write_text_file(file, key + '\n');
   const auto there = net::load_public_key(file);
   if (!there) return tl::unexpected(there.error());
   if (net::to_text(*there) != key)
@@ -123,7 +112,7 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
   }
   // A list that names what the rig names no more is the operator's business: a key leaves it by hand.
   if (list != text_of(list_file))
-    if (auto put = replace_file(list_file, list); !put) return tl::unexpected(put.error());
+    if (auto put = document::write_text_file(list_file, list); !put) return tl::unexpected(put.error());
   return said;
 }
 

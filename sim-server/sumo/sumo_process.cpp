@@ -12,6 +12,8 @@
 
 #include <fmt/core.h>
 
+#include "engine/document/text_file.hpp"
+
 namespace septet::server {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -35,14 +37,6 @@ Expected<fs::path> find_program(const std::string& name) {
     if (const fs::path file = fs::path(folder.empty() ? "." : folder) / name; ::access(file.c_str(), X_OK) == 0) return file;
   return failure(fmt::format("SUMO is not installed: there is no program {}", name), "--traffic sumo",
                  "install the package sumo (apt install sumo), or drive with --traffic own");
-}
-
-Expected<void> write_file(const fs::path& path, std::string_view text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) return failure("cannot be written", path.string(), "free space there or set TMPDIR");
-  return {};
 }
 
 /// A port of this machine that is free now.
@@ -79,10 +73,10 @@ Expected<std::unique_ptr<SumoProcess>> SumoProcess::start(const SumoNetwork& net
 }
 
 Expected<void> SumoProcess::write_files(const SumoNetwork& network) {
-  return write_file(folder_.path() / "nodes.xml", network.nodes_xml)
-      .and_then([&] { return write_file(folder_.path() / "edges.xml", network.edges_xml); })
-      .and_then([&] { return write_file(folder_.path() / "connections.xml", network.connections_xml); })
-      .and_then([&] { return write_file(folder_.path() / "types.xml", types_xml); });
+  return document::write_text_files(folder_.path(), {{"nodes.xml", network.nodes_xml},
+                                                     {"edges.xml", network.edges_xml},
+                                                     {"connections.xml", network.connections_xml},
+                                                     {"types.xml", types_xml}});
 }
 
 Expected<void> SumoProcess::convert_network() {

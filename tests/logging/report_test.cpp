@@ -7,10 +7,10 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/document/text_file.hpp"
 #include "logging/drive_observer.hpp"
 #include "logging/report/chart.hpp"
 #include "logging/report/summary.hpp"
-#include "logging/report/text_file.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
 
@@ -135,7 +135,7 @@ TEST_CASE("the report shows the charts and one mark per lane change and needs no
   const ReportData data = example_drive();
   const auto measures = compute_drive_measures(data.samples);
   const std::string html = to_html(data);
-  if (const char* keep = std::getenv("SEPTET_KEEP_REPORT")) CHECK(write_text_file(keep, html));
+  if (const char* keep = std::getenv("SEPTET_KEEP_REPORT")) CHECK(document::write_text_file(keep, html));
   CHECK(count_of(html, "<svg") == 3);
   CHECK(count_of(html, "<rect class=\"bar") == 21);
   CHECK(count_of(html, "<rect class=\"bar strong\"") == 1);
@@ -188,9 +188,9 @@ TEST_CASE("a line of many samples is thinned and keeps its highest peak") {
 
 TEST_CASE("a report that cannot be written is one clear error and leaves nothing behind") {
   const TemporaryFolder folder;
-  const auto written = write_text_file(folder / "missing", "text");
+  const auto written = document::write_text_file(folder / "missing", "text");
   CHECK(written.has_value());
-  const auto refused = write_text_file(folder / "no such folder/report.html", "text");
+  const auto refused = document::write_text_file(folder / "no such folder/report.html", "text");
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().where.ends_with("report.html"));
   CHECK_FALSE(std::filesystem::exists(folder / "missing.part"));

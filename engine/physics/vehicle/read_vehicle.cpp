@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include "engine/core/parse_toml.hpp"
+#include "engine/document/toml_table.hpp"
 #include "engine/physics/vehicle/wheel_damage.hpp"
 
 namespace septet::vehicle {
@@ -88,7 +88,7 @@ class Entries {
   }
   void fail(std::string what, std::string_view path, std::string remedy) {
     if (!error_)
-      error_ = Error{std::move(what), fmt::format("{}, {}", name_, path), std::move(remedy)};
+      error_ = Error{std::move(what), fmt::format("{}, {}", document::place_of(nearest(path), name_), path), std::move(remedy)};
   }
   /// Every entry that has a value or points and was not asked for is a misspelling.
   void refuse_unknown() { refuse_unknown(root_, ""); }
@@ -110,6 +110,15 @@ class Entries {
       return nullptr;
     }
     return entry;
+  }
+  /// The entry, or where it is missing the innermost table that it belongs into.
+  const toml::node& nearest(std::string_view path) const {
+    for (;;) {
+      if (const auto found = root_.at_path(path)) return *found.node();
+      const auto dot = path.rfind('.');
+      if (dot == path.npos) return root_;
+      path = path.substr(0, dot);
+    }
   }
   void refuse_unknown(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, node] : table) {
@@ -299,7 +308,7 @@ void read_brakes(Entries& in, BrakeParameters& brakes) {
 }  // namespace
 
 Expected<VehicleParameters> read_vehicle(std::string_view text, std::string_view name) {
-  const auto root = parse_toml(text, name);
+  const auto root = document::parse_toml(text, name);
   if (!root) return tl::unexpected(root.error());
   VehicleParameters parameters;
   Entries in(*root, name);

@@ -89,7 +89,7 @@ TEST_CASE("a screen has the monitor that its rig names and none unless it does")
   CHECK(placed->screens[0].full_screen);
 }
 
-TEST_CASE("a wrong rig is refused with its line and a remedy") {
+TEST_CASE("a wrong rig is refused with its line and column and a remedy") {
   const auto refuse = [](const std::string& text, const std::string& where, const std::string& what) {
     const auto rig = read_rig(text, "my.toml");
     REQUIRE_FALSE(rig);
@@ -99,15 +99,15 @@ TEST_CASE("a wrong rig is refused with its line and a remedy") {
   };
   const std::string good = one_screen;
   REQUIRE(read_rig(good, "my.toml"));
-  refuse("eye_point_m = [0, 0", "my.toml:1", "");
-  refuse(good + "heigth_px = 3\n", "my.toml:8", "heigth_px");
-  refuse(good + "width_px = 5\n", "my.toml:8", "width_px");
-  refuse("eye_point_m = [0, 0, 1]\n", "my.toml:1", "no screen");
-  refuse(good + "monitor = 64\n", "my.toml:8", "monitor");
-  refuse(good + "full_screen = \"left\"\n", "my.toml:8", "full_screen");
-  refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9", "pigeon");
+  refuse("eye_point_m = [0, 0", "my.toml:1:20", "");
+  refuse(good + "heigth_px = 3\n", "my.toml:8:13", "heigth_px");
+  refuse(good + "width_px = 5\n", "my.toml:8:12", "width_px");
+  refuse("eye_point_m = [0, 0, 1]\n", "my.toml:1:1", "no screen");
+  refuse(good + "monitor = 64\n", "my.toml:8:11", "monitor");
+  refuse(good + "full_screen = \"left\"\n", "my.toml:8:15", "full_screen");
+  refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9:13", "pigeon");
   refuse("eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 0, 2]\n",
-         "my.toml:6", "rectangle");
+         "my.toml:6:16", "rectangle");
 }
 
 TEST_CASE("the keyboard that drives is the named screen's or those at the server's own machine") {

@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "engine/film_script/film_script.hpp"
 #include "engine/math/spherical_interpolation.hpp"
 #include "sim-client/film/camera.hpp"
-#include "engine/film_script/film_script.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::film {
@@ -230,7 +230,7 @@ TEST_CASE("a wrong script is refused with one message that names the line and th
     const std::string message = refusal_of(script.text);
     CAPTURE(script.text);
     CAPTURE(message);
-    CHECK(message.find(fmt::format("shots.toml:{}: ", script.line)) == 0);
+    CHECK(message.find(fmt::format("shots.toml:{}:", script.line)) == 0);
     CHECK(message.find(script.remedy) != std::string::npos);
   }
   std::string many;

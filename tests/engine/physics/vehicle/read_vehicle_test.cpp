@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "tests/engine/physics/vehicle/car.hpp"
@@ -11,6 +13,15 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   REQUIRE(at != std::string::npos);
   return text.replace(at, what.size(), with);
 }
+
+/// "NAME:LINE:COLUMN" of what follows `words`, or `behind` characters after their beginning.
+std::string place(const std::string& text, const std::string& name, const std::string& words, std::size_t behind = std::string::npos) {
+  const auto at = text.find(words);
+  REQUIRE(at != std::string::npos);
+  const auto line_begin = text.rfind('\n', at) + 1;
+  const auto column = at - line_begin + 1 + (behind == std::string::npos ? words.size() : behind);
+  return name + ":" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + ":" + std::to_string(column);
+}
 }  // namespace
 
 TEST_CASE("every number of a vehicle needs a source") {
@@ -20,17 +31,20 @@ TEST_CASE("every number of a vehicle needs a source") {
   const auto car = read_vehicle(text, "volvo-s80");
   REQUIRE(!car);
   CHECK(car.error().what == "has no source");
-  CHECK(car.error().where == "volvo-s80, body.wheelbase_m");
+  CHECK(car.error().where == place(text, "volvo-s80", "wheelbase_m = ") + ", body.wheelbase_m");
 }
 
-TEST_CASE("a misspelt entry of a vehicle is named") {
-  const auto car = read_vehicle(replaced(vehicle_text("volvo-s80"), "track_m", "trak_m"), "v");
+TEST_CASE("a misspelt entry of a vehicle is named and a missing one with the table that lacks it") {
+  const std::string text = replaced(vehicle_text("volvo-s80"), "track_m", "trak_m");
+  const auto car = read_vehicle(text, "v");
   REQUIRE(!car);
-  CHECK(car.error().where == "v, suspension.front.track_m");
-  const auto extra = read_vehicle(
-      vehicle_text("volvo-s80") + "\nlag_ms = { value = 1, source = \"assumed: nothing\" }\n", "v");
+  CHECK(car.error().what == "is missing");
+  CHECK(car.error().where == place(text, "v", "[suspension.front]", 0) + ", suspension.front.track_m");
+  const std::string longer = vehicle_text("volvo-s80") + "\nlag_ms = { value = 1, source = \"assumed: nothing\" }\n";
+  const auto extra = read_vehicle(longer, "v");
   REQUIRE(!extra);
   CHECK(extra.error().what == "is not known");
+  CHECK(extra.error().where.starts_with(place(longer, "v", "lag_ms = ") + ", "));
 }
 
 TEST_CASE("values out of bounds and broken tables are refused") {

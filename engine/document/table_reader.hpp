@@ -19,7 +19,7 @@ class array;
 }  // namespace v3
 }  // namespace toml
 
-namespace septet::rig {
+namespace septet::document {
 
 class TableReader {
  public:
@@ -36,8 +36,8 @@ class TableReader {
   std::vector<const toml::table*> get_tables(std::string_view key);
   const toml::table* get_table(std::string_view key);
   /// Reports a key that nobody asked for; `documented_in` is the file that lists those there are.
-  void finish(std::string_view documented_in = "rigs/README.md");
-  /// Reports with the line of `key`, or of the table where the key is absent.
+  void finish(std::string_view documented_in);
+  /// Reports with line and column of `key`, or of the table where the key is absent.
   void report(std::string_view key, std::string what, std::string remedy);
 
  private:
@@ -50,4 +50,4 @@ class TableReader {
   std::set<std::string, std::less<>> known_;
 };
 
-}  // namespace septet::rig
+}  // namespace septet::document

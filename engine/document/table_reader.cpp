@@ -1,11 +1,13 @@
-#include "engine/rig/table_reader.hpp"
+#include "engine/document/table_reader.hpp"
 
 #include <cmath>
 
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-namespace septet::rig {
+#include "engine/document/toml_table.hpp"
+
+namespace septet::document {
 
 TableReader::TableReader(const toml::table& table, std::string_view file, std::string title, Error& error)
     : table_(table), file_(file), title_(std::move(title)), error_(error) {}
@@ -19,7 +21,7 @@ void TableReader::report(std::string_view key, std::string what, std::string rem
   if (!error_.what.empty()) return;
   const toml::node* node = table_.get(key);
   const toml::node& place = node ? *node : static_cast<const toml::node&>(table_);
-  error_ = {std::move(what), fmt::format("{}:{}", file_, place.source().begin.line), std::move(remedy)};
+  error_ = {std::move(what), place_of(place, file_), std::move(remedy)};
 }
 
 std::string TableReader::get_string(std::string_view key, std::string fallback) {
@@ -106,4 +108,4 @@ void TableReader::finish(std::string_view documented_in) {
       report(key.str(), fmt::format("{} has no key \"{}\"", title_, key.str()), fmt::format("check its spelling against {}", documented_in));
 }
 
-}  // namespace septet::rig
+}  // namespace septet::document

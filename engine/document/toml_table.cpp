@@ -1,4 +1,4 @@
-#include "engine/core/parse_toml.hpp"
+#include "engine/document/toml_table.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-namespace septet {
+namespace septet::document {
 namespace {
 
 constexpr int most_parts = 16;
@@ -54,20 +54,25 @@ std::size_t find_long_key(std::string_view text) {
   return text.npos;
 }
 
+std::string text_of(const toml::source_position& place, std::string_view file) { return fmt::format("{}:{}:{}", file, place.line, place.column); }
+
 }  // namespace
+
+std::string place_of(const toml::node& node, std::string_view file) { return text_of(node.source().begin, file); }
 
 Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
   if (text.size() > most_bytes)
     return failure(fmt::format("is {} bytes long, and no more than {} are read as TOML", text.size(), most_bytes), std::string(file), "give a rig, a vehicle or a film script");
   if (const auto at = find_long_key(text); at != text.npos) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    return failure(fmt::format("a key has more than {} parts", most_parts), fmt::format("{}:{}", file, line), "write a shorter key");
+    const std::string_view before = text.substr(0, at);
+    const toml::source_position place{static_cast<toml::source_index>(1 + std::ranges::count(before, '\n')),
+                                      static_cast<toml::source_index>(at - (before.rfind('\n') + 1) + 1)};
+    return failure(fmt::format("a key has more than {} parts", most_parts), text_of(place, file), "write a shorter key");
   }
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    return failure(fmt::format("is not TOML: {}", error.description()), fmt::format("{}:{}", file, error.source().begin.line),
-                   "correct the TOML there");
+    return failure(fmt::format("is not TOML: {}", error.description()), text_of(error.source().begin, file), "correct the TOML there");
   }
 }
 
@@ -79,4 +84,4 @@ Expected<std::vector<std::string>> top_keys_of_toml(std::string_view text, std::
   });
 }
 
-}  // namespace septet
+}  // namespace septet::document

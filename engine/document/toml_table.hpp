@@ -13,16 +13,20 @@
 
 namespace toml {
 inline namespace v3 {
+class node;
 class table;
 }  // namespace v3
 }  // namespace toml
 
-namespace septet {
+namespace septet::document {
 
-/// The table of a whole file, for .cpp files that include toml++; an Error names the line that is not TOML.
+/// The table of a whole file, for .cpp files that include toml++; an Error names line and column of what is not TOML.
 Expected<toml::table> parse_toml(std::string_view text, std::string_view file);
+
+/// Where a value of that file stands: "FILE:LINE:COLUMN".
+std::string place_of(const toml::node& node, std::string_view file);
 
 /// The keys at the top of a file, by which one tells what it describes.
 Expected<std::vector<std::string>> top_keys_of_toml(std::string_view text, std::string_view file);
 
-}  // namespace septet
+}  // namespace septet::document
