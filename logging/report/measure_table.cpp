@@ -4,10 +4,12 @@
 
 #include <fmt/core.h>
 
-#include "logging/report/chart.hpp"
+#include "engine/document/markup.hpp"
 
 namespace septet::logging {
 namespace {
+
+using document::escaped;
 
 class Rows {
  public:

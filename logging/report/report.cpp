@@ -6,13 +6,16 @@
 
 #include <fmt/core.h>
 
+#include "engine/document/chart.hpp"
+#include "engine/document/markup.hpp"
 #include "engine/document/text_file.hpp"
-#include "logging/report/chart.hpp"
 #include "logging/report/measure_table.hpp"
 #include "logging/report/report_style.hpp"
 
 namespace septet::logging {
 namespace {
+
+using document::escaped;
 
 std::string tile(std::string_view value, std::string_view unit, std::string_view name) {
   return fmt::format("<div class=\"tile\"><b>{} <small>{}</small></b><span>{}</span></div>\n",
@@ -106,56 +109,51 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
 }
 
 std::string speed_chart(const ReportData& data, const DriveMeasures& measures) {
-  LineChart chart{.title = "Speed",
-                  .x_label = "simulated time, s",
-                  .y_label = "km/h",
-                  .line = {},
-                  .marks = {},
-                  .band_low = {},
-                  .band_high = {},
-                  .y_low = 0.0,
-                  .y_high = std::max(20.0, measures.speed_largest_mps * 3.6 * 1.05)};
+  document::LineChart chart;
+  chart.title = "Speed";
+  chart.x_label = "simulated time, s";
+  chart.y_label = "km/h";
+  chart.y = {0.0, std::max(20.0, measures.speed_largest_mps * 3.6 * 1.05)};
+  document::Series speed;
   for (const Sample& sample : data.samples)
-    chart.line.push_back({sample.simulated_time_s, sample.speed_mps * 3.6});
+    speed.points.push_back({sample.simulated_time_s, sample.speed_mps * 3.6});
+  chart.series = {std::move(speed)};
   for (const Event& event : data.events)
     if (event.kind == "collision")
       chart.marks.push_back({event.simulated_time_s, "✕",
                              "collision at " + fmt::format("{:.1f} s", event.simulated_time_s)});
   return figure(
-      to_svg(chart),
+      document::to_svg(chart),
       "Speed of the driver's car along its own axis, ten samples a second. ✕ marks a collision.");
 }
 
 std::string lateral_position_chart(const ReportData& data, const DriveMeasures& measures) {
-  LineChart chart{.title = "Lateral position",
-                  .x_label = "simulated time, s",
-                  .y_label = "m, left of the lane's centre is up",
-                  .line = {},
-                  .marks = {},
-                  .band_low = {},
-                  .band_high = {},
-                  .y_low = -2.0,
-                  .y_high = 2.0};
-  double half_lane_m = 1.75;
+  document::LineChart chart;
+  chart.title = "Lateral position";
+  chart.x_label = "simulated time, s";
+  chart.y_label = "m, left of the lane's centre is up";
+  std::vector<document::Point> line;
+  double half_lane_m = 1.75, largest_m = 2.0;
   for (const Sample& sample : data.samples) {
     const bool in_lane = sample.lane != 0 && sample.lane_width_m > 0.0;
     if (in_lane) half_lane_m = sample.lane_width_m / 2.0;
     // The jump from one lane's edge to the other's is no movement: lift the pen.
-    const bool jumped = !chart.line.empty() &&
-                        std::abs(chart.line.back().y - sample.lateral_position_m) > half_lane_m;
-    if (jumped) chart.line.push_back({sample.simulated_time_s, std::nan("")});
-    chart.line.push_back(
+    const bool jumped = !line.empty() &&
+                        std::abs(line.back().y - sample.lateral_position_m) > half_lane_m;
+    if (jumped) line.push_back({sample.simulated_time_s, std::nan("")});
+    line.push_back(
         {sample.simulated_time_s, in_lane ? sample.lateral_position_m : std::nan("")});
     chart.band_low.push_back({sample.simulated_time_s, -half_lane_m});
     chart.band_high.push_back({sample.simulated_time_s, half_lane_m});
-    chart.y_high = std::max(chart.y_high, half_lane_m * 1.1);
+    largest_m = std::max(largest_m, half_lane_m * 1.1);
   }
-  chart.y_low = -chart.y_high;
+  chart.series = {{"", std::move(line)}};
+  chart.y = {-largest_m, largest_m};
   for (const LaneChange& change : measures.lane_changes)
     chart.marks.push_back({change.simulated_time_s, change.lanes_to_left > 0 ? "▲" : "▼",
                            fmt::format("{:.1f} s: lane {} to lane {}", change.simulated_time_s,
                                        change.from_lane, change.to_lane)});
-  return figure(to_svg(chart),
+  return figure(document::to_svg(chart),
                 "Offset of the middle of the car's front axle from the centre of "
                 "the lane it is in; the shaded band is "
                 "the lane between its lines. ▲ marks a lane change to the left and ▼ one to the "
@@ -167,7 +165,7 @@ std::string histogram_chart(const DriveMeasures& measures) {
   using Histogram = LateralPositionHistogram;
   const Histogram& histogram = measures.histogram;
   // Mirrored, so that the left-hand line is at the left, as the driver sees it.
-  BarChart chart{.title = "Lateral position within the lane",
+  document::BarChart chart{.title = "Lateral position within the lane",
                  .x_label = "offset from the lane's centre, in lane widths",
                  .y_label = "% of samples",
                  .bars = {},
@@ -185,7 +183,7 @@ std::string histogram_chart(const DriveMeasures& measures) {
          fmt::format("{:+.3f} to {:+.3f}: {} samples, {:.1f} %", Histogram::edge(i),
                      Histogram::edge(i + 1), histogram.counts[i], percent)});
   }
-  return figure(to_svg(chart),
+  return figure(document::to_svg(chart),
                 fmt::format("21 equal intervals across the lane, closed at their right-hand edge, "
                             "the centre one dark; lane changes included. Of {} samples "
                             "{:.1f} % lie in the centre interval, {} beyond the left-hand line, {} "

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/document/chart_page.hpp"
 #include "engine/document/figure_text.hpp"
 #include "engine/math/angle_units.hpp"
-#include "sim-server/command/line_chart.hpp"
 
 namespace septet::server {
 namespace {
@@ -83,15 +83,16 @@ std::string series_csv(const ManoeuvreReport& report) {
 }
 
 std::string manoeuvre_svg(const std::string& vehicle, const ManoeuvreReport& report) {
-  std::vector<LineChart> charts;
+  document::ChartPage page{.title = fmt::format("{}: {}", vehicle, report.manoeuvre), .lines = {report.standard}, .charts = {}, .notes = document::figure_notes(report.figures)};
   for (const Panel& panel : panels_of(report.manoeuvre)) {
-    LineChart chart{panel.x.label, panel.y.label, {}};
-    for (const ManoeuvreSample& sample : report.series)
-      chart.points.push_back({panel.x.of(sample), panel.y.of(sample)});
-    charts.push_back(std::move(chart));
+    document::Series series;
+    for (const ManoeuvreSample& sample : report.series) series.points.push_back({panel.x.of(sample), panel.y.of(sample)});
+    document::LineChart& chart = page.charts.emplace_back();
+    chart.x_label = panel.x.label;
+    chart.y_label = panel.y.label;
+    chart.series = {std::move(series)};
   }
-  return chart_page_svg(fmt::format("{}: {}", vehicle, report.manoeuvre), report.standard, charts,
-                        document::figure_notes(report.figures));
+  return document::to_svg(page);
 }
 
 }  // namespace septet::server

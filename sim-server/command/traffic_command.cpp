@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/document/chart_page.hpp"
 #include "engine/document/figure_text.hpp"
 #include "engine/document/text_file.hpp"
 #include "engine/traffic/fundamental_diagram.hpp"
-#include "sim-server/command/line_chart.hpp"
 
 namespace septet::server {
 namespace {
@@ -88,21 +88,24 @@ std::string points_csv(const std::vector<FlowPoint>& points) {
 }
 
 std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& diagram) {
-  const auto chart = [](const std::vector<FlowPoint>& points, const char* label,
+  const auto chart_of = [](const std::vector<FlowPoint>& points, const char* label,
                         double FlowPoint::*value) {
-    LineChart line{"density, vehicles/km/lane", label, {}};
-    for (const FlowPoint& point : points)
-      line.points.push_back({point.density_per_km, point.*value});
-    return line;
+    document::LineChart chart;
+    chart.x_label = "density, vehicles/km/lane";
+    chart.y_label = label;
+    document::Series series;
+    for (const FlowPoint& point : points) series.points.push_back({point.density_per_km, point.*value});
+    chart.series = {std::move(series)};
+    return chart;
   };
-  return chart_page_svg(
-      "Traffic: fundamental diagram",
-      fmt::format("Motorway mix on a ring of 4 km, {} lanes, seed {}", options.lanes, options.seed),
-      {chart(diagram.measured, "flow, vehicles/h/lane", &FlowPoint::flow_per_h),
-       chart(diagram.equilibrium, "flow of equal cars in equilibrium", &FlowPoint::flow_per_h),
-       chart(diagram.measured, "speed, m/s", &FlowPoint::speed_mps),
-       chart(diagram.measured, "deviation of speed, m/s", &FlowPoint::deviation_mps)},
-      document::figure_notes(diagram.figures));
+  return document::to_svg(document::ChartPage{
+      .title = "Traffic: fundamental diagram",
+      .lines = {fmt::format("Motorway mix on a ring of 4 km, {} lanes, seed {}", options.lanes, options.seed)},
+      .charts = {chart_of(diagram.measured, "flow, vehicles/h/lane", &FlowPoint::flow_per_h),
+                 chart_of(diagram.equilibrium, "flow of equal cars in equilibrium", &FlowPoint::flow_per_h),
+                 chart_of(diagram.measured, "speed, m/s", &FlowPoint::speed_mps),
+                 chart_of(diagram.measured, "deviation of speed, m/s", &FlowPoint::deviation_mps)},
+      .notes = document::figure_notes(diagram.figures)});
 }
 
 }  // namespace

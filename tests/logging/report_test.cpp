@@ -9,7 +9,6 @@
 
 #include "engine/document/text_file.hpp"
 #include "logging/drive_observer.hpp"
-#include "logging/report/chart.hpp"
 #include "logging/report/summary.hpp"
 #include "tests/logging/sample_series.hpp"
 #include "tests/logging/session_fixture.hpp"
@@ -168,22 +167,6 @@ TEST_CASE("an empty session makes a report that says so") {
   CHECK(html.find("holds no samples") != std::string::npos);
   CHECK(html.find("no clean end") != std::string::npos);
   CHECK(count_of(html, "<svg") == 0);
-}
-
-TEST_CASE("ticks are round numbers within the range") {
-  CHECK(round_ticks(0, 100, 5) == std::vector<double>{0, 20, 40, 60, 80, 100});
-  CHECK(round_ticks(-2, 2, 5) == std::vector<double>{-2, -1, 0, 1, 2});
-  CHECK(round_ticks(3, 3, 5) == std::vector<double>{3});
-}
-
-TEST_CASE("a line of many samples is thinned and keeps its highest peak") {
-  LineChart chart;
-  for (int i = 0; i < 100000; ++i) chart.line.push_back({static_cast<double>(i), 0.0});
-  chart.line[54321].y = 1.0;
-  chart.y_high = 1.0;
-  const std::string svg = to_svg(chart);
-  CHECK(svg.size() < 60000);
-  CHECK(svg.find(" 38.0") != std::string::npos);  // The plot's upper edge is at y = 38.
 }
 
 TEST_CASE("a report that cannot be written is one clear error and leaves nothing behind") {

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "tests/benchmarks/figures/plot.hpp"
+#include "engine/document/chart_page.hpp"
+#include "engine/document/text_file.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
 #include "tests/engine/physics/elastic/swinging_cube.hpp"
 
@@ -18,6 +21,26 @@ namespace septet::figures {
 namespace {
 
 using namespace septet::elastic;
+using document::Range;
+using document::Series;
+using document::Stroke;
+
+struct Plot {
+  std::string title, x_label, y_label;
+  std::string claim;     ///< What the paper says.
+  std::string measured;  ///< What came out here.
+  std::vector<Series> series;
+  std::optional<Range> y;
+};
+
+std::string to_svg(const Plot& plot) {
+  document::LineChart chart;
+  chart.x_label = plot.x_label;
+  chart.y_label = plot.y_label;
+  chart.series = plot.series;
+  chart.y = plot.y;
+  return document::to_svg(document::ChartPage{.title = plot.title, .lines = {"Paper: " + plot.claim, "Here: " + plot.measured}, .charts = {chart}, .notes = {}});
+}
 
 Plot swinging_cube_figure() {
   using swinging_cube::Stepper;
@@ -25,25 +48,24 @@ Plot swinging_cube_figure() {
             "time, s",
             "height, m",
             "linear implicit Euler takes 35 % longer at 0.05 s, the regularised stepper keeps time",
-            "",
-            {},
-            0,
-            0};
+            "", {}, {}};
   double regularised_s = 0.0, implicit_s = 0.0;
+  std::vector<double> heights;
   for (const auto& [name, stepper, dt, mark] :
-       {std::tuple{"implicit Euler, 0.05 s", Stepper::implicit_euler, 0.05, Mark::dots},
-        std::tuple{"implicit Euler, 0.005 s", Stepper::implicit_euler, 0.005, Mark::dashed},
-        std::tuple{"regularised, 0.05 s", Stepper::regularised, 0.05, Mark::dots},
-        std::tuple{"regularised, 0.005 s", Stepper::regularised, 0.005, Mark::line}}) {
-    Series series{name, mark, {}, swinging_cube::heights(stepper, dt, 3.0, 2.0)};
-    for (std::size_t i = 0; i < series.y.size(); ++i)
-      series.x.push_back(dt * static_cast<double>(i));
+       {std::tuple{"implicit Euler, 0.05 s", Stepper::implicit_euler, 0.05, Stroke::dots},
+        std::tuple{"implicit Euler, 0.005 s", Stepper::implicit_euler, 0.005, Stroke::dashed},
+        std::tuple{"regularised, 0.05 s", Stepper::regularised, 0.05, Stroke::dots},
+        std::tuple{"regularised, 0.005 s", Stepper::regularised, 0.005, Stroke::line}}) {
+    heights = swinging_cube::heights(stepper, dt, 3.0, 2.0);
+    Series series{name, {}, mark};
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      series.points.push_back({dt * static_cast<double>(i), heights[i]});
     if (dt == 0.05)
       (stepper == Stepper::regularised ? regularised_s : implicit_s) =
-          swinging_cube::time_of_minimum_s(series.y, dt);
+          swinging_cube::time_of_minimum_s(heights, dt);
     plot.series.push_back(std::move(series));
   }
-  const double reference_s = swinging_cube::time_of_minimum_s(plot.series.back().y, 0.005);
+  const double reference_s = swinging_cube::time_of_minimum_s(heights, 0.005);
   plot.measured = fmt::format(
       "time to the minimum at 0.05 s: {:+.0f} % with implicit Euler, {:+.1f} % regularised",
       100 * (implicit_s / reference_s - 1), 100 * (regularised_s / reference_s - 1));
@@ -52,13 +74,13 @@ Plot swinging_cube_figure() {
 
 Plot pull_figure() {
   Plot plot{
-      "Figure 8: pull and push of a beam", "F / YA", "ΔL / L", "fits Hooke's law", "", {}, 0, 0};
-  Series hooke{"Hooke: F / YA", Mark::dashed, {}, {}};
-  Series exact{"St. Venant-Kirchhoff: s(s²-1)/2 = F / YA", Mark::line, {}, {}};
+      "Figure 8: pull and push of a beam", "F / YA", "ΔL / L", "fits Hooke's law", "", {}, {}};
+  Series hooke{"Hooke: F / YA", {}, Stroke::dashed};
+  Series exact{"St. Venant-Kirchhoff: s(s²-1)/2 = F / YA", {}, Stroke::line};
   for (int k = -10; k <= 10; ++k) {
     const double load = 0.01 * k;
-    hooke.x.push_back(load), hooke.y.push_back(load);
-    exact.x.push_back(load), exact.y.push_back(beam::st_venant_kirchhoff_strain(load));
+    hooke.points.push_back({load, load});
+    exact.points.push_back({load, beam::st_venant_kirchhoff_strain(load)});
   }
   double worst = 0.0;
   plot.series = {hooke, exact};
@@ -66,20 +88,18 @@ Plot pull_figure() {
        {std::tuple{"105 tetrahedra, pulled at both ends", 1, true},
         std::tuple{"105 tetrahedra, clamped", 1, false},
         std::tuple{"840 tetrahedra, pulled at both ends", 2, true}}) {
-    Series series{name, Mark::dots, {}, {}};
+    Series series{name, {}, Stroke::dots};
     for (const double load : {0.001, 0.02, 0.04, 0.06, 0.08, 0.1}) {
-      series.x.push_back(load);
-      series.y.push_back(beam::static_stretch(cells, load, free));
+      series.points.push_back({load, beam::static_stretch(cells, load, free)});
       worst =
-          std::max(worst, std::abs(series.y.back() / beam::st_venant_kirchhoff_strain(load) - 1));
+          std::max(worst, std::abs(series.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
     }
     plot.series.push_back(std::move(series));
   }
-  Series push{"pushed block of 40 tetrahedra", Mark::dots, {}, {}};
+  Series push{"pushed block of 40 tetrahedra", {}, Stroke::dots};
   for (const double load : {-0.02, -0.04, -0.06, -0.08, -0.1}) {
-    push.x.push_back(load);
-    push.y.push_back(beam::static_push_strain(2, load));
-    worst = std::max(worst, std::abs(push.y.back() / beam::st_venant_kirchhoff_strain(load) - 1));
+    push.points.push_back({load, beam::static_push_strain(2, load)});
+    worst = std::max(worst, std::abs(push.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
   }
   plot.series.push_back(std::move(push));
   plot.measured = fmt::format(
@@ -93,18 +113,14 @@ Plot twist_figure() {
             "τL / μK, rad",
             "twist of the end, rad",
             "105 tetrahedra fit theory, with a clear dependence on the mesh",
-            "",
-            {},
-            0,
-            0};
-  plot.series.push_back({"theory: τL / μK", Mark::dashed, {0, 0.001}, {0, 0.001}});
+            "", {}, {}};
+  plot.series.push_back({"theory: τL / μK", {{0, 0}, {0.001, 0.001}}, Stroke::dashed});
   std::string ratios;
   for (const auto& [cells, count] : {std::pair{1, 105}, std::pair{2, 840}, std::pair{4, 6720}}) {
     const double ratio = beam::static_twist_ratio(cells);
-    Series series{fmt::format("{} tetrahedra", count), Mark::line, {}, {}};
+    Series series{fmt::format("{} tetrahedra", count), {}, Stroke::line};
     for (int k = 0; k <= 10; ++k) {
-      series.x.push_back(1e-4 * k);
-      series.y.push_back(ratio * 1e-4 * k);
+      series.points.push_back({1e-4 * k, ratio * 1e-4 * k});
     }
     ratios += fmt::format("{}{:.2f}", ratios.empty() ? "" : ", ", ratio);
     plot.series.push_back(std::move(series));
@@ -119,10 +135,7 @@ Plot energy_figure() {
             "time, s",
             "energy, J",
             "dissipation increases with decreasing time step",
-            "",
-            {},
-            0,
-            0};
+            "", {}, {}};
   std::string kept;
   for (const double dt : {0.02, 0.01, 0.005, 0.0025}) {
     ElasticBody body = beam::make(1, {8e3, 0.25, 10.0 / (beam::area_m2 * beam::length_m)});
@@ -131,12 +144,11 @@ Plot energy_figure() {
     settings.step_s = dt;
     settings.damping_ratio = 0.0;  // As published: no damping but the stepper's own.
     settings.gravity_mps2 = {0, -9.81, 0};
-    Series series{fmt::format("Δt = {} ms", 1e3 * dt), Mark::line, {}, {}};
+    Series series{fmt::format("Δt = {} ms", 1e3 * dt), {}, Stroke::line};
     double late = 0.0;
     for (double t = 0.0; t < 12.0; t += dt) {
       step_elastic(body, settings);
-      series.x.push_back(t + dt);
-      series.y.push_back(elastic_energy_j(body));
+      series.points.push_back({t + dt, elastic_energy_j(body)});
       if (t > 9.0) late = std::max(late, kinetic_energy_j(body));
     }
     kept += fmt::format("{}{:.2g} J", kept.empty() ? "" : ", ", late);
@@ -175,23 +187,18 @@ Plot time_figure() {
             "tetrahedra",
             "time, ms",
             "linear in the number of tetrahedra; 15 ms at 200 of them (Pentium 4, eq. 21)",
-            "",
-            {},
-            0,
-            0};
-  Series direct{"direct", Mark::line, {}, {}}, factor{"factor at rest", Mark::line, {}, {}};
+            "", {}, {}};
+  Series direct{"direct", {}, Stroke::line}, factor{"factor at rest", {}, Stroke::line};
   for (const int cells : {10, 20, 40, 80, 120, 160, 200, 300, 400}) {
     for (Series* s : {&direct, &factor}) {
-      s->x.push_back(5 * cells);
-      s->y.push_back(median_step_ms(cells, s == &direct ? Solver::direct : Solver::rest_factor));
+      s->points.push_back({5.0 * cells, median_step_ms(cells, s == &direct ? Solver::direct : Solver::rest_factor)});
     }
   }
   plot.measured = fmt::format(
       "{:.3f} ms at 200, {:.2f} ms at 2000 tetrahedra, direct; {:.2f} ms with the factor at rest",
-      direct.y[2], direct.y.back(), factor.y.back());
+      direct.points[2].y, direct.points.back().y, factor.points.back().y);
   plot.series = {direct, factor};
-  plot.y_low = 0.0;
-  plot.y_high = 1.1 * std::max(direct.y.back(), factor.y.back());
+  plot.y = Range{0.0, 1.1 * std::max(direct.points.back().y, factor.points.back().y)};
   return plot;
 }
 
@@ -213,10 +220,8 @@ int main(int argc, char** argv) {
         std::pair{"elastic-11-time", &time_figure}}) {
     const Plot plot = make();
     const auto path = std::filesystem::path(folder) / (std::string(name) + ".svg");
-    std::ofstream file(path);
-    file << to_svg(plot);
-    if (!file.flush()) {
-      fmt::print(stderr, "{} cannot be written: choose a folder that can\n", path.string());
+    if (const auto written = septet::document::write_text_file(path, to_svg(plot)); !written) {
+      fmt::print(stderr, "{}\n", describe(written.error()));
       return 1;
     }
     fmt::print("{}\n  paper: {}\n  here:  {}\n", path.string(), plot.claim, plot.measured);
