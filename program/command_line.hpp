@@ -4,6 +4,7 @@
 #include <charconv>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,18 @@ inline CLI::Validator seed_number() {
             return fmt::format("{} is not a whole number from 0 to {}", text, ~std::uint64_t{0});
           },
           ""};
+}
+
+/// The commands there are, where the first word is none of them: the parser's own message does not name that word.
+inline std::optional<std::string> commands_instead_of(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  if (word.starts_with('-')) return std::nullopt;
+  std::string commands;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_name() == word) return std::nullopt;
+    commands += (commands.empty() ? "" : ", ") + command->get_name();
+  }
+  return commands;
 }
 
 /// Reads the command line, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.

@@ -1,0 +1,41 @@
+#pragma once
+/// The commands of `septet` with their options.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "sim-server/command/check_command.hpp"
+#include "sim-server/command/drive_command.hpp"
+#include "sim-server/command/traffic_command.hpp"
+#include "sim-server/command/vehicle_command.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace septet::server {
+
+/// What the command line says. The parser writes it, so it must stay where it is.
+struct Options {
+  DriveOptions drive, replay;
+  bool verify = false;
+  std::vector<std::string> film;  ///< What septet-film is told.
+  std::string session;
+  std::filesystem::path report_out;
+  VehicleTestOptions track;
+  double track_speed_kmh = 0.0;
+  TrafficDiagramOptions diagram;
+  std::string road_file, rig_name, kind;
+  std::filesystem::path keys_out = "keys";
+  CheckOptions check;
+  std::function<Expected<int>()> work;  ///< Of the command that was chosen.
+};
+
+void add_drive_commands(CLI::App& app, Options& options);  ///< drive, replay, film, report.
+void add_track_commands(CLI::App& app, Options& options);  ///< vehicle, traffic.
+void add_file_commands(CLI::App& app, Options& options);   ///< road, rig, list, check.
+
+}  // namespace septet::server
