@@ -31,8 +31,9 @@ double slope(const std::vector<ManoeuvreSample>& series,
   return n < 2 ? 0.0 : (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+template <class Quantity>
 double mean_over(const std::vector<ManoeuvreSample>& series, double from_s, double to_s,
-                 double (*quantity)(const ManoeuvreSample&)) {
+                 const Quantity& quantity) {
   double sum = 0.0, n = 0.0;
   for (const ManoeuvreSample& s : series)
     if (s.time_s >= from_s && s.time_s <= to_s) {
@@ -107,36 +108,39 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
     slow.speed_mps = speed_mps;
     steer_rad = steady_circle(parameters, slow).figure("steer at 4 m/s2");
   }
+  const double side = steer_rad < 0.0 ? -1.0 : 1.0;  // Response times and overshoots are those of the side that is steered to.
+  const double steered_s = std::abs(steer_rad) / rate_radps;
   ManoeuvreCar car(parameters, options, speed_mps);
   car.begin();
   while (car.time_s() < 6.0) {  // The throttle stays where straight running left it.
     car.record();
-    car.advance(std::min(steer_rad, car.time_s() * rate_radps));
+    car.advance(side * std::min(std::abs(steer_rad), car.time_s() * rate_radps));
   }
   const auto& series = car.series();
-  const auto yaw = [](const ManoeuvreSample& s) { return s.yaw_rate_radps; };
+  const auto yaw = [side](const ManoeuvreSample& s) { return side * s.yaw_rate_radps; };
+  const auto sideways = [side](const ManoeuvreSample& s) { return side * lateral(s); };
   const double yaw_steady = mean_over(series, 3.0, 4.0, yaw);
-  const double lateral_steady = mean_over(series, 3.0, 4.0, lateral);
+  const double lateral_steady = mean_over(series, 3.0, 4.0, sideways);
   // Response times count from half of the steering input (ISO 7401, 10.2).
-  const double half_s = 0.5 * steer_rad / rate_radps;
+  const double half_s = 0.5 * steered_s;
   const auto time = [](const ManoeuvreSample& s) { return s.time_s; };
   double yaw_peak = 0.0, lateral_peak = 0.0;
   for (const ManoeuvreSample& s : series) {
-    yaw_peak = std::max(yaw_peak, s.yaw_rate_radps);
-    lateral_peak = std::max(lateral_peak, s.lateral_acceleration_mps2);
+    yaw_peak = std::max(yaw_peak, yaw(s));
+    lateral_peak = std::max(lateral_peak, sideways(s));
   }
-  return {
+  ManoeuvreReport report{
       "step-steer",
       "ISO 7401, step input",
       {{"speed", speed_mps * 3.6, "km/h"},
        {"wanted lateral acceleration", wanted_mps2, "m/s2"},
        {"steer", steer_rad, "rad"},
-       {"steady yaw rate", yaw_steady, "rad/s"},
-       {"steady lateral acceleration", lateral_steady, "m/s2"},
+       {"steady yaw rate", side * yaw_steady, "rad/s"},
+       {"steady lateral acceleration", side * lateral_steady, "m/s2"},
        {"yaw rate t90", first_crossing(series, yaw, 0.9 * yaw_steady, time) - half_s, "s"},
        {"yaw rate overshoot", (yaw_peak / yaw_steady - 1.0) * 100.0, "%"},
        {"lateral acceleration t90",
-        first_crossing(series, lateral, 0.9 * lateral_steady, time) - half_s, "s"},
+        first_crossing(series, sideways, 0.9 * lateral_steady, time) - half_s, "s"},
        {"lateral acceleration overshoot", (lateral_peak / lateral_steady - 1.0) * 100.0, "%"},
        {"steady sideslip",
         mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) *
@@ -146,6 +150,10 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
         mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian,
         "deg"}},
       series};
+  if (steered_s > 2.0)
+    report.faults.push_back(fmt::format(
+        "the steering takes {:.1f} s to its end: what is called steady is not, and response times say nothing", steered_s));
+  return report;
 }
 
 }  // namespace septet::vehicle

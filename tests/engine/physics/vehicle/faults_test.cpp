@@ -43,6 +43,25 @@ TEST_CASE("a speed that was not reached is a fault and no figure") {
   for (const Figure& figure : endless.figures) CHECK(figure.value < 350.0);
 }
 
+TEST_CASE("a step of steer to the right answers as one to the left and one that takes too long is a fault") {
+  ManoeuvreOptions left, right, endless;
+  left.steer_rad = 0.04;
+  right.steer_rad = -0.04;
+  endless.steer_rad = 1.5;
+  const ManoeuvreReport one = run("step-steer", "volvo-s80", left), other = run("step-steer", "volvo-s80", right);
+  CHECK(one.faults.empty());
+  CHECK(other.faults.empty());
+  CHECK(one.figure("steady yaw rate") > 0.1);
+  CHECK(one.figure("yaw rate t90") > 0.0);
+  CHECK(other.figure("steady yaw rate") == doctest::Approx(-one.figure("steady yaw rate")).epsilon(0.02));
+  for (const char* same : {"yaw rate t90", "lateral acceleration t90"}) {
+    CAPTURE(same);
+    CHECK(std::abs(other.figure(same) - one.figure(same)) < 0.02);
+  }
+  CHECK(std::abs(other.figure("yaw rate overshoot") - one.figure("yaw rate overshoot")) < 2.0);
+  CHECK(says(run("step-steer", "volvo-s80", endless), "the steering takes 3.8 s"));
+}
+
 TEST_CASE("a stop that does not end and a coast-down without drag are faults") {
   ManoeuvreOptions slippery;
   slippery.friction = 0.01;
