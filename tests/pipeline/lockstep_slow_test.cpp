@@ -118,7 +118,7 @@ TEST_CASE("in lockstep the first frame of a screen is waited for as long as its 
   std::optional<double> begun_s;
   lockstep.serve(1.0, [&] {
     if (!begun_s && !lockstep.shown[0].empty()) begun_s = lockstep.rig.now_s();
-    lockstep.rig.screen(1).hung = !begun_s || lockstep.rig.now_s() < *begun_s + 2.0 * patience_s;
+    lockstep.rig.screen(1).hung = !begun_s || lockstep.rig.now_s() < *begun_s + 1.5 * patience_s;
   });
   CHECK(std::ranges::none_of(lockstep.messages, [](const std::string& text) { return text.find("go on without it") != std::string::npos; }));
   CHECK(lockstep.shown[1] == lockstep.shown[0]);
