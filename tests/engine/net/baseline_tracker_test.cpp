@@ -78,5 +78,32 @@ TEST_CASE("a tracker remembers a bounded number of ticks per client") {
   CHECK(tracker.baseline() == 7);
 }
 
+TEST_CASE("a client is live for exactly half a second of silence and nobody acknowledges a tick twice") {
+  BaselineTracker tracker({.silence_s = 0.5, .history = 2});
+  tracker.join(1, 0.0);
+  for (const std::uint64_t tick : {3, 4, 4, 4}) tracker.acknowledge(1, tick, 0.0);
+  tracker.advance_to(0.5);
+  CHECK(tracker.is_live(1));
+  // Were a tick remembered each time that it is acknowledged, the older ones would be forgotten for it.
+  tracker.join(2, 0.5);
+  tracker.acknowledge(2, 3, 0.5);
+  CHECK(tracker.baseline() == 3);
+  tracker.advance_to(0.5625);
+  CHECK_FALSE(tracker.is_live(1));
+  CHECK(tracker.live_count() == 1);
+  tracker.acknowledge(7, 3, 0.6);  // Of somebody who never joined.
+  CHECK(tracker.live_count() == 1);
+}
+
+TEST_CASE("a client that joins anew has acknowledged nothing") {
+  BaselineTracker tracker;
+  tracker.join(1, 0.0);
+  tracker.acknowledge(1, 9, 0.1);
+  CHECK(tracker.baseline() == 9);
+  tracker.join(1, 0.2);
+  CHECK(tracker.is_live(1));
+  CHECK_FALSE(tracker.baseline());
+}
+
 }  // namespace
 }  // namespace septet::net

@@ -62,6 +62,20 @@ TEST_CASE("overlaps contradictions and excess are refused") {
   CHECK(second_is_refused(fragment(0, 9, 2, a), fragment(0, 9, 0, {})));
 }
 
+TEST_CASE("as many messages may be under way as a window holds of the smallest and no more") {
+  const Bytes a = bytes_of("abc");
+  for (const std::uint64_t ahead : {1000u / 32 + 1, 1000u / 32 + 2}) {
+    ReliableReceiver receiver(1000, 1000);
+    std::vector<Bytes> completed;
+    CHECK(receiver.accept(fragment(ahead, 3, 0, a), completed) == (ahead == 1000 / 32 + 1));
+  }
+  ReliableReceiver receiver(1000, 1000);
+  std::vector<Bytes> completed;
+  CHECK(receiver.accept(fragment(0, 1000, 0, a), completed));
+  CHECK(receiver.bytes_held() == 1000);
+  CHECK_FALSE(ReliableReceiver(1000, 1000).accept(fragment(0, 1001, 0, a), completed));
+}
+
 TEST_CASE("what an authenticated client can make a receiver hold is bounded") {
   ReliableReceiver receiver(1000, 3200);
   std::vector<Bytes> completed;

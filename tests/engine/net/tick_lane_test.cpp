@@ -3,43 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/net/tick_publisher.hpp"
-#include "engine/net/tick_receiver.hpp"
-#include "tests/engine/net/net_fixtures.hpp"
+#include "tests/engine/net/tick_fixtures.hpp"
 
 namespace septet::net {
 namespace {
-
-const Address group{0xef070707, 4750};
-
-// Keeps what a publisher sends.
-class Recorder final : public DatagramSocket {
- public:
-  bool send(const Address&, std::span<const std::byte> bytes) override {
-    datagrams.emplace_back(bytes.begin(), bytes.end());
-    return true;
-  }
-  void flush() override {}
-  std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
-  std::size_t receive_buffer_bytes() const override { return 0; }
-  std::vector<Bytes> datagrams;
-};
-
-std::vector<Bytes> datagrams_of(std::uint64_t tick, const Bytes& payload,
-                                const TickPublisherOptions& options = {}, std::uint8_t key = 1,
-                                std::uint8_t session = 1) {
-  Recorder recorder;
-  TickPublisher publisher(recorder, identity_of(key), session_of(session), options);
-  publisher.add_destination(group);
-  publisher.publish(tick, payload);
-  return recorder.datagrams;
-}
-
-TickReceiver following(std::uint8_t session = 1) {
-  TickReceiver receiver(identity_of(1).public_key());
-  receiver.follow(session_of(session));
-  return receiver;
-}
 
 TEST_CASE("a tick of any size arrives whole and no datagram exceeds the limit") {
   for (const std::size_t size : {0u, 1u, 1073u, 1074u, 4000u, 10000u, 70000u, 262144u}) {
@@ -197,58 +164,25 @@ TEST_CASE("truncated oversized and random datagrams change nothing and are count
   CHECK(receiver.bytes_held() == 0);
 }
 
-TEST_CASE("replayed ticks of this run and of an earlier run are refused") {
-  Recorder recorder;
-  TickPublisher publisher(recorder, identity_of(1), session_of(2), {.repeat_previous = false});
+TEST_CASE("what the socket refuses is counted and what every destination gets counts for each") {
+  struct Full final : DatagramSocket {
+    bool send(const Address& to, std::span<const std::byte>) override { return to == group; }
+    void flush() override {}
+    std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
+    std::size_t receive_buffer_bytes() const override { return 0; }
+  } socket;
+  TickPublisher publisher(socket, identity_of(1), session_of(1), {.repeat_previous = false});
   publisher.add_destination(group);
-  for (std::uint64_t tick = 1; tick <= 20; ++tick) publisher.publish(tick, random_bytes(50, tick));
-  TickReceiver receiver = following(2);
-  for (const Bytes& datagram : recorder.datagrams) receiver.accept(datagram);
-  CHECK(receiver.counters().ticks == 20);
-  for (const Bytes& datagram : recorder.datagrams) receiver.accept(datagram);
-  CHECK(receiver.counters().ticks == 20);
-  CHECK(receiver.counters().replayed == 12);
-  CHECK(receiver.counters().duplicates == 8);
-  for (const Bytes& datagram : datagrams_of(1000, random_bytes(50, 1), {}, 1, 1))
-    receiver.accept(datagram);
-  CHECK(receiver.counters().other_session == 1);
-  CHECK(receiver.counters().ticks == 20);
-}
-
-TEST_CASE("before it follows a session a receiver takes nothing") {
-  TickReceiver receiver(identity_of(1).public_key());
-  for (const Bytes& datagram : datagrams_of(5, random_bytes(50, 1))) receiver.accept(datagram);
-  CHECK(receiver.counters().ticks == 0);
-  CHECK(receiver.counters().other_session == 1);
-}
-
-TEST_CASE("reassembly memory is bounded when no tick is ever complete") {
-  Recorder recorder;
-  TickPublisher publisher(recorder, identity_of(1), session_of(1), {.repeat_previous = false});
   publisher.add_destination(group);
-  TickReceiver receiver = following();
-  const Bytes payload = random_bytes(max_tick_bytes, 1);
-  std::size_t most = 0;
-  for (std::uint64_t tick = 1; tick <= 20; ++tick) {
-    recorder.datagrams.clear();
-    publisher.publish(tick, payload);
-    receiver.accept(recorder.datagrams[0]);
-    most = std::max(most, receiver.bytes_held());
-  }
-  CHECK(most == TickReceiver::window * max_tick_bytes);
-  CHECK(receiver.counters().lost == 20 - TickReceiver::window);
-}
-
-TEST_CASE("ticks that nobody takes are bounded too and the newest stay") {
-  TickReceiver receiver = following();
-  Recorder recorder;
-  TickPublisher publisher(recorder, identity_of(1), session_of(1), {.repeat_previous = false});
-  publisher.add_destination(group);
-  for (std::uint64_t tick = 1; tick <= 100; ++tick)
-    publisher.publish(tick, random_bytes(500, tick));
-  for (const Bytes& datagram : recorder.datagrams) receiver.accept(datagram);
-  CHECK(receiver.bytes_held() == 16 * 500);
-  CHECK(receiver.next()->tick == 85);
+  publisher.add_destination(client_address(0));
+  CHECK(publisher.destinations().size() == 2);
+  publisher.publish(1, random_bytes(100, 1));
+  CHECK(publisher.counters().datagrams == 1);
+  CHECK(publisher.counters().refused == 1);
+  publisher.remove_destination(client_address(0));
+  publisher.publish(2, random_bytes(100, 1));
+  CHECK(publisher.counters().datagrams == 2);
+  CHECK(publisher.counters().refused == 1);
 }
 
 TEST_CASE("bytes per tick do not depend on the number of receivers of a group") {

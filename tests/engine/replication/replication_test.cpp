@@ -136,6 +136,20 @@ TEST_CASE("what was cut off and grew again while it waited is forgotten at the c
   CHECK(same_content(end.client->store(), wire.store));
 }
 
+TEST_CASE("what shrank in one way alone and grew again while it waited is forgotten at the client too") {
+  // Two polygons or five vertices are cut to one; the other number stays as it is.
+  for (const auto& [vertices, polygons] : {std::pair{1u, 2u}, {5u, 1u}}) {
+    Wire wire;
+    fill(wire);
+    auto& end = wire.add("left");
+    REQUIRE(wire.settle(end));
+    wire.build.apply(GeometrySizeSet{2, vertices, polygons});
+    wire.build.apply(GeometrySizeSet{2, 5, 2});
+    REQUIRE(wire.settle(end));
+    CHECK(same_content(end.client->store(), wire.store));
+  }
+}
+
 TEST_CASE("a pump writes about its budget and no more") {
   Wire wire;
   for (int i = 0; i < 4; ++i) wire.build.add_mesh("", grid(150));
@@ -203,6 +217,25 @@ TEST_CASE("a client that comes back is told only what it missed") {
   CHECK(end.bytes_to_client - before < 200);
   CHECK(end.client->generation() == generation);
   CHECK(same_content(end.client->store(), wire.store));
+}
+
+TEST_CASE("a client that was cut off before it heard that it has everything hears it when it is back") {
+  Wire wire;
+  fill(wire);
+  auto& end = wire.add("left");
+  // Everything arrives but that word.
+  for (int i = 0; i < 50; ++i) {
+    wire.pump(end, 1u << 20, 0);
+    for (; !end.to_server.empty(); end.to_server.pop_front()) REQUIRE(wire.server->receive(end.connection, end.to_server.front()).has_value());
+    for (; !end.to_client.empty(); end.to_client.pop_front())
+      if (!std::holds_alternative<Complete>(replication::decode(end.to_client.front()).value()))
+        REQUIRE(end.client->receive(end.to_client.front()).has_value());
+  }
+  CHECK(same_content(end.client->store(), wire.store));
+  CHECK_FALSE(end.client->complete());
+  wire.cut(end);
+  wire.connect(end);
+  CHECK(wire.settle(end));
 }
 
 TEST_CASE("nobody resumes the session of another") {

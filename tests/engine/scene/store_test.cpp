@@ -158,3 +158,75 @@ TEST_CASE("a hostile size cannot fill the memory") {
   CHECK(refused == 99);
   CHECK(store.content_bytes() <= 1 << 20);
 }
+
+TEST_CASE("a store takes as many nodes as its limit says and one more when one is destroyed") {
+  Store store({.nodes = 8});
+  for (NodeId id = 1; id <= 8; ++id) CHECK(store.apply(NodeCreate{id, NodeType::object}).has_value());
+  CHECK_FALSE(store.apply(NodeCreate{9, NodeType::object}).has_value());
+  must_apply(store, NodeDestroy{3});
+  CHECK(store.apply(NodeCreate{9, NodeType::object}).has_value());
+}
+
+TEST_CASE("a store is filled to the last byte and no further") {
+  Store probe;
+  must_apply(probe, NodeCreate{1, NodeType::object});
+  must_apply(probe, NodeNameSet{1, "1234567"});
+  for (const std::uint64_t missing : {0u, 1u}) {
+    Store store({.bytes = probe.content_bytes() - missing});
+    must_apply(store, NodeCreate{1, NodeType::object});
+    CHECK(store.apply(NodeNameSet{1, "1234567"}).has_value() == (missing == 0));
+  }
+}
+
+TEST_CASE("a tag that changes carries a revision to its group and a node that comes or goes to the index") {
+  Store store = sample_store();
+  const std::uint64_t index = store.index_revision();
+  must_apply(store, TagSet{1, 0, 0, {"flag", false}});
+  CHECK(store.find(1)->tag_groups.at(0).revision == store.revision());
+  CHECK(store.find(1)->revision == store.revision());
+  must_apply(store, TagDestroy{1, 0, 0});
+  CHECK(store.find(1)->tag_groups.at(0).revision == store.revision());
+  CHECK(store.index_revision() == index);
+  must_apply(store, NodeDestroy{4});
+  CHECK(store.index_revision() == store.revision());
+  CHECK(store.index_revision() > index);
+}
+
+TEST_CASE("a layer keeps its values under another name and loses them with another type") {
+  Store store = store_with_geometry(2, 1);
+  must_apply(store, GeometryLayerSet{1, 0, "a", LayerType::vertex_integer, 3, 0.0f});
+  must_apply(store, LayerIntegersSet{1, 0, 1, {9}});
+  must_apply(store, GeometryLayerSet{1, 0, "b", LayerType::vertex_integer, 5, 0.0f});
+  const auto& geometry = std::get<GeometryData>(store.find(1)->data);
+  CHECK(geometry.layers.at(0).name == "b");
+  CHECK(geometry.layers.at(0).integers == std::vector<std::uint32_t>{3, 9});
+  must_apply(store, GeometryLayerSet{1, 0, "b", LayerType::corner_integer, 5, 0.0f});
+  CHECK(geometry.layers.at(0).integers == std::vector<std::uint32_t>(4, 5));
+  must_apply(store, NodeCreate{2, NodeType::bitmap});
+  must_apply(store, BitmapSizeSet{2, 8, 8, 1});
+  must_apply(store, BitmapLayerSet{2, 0, "a", PixelType::byte});
+  must_apply(store, BitmapTilesSet{2, 0, 0, std::vector<std::uint8_t>(64, 7)});
+  must_apply(store, BitmapLayerSet{2, 0, "b", PixelType::byte});
+  const auto& bitmap = std::get<BitmapData>(store.find(2)->data);
+  CHECK(bitmap.layers.at(0).tiles == std::vector<std::uint8_t>(64, 7));
+  must_apply(store, BitmapLayerSet{2, 0, "b", PixelType::word});
+  CHECK(bitmap.layers.at(0).tiles == std::vector<std::uint8_t>(128, 0));
+}
+
+TEST_CASE("values go where their run begins and may end with the layer") {
+  Store store = store_with_geometry(3, 2);
+  must_apply(store, GeometryLayerSet{1, 0, "corner", LayerType::corner_real, 0, 0.0f});
+  must_apply(store, LayerRealsSet{1, 0, 1, {1, 2, 3, 4}});
+  const auto& geometry = std::get<GeometryData>(store.find(1)->data);
+  CHECK(geometry.layers.at(0).reals == std::vector<float>{0, 0, 0, 0, 1, 2, 3, 4});
+  CHECK_FALSE(store.apply(LayerRealsSet{1, 0, 2, {1, 2, 3, 4}}).has_value());
+  CHECK(store.apply(VerticesSet{1, 2, {{1, 1, 1}}}).has_value());
+  CHECK_FALSE(store.apply(VerticesSet{1, 3, {{1, 1, 1}}}).has_value());
+}
+
+TEST_CASE("no id is given out that could wrap") {
+  Store store;
+  CHECK(store.apply(NodeCreate{0xEFFFFFFFu, NodeType::object}).has_value());
+  CHECK_FALSE(store.apply(NodeCreate{0xF0000000u, NodeType::object}).has_value());
+  CHECK_FALSE(store.apply(NodeCreate{0, NodeType::object}).has_value());
+}

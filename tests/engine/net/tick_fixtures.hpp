@@ -1,0 +1,43 @@
+#pragma once
+// What the tests of the tick lane share: datagrams as a publisher makes them, and a receiver that follows a session.
+
+#include <vector>
+
+#include "engine/net/tick_publisher.hpp"
+#include "engine/net/tick_receiver.hpp"
+#include "tests/engine/net/net_fixtures.hpp"
+
+namespace septet::net {
+
+inline const Address group{0xef070707, 4750};
+
+// Keeps what a publisher sends.
+class Recorder final : public DatagramSocket {
+ public:
+  bool send(const Address&, std::span<const std::byte> bytes) override {
+    datagrams.emplace_back(bytes.begin(), bytes.end());
+    return true;
+  }
+  void flush() override {}
+  std::optional<ReceivedDatagram> receive() override { return std::nullopt; }
+  std::size_t receive_buffer_bytes() const override { return 0; }
+  std::vector<Bytes> datagrams;
+};
+
+inline std::vector<Bytes> datagrams_of(std::uint64_t tick, const Bytes& payload,
+                                const TickPublisherOptions& options = {}, std::uint8_t key = 1,
+                                std::uint8_t session = 1) {
+  Recorder recorder;
+  TickPublisher publisher(recorder, identity_of(key), session_of(session), options);
+  publisher.add_destination(group);
+  publisher.publish(tick, payload);
+  return recorder.datagrams;
+}
+
+inline TickReceiver following(std::uint8_t session = 1) {
+  TickReceiver receiver(identity_of(1).public_key());
+  receiver.follow(session_of(session));
+  return receiver;
+}
+
+}  // namespace septet::net
