@@ -14,21 +14,8 @@
 namespace septet::render {
 namespace {
 
-/// The eye adapts to a lit, roofed place ahead of and around the car, in the same way on every screen: by day up, by night down.
-float adapted_exposure(const DeviceScene& scene, const SkyLight& light, const FrameView& view) {
-  constexpr float roofed_exposure = 2.6f;
-  constexpr int samples = 9;
-  float roofed = 0.0f;
-  for (int i = 0; i < samples; ++i) {
-    const Vec3 ahead = view.world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2);
-    roofed += (1.0f - share_of_sky(scene, ahead)) / samples;
-  }
-  return light.exposure * std::pow(roofed_exposure / light.exposure, roofed);
-}
-
-PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
-                          const FrameView& view, const PreparedFrame& frame, const PlacedParticipants& participants,
-                          const DynamicSurfaces& dynamic, std::span<const SmokePuff> smoke) {
+PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
+                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic, std::span<const SmokePuff> smoke) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -42,18 +29,16 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
            intersects(volume, centre_m, mesh.radius_m);
   };
   prepared.draws = prepare_draws(
-      context, scene, participants.meshes, dynamic, eye_m, is_seen,
+      context, scene, instant.parts, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
-  const ViewUniforms uniforms = view_uniforms(view, input, light, frame.shadows, participants.headlights, frame.exposure);
+  const ViewUniforms uniforms = view_uniforms(view, instant, shadows);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
-  const std::vector<PuffRecord> puffs = puff_records(smoke, scene, light, view, eye_m);
+  const std::vector<PuffRecord> puffs = puff_records(smoke, scene, *instant.light, view, eye_m);
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
-  std::vector<LampGlow> lamps = participants.glows;
-  if (!smoke.empty())
-    for (LampGlow& lamp : lamps) lamp.share = transmittance(smoke, eye_m, lamp.position_m);
-  const std::vector<GlowRecord> glows = glow_records(lamps, eye_m, frame.exposure);
+  const std::vector<GlowRecord> glows =
+      glow_records(instant.lamps, eye_m, instant.exposure.scale(), [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   context.statistics.instances += prepared.draws.instances;
@@ -64,15 +49,14 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
 constexpr std::array<float, cascade_count> caster_ranges_m{60.0f, 200.0f};
 
 /// What casts a shadow into a cascade that some view may see.
-SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input,
-                             const ShadowCascades& shadows, std::size_t index, std::span<const PlacedMesh> participants,
-                             const DynamicSurfaces& dynamic) {
+SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const Instant& instant, const ShadowCascades& shadows,
+                             std::size_t index, const DynamicSurfaces& dynamic) {
   const Cascade& cascade = shadows.cascades[index];
   const float least_radius_m = 1.5f * cascade.texel_m;
   // A shadow falls away from the light, no further than a high thing's at a low sun.
-  const glm::vec3 reach = light.light_direction * -120.0f;
+  const glm::vec3 reach = instant.light->light_direction * -120.0f;
   std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
-  for (const FrameView& view : input.views)
+  for (const FrameView& view : instant.views)
     volumes.emplace_back(view_volume(view), glm::vec3(shadows.eye_m - world_eye(view)));
   const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
     if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
@@ -89,7 +73,7 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   std::uint32_t solid = no_group;
   for (std::uint32_t i = 0; i < scene.materials.size() && solid == no_group; ++i)
     if (!scene.materials[i].cut && !scene.materials[i].blended) solid = i;
-  return prepare_draws(context, scene, participants, dynamic, shadows.eye_m, casts, [&](std::uint32_t material) {
+  return prepare_draws(context, scene, instant.parts, dynamic, shadows.eye_m, casts, [&](std::uint32_t material) {
     if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
     return scene.materials[material].cut ? material : solid;
   }, caster_ranges_m[index]);
@@ -97,19 +81,15 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
 
 }  // namespace
 
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input) {
-  const PlacedParticipants participants =
-      place_participants(input.participants, scene.prototypes, scene.summaries, input.simulated_time_s,
-                         world_eye(input.views.front()), [&](const Vec3& place_m) { return share_of_sky(scene, place_m); });
-  const DynamicSurfaces dynamic = upload_dynamic(context, scene, input.meshes);
-  const std::vector<SmokePuff> smoke = merged_puffs(input.smoke, world_eye(input.views.front()));
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant) {
+  const Vec3 eye_m = world_eye(instant.views.front());
+  const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant.loose);
+  const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
   PreparedFrame frame;
-  frame.exposure = adapted_exposure(scene, light, input.views.front());
-  frame.shadows = shadow_cascades(world_eye(input.views.front()), light.light_direction);
-  for (const FrameView& view : input.views)
-    frame.views.push_back(prepare_view(context, scene, light, input, view, frame, participants, dynamic, smoke));
-  for (std::size_t i = 0; i < cascade_count; ++i)
-    frame.casters[i] = prepare_casters(context, scene, light, input, frame.shadows, i, participants.meshes, dynamic);
+  frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
+  for (const FrameView& view : instant.views)
+    frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
+  for (std::size_t i = 0; i < cascade_count; ++i) frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
   return frame;
 }
 

@@ -4,9 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/render/atmosphere.hpp"
-#include "engine/render/frame_input.hpp"
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/instant.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
@@ -24,12 +22,11 @@ struct PreparedView {
 };
 
 struct PreparedFrame {
-  float exposure = 1.0f;  ///< From radiance to the tone curve (tone_curve.hpp): one for all views, and for all screens of a rig.
   std::vector<PreparedView> views;
   ShadowCascades shadows;
   std::array<SurfaceDraws, cascade_count> casters;
 };
 
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const SkyLight& light, const FrameInput& input);
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant);
 
 }  // namespace septet::render

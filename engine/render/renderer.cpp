@@ -10,7 +10,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.hpp"
-#include "engine/render/atmosphere.hpp"
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/frame_targets.hpp"
 #include "engine/render/graph/render_graph.hpp"
@@ -59,20 +58,21 @@ struct Renderer::Parts {
   ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
-  std::optional<Environment> lit_environment;  ///< That `light` was computed for.
-  SkyLight light;
+  std::optional<Environment> lit_environment;
+  std::shared_ptr<const SkyLight> light;        ///< Of that environment, for whoever brings none.
   Access sky_table_access = Access::none, atlas_access = Access::none;
   bool smoothed = false;
   bool drawn = false;
-  float exposure = 1.0f;  ///< Of the last frame.
+  Exposure exposure;                             ///< Of the last frame.
+  std::shared_ptr<const SkyLight> table_light;  ///< Whose sky the table holds.
   RenderStatistics statistics;
 
   ~Parts() { destroy(); }
   void create(const RendererOptions& wanted);
   void destroy();
-  void draw(const FrameInput& input);
+  void draw(const Instant& instant);
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
-  void draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input);
+  void draw_views(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
 
 void Renderer::Parts::create(const RendererOptions& wanted) {
@@ -142,9 +142,9 @@ void Renderer::Parts::destroy() {
   destroy_device(device);
 }
 
-void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const FrameInput& input) {
-  const Environment& environment = input.environment;
-  const FrameData soot = store(context, std::span<const std::uint8_t>(input.soot.cover));
+void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const Instant& instant) {
+  const Environment& environment = instant.environment;
+  const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
   begin_view_rendering(context, targets);
   for (const PreparedView& prepared : views) {
     if (prepared.view != views.front().view) clear_inset(context, targets, prepared.view->viewport);
@@ -154,11 +154,11 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
     push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
     bind_instances(context, prepared.draws.records);
     const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0,
-                                     !input.soot.cover.empty()};
+                                     !instant.soot.cover.empty()};
     push_records(context, soot);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
-    draw_sky(sky_pass, context, environment.cloud_cover > 0.0, light.night > 0.0f);
+    draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
     draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
     draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
@@ -175,17 +175,16 @@ std::optional<std::uint32_t> Renderer::Parts::next_window_image(const vulkan::Fr
   return acquire(swapchain, device, slot.image_acquired);
 }
 
-void Renderer::Parts::draw(const FrameInput& input) {
+void Renderer::Parts::draw(const Instant& instant) {
   statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
   PassContext context{device, memory, layout, samplers, formats, begin_frame(ring, device), statistics};
 
-  const bool new_light = !lit_environment || *lit_environment != input.environment;
-  if (new_light) light = sky_light(input.environment);
-  lit_environment = input.environment;
+  const bool new_light = table_light != instant.light;
+  table_light = instant.light;
+  exposure = instant.exposure;
 
-  const PreparedFrame frame = prepare_frame(context, scene, light, input);
-  exposure = frame.exposure;
-  const bool new_text = lay_out(*overlay_pass, input.overlay);
+  const PreparedFrame frame = prepare_frame(context, scene, instant);
+  const bool new_text = lay_out(*overlay_pass, instant.overlay);
 
   RenderGraph graph;
   std::vector<vulkan::ImageBarrier> images;  // By resource.
@@ -205,7 +204,7 @@ void Renderer::Parts::draw(const FrameInput& input) {
   if (new_light)
     graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}},
                    [&] {
-                     const std::vector<std::uint64_t> texels = packed(light.table);
+                     const std::vector<std::uint64_t> texels = packed(instant.light->table);
                      upload_texels(context, sky_table, std::as_bytes(std::span(texels)));
                    });
   graph.add_pass("shadows", {{}, {{shadow_map, Access::depth_attachment}}}, [&] {
@@ -216,10 +215,10 @@ void Renderer::Parts::draw(const FrameInput& input) {
   graph.add_pass("views",
                  {{{table, Access::sampled}, {shadow_map, Access::sampled}},
                   {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
-                 [&] { draw_views(context, frame.views, input); });
+                 [&] { draw_views(context, frame.views, instant); });
   graph.add_pass("tone mapping", {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
     draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view, targets.smoothed() ? targets.mapped.view : targets.picture.view,
-                     targets.width, targets.height, frame.exposure);
+                     targets.width, targets.height, instant.exposure.scale());
   });
   if (mapped)
     graph.add_pass("smoothing", {{{*mapped, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
@@ -227,10 +226,10 @@ void Renderer::Parts::draw(const FrameInput& input) {
     });
   if (new_text)
     graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}}, [&] { upload_atlas(*overlay_pass, context); });
-  if (!input.overlay.empty())
+  if (!instant.overlay.empty())
     graph.add_pass("overlay",
                    {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
-                   [&] { draw_overlay(*overlay_pass, context, input.overlay, targets.picture.view, targets.width, targets.height); });
+                   [&] { draw_overlay(*overlay_pass, context, instant.overlay, targets.picture.view, targets.width, targets.height); });
   graph.keep(picture, Access::transfer_source);
   const std::optional<std::uint32_t> window_image = next_window_image(context.slot);
   if (window_image) {
@@ -315,19 +314,26 @@ Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
   return {};
 }
 
-Expected<void> Renderer::draw(const FrameInput& input) {
-  SEPTET_CHECK(!input.views.empty(), "a frame without a view");
-  for (const FrameView& view : input.views) {
+Expected<void> Renderer::draw(const Instant& instant) {
+  for (const FrameView& view : instant.views) {
     const auto& [x, y, w, h] = view.viewport;
     SEPTET_CHECK(x >= 0 && y >= 0 && w > 0 && h > 0 && x + std::int64_t{w} <= width() && y + std::int64_t{h} <= height(),
                  "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
   }
   try {
-    parts_->draw(input);
+    parts_->draw(instant);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
   return {};
+}
+
+Expected<void> Renderer::draw(FrameInput input) {
+  if (parts_->lit_environment != input.environment) {
+    parts_->light = std::make_shared<const SkyLight>(sky_light(input.environment));
+    parts_->lit_environment = input.environment;
+  }
+  return draw(instant::describe(std::move(input), parts_->scene.summary, parts_->light));
 }
 
 Expected<image::Image> Renderer::read_back() {
@@ -341,7 +347,7 @@ Expected<image::Image> Renderer::read_back() {
   return picture;
 }
 
-float Renderer::exposure() const { return parts_->exposure; }
+Exposure Renderer::exposure() const { return parts_->exposure; }
 
 Expected<RadianceImage> Renderer::read_radiance() {
   RadianceImage result{parts_->targets.width, parts_->targets.height, {}};

@@ -1,5 +1,5 @@
 #pragma once
-/// The rasteriser: draws a ResolvedScene and the participants of one instant, off-screen or into a window.
+/// The rasteriser: draws a ResolvedScene as the description of one instant says, off-screen or into a window.
 ///
 /// Call `upload` when the scene's revision changes, `draw` once a frame, and `read_back` for the pixels of the last frame.
 /// All calls of one Renderer come from one thread. It never reads a clock, a file or the network. Errors are those of the
@@ -13,7 +13,8 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/image/image.hpp"
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/instant.hpp"
+#include "engine/render/words.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render {
@@ -52,7 +53,7 @@ struct RenderStatistics {
 };
 
 /// What a frame's pixels received, before exposure and tone mapping: linear Rec. 709, rows from the top, in the units of
-/// atmosphere.hpp, overlay not included.
+/// engine/instant/atmosphere.hpp, overlay not included.
 struct RadianceImage {
   std::uint32_t width = 0, height = 0;
   std::vector<glm::vec3> radiance;
@@ -72,15 +73,18 @@ class Renderer {
   /// Gives the picture another size, such as that of a window that was resized.
   Expected<void> resize(std::uint32_t width, std::uint32_t height);
 
-  /// Draws one frame and, with a window, presents it, scaled to the window. Views lie within the picture (checked).
-  Expected<void> draw(const FrameInput& input);
+  /// Draws one frame and, with a window, presents it, scaled to the window. Views lie within the picture (checked). The
+  /// instant was described in the scene that was uploaded.
+  Expected<void> draw(const Instant& instant);
+  /// The same for what a frame shows in the scene that was uploaded.
+  Expected<void> draw(FrameInput input);
 
   /// The last frame: RGBA, 8 bits, sRGB. Waits for the device. Before the first `draw` it is black.
   Expected<image::Image> read_back();
-  /// The light of the same frame, of which the picture is what a display shows at `exposure` (tone_curve.hpp).
+  /// The light of the same frame, of which the picture is what a display shows at `exposure` (engine/instant/tone_curve.hpp).
   Expected<RadianceImage> read_radiance();
-  /// Of the last frame: from radiance to the tone curve.
-  float exposure() const;
+  /// Of the last frame.
+  Exposure exposure() const;
 
   std::uint32_t width() const;
   std::uint32_t height() const;

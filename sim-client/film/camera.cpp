@@ -82,8 +82,8 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
 
 frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px, std::uint32_t height_px) {
   const double slope = std::tan(0.5 * shot.field_of_view_rad);
-  render::FrameView view;
-  view.projection = render::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(), look.pitch_rad(),
+  instant::FrameView view;
+  view.projection = instant::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(), look.pitch_rad(),
                                            shot.field_of_view_rad, 2.0 * std::atan(slope * height_px / width_px));
   view.viewport = {0, 0, width_px, height_px};
   return {{view}, shot.interior};

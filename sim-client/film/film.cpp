@@ -118,7 +118,7 @@ Expected<void> Studio::draw(const FilmPlan& plan, const FilmFrame& film_frame) {
   auto input = frame::client_frame(*world, views, viewpoint_, scene_);
   effects_.show(*world, instants_->history(), instants_->tick_s(), scene_);
   effects_.add_to(input);
-  if (auto drawn = renderer_.draw(input); !drawn) return drawn;
+  if (auto drawn = renderer_.draw(std::move(input)); !drawn) return drawn;
   auto picture = renderer_.read_back();
   if (!picture) return tl::unexpected(picture.error());
   return pictures_.write(options_.out / fmt::format("{:06}.png", film_frame.number), std::move(*picture));

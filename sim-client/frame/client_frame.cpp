@@ -18,9 +18,9 @@ std::optional<std::uint32_t> find_prototype(const scene::ResolvedScene& scene, s
   return static_cast<std::uint32_t>(found - scene.prototypes.begin());
 }
 
-render::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
+instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
   const auto pixel = [](double fraction, std::uint32_t size) { return static_cast<std::int32_t>(std::lround(fraction * size)); };
-  render::PixelRectangle rectangle;
+  instant::PixelRectangle rectangle;
   rectangle.x = pixel(view.left, screen.width_px);
   rectangle.y = pixel(view.top, screen.height_px);
   rectangle.width = static_cast<std::uint32_t>(pixel(view.left + view.width, screen.width_px) - rectangle.x);
@@ -34,14 +34,14 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
   ScreenViews result;
   result.show_interior = screen.show_interior;
   for (const rig::View& view : screen.views) {
-    const auto projection = render::off_axis_view(
+    const auto projection = instant::off_axis_view(
         {view.window.lower_left_m, view.window.lower_right_m, view.window.upper_left_m}, rig.eye_point_m);
     if (!projection) {
       Error error = projection.error();
       error.where = fmt::format("rig {}, screen {}: {}", rig.name, screen.name, error.where);
       return tl::unexpected(error);
     }
-    render::FrameView frame_view;
+    instant::FrameView frame_view;
     frame_view.projection = *projection;
     frame_view.viewport = viewport(view, screen);
     frame_view.mirrored = view.mirrored;
@@ -50,9 +50,9 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
   return result;
 }
 
-render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
+instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                 const scene::ResolvedScene& scene) {
-  render::FrameInput frame;
+  instant::FrameInput frame;
   frame.simulated_time_s = shown.simulated_time_s;
   frame.environment = shown.environment;
   frame.views = views.views;
@@ -61,16 +61,16 @@ render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views,
   for (const Participant& participant : shown.participants) {
     const auto prototype = find_prototype(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
-    auto drawn = render::drawn_participant(participant, *prototype);
+    auto drawn = instant::drawn_participant(participant, *prototype);
     drawn.paint = body_color(participant.paint);
     if (participant.id == viewpoint.inside) {
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
-      drawn.shown = render::Shown::shadow_and_light;
+      drawn.shown = instant::Shown::shadow_and_light;
       if (const auto inside = find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
           inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
-        interior.shown = render::Shown::whole;
+        interior.shown = instant::Shown::whole;
         if (participant.id == shown.driver_car.participant) interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);
       }
@@ -80,8 +80,8 @@ render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views,
   return frame;
 }
 
-render::OverlayText banner(std::string text, const rig::Screen& screen) {
-  render::OverlayText line;
+instant::OverlayText banner(std::string text, const rig::Screen& screen) {
+  instant::OverlayText line;
   line.text = std::move(text);
   line.height_px = std::max(12.0f, static_cast<float>(screen.height_px) / 22.0f);
   line.x_px = 0.5f * static_cast<float>(screen.width_px);

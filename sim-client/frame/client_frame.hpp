@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/scene/resolved_scene.hpp"
 #include "engine/world/snapshot.hpp"
@@ -16,7 +16,7 @@ namespace septet::frame {
 
 /// A screen's views with their projections, computed once: the rig does not move. Or those of a camera.
 struct ScreenViews {
-  std::vector<render::FrameView> views;
+  std::vector<instant::FrameView> views;
   bool show_interior = false;
 };
 
@@ -24,10 +24,10 @@ struct ScreenViews {
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen);
 
 /// `shown` as seen from a viewpoint, in whose frame the views are given.
-render::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
+instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                 const scene::ResolvedScene& scene);
 
 /// A line across the middle of the picture, for what the driver must know ("server lost").
-render::OverlayText banner(std::string text, const rig::Screen& screen);
+instant::OverlayText banner(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -68,8 +68,8 @@ DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
   for (std::size_t i = 0; i < step_m_.size(); ++i) step_m_[i] -= from_m_[i];
 }
 
-render::DynamicMesh DebrisWay::at(double share) const {
-  render::DynamicMesh mesh;
+instant::DynamicMesh DebrisWay::at(double share) const {
+  instant::DynamicMesh mesh;
   if (triangles_.empty()) return mesh;
   std::vector<Vec3> places(from_m_.size());
   Vec3 low(INFINITY), high(-INFINITY);
@@ -120,9 +120,9 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
   return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};
 }
 
-std::vector<render::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
+std::vector<instant::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
                                                      const scene::ResolvedScene& scene) {
-  std::vector<render::DynamicMesh> meshes;
+  std::vector<instant::DynamicMesh> meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;
   for (auto& [key, entry] : ways_) entry.used = false;
   for (const EffectMoment& moment : moments) {

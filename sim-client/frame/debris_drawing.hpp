@@ -13,7 +13,7 @@
 
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/geometry/temporal_normals.hpp"
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "sim-client/frame/effect_playout.hpp"
 
 namespace septet::frame {
@@ -40,7 +40,7 @@ class DebrisWay {
   DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to);
 
   /// Triangles with their face normals, relative to their middle; a shape without triangles has no vertices.
-  render::DynamicMesh at(double share) const;
+  instant::DynamicMesh at(double share) const;
   debris::Part part() const { return part_; }
   debris::Material material() const { return material_; }
 
@@ -59,7 +59,7 @@ std::string_view debris_look(debris::Part part, debris::Material material);
 class DebrisDrawing {
  public:
   /// All debris of the moments, ready for a frame.
-  std::vector<render::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
+  std::vector<instant::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes whose normals were worked out so far.

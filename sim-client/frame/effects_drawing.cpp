@@ -9,7 +9,7 @@ void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, d
   soot_.draw(instant.effects);
 }
 
-void EffectsDrawing::add_to(render::FrameInput& frame) const {
+void EffectsDrawing::add_to(instant::FrameInput& frame) const {
   frame.meshes = meshes_;
   frame.smoke = puffs_;
   frame.soot = soot_.field();

@@ -12,14 +12,14 @@ class EffectsDrawing {
   /// What `instant` shows, by the keyframes around it in `history`.
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene);
   /// What was shown last: also where its ticks have gone with a lost server.
-  void add_to(render::FrameInput& frame) const;
+  void add_to(instant::FrameInput& frame) const;
 
  private:
   DebrisDrawing debris_;
   SmokeDrawing smoke_;
   SootDrawing soot_;
-  std::vector<render::DynamicMesh> meshes_;
-  std::vector<render::SmokePuff> puffs_;
+  std::vector<instant::DynamicMesh> meshes_;
+  std::vector<instant::SmokePuff> puffs_;
 };
 
 }  // namespace septet::frame

@@ -18,15 +18,15 @@ constexpr double stalled_below_radps = 15.0;
 
 std::string gear_text(int gear) { return gear < 0 ? "R" : gear == 0 ? "N" : std::to_string(gear); }
 
-render::OverlayText line(std::string text, double x_px, double y_px, double height_px, const glm::vec4& color) {
+instant::OverlayText line(std::string text, double x_px, double y_px, double height_px, const glm::vec4& color) {
   return {.text = std::move(text), .x_px = static_cast<float>(x_px), .y_px = static_cast<float>(y_px),
           .height_px = static_cast<float>(height_px), .color = color};
 }
 
 }  // namespace
 
-std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen) {
-  std::vector<render::OverlayText> texts;
+std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
   if (!screen.instruments) return texts;
   const DriverCar& car = shown.driver_car;
   const Participant* participant = find_participant(shown, car.participant);
@@ -50,8 +50,8 @@ std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::R
   return texts;
 }
 
-std::vector<render::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
-  std::vector<render::OverlayText> texts;
+std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
   const double row_px = std::clamp(std::floor(screen.height_px / 32.0), 8.0, 30.0), step_px = row_px + 4.0;  // A box is 4 px higher than its line.
   const double rows = static_cast<double>(car_io::driving_keys().size()) + (headline.empty() ? 0.0 : 1.5);
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
@@ -72,7 +72,7 @@ std::vector<render::OverlayText> key_table(const std::string& headline, const ri
   return texts;
 }
 
-render::OverlayText top_line(std::string text, const rig::Screen& screen) {
+instant::OverlayText top_line(std::string text, const rig::Screen& screen) {
   const double height_px = std::clamp(screen.height_px / 36.0, 10.0, 22.0);
   auto result = line(std::move(text), 0.02 * screen.width_px, 0.02 * screen.height_px, height_px, amber);
   result.background = dark_panel;

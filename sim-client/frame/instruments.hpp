@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -14,12 +14,12 @@ namespace septet::frame {
 
 /// Speed and gear below the driver's look ahead, indicators at both sides, a stalled engine underneath. Nothing on a screen whose rig
 /// does not ask for it.
-std::vector<render::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
+std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
 /// The table of keys in the middle of the screen, under a headline ("Press any key to start"; empty: none).
-std::vector<render::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
+std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
 /// A modest line at the upper edge of the screen.
-render::OverlayText top_line(std::string text, const rig::Screen& screen);
+instant::OverlayText top_line(std::string text, const rig::Screen& screen);
 
 }  // namespace septet::frame

@@ -2,7 +2,7 @@
 
 namespace septet::frame {
 
-std::vector<render::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyframe> effects, double simulated_time_s) {
+std::vector<instant::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyframe> effects, double simulated_time_s) {
   std::vector<smoke::Puff> puffs;
   for (auto& [id, entry] : decoded_) entry.used = false;
   for (const EffectKeyframe& effect : effects) {
@@ -22,7 +22,7 @@ std::vector<render::SmokePuff> SmokeDrawing::draw(std::span<const EffectKeyframe
     if (entry.readable) smoke::add_puffs(entry.keyframe, simulated_time_s, puffs);
   }
   std::erase_if(decoded_, [](const auto& entry) { return !entry.second.used; });
-  std::vector<render::SmokePuff> drawn;
+  std::vector<instant::SmokePuff> drawn;
   drawn.reserve(puffs.size());
   for (const smoke::Puff& puff : puffs)
     drawn.push_back({puff.position_m, puff.radius_m, puff.extinction_area_m2, puff.albedo, puff.glow, puff.seed});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/effects/smoke/smoke_keyframe.hpp"
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::frame {
@@ -14,7 +14,7 @@ namespace septet::frame {
 class SmokeDrawing {
  public:
   /// All puffs of a snapshot at a simulated time.
-  std::vector<render::SmokePuff> draw(std::span<const EffectKeyframe> effects, double simulated_time_s);
+  std::vector<instant::SmokePuff> draw(std::span<const EffectKeyframe> effects, double simulated_time_s);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
 

@@ -16,8 +16,8 @@ std::uint8_t cover_of(std::uint8_t level) {
 
 }  // namespace
 
-render::SootField soot_field(const smoke::SootKeyframe& keyframe) {
-  render::SootField field;
+instant::SootField soot_field(const smoke::SootKeyframe& keyframe) {
+  instant::SootField field;
   // A cell more on each side for what lies beside, and one without soot, so that it ends softly.
   constexpr int border = 2;
   field.nx = keyframe.nx + 2 * border, field.ny = keyframe.ny + 2 * border, field.nz = keyframe.nz + 2 * border;
@@ -41,7 +41,7 @@ render::SootField soot_field(const smoke::SootKeyframe& keyframe) {
   return field;
 }
 
-const render::SootField& SootDrawing::draw(std::span<const EffectKeyframe> effects) {
+const instant::SootField& SootDrawing::draw(std::span<const EffectKeyframe> effects) {
   const auto soot = std::ranges::find(effects, smoke::soot_kind, &EffectKeyframe::kind);
   if (soot == effects.end()) {
     field_ = {};
@@ -50,7 +50,7 @@ const render::SootField& SootDrawing::draw(std::span<const EffectKeyframe> effec
     tick_ = soot->tick;
     const auto keyframe = smoke::decode_soot(soot->data);
     if (!keyframe) ++refused_;
-    field_ = keyframe ? soot_field(*keyframe) : render::SootField{};
+    field_ = keyframe ? soot_field(*keyframe) : instant::SootField{};
   }
   return field_;
 }

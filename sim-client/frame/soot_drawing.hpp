@@ -4,25 +4,25 @@
 #include <span>
 
 #include "engine/effects/smoke/soot_keyframe.hpp"
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 
 namespace septet::frame {
 
 /// A surface lies up to a cell beside the cells whose soot it carries, so each cell shows the most of its neighbourhood.
-render::SootField soot_field(const smoke::SootKeyframe& keyframe);
+instant::SootField soot_field(const smoke::SootKeyframe& keyframe);
 
 class SootDrawing {
  public:
   /// The soot of a snapshot; an empty field where there is none.
-  const render::SootField& draw(std::span<const EffectKeyframe> effects);
+  const instant::SootField& draw(std::span<const EffectKeyframe> effects);
   /// What was drawn last.
-  const render::SootField& field() const { return field_; }
+  const instant::SootField& field() const { return field_; }
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
 
  private:
   Tick tick_ = 0;
-  render::SootField field_;  ///< Of the keyframe of that tick: each is read once.
+  instant::SootField field_;  ///< Of the keyframe of that tick: each is read once.
   std::uint32_t refused_ = 0;
 };
 

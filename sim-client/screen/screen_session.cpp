@@ -56,7 +56,7 @@ class Session {
   Expected<void> keep_picture(Tick tick);
   void say_goodbye();
   /// Instruments, and on the screen ahead what the driver is to read.
-  void add_driver_texts(render::FrameInput& input, const Snapshot& snapshot);
+  void add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot);
   void wait(double seconds);
 
   const ScreenOptions& options_;
@@ -136,7 +136,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   effects_.add_to(input);
   if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
   else add_driver_texts(input, snapshot);
-  if (auto drawn = display_->renderer().draw(input); !drawn) return drawn;
+  if (auto drawn = display_->renderer().draw(std::move(input)); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
 }
@@ -154,8 +154,8 @@ void Session::take_effects(const Snapshot& snapshot) {
   effects_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
 }
 
-void Session::add_driver_texts(render::FrameInput& input, const Snapshot& snapshot) {
-  const auto add = [&](const std::vector<render::OverlayText>& texts) { input.overlay.insert(input.overlay.end(), texts.begin(), texts.end()); };
+void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot) {
+  const auto add = [&](const std::vector<instant::OverlayText>& texts) { input.overlay.insert(input.overlay.end(), texts.begin(), texts.end()); };
   add(frame::instruments(snapshot, rig_, *screen_));
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe"))) input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));

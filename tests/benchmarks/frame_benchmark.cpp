@@ -13,7 +13,7 @@
 #include "engine/scenery/road_world.hpp"
 #include "engine/scenery/vehicles.hpp"
 #include "engine/world/paint.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::render {

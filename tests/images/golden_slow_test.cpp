@@ -42,8 +42,8 @@ class Motorway {
   }
   const scene::ResolvedScene& scene() const { return scene_; }
 
-  render::FrameInput frame(const Instant& instant) const {
-    render::FrameInput input;
+  instant::FrameInput frame(const Instant& instant) const {
+    instant::FrameInput input;
     input.simulated_time_s = 12.0;
     if (instant.rain) {
       input.environment.rain_mm_per_h = 6.0;
@@ -55,8 +55,8 @@ class Motorway {
       input.environment.sun_elevation_rad = -0.4;
       input.environment.sun_illuminance_lux = 0.0;
     }
-    render::FrameView view;
-    view.projection = render::symmetric_view(Vec3(1.35, 0.37, 1.17), instant.heading_deg * std::numbers::pi / 180.0, 0.0, 0.77, 0.52);
+    instant::FrameView view;
+    view.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), instant.heading_deg * std::numbers::pi / 180.0, 0.0, 0.77, 0.52);
     view.world_from_car = in_lane(-3, instant.s_m);
     view.viewport = {0, 0, width, height};
     input.views.push_back(view);
@@ -73,13 +73,13 @@ class Motorway {
       participant.lamps.set(Lamp::low_beam, instant.night || instant.rain);
       participant.lamps.set(Lamp::brake, i % 4 == 0);
       participant.lamps.set(Lamp::beacon, models[participant.model].kind == ParticipantKind::ambulance);
-      input.participants.push_back(render::drawn_participant(participant, prototype(models[participant.model].name)));
+      input.participants.push_back(instant::drawn_participant(participant, prototype(models[participant.model].name)));
     }
-    render::DrawnParticipant own;  // The driver's car gives its light and its shadow.
+    instant::DrawnParticipant own;  // The driver's car gives its light and its shadow.
     own.prototype = prototype("volvo-s80");
     own.world_from_vehicle = view.world_from_car;
     own.lamps.set(Lamp::low_beam, instant.night);
-    own.shown = render::Shown::shadow_and_light;
+    own.shown = instant::Shown::shadow_and_light;
     input.participants.push_back(own);
     return input;
   }

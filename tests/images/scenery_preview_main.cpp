@@ -46,18 +46,18 @@ void must(const Expected<void>& result) {
   std::exit(1);
 }
 
-image::Image drawn(render::Renderer& renderer, const render::FrameInput& input) {
+image::Image drawn(render::Renderer& renderer, const instant::FrameInput& input) {
   must(renderer.draw(input));
   return value_of(renderer.read_back());
 }
 
-render::FrameInput frame(const RigidTransform& world_from_camera, double horizontal_deg) {
-  render::FrameInput input;
+instant::FrameInput frame(const RigidTransform& world_from_camera, double horizontal_deg) {
+  instant::FrameInput input;
   input.simulated_time_s = 20.0;
   const double horizontal = horizontal_deg * degree_rad;
   const double vertical = 2.0 * std::atan(std::tan(horizontal / 2.0) * height / width);
-  render::FrameView view;
-  view.projection = render::symmetric_view(Vec3(0.0), 0.0, 0.0, horizontal, vertical);
+  instant::FrameView view;
+  view.projection = instant::symmetric_view(Vec3(0.0), 0.0, 0.0, horizontal, vertical);
   view.world_from_car = world_from_camera;
   view.viewport = {0, 0, width, height};
   input.views.push_back(view);
@@ -77,9 +77,9 @@ std::uint32_t prototype_of(const scene::ResolvedScene& scene, std::string_view n
   std::exit(1);
 }
 
-render::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string_view model,
+instant::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string_view model,
                                  const RigidTransform& pose, const glm::vec3& paint) {
-  render::DrawnParticipant participant;
+  instant::DrawnParticipant participant;
   participant.prototype = prototype_of(scene, model);
   participant.world_from_vehicle = pose;
   participant.paint = paint;
@@ -118,7 +118,7 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene,
 }
 
 /// Some traffic ahead of and beside the camera, so that scale can be judged.
-void add_traffic(render::FrameInput& input, const scene::ResolvedScene& scene,
+void add_traffic(instant::FrameInput& input, const scene::ResolvedScene& scene,
                  const road::RoadNetwork& network, double s) {
   constexpr const char* models[]{"saloon",    "estate", "lorry",  "hatchback",
                                  "ambulance", "suv",    "van",    "motorcycle",

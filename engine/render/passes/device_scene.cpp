@@ -74,22 +74,9 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
 
 void place_instances(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still) {
   scene.placed.clear();
-  scene.roofs.clear();
-  for (const scene::Instance& instance : source.instances) {
-    if (instance.mesh >= source.meshes.size()) continue;
-    const SurfaceMesh& mesh = source.meshes[instance.mesh];
-    if (!still[instance.mesh])
-      scene.placed.push_back(place(instance, scene.summaries[instance.mesh].bounds, instance.world_from_object));
-    float least = 1.0f;
-    for (const scene::MeshPart& part : mesh.parts)
-      if (part.material < source.materials.size()) least = std::min(least, source.materials[part.material].share_of_sky);
-    if (least < 0.5f) {
-      // A metre more below and at the ends, where wheels and neighbours meet it.
-      const glm::vec3 margin(0.5f);
-      scene.roofs.push_back({inverse(instance.world_from_object), mesh.bounds_min_m * instance.scale - margin,
-                             mesh.bounds_max_m * instance.scale + margin, least});
-    }
-  }
+  for (const scene::Instance& instance : source.instances)
+    if (instance.mesh < source.meshes.size() && !still[instance.mesh])
+      scene.placed.push_back(place(instance, scene.summary.meshes[instance.mesh].bounds, instance.world_from_object));
   std::stable_sort(scene.placed.begin(), scene.placed.end(),
                    [](const PlacedMesh& a, const PlacedMesh& b) { return a.mesh < b.mesh; });
 }
@@ -125,17 +112,6 @@ void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::ve
     block.vertices = {};
   }
   scene.still_hash = hash;
-}
-
-MeshSummary summary_of(const SurfaceMesh& mesh, const std::vector<SurfaceMaterial>& materials) {
-  MeshSummary summary{{mesh.bounds_min_m, mesh.bounds_max_m}, glm::vec3(0.0f)};
-  for (const scene::MeshPart& part : mesh.parts) {
-    if (part.material >= materials.size()) continue;
-    const glm::vec3 emission = materials[part.material].emission;
-    if (emission.r + emission.g + emission.b > summary.emission.r + summary.emission.g + summary.emission.b)
-      summary.emission = emission;
-  }
-  return summary;
 }
 
 /// From 8-bit codes to the square root of linear light: a square in the shader decodes it, where decoding sRGB texels costs
@@ -230,7 +206,6 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
   }
   scene.meshes.resize(source.meshes.size());
   const std::vector<bool> still = placed_once(source);
-  scene.summaries.clear();
   for (std::size_t i = 0; i < source.meshes.size(); ++i) {
     const SurfaceMesh& mesh = source.meshes[i];
     if (still[i]) {
@@ -239,12 +214,11 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
     } else if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision) {
       upload_mesh(scene.meshes[i], mesh, upload);
     }
-    scene.summaries.push_back(summary_of(mesh, source.materials));
   }
+  scene.summary = summarise(source);
   place_instances(scene, source, still);
   upload_still(scene, source, still, upload);
   upload.finish();
-  scene.prototypes = source.prototypes;
   scene.revision = source.revision;
 }
 
@@ -253,17 +227,6 @@ void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory) {
   for (Buffer& vertices : scene.still_vertices) destroy_buffer(memory, vertices);
   for (DeviceTexture& texture : scene.textures) destroy_image(memory, texture.image);
   scene = {};
-}
-
-float share_of_sky(const DeviceScene& scene, const Vec3& position_m) {
-  float share = 1.0f;
-  for (const Roof& roof : scene.roofs) {
-    const glm::vec3 p(roof.object_from_world * position_m);
-    if (p.x >= roof.min_m.x && p.y >= roof.min_m.y && p.z >= roof.min_m.z && p.x <= roof.max_m.x && p.y <= roof.max_m.y &&
-        p.z <= roof.max_m.z)
-      share = std::min(share, roof.share_of_sky);
-  }
-  return share;
 }
 
 }  // namespace septet::render

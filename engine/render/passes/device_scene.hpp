@@ -8,7 +8,7 @@
 
 #include "engine/render/mip_chain.hpp"
 #include "engine/render/passes/draw_list.hpp"
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/scene_summary.hpp"
 #include "engine/render/passes/static_geometry.hpp"
 #include "engine/render/vulkan/commands.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -43,13 +43,6 @@ struct DeviceTexture {
   vulkan::DeviceImage image;
 };
 
-/// A box in which the sky is not seen, such as a stretch of tunnel: the bounds of an instance with such a material.
-struct Roof {
-  RigidTransform object_from_world;
-  glm::vec3 min_m{0.0f}, max_m{0.0f};
-  float share_of_sky = 0.0f;
-};
-
 struct DeviceScene {
   std::optional<std::uint64_t> revision;
   std::vector<DeviceMesh> meshes;
@@ -59,9 +52,7 @@ struct DeviceScene {
   StaticGeometry still;            ///< What stands in one; its vertices are on the device.
   std::vector<vulkan::Buffer> still_vertices;  ///< One a block.
   std::uint64_t still_hash = 0;
-  std::vector<scene::Prototype> prototypes;
-  std::vector<MeshSummary> summaries;  ///< One a mesh.
-  std::vector<Roof> roofs;
+  SceneSummary summary;  ///< For descriptions of instants in this scene.
 };
 
 /// Uploads what is new. No frame that uses the scene may be in flight. Parts, instances and images that point outside their
@@ -69,9 +60,6 @@ struct DeviceScene {
 void upload_scene(DeviceScene& scene, const scene::ResolvedScene& source, const vulkan::Device& device,
                   vulkan::MemoryPool& memory);
 void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
-
-/// Share of the sky at a place: less than 1 under a roof.
-float share_of_sky(const DeviceScene& scene, const Vec3& position_m);
 
 /// All levels of a texture as the device keeps them: the square root of linear light.
 std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);

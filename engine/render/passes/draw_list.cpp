@@ -8,27 +8,6 @@
 
 namespace septet::render {
 
-PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
-                 const glm::vec3& scale) {
-  PlacedMesh placed;
-  placed.mesh = mesh;
-  placed.origin_m = world_from_object.position_m;
-  const glm::mat3 rotation(glm::mat3_cast(world_from_object.orientation));
-  placed.world_from_object = glm::mat3(rotation[0] * scale.x, rotation[1] * scale.y, rotation[2] * scale.z);
-  const glm::vec3 middle = 0.5f * (bounds.min_m + bounds.max_m), half = 0.5f * (bounds.max_m - bounds.min_m);
-  placed.centre_m = placed.world_from_object * middle;
-  placed.radius_m = glm::length(half * scale);
-  return placed;
-}
-
-PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object) {
-  PlacedMesh placed = place(instance.mesh, bounds, world_from_object, instance.scale);
-  placed.visible_from_m = instance.visible_from_m;
-  placed.visible_to_m = instance.visible_to_m;
-  placed.casts_shadow = instance.casts_shadow;
-  return placed;
-}
-
 InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m) {
   const glm::mat3& m = placed.world_from_object;
   return {glm::vec4(m[0].x, m[1].x, m[2].x, origin_m.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin_m.y),

@@ -12,7 +12,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/placed_mesh.hpp"
+#include "engine/instant/view.hpp"
+#include "engine/render/words.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render {
@@ -24,32 +26,6 @@ struct InstanceRecord {
   glm::vec4 light{1.0f};  ///< x: share of the sky.
 };
 static_assert(sizeof(InstanceRecord) == 80);
-
-/// A mesh in its place, with what culling needs.
-struct PlacedMesh {
-  std::uint32_t mesh = 0;
-  Vec3 origin_m{0.0};               ///< World.
-  glm::mat3 world_from_object{1.0f};  ///< Rotation and scale.
-  glm::vec3 centre_m{0.0f};         ///< Of the bounding sphere, from the origin along the world's axes.
-  float radius_m = 0.0f;
-  float visible_from_m = 0.0f, visible_to_m = 1e9f;
-  bool casts_shadow = true;
-  bool seen = true;  ///< False: casts a shadow only.
-  glm::vec4 tint{1.0f};
-  float share_of_sky = 1.0f;
-};
-
-/// Bounds of a mesh in its object's frame.
-struct MeshBounds {
-  glm::vec3 min_m{0.0f}, max_m{0.0f};
-};
-
-/// The mesh in its place; `scale` stretches it along the object's axes.
-PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
-                 const glm::vec3& scale);
-
-/// The same with the instance's scale, and seen and throwing shadows as the instance says.
-PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object);
 
 /// What the vertex shader takes for a mesh whose origin lies at `origin_m` from the eye.
 InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m);

@@ -4,30 +4,16 @@
 #include <numeric>
 
 namespace septet::render {
-namespace {
-
-/// The material of a prototype's first part that has one.
-std::uint32_t material_of(const DeviceScene& scene, std::uint32_t prototype) {
-  if (prototype >= scene.prototypes.size()) return no_group;
-  for (const scene::Instance& part : scene.prototypes[prototype].parts)
-    if (part.mesh < scene.meshes.size() && !scene.meshes[part.mesh].parts.empty())
-      return scene.meshes[part.mesh].parts.front().material;
-  return no_group;
-}
-
-}  // namespace
-
-DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const DynamicMesh> meshes) {
+DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const LooseMesh> meshes) {
   DynamicSurfaces result;
   std::uint32_t longest = 0;
-  for (const DynamicMesh& mesh : meshes) {
-    const std::uint32_t material = material_of(scene, mesh.prototype);
-    if (material >= scene.materials.size() || mesh.vertices.empty()) continue;
+  for (const auto& [mesh, material, share_of_sky] : meshes) {
+    if (material >= scene.materials.size()) continue;
     DynamicSurface surface;
     surface.placed.origin_m = mesh.origin_m;
     surface.placed.radius_m = mesh.radius_m;
     surface.placed.tint = glm::vec4(mesh.paint, 1.0f);
-    surface.placed.share_of_sky = share_of_sky(scene, mesh.origin_m);
+    surface.placed.share_of_sky = share_of_sky;
     const FrameData vertices = store(context, std::span<const scene::SurfaceVertex>(mesh.vertices));
     surface.vertices = vertices.buffer;
     surface.vertices_at = vertices.offset;

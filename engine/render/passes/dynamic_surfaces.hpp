@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/instant/instant.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
 namespace septet::render {
@@ -21,7 +22,7 @@ struct DynamicSurfaces {
   FrameData indices;  ///< 0, 1, 2, … as far as the longest surface reaches.
 };
 
-DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const DynamicMesh> meshes);
+DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, std::span<const LooseMesh> meshes);
 
 /// Adds what is wanted to a view's or cascade's draws, and its records to theirs.
 void append_dynamic(const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,

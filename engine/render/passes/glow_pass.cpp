@@ -19,7 +19,8 @@ void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
   pass = {};
 }
 
-std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure) {
+std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
+                                     const std::function<float(const Vec3&)>& share) {
   // 0 at noon, 1 at night.
   const float dark = std::clamp((exposure - 0.5f) / 3.0f, 0.0f, 1.0f);
   std::vector<GlowRecord> records;
@@ -30,7 +31,9 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
     const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / distance_m);
     const float turned = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
-    if (turned <= 1e-3f || glow.share <= 1e-3f) continue;
+    if (turned <= 1e-3f) continue;
+    const float arriving = share(glow.position_m);
+    if (arriving <= 1e-3f) continue;
     const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
     // The core is whiter than the halo: an eye (and a camera) saturates there.
     const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);
@@ -38,7 +41,7 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     const float radius_m = glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark);
     const float strength = around ? 3.2f + 0.4f * dark : 0.7f + 2.5f * dark;
     const glm::vec3 brightness = hue * (turned * strength);  // As it looks: about the root of light, 1 white.
-    records.push_back({glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (glow.share / exposure), 0.0f)});
+    records.push_back({glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (arriving / exposure), 0.0f)});
   }
   return records;
 }

@@ -1,11 +1,12 @@
 #pragma once
 /// Draws the glow around lamps: squares that face the viewer, added to the picture.
 
+#include <functional>
 #include <span>
 #include <vector>
 
-#include "engine/render/atmosphere.hpp"
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/atmosphere.hpp"
+#include "engine/instant/participants.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
@@ -26,7 +27,9 @@ void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device);
 
 /// Those of the lamps that face the eye; larger and brighter in the dark. Light scattered in the eye, as bright as it looks beside
 /// what the eye has adapted to (`exposure`).
-std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure);
+/// `share`: of each lamp's light that reaches the eye, through smoke.
+std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
+                                     const std::function<float(const Vec3& lamp_m)>& share);
 
 void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "engine/render/passes/draw_list.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/render/vulkan/commands.hpp"
@@ -25,7 +25,7 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device);
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device);
 
 struct TargetFormats {
-  /// Linear radiance in the units of atmosphere.hpp, before exposure. Half floats reach from starlight to the sun's disc.
+  /// Linear radiance in the units of instant/atmosphere.hpp, before exposure. Half floats reach from starlight to the sun's disc.
   VkFormat radiance = VK_FORMAT_R16G16B16A16_SFLOAT;
   VkFormat picture = VK_FORMAT_R8G8B8A8_UNORM;  ///< Holds sRGB codes: the tone curve encodes, at no cost (shaders/tone_curve.glsl).
   VkFormat depth = VK_FORMAT_D32_SFLOAT;

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/render/atmosphere.hpp"
+#include "engine/instant/atmosphere.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {

@@ -162,7 +162,7 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
                         static_cast<float>(2.0 * radius / (ahead * high)), depth))
         continue;
     }
-    const glm::vec3 radiance = scattered(*p.puff, share_of_sky(scene, p.puff->position_m), light);
+    const glm::vec3 radiance = scattered(*p.puff, share_of_sky(scene.summary, p.puff->position_m), light);
     records.push_back({glm::vec4(p.at, radius), glm::vec4(radiance, depth), glm::vec4(static_cast<float>(p.puff->seed % 1024u) / 1024.0f)});
   }
   std::ranges::reverse(records);

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/atmosphere.hpp"
+#include "engine/instant/atmosphere.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/pass_context.hpp"
 

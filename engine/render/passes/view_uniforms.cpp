@@ -11,19 +11,15 @@
 namespace septet::render {
 namespace {
 
-/// Headlights count where it is dark: at night, and under roofs by day.
-constexpr float headlight_intensity = 240.0f;
-
-void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights, bool dark) {
+void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights) {
   std::vector<const Headlight*> nearest;
-  if (dark)
-    for (const Headlight& light : headlights) nearest.push_back(&light);
+  for (const Headlight& light : headlights) nearest.push_back(&light);
   const auto distance = [&](const Headlight* light) { return glm::dot(light->position_m - eye_m, light->position_m - eye_m); };
   std::stable_sort(nearest.begin(), nearest.end(),
                    [&](const Headlight* a, const Headlight* b) { return distance(a) < distance(b); });
   nearest.resize(std::min(nearest.size(), most_headlights));
   for (std::size_t i = 0; i < nearest.size(); ++i) {
-    uniforms.headlight_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), headlight_intensity);
+    uniforms.headlight_position[i] = glm::vec4(glm::vec3(nearest[i]->position_m - eye_m), nearest[i]->intensity);
     uniforms.headlight_direction[i] = glm::vec4(nearest[i]->direction, 0.0f);
   }
   uniforms.wind.z = static_cast<float>(nearest.size());
@@ -41,10 +37,8 @@ void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) 
 
 }  // namespace
 
-Vec3 world_eye(const FrameView& view) { return view.world_from_car * view.projection.eye_m; }
-
-ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const SkyLight& light,
-                           const ShadowCascades& shadows, std::span<const Headlight> headlights, float exposure) {
+ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows) {
+  const SkyLight& light = *instant.light;
   ViewUniforms uniforms{};
   const OffAxisView& projection = view.projection;
   const Quat world_from_car = view.world_from_car.orientation;
@@ -57,8 +51,7 @@ ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const
   uniforms.far_from_near = far_from_near(shadows);
 
   uniforms.light_direction = glm::vec4(light.light_direction, shadows.cascades[0].texel_m);
-  // A lamp seen by an eye that has adapted to the dark glares less than its radiance says.
-  uniforms.light_irradiance = glm::vec4(light.light_irradiance, 1.0f / std::max(1.0f, 0.35f * exposure));
+  uniforms.light_irradiance = glm::vec4(light.light_irradiance, instant.emission_share);
   uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, light.fog_per_m * std::numbers::log2e_v<float>);
   uniforms.ground_irradiance = glm::vec4(light.ground_irradiance, light.night);
   uniforms.sun_direction = glm::vec4(light.sun_direction, shadows.cascades[1].texel_m);
@@ -70,7 +63,7 @@ ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const
   uniforms.fog_middle = glm::vec4(beside, 0.0f);
   uniforms.fog_slope = glm::vec4(0.5f * (toward - away), 0.0f);
   uniforms.fog_bend = glm::vec4(0.5f * (toward + away) - beside, 0.0f);
-  uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(input.environment.cloud_cover));
+  uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(instant.environment.cloud_cover));
 
   // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.
   const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
@@ -84,15 +77,15 @@ ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const
   uniforms.billboard_right.w = static_cast<float>(2.0 * down / std::max(1u, view.viewport.height));
   uniforms.billboard_up = world(projection.up);
 
-  const Environment& environment = input.environment;
+  const Environment& environment = instant.environment;
   uniforms.weather = glm::vec4(environment.road_wetness, environment.snow_cover,
-                               std::fmod(input.simulated_time_s, 3600.0), environment.rain_mm_per_h);
+                               std::fmod(instant.simulated_time_s, 3600.0), environment.rain_mm_per_h);
   // Clouds drift with the wind, which blows twice as fast up there; the noise repeats after 9 km.
-  const double drift_m = std::fmod(input.simulated_time_s * 2.0 * environment.wind_speed_mps, 9000.0);
+  const double drift_m = std::fmod(instant.simulated_time_s * 2.0 * environment.wind_speed_mps, 9000.0);
   uniforms.wind = glm::vec4(-drift_m * std::cos(environment.wind_direction_rad),
                             -drift_m * std::sin(environment.wind_direction_rad), 0.0, 0.0);
-  set_headlights(uniforms, eye_m, headlights, exposure > 1.0f);
-  if (!input.soot.cover.empty()) set_soot(uniforms, eye_m, input.soot);
+  set_headlights(uniforms, eye_m, instant.headlights);
+  if (!instant.soot.cover.empty()) set_soot(uniforms, eye_m, instant.soot);
   return uniforms;
 }
 

@@ -7,10 +7,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/render/atmosphere.hpp"
-#include "engine/render/frame_input.hpp"
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/instant.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
+#include "engine/render/words.hpp"
 
 namespace septet::render {
 
@@ -30,11 +29,7 @@ struct ViewUniforms {
 };
 static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8 + 4) * 16);
 
-/// Eye of a view in the world.
-Vec3 world_eye(const FrameView& view);
-
-/// `exposure`: from radiance to the tone curve, which says how dark it is. Of the headlights the nearest count.
-ViewUniforms view_uniforms(const FrameView& view, const FrameInput& input, const SkyLight& light,
-                           const ShadowCascades& shadows, std::span<const Headlight> headlights, float exposure);
+/// Of the headlights the nearest count.
+ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows);
 
 }  // namespace septet::render

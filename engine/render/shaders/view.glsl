@@ -1,6 +1,6 @@
 // What every pass of a view sees. The host's twin is ViewUniforms in passes/view_uniforms.hpp.
 //
-// Positions are relative to the eye, along the world's axes, metres. Radiance: see atmosphere.hpp.
+// Positions are relative to the eye, along the world's axes, metres. Radiance: see engine/instant/atmosphere.hpp.
 
 layout(set = 0, binding = 0, std140) uniform View {
   mat4 clip_from_relative;

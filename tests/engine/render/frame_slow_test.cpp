@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/render/renderer.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
 namespace {

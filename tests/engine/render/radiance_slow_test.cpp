@@ -7,10 +7,10 @@
 #include <doctest/doctest.h>
 
 #include "engine/render/renderer.hpp"
-#include "engine/render/tone_curve.hpp"
+#include "engine/instant/tone_curve.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
-#include "tests/engine/render/lone_mesh.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/lone_mesh.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
 namespace {
@@ -29,7 +29,7 @@ Renderer renderer_of(Antialiasing antialiasing) {
 
 Drawn shown(Renderer& renderer, const FrameInput& input) {
   REQUIRE(renderer.draw(input).has_value());
-  Drawn result{*renderer.read_back(), *renderer.read_radiance(), renderer.exposure()};
+  Drawn result{*renderer.read_back(), *renderer.read_radiance(), renderer.exposure().scale()};
   CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
   return result;
 }
@@ -103,6 +103,30 @@ TEST_CASE("smoke of optical depth one before a wall leaves the share of its radi
   CHECK(once < 0.85f);
   CHECK(once > 0.35f);
   CHECK(twice == doctest::Approx(once * once).epsilon(0.02));
+}
+
+TEST_CASE("the sky that is drawn has at every pixel the radiance that the description says for its ray, in a mirror too") {
+  Renderer renderer = renderer_of(Antialiasing::none);
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  REQUIRE(renderer.upload(reference.scene).has_value());
+  for (const bool mirrored : {false, true}) {
+    FrameInput input = forward(0.8);
+    input.environment.cloud_cover = 0.0;
+    input.views[0].projection = symmetric_view({1.2, 0.35, 1.2}, -0.6, 0.5, 1.05, 0.64);
+    input.views[0].mirrored = mirrored;
+    const Instant instant = describe(input, summarise(reference.scene));
+    REQUIRE(renderer.draw(instant).has_value());
+    const RadianceImage light = *renderer.read_radiance();
+    double furthest = 0.0;
+    for (std::uint32_t y = 0; y < height / 2; y += 7)
+      for (std::uint32_t x = 0; x < width; x += 5) {
+        const glm::vec3 ray(ray_through(instant.views[0], x + 0.5, y + 0.5));
+        const glm::vec3 said = sky_radiance(*instant.light, ray), drawn = light.at(x, y);
+        // The sun's glare is the picture's own.
+        if (glm::dot(ray, instant.light->sun_direction) < 0.9f) furthest = std::max(furthest, std::abs(drawn.g / said.g - 1.0) + std::abs(drawn.r / said.r - 1.0));
+      }
+    CHECK(furthest < 0.01);
+  }
 }
 
 TEST_CASE("two screens of a rig and a mirror in one of them are exposed alike") {

@@ -6,7 +6,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "tests/engine/render/glowing_bar.hpp"
-#include "tests/engine/render/lone_mesh.hpp"
+#include "tests/engine/instant/lone_mesh.hpp"
 
 namespace septet::render {
 namespace {

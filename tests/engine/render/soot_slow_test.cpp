@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/render/renderer.hpp"
-#include "tests/engine/render/lone_mesh.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/lone_mesh.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
 namespace {

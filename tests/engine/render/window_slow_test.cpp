@@ -6,7 +6,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "engine/render/window.hpp"
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::render {
 

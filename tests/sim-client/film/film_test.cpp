@@ -122,7 +122,7 @@ TEST_CASE("with the eyes of the driver a camera sees what a screen in front of t
   CHECK(viewpoint.world_from_views.position_m == screen_viewpoint.world_from_views.position_m);
   CHECK(viewpoint.world_from_views.orientation == screen_viewpoint.world_from_views.orientation);
   const auto view = views_at(shot, *pivot, {}, 160, 120).views[0];
-  const auto screen = render::off_axis_view({eye_m + Vec3(0.8, 0.4, -0.3), eye_m + Vec3(0.8, -0.4, -0.3), eye_m + Vec3(0.8, 0.4, 0.3)}, eye_m);
+  const auto screen = instant::off_axis_view({eye_m + Vec3(0.8, 0.4, -0.3), eye_m + Vec3(0.8, -0.4, -0.3), eye_m + Vec3(0.8, 0.4, 0.3)}, eye_m);
   REQUIRE(screen.has_value());
   for (int column = 0; column < 4; ++column)
     CHECK(glm::length(view.projection.clip_from_eye_relative[column] - screen->clip_from_eye_relative[column]) < 1e-12);

@@ -48,7 +48,7 @@ TEST_CASE("between two keyframes vertices go straight and normals stand upright 
   REQUIRE(instant);
   const DebrisWay way(*instant->from.keyframe, *instant->to.keyframe);
   for (const double share : {instant->share, 0.0, 1.0, 2.5}) {
-    const render::DynamicMesh mesh = way.at(share);
+    const instant::DynamicMesh mesh = way.at(share);
     std::array<Vec3, 4> places;
     for (std::size_t i = 0; i < 4; ++i) places[i] = (1.0 - share) * a.vertices_m[i] + share * b.vertices_m[i];
     const Vec3 middle = 0.25 * (places[0] + places[1] + places[2] + places[3]);
@@ -85,7 +85,7 @@ TEST_CASE("a shard that is new stands still until both keyframes have it") {
   one.triangles = {{0, 1, 2}};
   two.vertices_m = {{601, 0, 0}, {601.03, 0, 0}, {601, 0.03, 0}, {0, 0, 0}, {0, 0.03, 0}, {0, 0, 0.03}};
   two.triangles = {{0, 1, 2}, {3, 4, 5}};
-  const render::DynamicMesh mesh = DebrisWay(one, two).at(0.5);
+  const instant::DynamicMesh mesh = DebrisWay(one, two).at(0.5);
   REQUIRE(mesh.vertices.size() == 12);
   CHECK(mesh.origin_m.x + mesh.vertices[0].position_m.x == doctest::Approx(600.5));
   CHECK(mesh.origin_m.x + mesh.vertices[6].position_m.x == doctest::Approx(0.0).scale(1.0).epsilon(1e-4));

@@ -63,7 +63,7 @@ image::Image picture_of(render::Renderer& renderer, const scene::ResolvedScene& 
                         const TickHistory& history, double tick) {
   const auto views = screen_views(rig, screen);
   REQUIRE(views.has_value());
-  render::FrameInput frame = client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
+  instant::FrameInput frame = client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
   DebrisDrawing drawing;
   frame.meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene);
   REQUIRE(frame.meshes.size() == 1);

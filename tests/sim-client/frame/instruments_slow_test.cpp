@@ -32,11 +32,11 @@ Snapshot driving() {
 }
 
 /// Only the overlay, on what is drawn where there is no world. SEPTET_PICTURES: a folder where it is kept for people to look at.
-image::Image draw(const rig::Screen& screen, const std::vector<render::OverlayText>& texts, const std::string& name) {
+image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayText>& texts, const std::string& name) {
   auto renderer = render::Renderer::create({.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});
   REQUIRE(renderer.has_value());
-  render::FrameInput input;
-  input.views.push_back({.projection = render::symmetric_view(Vec3(1.35, 0.37, 1.17), 0.0, 0.0, 0.77, 0.52),
+  instant::FrameInput input;
+  input.views.push_back({.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), 0.0, 0.0, 0.77, 0.52),
                          .viewport = {0, 0, screen.width_px, screen.height_px}});
   input.overlay = texts;
   REQUIRE(renderer->draw(input).has_value());

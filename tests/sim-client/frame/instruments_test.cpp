@@ -28,7 +28,7 @@ Lamps lit(Lamp lamp) {
   return lamps;
 }
 
-bool says(const std::vector<render::OverlayText>& texts, const std::string& text) {
+bool says(const std::vector<instant::OverlayText>& texts, const std::string& text) {
   return std::ranges::any_of(texts, [&](const auto& line) { return line.text == text; });
 }
 

@@ -19,7 +19,7 @@ smoke::SootKeyframe one_cell(std::uint8_t level) {
 }  // namespace
 
 TEST_CASE("soot covers the surfaces beside its cell and nothing beyond") {
-  const render::SootField field = soot_field(one_cell(smoke::soot_levels - 1));
+  const instant::SootField field = soot_field(one_cell(smoke::soot_levels - 1));
   REQUIRE(field.cover.size() == 125);
   std::size_t covered = 0;
   for (int k = 0; k < 5; ++k)

@@ -1,4 +1,4 @@
-#include "engine/render/off_axis_view.hpp"
+#include "engine/instant/off_axis_view.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 #include "engine/core/check.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 constexpr double largest_cosine_between_edges = 0.0017;  // 0.1° from a right angle.
@@ -76,4 +76,4 @@ OffAxisView symmetric_view(const Vec3& eye_m, double heading_rad, double pitch_r
   return view;
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

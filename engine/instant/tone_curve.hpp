@@ -8,11 +8,11 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-namespace septet::render {
+namespace septet::instant {
 
 inline glm::vec3 display_code(const glm::vec3& exposed) {
   const glm::vec3 x = glm::max(glm::vec3(0.0f), exposed - 0.004f);
   return x * (6.2f * x + 0.5f) / (x * (6.2f * x + 1.7f) + 0.06f);
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

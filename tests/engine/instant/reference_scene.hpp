@@ -4,10 +4,10 @@
 ///
 /// Everything is placed from `origin_m`, so that a test can put the world anywhere.
 
-#include "engine/render/frame_input.hpp"
+#include "engine/instant/frame_input.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 
 struct ReferenceScene {
   scene::ResolvedScene scene;
@@ -31,4 +31,4 @@ Environment reference_day();
 /// A view along x from 1.2 m over `car_m`, over the whole picture.
 FrameView forward_view(const Vec3& car_m, std::uint32_t width, std::uint32_t height);
 
-}  // namespace septet::render
+}  // namespace septet::instant

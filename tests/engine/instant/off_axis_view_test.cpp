@@ -1,4 +1,4 @@
-#include "engine/render/off_axis_view.hpp"
+#include "engine/instant/off_axis_view.hpp"
 
 #include <cmath>
 #include <vector>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 constexpr double height_px = 1080.0;
@@ -115,4 +115,4 @@ TEST_CASE("a free camera is the off-axis view of a screen straight ahead of it")
       CHECK(free.clip_from_eye_relative[i][j] == doctest::Approx(screen.clip_from_eye_relative[i][j]).epsilon(1e-9));
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

@@ -1,4 +1,4 @@
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/participants.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "engine/world/paint.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 using scene::PartRole;
@@ -137,4 +137,4 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   return drawn;
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

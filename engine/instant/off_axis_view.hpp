@@ -11,7 +11,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/math/rigid_transform.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 
 /// Three corners of a rectangular screen as its viewer sees it, car frame, metres.
 struct ScreenCorners {
@@ -36,4 +36,4 @@ Expected<OffAxisView> off_axis_view(const ScreenCorners& corners, const Vec3& ey
 OffAxisView symmetric_view(const Vec3& eye_m, double heading_rad, double pitch_rad, double horizontal_angle_rad,
                            double vertical_angle_rad, double near_m = 0.15);
 
-}  // namespace septet::render
+}  // namespace septet::instant

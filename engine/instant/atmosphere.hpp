@@ -16,7 +16,11 @@
 
 #include "engine/world/snapshot.hpp"
 
-namespace septet::render {
+namespace septet::instant {
+
+/// The unit of radiance in cd/m²; of irradiance in lx, and of intensity in cd, too. A colour's radiance in cd/m² is this times
+/// its luminance, 0.2126 r + 0.7152 g + 0.0722 b.
+inline constexpr float luminance_unit_cdpm2 = 8000.0f;
 
 /// Sky radiance by direction. Column: √((1 − cos Δ)/2) of the azimuth Δ from the sun; row: ½ + ½·√z (z ≥ 0) or
 /// ½ − ½·√−z of the direction's height z, so that rows are dense at the horizon. Below it lies the lit ground.
@@ -43,4 +47,4 @@ SkyLight sky_light(const Environment& environment);
 /// Radiance of the table in a direction (unit, world frame), bilinear.
 glm::vec3 sky_radiance(const SkyLight& light, const glm::vec3& direction);
 
-}  // namespace septet::render
+}  // namespace septet::instant

@@ -6,7 +6,7 @@
 
 #include "engine/scene/resolved_scene.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 
 /// Bounds, revisions and the one part are filled in.
 inline scene::ResolvedScene lone_mesh(scene::SurfaceMaterial material, scene::SurfaceMesh mesh, const RigidTransform& world_from_object) {
@@ -27,4 +27,4 @@ inline scene::ResolvedScene lone_mesh(scene::SurfaceMaterial material, scene::Su
   return scene;
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

@@ -1,8 +1,8 @@
 #pragma once
-/// What one frame shows: the views, the participants and the light of one instant, as plain data.
+/// What one frame shows of a snapshot: participants, effects, weather and views, as plain data from which `describe`
+/// (instant.hpp) makes the description of the instant.
 ///
-/// The scene's meshes, materials and placed instances are not here; Renderer::upload keeps them. World frame, metres,
-/// radians, seconds of simulated time. The same FrameInput gives the same pixels on the same machine.
+/// World frame, metres, radians, seconds of simulated time. The same FrameInput gives the same description.
 
 #include <array>
 #include <cstdint>
@@ -12,26 +12,12 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/instant/view.hpp"
 #include "engine/math/rigid_transform.hpp"
-#include "engine/render/off_axis_view.hpp"
 #include "engine/scene/resolved_scene.hpp"
 #include "engine/world/snapshot.hpp"
 
-namespace septet::render {
-
-/// A rectangle of the target, pixels, from the upper left.
-struct PixelRectangle {
-  std::int32_t x = 0, y = 0;
-  std::uint32_t width = 0, height = 0;
-};
-
-/// One view into the world. A frame draws its views in order; a later one lies over an earlier one (mirror insets).
-struct FrameView {
-  OffAxisView projection;
-  RigidTransform world_from_car;
-  PixelRectangle viewport;
-  bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
-};
+namespace septet::instant {
 
 /// How much of a participant the frame shows. The driver's car in the rig is a real one: there, only its shadow and the
 /// pool of its headlights are drawn.
@@ -101,4 +87,4 @@ struct FrameInput {
 /// The drawn form of a participant as it stands in a snapshot (or between two of them).
 DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t prototype);
 
-}  // namespace septet::render
+}  // namespace septet::instant

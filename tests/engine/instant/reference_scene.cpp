@@ -1,4 +1,4 @@
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "engine/core/random.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 using scene::PartRole;
@@ -349,4 +349,4 @@ FrameView forward_view(const Vec3& car_m, std::uint32_t width, std::uint32_t hei
   return view;
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

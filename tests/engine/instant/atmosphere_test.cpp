@@ -1,11 +1,11 @@
-#include "engine/render/atmosphere.hpp"
+#include "engine/instant/atmosphere.hpp"
 
 #include <cmath>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 SkyLight light_at(double elevation_rad, double clouds = 0.0, double visibility_m = 30000.0) {
@@ -86,4 +86,4 @@ TEST_CASE("light is finite for every elevation and weather") {
       }
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

@@ -1,4 +1,4 @@
-#include "engine/render/atmosphere.hpp"
+#include "engine/instant/atmosphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,14 @@
 #include <glm/geometric.hpp>
 #include <glm/common.hpp>
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double ground_radius_m = 6.360e6, top_radius_m = 6.460e6;
 constexpr double rayleigh_scale_m = 8000.0, haze_scale_m = 1200.0;
 constexpr double haze_anisotropy = 0.76;
-constexpr double solar_constant = 128.0e3 / 8000.0;  // Above the air, in units of irradiance.
+constexpr double solar_constant = 128.0e3 / luminance_unit_cdpm2;  // Above the air, in units of irradiance.
 const Vec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};
 const Vec3 ozone_per_m{0.650e-6, 1.881e-6, 0.085e-6};
 const Vec3 ground_albedo{0.11, 0.12, 0.08};
@@ -222,4 +222,4 @@ glm::vec3 sky_radiance(const SkyLight& light, const glm::vec3& direction) {
                   glm::mix(at(column, row + 1), at(column + 1, row + 1), x - column), y - row);
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

@@ -1,13 +1,13 @@
-#include "engine/render/passes/participants.hpp"
+#include "engine/instant/participants.hpp"
 
 #include <cmath>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "tests/engine/render/reference_scene.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 namespace {
 
 using scene::PartRole;
@@ -113,4 +113,4 @@ TEST_CASE("a participant whose prototype has not arrived is left out") {
   CHECK(place_participants(std::span(&car, 1), {}, {}, 0.0, Vec3(0.0), in_the_open).meshes.empty());
 }
 
-}  // namespace septet::render
+}  // namespace septet::instant

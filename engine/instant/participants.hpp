@@ -5,35 +5,31 @@
 #include <span>
 #include <vector>
 
-#include "engine/render/passes/draw_list.hpp"
+#include "engine/instant/frame_input.hpp"
+#include "engine/instant/scene_summary.hpp"
 
-namespace septet::render {
+namespace septet::instant {
 
 /// A lamp that shines now.
 struct LampGlow {
   Vec3 position_m{0.0};          ///< World.
   glm::vec3 facing{0.0f};        ///< Unit, world axes; zero: all around.
-  glm::vec3 color{1.0f};         ///< Emission of its material.
+  glm::vec3 color{1.0f};         ///< Emission of its material, radiance.
   float radius_m = 0.3f;
-  float share = 1.0f;            ///< Of its light that reaches the eye, through smoke.
 };
 
-/// Where the headlights of one vehicle stand and point.
+/// Where the headlights of one vehicle stand and point. They light what they reach where it is dark: at night, under roofs by day.
 struct Headlight {
-  Vec3 position_m{0.0};
-  glm::vec3 direction{1.0f, 0.0f, 0.0f};
+  Vec3 position_m{0.0};                   ///< World.
+  glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes.
+  /// Along the axis, in units of 8000 cd. A hundred times a real dipped beam's, for nights are exposed as bright rooms are.
+  float intensity = 240.0f;
 };
 
 struct PlacedParticipants {
   std::vector<PlacedMesh> meshes;  ///< Ordered by mesh.
   std::vector<LampGlow> glows;
   std::vector<Headlight> headlights;
-};
-
-/// What the placing needs to know of each mesh.
-struct MeshSummary {
-  MeshBounds bounds;
-  glm::vec3 emission{0.0f};  ///< Of its brightest material.
 };
 
 /// Does the lamp of this role shine? Lamps of vehicle state; beacons flash with time, those to the left and to the right of
@@ -50,4 +46,4 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
                                       std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
                                       const std::function<float(const Vec3& place_m)>& share_of_sky);
 
-}  // namespace septet::render
+}  // namespace septet::instant

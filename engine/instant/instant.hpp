@@ -1,0 +1,54 @@
+#pragma once
+/// One description of an instant, as every renderer draws it: what stands where, what shines, the light, the views.
+///
+/// `describe` makes it from a frame's input (what a snapshot shows: sim-client/frame) and the scene; from there on it is const.
+/// Together with the scene's meshes, materials, images and placed instances (scene::ResolvedScene) it is all that a picture
+/// depends on: no renderer asks a snapshot, a clock or a file. The rasteriser (engine/render) draws it; a ray tracer may.
+///
+/// World frame: metres, double; x east, y north, z up. Colours: linear Rec. 709. Radiance in units of 8000 cd/m², irradiance in
+/// units of 8000 lx, lamps' intensity in units of 8000 cd (luminance_unit_cdpm2 in atmosphere.hpp), so that half floats
+/// hold all from starlight to the sun's disc. Radiance · exposure.scale() is what the tone curve takes.
+///
+/// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`; the
+/// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
+/// surfaces; fog of light->fog_per_m that gives off the horizon's radiance.
+
+#include <memory>
+#include <vector>
+
+#include "engine/instant/atmosphere.hpp"
+#include "engine/instant/exposure.hpp"
+#include "engine/instant/frame_input.hpp"
+#include "engine/instant/participants.hpp"
+#include "engine/instant/scene_summary.hpp"
+
+namespace septet::instant {
+
+/// Triangles of this instant alone, with what their prototype and their place say.
+struct LooseMesh {
+  DynamicMesh mesh;
+  std::uint32_t material = 0;  ///< Indexes ResolvedScene::materials.
+  float share_of_sky = 1.0f;
+};
+
+struct Instant {
+  double simulated_time_s = 0.0;
+  Environment environment;                 ///< Weather: wetness, snow, rain, cloud cover, wind.
+  std::shared_ptr<const SkyLight> light;   ///< Sun, moon and sky; never null. Instants of one weather share it.
+  Exposure exposure;
+  /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
+  float emission_share = 1.0f;
+  std::vector<FrameView> views;            ///< At least one.
+  std::vector<PlacedMesh> parts;           ///< Of participants, ordered by mesh.
+  std::vector<LooseMesh> loose;
+  std::vector<LampGlow> lamps;             ///< That shine and are seen, for the glow around them.
+  std::vector<Headlight> headlights;       ///< Empty where it is too light to see their pool.
+  std::vector<SmokePuff> smoke;
+  SootField soot;
+  std::vector<OverlayText> overlay;        ///< Over the finished picture.
+};
+
+/// `light`: that of the input's environment, if it is at hand (sky_light takes milliseconds). The input has a view (checked).
+Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<const SkyLight> light = nullptr);
+
+}  // namespace septet::instant

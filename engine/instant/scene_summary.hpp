@@ -1,0 +1,40 @@
+#pragma once
+/// What the description of an instant needs to know of a scene, worked out once a revision: the prototypes of participants, a
+/// few figures of each mesh, and where the sky is not seen.
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "engine/instant/placed_mesh.hpp"
+
+namespace septet::instant {
+
+inline constexpr std::uint32_t no_material = std::numeric_limits<std::uint32_t>::max();
+
+struct MeshSummary {
+  MeshBounds bounds;
+  glm::vec3 emission{0.0f};                  ///< Of its brightest material.
+  std::uint32_t first_material = no_material;  ///< Of its first part with triangles.
+};
+
+/// A box in which the sky is not seen, such as a stretch of tunnel: the bounds of an instance with such a material.
+struct Roof {
+  RigidTransform object_from_world;
+  glm::vec3 min_m{0.0f}, max_m{0.0f};
+  float share_of_sky = 0.0f;
+};
+
+struct SceneSummary {
+  std::vector<scene::Prototype> prototypes;
+  std::vector<MeshSummary> meshes;  ///< One a mesh.
+  std::vector<Roof> roofs;
+};
+
+/// Instances and materials that point outside the scene are left out.
+SceneSummary summarise(const scene::ResolvedScene& scene);
+
+/// Share of the sky at a place of the world: less than 1 under a roof.
+float share_of_sky(const SceneSummary& scene, const Vec3& position_m);
+
+}  // namespace septet::instant

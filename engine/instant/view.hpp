@@ -1,0 +1,33 @@
+#pragma once
+/// A view into the world: which part of a target it fills, and along which ray each of its pixels looks.
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "engine/instant/off_axis_view.hpp"
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::instant {
+
+/// A rectangle of the target, pixels, from the upper left.
+struct PixelRectangle {
+  std::int32_t x = 0, y = 0;
+  std::uint32_t width = 0, height = 0;
+};
+
+/// One view into the world. A frame draws its views in order; a later one lies over an earlier one (mirror insets).
+struct FrameView {
+  OffAxisView projection;
+  RigidTransform world_from_car;
+  PixelRectangle viewport;
+  bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
+};
+
+/// Eye of a view, world.
+Vec3 world_eye(const FrameView& view);
+
+/// From the eye through a place of the viewport, pixels from its upper left (a pixel's middle lies at ½); unit, world axes.
+Vec3 ray_through(const FrameView& view, double x_px, double y_px);
+
+}  // namespace septet::instant
