@@ -98,10 +98,12 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto answer = database.prepare(
       "INSERT INTO questionnaire(item, question, answer, value, observed_s, censored, reason) "
       "VALUES(?,?,?,?,?,?,?)");
-  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer})
+  auto state = database.prepare("INSERT INTO saved_states VALUES(?,?)");
+  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state})
     if (!*statement) return tl::unexpected(statement->error());
   return InsertStatements{std::move(*snapshot), std::move(*input), std::move(*edit),
-                          std::move(*sample),   std::move(*event), std::move(*answer)};
+                          std::move(*sample),   std::move(*event), std::move(*answer),
+                          std::move(*state)};
 }
 
 Expected<void> insert_meta(const Database& database, const std::string& key,
@@ -187,6 +189,19 @@ Expected<SceneEdit> read_scene_edit(const Statement& row) {
   in.to(edit.tick);
   edit.command = in.bytes();
   return edit;
+}
+
+Expected<void> insert(Statement& statement, const StateRecord& state) {
+  RowBinder(statement).add(state.tick).add_bytes(state.data);
+  return statement.run();
+}
+
+Expected<StateRecord> read_state(const Statement& row) {
+  StateRecord state;
+  RowReader in(row);
+  in.to(state.tick);
+  state.data = in.bytes();
+  return state;
 }
 
 Expected<void> insert(Statement& statement, const Sample& s) {

@@ -49,6 +49,13 @@ struct SceneEdit {
   bool operator==(const SceneEdit&) const = default;
 };
 
+/// The simulation's whole state after a tick, opaque here (engine/simulation/saved_state.hpp).
+struct StateRecord {
+  Tick tick = 0;
+  Bytes data;
+  bool operator==(const StateRecord&) const = default;
+};
+
 /// The vehicle ahead in the driver's lane.
 struct Leader {
   ParticipantId participant = 0;

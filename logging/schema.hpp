@@ -56,6 +56,9 @@ inline constexpr std::array tables{
           "value REAL, observed_s REAL NOT NULL, censored INTEGER NOT NULL, reason TEXT NOT NULL)"},
 };
 
+/// Sessions of earlier builds lack it.
+inline constexpr Table saved_states{"saved_states", "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
+
 /// Finds the keyframe before a time without reading the table.
 inline constexpr std::string_view keyframe_index =
     "CREATE INDEX keyframes ON snapshots(simulated_time_s) WHERE baseline_tick IS NULL";

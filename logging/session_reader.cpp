@@ -240,6 +240,15 @@ Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const 
       read_answer);
 }
 
+Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
+  const auto has_table = state_->database.query_integer("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'saved_states'");
+  if (!has_table) return tl::unexpected(has_table.error());
+  if (*has_table == 0) return std::optional<StateRecord>();
+  auto rows = read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"), read_state);
+  if (!rows) return tl::unexpected(rows.error());
+  return rows->empty() ? std::nullopt : std::optional(std::move(rows->front()));
+}
+
 Expected<void> SessionReader::check_integrity() const {
   auto check = state_->database.prepare("PRAGMA integrity_check(1)");
   if (!check) return tl::unexpected(check.error());

@@ -67,6 +67,8 @@ class SessionReader {
   Expected<std::vector<Sample>> samples(TickRange range = {}) const;
   Expected<std::vector<Event>> events(TickRange range = {}) const;
   Expected<std::vector<QuestionnaireRecord>> questionnaire() const;
+  /// The last saved state at or before a tick, if there is one.
+  Expected<std::optional<StateRecord>> saved_state(Tick at_or_before) const;
 
   /// Reads every page of the file; an Error names what is damaged.
   Expected<void> check_integrity() const;

@@ -50,6 +50,7 @@ class SessionWriter {
   void record(Sample sample);
   void record(Event event);
   void record(QuestionnaireRecord answer);
+  void record(StateRecord state);
 
   /// The error that ended the recording, once; afterwards and before, nothing.
   std::optional<Error> take_error();

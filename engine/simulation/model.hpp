@@ -30,6 +30,7 @@ struct Model {
   std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
   std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; nothing where empty.
   std::uint64_t seed = 1;
+  std::uint64_t sources_hash = 0;  ///< Of the texts that it was read from: models with equal ones are equal. 0: it was read from none.
 };
 
 }  // namespace septet::simulation

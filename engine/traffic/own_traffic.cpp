@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "engine/traffic/save_traffic.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 
 namespace septet::traffic {
@@ -26,6 +27,15 @@ class OwnTraffic final : public TrafficEngine {
   void add_to_hash(StateHash& hash) const override {
     hash_state(hash, state_);
     for (const auto word : random_.state()) hash.add(word);
+  }
+  bool can_be_saved() const override { return true; }
+  void save(StateWriter& writer) const override {
+    save_traffic(parameters_, state_, writer);
+    transfer(writer, random_);
+  }
+  void restore(StateReader& reader) override {
+    restore_traffic(network_, reader, parameters_, state_);
+    transfer(reader, random_);
   }
 
  private:

@@ -18,6 +18,11 @@
 #include "engine/core/hash.hpp"
 #include "engine/traffic/traffic.hpp"
 
+namespace septet {
+class StateReader;
+class StateWriter;
+}  // namespace septet
+
 namespace septet::traffic {
 
 class TrafficEngine {
@@ -33,6 +38,11 @@ class TrafficEngine {
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
   /// Everything that decides how the traffic goes on.
   virtual void add_to_hash(StateHash& hash) const = 0;
+  /// Whether all that decides how the traffic goes on is in here, so that `save` and `restore` (engine/core/archive.hpp) may be called.
+  virtual bool can_be_saved() const { return false; }
+  virtual void save(StateWriter&) const {}
+  /// Of an engine made with the same network. `reader` fails where that is not what was saved.
+  virtual void restore(StateReader&) {}
   /// How many numbers have gone bad and were reset since the last call.
   virtual std::uint32_t take_bad_numbers() { return 0; }
   /// What has gone wrong outside, once. From then on the engine stands still; the drive is to end.

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/version.hpp"
+#include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "logging/input_hash.hpp"
 #include "logging/outcome.hpp"
@@ -48,9 +49,26 @@ std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
          "processor's arithmetic differs";
 }
 
+/// The drive where it is to be run again from: at a state that the log has kept, else at its start.
+Expected<simulation::State> state_at(const std::filesystem::path& file, const logging::SessionReader& session, const simulation::Model& model,
+                                     double from_s, std::unique_ptr<traffic::TrafficEngine> traffic) {
+  auto saved = session.saved_state(static_cast<Tick>(from_s * simulation::tick_rate_hz));
+  if (!saved) return tl::unexpected(saved.error());
+  if (!*saved) return simulation::initial_state(model, std::move(traffic));
+  auto state = simulation::restore_state(model, std::move(traffic), (*saved)->data, fmt::format("{}, tick {}", file.string(), (*saved)->tick));
+  if (state && state->tick != (*saved)->tick)
+    return refused(file, fmt::format("the state that was saved at tick {} is that of tick {}", (*saved)->tick, state->tick), "use an unaltered copy");
+  return state;
+}
+
+struct Verified {
+  Tick first = 0;           ///< Where it began.
+  std::uint64_t ticks = 0;  ///< Run again.
+};
+
 /// How many ticks were run again and agree. Ticks that are not both an input and a snapshot prove nothing and are not counted;
 /// where one is missing in between, that is the verdict.
-Expected<std::uint64_t> verify(const std::filesystem::path& file) {
+Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   const auto session = logging::SessionReader::open(file);
   if (!session) return tl::unexpected(session.error());
   const auto inputs = session->inputs();
@@ -58,22 +76,23 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
   if (inputs->empty()) return refused(file, "the session holds no driver inputs: there is nothing to verify", "give a session that was driven");
   const auto original = are_original(session->info(), *inputs);
   if (!original) return tl::unexpected(original.error());
-  auto recorded = session->snapshots();
-  if (!recorded) return tl::unexpected(recorded.error());
   const auto drive = load_drive(session->info());
   if (!drive) return tl::unexpected(drive.error());
   const auto& other = session->info().other;
   const auto engine = other.find("traffic");
   auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
   if (!traffic) return tl::unexpected(traffic.error());
-  auto state = simulation::initial_state(*drive->model, std::move(*traffic));
+  auto state = state_at(file, *session, *drive->model, from_s, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
+  Verified verified{.first = state->tick};
+  auto recorded = state->tick == 0 ? session->snapshots() : session->snapshots_from(state->time_s());
+  if (!recorded) return tl::unexpected(recorded.error());
 
   const auto gap = [&](const char* what) {
     return refused(file, fmt::format("the {} of tick {} is missing: the log has a gap", what, state->tick),
                    "only what lies before a gap can be run again");
   };
-  DriverInput input;
+  DriverInput input = state->input;
   /// Whether there is a snapshot of the state's tick, with this hash.
   const auto compare = [&](std::uint64_t hash) -> Expected<bool> {
     const auto snapshot = recorded->next();
@@ -87,9 +106,9 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
   const auto first = compare(simulation::hash_state(*state));
   if (!first) return tl::unexpected(first.error());
   if (!*first) return refused(file, "the session holds no snapshots: there is nothing to compare with", "give a session that was driven");
-  std::uint64_t ticks = 0;
   std::vector<simulation::Event> events;
   for (const auto& next : *inputs) {
+    if (next.tick <= verified.first) continue;
     input = next.input;
     events.clear();
     const Snapshot snapshot = simulation::server_step(*drive->model, input, *state, events);
@@ -98,7 +117,7 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
     const auto agrees = compare(snapshot.state_hash);
     if (!agrees) return tl::unexpected(agrees.error());
     if (!*agrees) break;  // The log was cut off between an input and its snapshot.
-    ++ticks;
+    ++verified.ticks;
   }
   const auto more = recorded->next();
   if (!more) return tl::unexpected(more.error());
@@ -106,18 +125,22 @@ Expected<std::uint64_t> verify(const std::filesystem::path& file) {
     ++state->tick;
     return gap("driver input");
   }
-  if (ticks == 0) return refused(file, "no tick has both an input and a snapshot: there is nothing to compare", "give a session that was driven");
+  if (verified.ticks == 0) return refused(file, "no tick has both an input and a snapshot: there is nothing to compare", "give a session that was driven");
   if (!original->value_or(true))
     return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees", "use an unaltered copy");
-  return ticks;
+  return verified;
 }
 
 }  // namespace
 
-Expected<int> run_verify(const std::filesystem::path& session) {
-  const auto ticks = verify(session);
-  if (!ticks) return tl::unexpected(ticks.error());
-  fmt::print("{} ticks run again: every state hash agrees\n", *ticks);
+Expected<int> run_verify(const std::filesystem::path& session, double from_s) {
+  const auto verified = verify(session, from_s);
+  if (!verified) return tl::unexpected(verified.error());
+  if (verified->first > 0)
+    fmt::print("{} ticks run again from the state of {:g} s: every state hash agrees\n", verified->ticks,
+               static_cast<double>(verified->first) / simulation::tick_rate_hz);
+  else
+    fmt::print("{} ticks run again: every state hash agrees\n", verified->ticks);
   return 0;
 }
 

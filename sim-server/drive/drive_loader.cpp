@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "engine/core/check.hpp"
+#include "engine/core/hash.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
@@ -27,6 +28,23 @@ scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.entities.size(); ++i)
     if (scenario.entities[i].kind == scenario::EntityKind::vehicle) return static_cast<scenario::EntityIndex>(i);
   return scenario::no_entity;
+}
+
+/// Of all that the simulation depends on: the rig it does not.
+std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources, std::vector<scenario::ParameterValue> parameters) {
+  StateHash hash;
+  const auto add = [&](const std::string& text) { hash.add_bytes(std::as_bytes(std::span(text))); };
+  for (const auto& source : sources) {
+    if (source.role == "rig") continue;
+    add(source.role);
+    add(source.content);
+  }
+  std::ranges::sort(parameters, {}, &scenario::ParameterValue::name);
+  for (const auto& parameter : parameters) {
+    add(parameter.name);
+    add(parameter.value);
+  }
+  return hash.value();
 }
 
 /// `vehicle`: instead of the rig's, unless it is empty.
@@ -86,6 +104,7 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
   if (!car) return tl::unexpected(car.error());
   model->car = *car;
   for (const auto& finding : findings) drive.warnings.push_back(describe(finding.error));
+  model->sources_hash = hash_of(drive.sources, parameters);
   drive.model = std::move(model);
   drive.parameters = std::move(parameters);
   return drive;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/printable.hpp"
+#include "engine/simulation/saved_state.hpp"
 #include "sim-server/drive/car_motion.hpp"
 #include "sim-server/drive/natural_end.hpp"
 
@@ -11,6 +12,9 @@ namespace {
 
 /// For so long a screen's last controls are held. It sends them with every picture, and for two seconds after the last key.
 constexpr Tick silent_screen_ticks = 120;
+
+/// So often the log keeps the whole state, to begin there when the drive is run again.
+constexpr Tick saved_state_ticks = 10 * static_cast<Tick>(simulation::tick_rate_hz);
 
 /// More than the trembling of a device that nobody touches.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
@@ -91,6 +95,11 @@ void LiveDrive::move_actuators() {
   if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
 }
 
+/// Where another program moves the traffic there is none to be kept.
+void LiveDrive::keep_state() {
+  if (auto bytes = simulation::save_state(*model_, state_)) log_->record_state({state_.tick, std::move(*bytes)});
+}
+
 /// A drive that is not logged is worth nothing to whoever evaluates it: a full disk ends it, and says so.
 std::optional<Error> LiveDrive::take_error() {
   auto error = log_ ? log_->take_error() : std::nullopt;
@@ -113,6 +122,7 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   if (log_) {
     log_->record_input(std::move(input));
     log_->record_tick(newest_, events);
+    if (state_.tick % saved_state_ticks == 0) keep_state();
     if (auto warning = log_->take_warning()) messages_.push_back(std::move(*warning));
   }
   end_ = natural_end(*model_, state_);

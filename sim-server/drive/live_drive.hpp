@@ -52,6 +52,7 @@ class LiveDrive final : public TickSource {
   LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
   void move_actuators();
+  void keep_state();
   void tell(const std::string& what);
 
   std::shared_ptr<const simulation::Model> model_;

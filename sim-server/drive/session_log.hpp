@@ -28,6 +28,7 @@ class SessionLog {
   void record_input(logging::InputRecord input);
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
+  void record_state(logging::StateRecord state) { writer_.record(std::move(state)); }
   void record_message(const std::string& kind, const std::string& text);
   std::optional<Error> take_error() { return writer_.take_error(); }
   /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.

@@ -39,9 +39,9 @@ void add_drive_commands(CLI::App& app, Options& options) {
   auto* replay_command = app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
   replay_command->add_option("session", options.replay.replay, "Session file")->required();
   add_drive_options(*replay_command, options.replay, "replay, beside the session", "0");
-  replay_command->add_option("--from", options.replay.replay_from_s, "Simulated second to begin at")->check(number_between(0.0, 1e6));
+  replay_command->add_option("--from", options.replay.replay_from_s, "Simulated second to begin at; with --verify at the last state before it that the log keeps")->check(number_between(0.0, 1e6));
   replay_command->add_flag("--verify", options.verify, "Run the recorded input again and compare every tick's state hash");
-  replay_command->callback([&] { options.work = [&] { return options.verify ? run_verify(options.replay.replay) : run_drive(options.replay); }; });
+  replay_command->callback([&] { options.work = [&] { return options.verify ? run_verify(options.replay.replay, options.replay.replay_from_s) : run_drive(options.replay); }; });
 
   // Its options are those of septet-film, which explains them too.
   auto* film_command = app.add_subcommand("film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");

@@ -130,6 +130,33 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   refuse("cut", "DELETE FROM driver_inputs WHERE tick = 240", {"driver input of tick 240 is missing"});
 }
 
+TEST_CASE("a replay verifies from the last state that the log has kept") {
+  const TemporaryFolder folder;
+  const fs::path session = folder / "out" / "session.sqlite";
+  REQUIRE(run("septet", {"drive", "--no-screens", "--seconds", "12", "--out", (folder / "out").string()}, folder / "err").code == 0);
+  const auto verify = [&](const fs::path& file, const std::string& from_s) {
+    auto again = start("septet", {"replay", "--verify", file.string(), "--from", from_s}, folder / "verify.err");
+    const auto line = again.read_line(patience);
+    return exit_code(again) == 0 ? line.value_or("") : text_of(folder / "verify.err");
+  };
+  CHECK(verify(session, "11.5") == "240 ticks run again from the state of 10 s: every state hash agrees");
+  CHECK(verify(session, "9.9") == "1440 ticks run again: every state hash agrees");
+  // What lies before the state is not run again.
+  change(session, "UPDATE snapshots SET state_hash = 5 WHERE tick = 600");
+  CHECK(verify(session, "11.5") == "240 ticks run again from the state of 10 s: every state hash agrees");
+  CHECK(verify(session, "0").find("tick 600 gives state hash") != std::string::npos);
+  change(session, "UPDATE snapshots SET state_hash = 5 WHERE tick = 1300");
+  CHECK(verify(session, "11.5").find("tick 1300 gives state hash") != std::string::npos);
+
+  // A state that was altered is no place to begin; a session of an earlier build has none, and is run from its start.
+  const fs::path damaged = folder / "damaged.sqlite";
+  fs::copy_file(session, damaged);
+  change(damaged, "UPDATE saved_states SET data = zeroblob(length(data))");
+  CHECK(verify(damaged, "11.5").find("no saved state") != std::string::npos);
+  change(damaged, "DROP TABLE saved_states");
+  CHECK(verify(damaged, "11.5").find("tick 600 gives state hash") != std::string::npos);
+}
+
 TEST_CASE("an input whose snapshot was not written any more is not counted as compared") {
   const TemporaryFolder folder;
   REQUIRE(drive(folder, "out", 3).code == 0);

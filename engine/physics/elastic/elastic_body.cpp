@@ -57,15 +57,9 @@ Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh,
   body.mass_kg.assign(size, 0.0);
   body.rotation.assign(size, Eigen::Matrix3d::Identity());
 
-  std::vector<Tetrahedron> tetrahedra;
   for (auto t : mesh.tetrahedra) {
     for (int& node : t) node = body.body_node_of_mesh_node[node];
     std::ranges::sort(t);
-    tetrahedra.push_back(t);
-  }
-  body.pattern = block_pattern(n, edges_of(tetrahedra));
-  body.factor_structure = factor_pattern(body.pattern);
-  for (const auto& t : tetrahedra) {
     Element element;
     element.nodes = t;
     const auto& x = body.rest_position_m;
@@ -73,14 +67,26 @@ Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh,
     edges << x[t[1]] - x[t[0]], x[t[2]] - x[t[0]], x[t[3]] - x[t[0]];
     element.rest_inverse = edges.inverse();
     element.rest_volume_m3 = std::abs(edges.determinant()) / 6.0;
-    std::size_t slot = 0;
-    for (int a = 1; a < 4; ++a)
-      for (int b = 0; b < a; ++b) element.slots[slot++] = body.pattern.slot(t[a], t[b]);
     for (const int node : t)
       body.mass_kg[node] += element.rest_volume_m3 * material.density_kgpm3 / 4.0;
     body.elements.push_back(element);
   }
+  derive_structure(body);
   return body;
+}
+
+void derive_structure(ElasticBody& body) {
+  std::vector<Tetrahedron> tetrahedra;
+  for (const Element& element : body.elements) tetrahedra.push_back(element.nodes);
+  body.pattern = block_pattern(body.node_count(), edges_of(tetrahedra));
+  body.factor_structure = factor_pattern(body.pattern);
+  for (Element& element : body.elements) {
+    std::size_t slot = 0;
+    for (int a = 1; a < 4; ++a)
+      for (int b = 0; b < a; ++b)
+        element.slots[slot++] = body.pattern.slot(element.nodes[static_cast<std::size_t>(a)], element.nodes[static_cast<std::size_t>(b)]);
+  }
+  invalidate_rest_factor(body);
 }
 
 void invalidate_rest_factor(ElasticBody& body) { body.rest_factor.valid = false; }

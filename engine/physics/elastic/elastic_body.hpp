@@ -77,6 +77,9 @@ struct ElasticBody {
 /// A body at rest in the mesh's shape; refuses an invalid mesh or material.
 Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh, const ElasticMaterial& material);
 
+/// Finds what follows from the elements' nodes: the equations' structure, and each element's place in it.
+void derive_structure(ElasticBody& body);
+
 /// To be called after `fixed` or the elements' rest shapes have been changed.
 void invalidate_rest_factor(ElasticBody& body);
 

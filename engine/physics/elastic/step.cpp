@@ -247,6 +247,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
   else
     for (int i = 0; i < body.node_count(); ++i)
       body.position_m[i] += settings.step_s * body.velocity_mps[i];
+  report.bad_numbers += reset_bad_nodes(body);  // Whoever looks at the body now is to see none.
   return report;
 }
 

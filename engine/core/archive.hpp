@@ -1,0 +1,251 @@
+#pragma once
+/// Plain state to bytes and back, by one list of members for both ways.
+///
+///     SEPTET_MEMBERS(WheelState, travel_m, spin_rad)     beside the struct's models, in the struct's namespace
+///     StateWriter writer(bytes);  transfer(writer, wheel);
+///     StateReader reader(bytes);  transfer(reader, wheel);  if (!reader.ok()) …reader.problem()…
+///
+/// The list names every member in its order: it is a structured binding, so that a struct that gains a member does not compile before
+/// its list has it. What follows from other state and is not kept is bound and left out, by a `members` of one's own (below).
+///
+/// Bytes are those of this build: numbers as they stand in memory (little-endian), counts of 64 bits, no names. The reader trusts
+/// nothing: a count is no more than the bytes that are left, memory has a limit, no number is a NaN and no vector infinite; what an index
+/// may be is for whoever reads to require. After the first problem everything reads as zero.
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/core/random.hpp"
+
+namespace septet {
+
+static_assert(std::endian::native == std::endian::little);
+
+class StateWriter {
+ public:
+  static constexpr bool reads = false;
+  explicit StateWriter(Bytes& out) : out_(out) {}
+
+  void put(const void* from, std::size_t count) {
+    const auto* bytes = static_cast<const std::byte*>(from);
+    out_.insert(out_.end(), bytes, bytes + count);
+  }
+  std::size_t size() const { return out_.size(); }
+
+ private:
+  Bytes& out_;
+};
+
+class StateReader {
+ public:
+  static constexpr bool reads = true;
+  explicit StateReader(std::span<const std::byte> bytes, std::size_t most_memory = std::size_t{256} << 20)
+      : bytes_(bytes), memory_left_(most_memory) {}
+
+  bool ok() const { return problem_.empty(); }
+  const std::string& problem() const { return problem_; }
+  std::size_t remaining() const { return bytes_.size(); }
+  /// Everything after this reads as zero; the first problem stays.
+  void fail(std::string_view problem) {
+    if (ok()) problem_ = problem;
+    bytes_ = {};
+  }
+  /// False, and failed, where it does not hold.
+  bool require(bool holds, std::string_view problem) {
+    if (!holds) fail(problem);
+    return ok();
+  }
+  void get(void* to, std::size_t count) {
+    if (count > bytes_.size()) fail("it ends too early");
+    if (!ok()) {
+      std::memset(to, 0, count);
+      return;
+    }
+    std::memcpy(to, bytes_.data(), count);
+    bytes_ = bytes_.subspan(count);
+  }
+  /// To be asked before memory is taken.
+  bool take_memory(std::size_t bytes) {
+    if (!require(bytes <= memory_left_, "it asks for too much memory")) return false;
+    memory_left_ -= bytes;
+    return true;
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t memory_left_;
+  std::string problem_;
+};
+
+/// T, const or not.
+template <class S, class T>
+concept SameButForConst = std::same_as<std::remove_const_t<S>, T>;
+
+/// The members of a plain struct, all of them, in their order.
+#define SEPTET_MEMBERS(Type, ...)                \
+  template <::septet::SameButForConst<Type> S_>  \
+  auto members(S_& whole_) {                     \
+    auto& [__VA_ARGS__] = whole_;                \
+    return std::tie(__VA_ARGS__);                \
+  }
+
+namespace archive {
+template <class T> inline constexpr bool is_vector = false;
+template <class T> inline constexpr bool is_vector<std::vector<T>> = true;
+template <class T> inline constexpr bool is_array = false;
+template <class T, std::size_t n> inline constexpr bool is_array<std::array<T, n>> = true;
+template <class T> inline constexpr bool is_optional = false;
+template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T> inline constexpr bool is_shared = false;
+template <class T> inline constexpr bool is_shared<std::shared_ptr<const T>> = true;
+template <class T> inline constexpr bool is_map = false;
+template <class K, class V> inline constexpr bool is_map<std::map<K, V>> = true;
+/// GLM's vectors and quaternions.
+template <class T> concept FixedVector = requires(T v) { typename T::value_type; T::length(); v[0]; };
+template <class T> concept Quaternion = FixedVector<T> && requires(T v) { v.w; } && T::length() == 4;
+/// Eigen's matrices of fixed size.
+template <class T> concept FixedMatrix = requires(T m) { T::SizeAtCompileTime; typename T::Scalar; m.data(); };
+
+template <class T>
+void require_number(StateReader& reader, T& value) {
+  if (!std::isnan(value)) return;
+  reader.fail("a number in it is none");
+  value = 0;
+}
+}  // namespace archive
+
+/// How many of them follow, each of at least one byte; 0 after a problem.
+inline std::size_t transfer_count(StateReader& reader, std::size_t element_size = 1) {
+  std::uint64_t count = 0;
+  reader.get(&count, sizeof count);
+  return reader.require(count <= reader.remaining() / element_size, "it ends too early") ? static_cast<std::size_t>(count) : 0;
+}
+
+/// `V` is const for the writer.
+template <class Archive, class V>
+void transfer(Archive& archive, V& value) {
+  using T = std::remove_const_t<V>;
+  if constexpr (std::is_same_v<T, bool>) {
+    auto byte = static_cast<std::uint8_t>(value);
+    if constexpr (Archive::reads) {
+      archive.get(&byte, 1);
+      value = archive.require(byte <= 1, "a truth in it is none") && byte == 1;
+    } else {
+      archive.put(&byte, 1);
+    }
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, std::byte>) {
+    if constexpr (Archive::reads) {
+      archive.get(&value, sizeof value);
+      if constexpr (std::is_floating_point_v<T>) archive::require_number(archive, value);
+    } else {
+      archive.put(&value, sizeof value);
+    }
+  } else if constexpr (archive::is_vector<T> || std::is_same_v<T, std::string>) {
+    using Element = typename T::value_type;
+    constexpr bool is_flat = (std::is_arithmetic_v<Element> && !std::is_same_v<Element, bool>) || std::is_same_v<Element, std::byte>;
+    if constexpr (Archive::reads) {
+      const std::size_t count = transfer_count(archive, is_flat ? sizeof(Element) : 1);
+      value.clear();
+      if constexpr (is_flat) {
+        if (!archive.take_memory(count * sizeof(Element))) return;
+        value.resize(count);
+        archive.get(value.data(), count * sizeof(Element));
+        if constexpr (std::is_floating_point_v<Element>)
+          for (Element& element : value) archive::require_number(archive, element);
+      } else {
+        for (std::size_t i = 0; i < count && archive.take_memory(sizeof(Element)); ++i) transfer(archive, value.emplace_back());
+      }
+    } else {
+      const std::uint64_t count = value.size();
+      archive.put(&count, sizeof count);
+      if constexpr (is_flat)
+        archive.put(value.data(), count * sizeof(Element));
+      else
+        for (const Element& element : value) transfer(archive, element);
+    }
+  } else if constexpr (std::is_same_v<T, Random>) {  // Its state is all that it has.
+    std::array<std::uint64_t, 4> state = value.state();
+    if constexpr (Archive::reads) {
+      transfer(archive, state);
+      if (archive.require((state[0] | state[1] | state[2] | state[3]) != 0, "its random numbers would all be the same")) value = std::bit_cast<Random>(state);
+    } else {
+      transfer(archive, std::as_const(state));
+    }
+  } else if constexpr (archive::is_array<T>) {
+    for (auto& element : value) transfer(archive, element);
+  } else if constexpr (archive::is_optional<T>) {
+    bool has = false;
+    if constexpr (Archive::reads) {
+      transfer(archive, has);
+      value.reset();
+      if (has) transfer(archive, value.emplace());
+    } else {
+      has = value.has_value();
+      transfer(archive, std::as_const(has));
+      if (has) transfer(archive, *value);
+    }
+  } else if constexpr (archive::is_shared<T>) {
+    bool has = value != nullptr;
+    if constexpr (Archive::reads) {
+      transfer(archive, has);
+      value.reset();
+      if (!has) return;
+      auto made = std::make_shared<std::remove_const_t<typename T::element_type>>();
+      transfer(archive, *made);
+      value = std::move(made);
+    } else {
+      transfer(archive, std::as_const(has));
+      if (has) transfer(archive, *value);
+    }
+  } else if constexpr (archive::is_map<T>) {
+    using Entry = std::pair<typename T::key_type, typename T::mapped_type>;
+    if constexpr (Archive::reads) {
+      const std::size_t count = transfer_count(archive);
+      value.clear();
+      for (std::size_t i = 0; i < count && archive.take_memory(sizeof(Entry)); ++i) {
+        Entry entry;
+        transfer(archive, entry.first);
+        transfer(archive, entry.second);
+        value.insert(std::move(entry));
+      }
+    } else {
+      const std::uint64_t count = value.size();
+      archive.put(&count, sizeof count);
+      for (const auto& [key, mapped] : value) {
+        transfer(archive, key);
+        transfer(archive, mapped);
+      }
+    }
+  } else if constexpr (archive::FixedVector<T>) {
+    for (int i = 0; i < static_cast<int>(T::length()); ++i) {
+      transfer(archive, value[i]);
+      if constexpr (Archive::reads) archive.require(std::isfinite(value[i]), "a vector in it is endless");
+    }
+    if constexpr (Archive::reads && archive::Quaternion<T>) {
+      const double square = value.w * value.w + value.x * value.x + value.y * value.y + value.z * value.z;
+      archive.require(std::abs(square - 1.0) < 1e-3, "an orientation in it is none");
+    }
+  } else if constexpr (archive::FixedMatrix<T>) {
+    for (int i = 0; i < static_cast<int>(T::SizeAtCompileTime); ++i) {
+      transfer(archive, value.data()[i]);
+      if constexpr (Archive::reads) archive.require(std::isfinite(value.data()[i]), "a matrix in it is endless");
+    }
+  } else {
+    std::apply([&](auto&... each) { (transfer(archive, each), ...); }, members(value));
+  }
+}
+
+}  // namespace septet

@@ -1,0 +1,78 @@
+#include "engine/effects/debris/save_debris.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/effects/debris/piece.hpp"
+#include "engine/physics/elastic/save_elastic.hpp"
+
+namespace septet::debris {
+
+SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
+
+/// All but what is its part's, what is drawn of it, and its body, which has a reader of its own.
+template <SameButForConst<Piece> S>
+auto members(S& piece) {
+  auto& [id, part, material, body, splinter, plastic_strain, surface, calm_s, asleep] = piece;
+  return std::tie(id, part, splinter, plastic_strain, calm_s, asleep);
+}
+/// All but the pieces.
+template <SameButForConst<State> S>
+auto members(S& state) {
+  auto& [pieces, shards, next_id, bad_numbers] = state;
+  return std::tie(shards, next_id, bad_numbers);
+}
+
+namespace {
+
+constexpr std::uint32_t most_ids = 1 << 23;  // Effects have room for twice as many.
+
+void restore_piece(StateReader& reader, Piece& piece) {
+  constexpr auto wrong = "debris in it does not fit together";
+  transfer(reader, piece);
+  if (!reader.require(static_cast<int>(piece.part) < part_count, "debris in it is of no known part")) return;
+  const PartRecipe& recipe = part_recipe(piece.part);
+  piece.material = spread_material(recipe);
+  piece.body.material = piece.material.elastic;
+  constexpr int tetrahedra_per_cube = 5;
+  elastic::restore_body(reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube), piece.body);
+  const std::size_t elements = piece.body.elements.size();
+  reader.require(piece.splinter.size() == elements && piece.plastic_strain.size() == elements, wrong);
+  for (const int splinter : piece.splinter) reader.require(splinter >= 0 && splinter < recipe.splinters, wrong);
+  if (!reader.ok()) return;
+  std::vector<elastic::Tetrahedron> tetrahedra;
+  for (const auto& element : piece.body.elements) tetrahedra.push_back(element.nodes);
+  piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
+}
+
+}  // namespace
+
+void save_debris(const State& state, StateWriter& writer) {
+  transfer(writer, state);
+  const std::uint64_t pieces = state.pieces.size();
+  transfer(writer, pieces);
+  for (const Piece& piece : state.pieces) {
+    transfer(writer, piece);
+    elastic::save_body(piece.body, writer);
+  }
+}
+
+void restore_debris(StateReader& reader, State& state) {
+  constexpr auto wrong = "debris in it does not fit together";
+  transfer(reader, state);
+  for (const Shard& shard : state.shards) {
+    for (const Vec3* vector : {&shard.position_m, &shard.velocity_mps, &shard.angular_velocity_radps})
+      reader.require(std::max({std::abs(vector->x), std::abs(vector->y), std::abs(vector->z)}) < 1e7, wrong);
+    reader.require(shard.size_m > 0.0 && shard.size_m < 100.0 && shard.mass_kg >= 0.0 && shard.mass_kg < 1e4, wrong);
+  }
+  const std::size_t pieces = transfer_count(reader);
+  state.pieces.clear();
+  for (std::size_t i = 0; i < pieces && reader.take_memory(sizeof(Piece)); ++i) {
+    Piece& piece = state.pieces.emplace_back();
+    restore_piece(reader, piece);
+    reader.require(piece.id < state.next_id && (i == 0 || piece.id > state.pieces[i - 1].id), wrong);
+  }
+  reader.require(state.next_id >= 1 && state.next_id <= most_ids, wrong);
+}
+
+}  // namespace septet::debris

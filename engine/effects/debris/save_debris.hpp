@@ -1,0 +1,18 @@
+#pragma once
+/// Debris to bytes and back (engine/core/archive.hpp).
+
+#include "engine/core/archive.hpp"
+#include "engine/effects/debris/debris_state.hpp"
+#include "engine/effects/debris/mounted_part.hpp"
+#include "engine/math/transform_members.hpp"
+
+namespace septet::debris {
+
+SEPTET_MEMBERS(MountedPart, part, box_from_part, mount_strength_n)
+
+void save_debris(const State& state, StateWriter& writer);
+
+/// `reader` fails where it is no debris: then `state` is not to be used.
+void restore_debris(StateReader& reader, State& state);
+
+}  // namespace septet::debris

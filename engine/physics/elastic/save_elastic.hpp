@@ -1,0 +1,15 @@
+#pragma once
+/// An elastic body to bytes and back (engine/core/archive.hpp). Its material is the caller's to keep; what follows from the elements is
+/// found again.
+
+#include "engine/core/archive.hpp"
+#include "engine/physics/elastic/elastic_body.hpp"
+
+namespace septet::elastic {
+
+void save_body(const ElasticBody& body, StateWriter& writer);
+
+/// A body of `body.material` and of no more than `most_elements`. `reader` fails where it is none: then `body` is not to be used.
+void restore_body(StateReader& reader, std::size_t most_elements, ElasticBody& body);
+
+}  // namespace septet::elastic

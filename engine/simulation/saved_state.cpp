@@ -1,0 +1,198 @@
+#include "engine/simulation/saved_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/hash.hpp"
+#include "engine/core/printable.hpp"
+#include "engine/core/version.hpp"
+#include "engine/effects/debris/save_debris.hpp"
+#include "engine/effects/smoke/save_smoke.hpp"
+#include "engine/physics/vehicle/vehicle_members.hpp"
+#include "engine/road/position_members.hpp"
+#include "engine/scenario/save_scenario.hpp"
+#include "engine/world/world_members.hpp"
+
+namespace septet::debris {
+SEPTET_MEMBERS(GroundPoint, height_m, normal, friction_factor)
+}
+
+namespace septet::simulation {
+
+SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
+SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
+SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
+SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
+SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
+SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
+
+/// All but the smoke and its track, which have a reader of their own.
+template <SameButForConst<FireState> S>
+auto members(S& state) {
+  auto& [smoke, track, soot, fires, keyframes] = state;
+  return std::tie(soot, fires, keyframes);
+}
+/// All but debris, fires and the remembered surface.
+template <SameButForConst<EffectsState> S>
+auto members(S& state) {
+  auto& [debris, crashes, fires, random, published, hash, surface_memory, surface_hint] = state;
+  return std::tie(crashes, random, published, hash, surface_hint);
+}
+/// All but storyboard, traffic and effects.
+template <SameButForConst<State> S>
+auto members(S& state) {
+  auto& [tick, car, hull, wheel_roads, kerbs, strikes, car_road, scenario, traffic, effects, input, diagnostics, touching] = state;
+  return std::tie(tick, car, hull, wheel_roads, kerbs, strikes, car_road, input, diagnostics, touching);
+}
+
+namespace {
+
+constexpr std::array magic{'S', 'E', 'P', 'T', 'S', 'T', 'A', 'T'};
+constexpr std::size_t longest_name = 256;
+constexpr auto wrong = "it does not fit together";
+
+struct Heading {
+  std::array<char, 8> word = magic;
+  std::uint32_t format = saved_state_version;
+  std::string build;
+  std::uint64_t drive = 0;
+};
+SEPTET_MEMBERS(Heading, word, format, build, drive)
+
+std::uint64_t hash_of(std::span<const std::byte> bytes) {
+  StateHash hash;
+  hash.add_bytes(bytes);
+  return hash.value();
+}
+
+std::uint64_t drive_of(const Model& model) {
+  StateHash hash;
+  hash.add(model.sources_hash);
+  hash.add(model.seed);
+  hash.add(model.driver_entity);
+  return hash.value();
+}
+
+// A surface is remembered as it was looked up first, which where roads cross may hang on who came by; so it is kept, in the order of its keys.
+void save_surface(const EffectsState& state, StateWriter& writer) {
+  const std::map<std::uint64_t, debris::GroundPoint> ordered(state.surface_memory.begin(), state.surface_memory.end());
+  transfer(writer, ordered);
+}
+
+void restore_surface(StateReader& reader, EffectsState& state) {
+  std::map<std::uint64_t, debris::GroundPoint> ordered;
+  transfer(reader, ordered);
+  state.surface_memory.insert(ordered.begin(), ordered.end());
+}
+
+void save_effects(const EffectsState& state, StateWriter& writer) {
+  transfer(writer, state);
+  debris::save_debris(state.debris, writer);
+  save_surface(state, writer);
+  const bool burns = state.fires.smoke.has_value();
+  transfer(writer, burns);
+  transfer(writer, state.fires);
+  if (burns) smoke::save_smoke(*state.fires.smoke, state.fires.track, writer);
+}
+
+void require_keyframes(const std::vector<EffectKeyframe>& keyframes, StateReader& reader) {
+  reader.require(std::ranges::is_sorted(keyframes, std::ranges::less_equal{}, &EffectKeyframe::id), wrong);
+}
+
+void restore_effects(const Model& model, StateReader& reader, EffectsState& state) {
+  transfer(reader, state);
+  debris::restore_debris(reader, state.debris);
+  restore_surface(reader, state);
+  bool burns = false;
+  transfer(reader, burns);
+  transfer(reader, state.fires);
+  if (burns) smoke::restore_smoke(reader, state.fires.smoke.emplace(), state.fires.track);
+  const std::size_t emitters = burns ? state.fires.smoke->emitters.size() : 0;
+  for (const Fire& fire : state.fires.fires) reader.require(fire.flames < emitters && fire.smoke < emitters, wrong);
+  require_keyframes(state.fires.keyframes, reader);
+  require_keyframes(state.published.keyframes, reader);
+  reader.require(std::ranges::equal(state.published.keyframes, state.published.channels, {}, &EffectKeyframe::id, &PublishedEffect::id), wrong);
+  if (state.surface_hint) road::require_on_roads(reader, model.roads, *state.surface_hint);
+  for (const auto& [vehicle, parts] : state.crashes.parts)
+    for (const debris::MountedPart& part : parts) reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
+}
+
+void restore_car(const Model& model, StateReader& reader, State& state) {
+  transfer(reader, state);
+  const auto gears = static_cast<int>(model.car.powertrain.gear_ratio.size());
+  for (const int gear : {state.car.powertrain.gear, state.car.powertrain.next_gear}) reader.require(gear >= -1 && gear <= gears, wrong);
+  for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
+  if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
+  reader.require(std::ranges::is_sorted(state.touching), wrong);
+}
+
+Expected<State> refused(const std::string& what, std::string_view where, const char* remedy) { return failure(what, std::string(where), remedy); }
+
+}  // namespace
+
+Expected<Bytes> save_state(const Model& model, const State& state) {
+  if (!state.traffic->can_be_saved())
+    return failure("the state cannot be saved: another program moves the traffic, and keeps it", "traffic", "drive with Septet's own traffic");
+  Bytes bytes;
+  StateWriter writer(bytes);
+  const Heading heading{.build = version_text(), .drive = drive_of(model)};
+  transfer(writer, heading);
+  transfer(writer, state);
+  scenario::save_scenario(state.scenario, writer);
+  state.traffic->save(writer);
+  save_effects(state.effects, writer);
+  const std::uint64_t state_hash = hash_state(state);
+  transfer(writer, state_hash);
+  const std::uint64_t bytes_hash = hash_of(bytes);
+  transfer(writer, bytes_hash);
+  if (bytes.size() > most_saved_bytes)
+    return failure(fmt::format("the state cannot be saved: it takes {} bytes", bytes.size()), "effects", "burn less");
+  return bytes;
+}
+
+Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic, std::span<const std::byte> bytes,
+                              std::string_view where) {
+  constexpr auto use_whole = "use an unaltered copy";
+  const auto damaged = [&](const std::string& how) { return refused("the saved state is damaged: " + how, where, use_whole); };
+  if (!traffic->can_be_saved()) return refused("the state cannot be restored: another program moves the traffic", where, "drive with Septet's own traffic");
+  if (bytes.size() > most_saved_bytes) return damaged("it is too long");
+  StateReader reader(bytes);
+  Heading heading;
+  transfer(reader, heading.word);
+  if (!reader.ok() || heading.word != magic) return refused("this is no saved state", where, "give one that Septet saved");
+  transfer(reader, heading.format);
+  transfer(reader, heading.build);
+  transfer(reader, heading.drive);
+  if (!reader.ok() || heading.build.size() > longest_name) return damaged("it ends too early");
+  if (heading.format != saved_state_version || heading.build != version_text())
+    return refused(fmt::format("the state was saved by another build, Septet {}; this is {}", printable(heading.build), version_text()), where,
+                   "restore it with that one");
+  if (heading.drive != drive_of(model))
+    return refused("the state was saved in another drive: scenario, roads, car or seed are not the same", where, "give the files of that drive");
+  std::uint64_t bytes_hash = 0;
+  if (reader.remaining() < sizeof bytes_hash) return damaged("it ends too early");
+  StateReader(bytes.last(sizeof bytes_hash)).get(&bytes_hash, sizeof bytes_hash);
+  if (bytes_hash != hash_of(bytes.first(bytes.size() - sizeof bytes_hash))) return damaged("its bytes are not those that were saved");
+
+  State state;
+  state.traffic = std::move(traffic);
+  scenario::StepResult init;
+  auto started = scenario::start_scenario(model.scenario, model.roads, model.driver_entity, init);
+  if (!started) return tl::unexpected(started.error());
+  state.scenario = std::move(*started);
+  restore_car(model, reader, state);
+  scenario::restore_scenario(model.scenario, model.roads, reader, state.scenario);
+  state.traffic->restore(reader);
+  restore_effects(model, reader, state.effects);
+  std::uint64_t state_hash = 0;
+  transfer(reader, state_hash);
+  reader.require(reader.remaining() == sizeof bytes_hash, "it is too long");
+  if (!reader.ok()) return damaged(reader.problem());
+  if (state_hash != hash_state(state)) return damaged("it gives another state hash than was saved");
+  return state;
+}
+
+}  // namespace septet::simulation

@@ -1,0 +1,19 @@
+#pragma once
+/// The members of the words that everybody shares, for engine/core/archive.hpp.
+
+#include "engine/core/archive.hpp"
+#include "engine/math/transform_members.hpp"
+#include "engine/world/driver_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet {
+
+SEPTET_MEMBERS(Lamps, bits)
+SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights, horn, low_beam, high_beam,
+               parking_brake, gaze_heading_rad, sequence)
+SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover, rain_mm_per_h, road_wetness,
+               snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
+SEPTET_MEMBERS(EffectKeyframe, id, kind, data, tick)
+SEPTET_MEMBERS(Diagnostics, bad_numbers, collisions, input_stale_ticks)
+
+}  // namespace septet
