@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -61,15 +63,22 @@ TEST_CASE("every vehicle keeps within its triangle budgets and gets simpler with
   }
 }
 
-TEST_CASE("the levels of a vehicle meet without a gap") {
-  for (const VehicleModel& model : vehicle_models())
+TEST_CASE("at each distance a vehicle is drawn in one level of detail, and its levels meet") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    // From where to where something is drawn, each range once.
+    std::set<std::pair<float, float>> ranges;
     for (const VehiclePart& part : vehicle_parts(model))
-      for (const Placement& place : part.places) {
-        const bool starts_at_a_seam = place.visible_from_m == 0.0f ||
-                                      place.visible_from_m == near_until_m ||
-                                      place.visible_from_m == middle_until_m;
-        CHECK(starts_at_a_seam);
-      }
+      for (const Placement& place : part.places) ranges.insert({place.visible_from_m, place.visible_to_m});
+    float reached_m = 0.0f;
+    for (const auto& [from_m, to_m] : ranges) {
+      CHECK(from_m == reached_m);
+      CHECK(to_m > from_m);
+      reached_m = to_m;
+    }
+    CHECK(ranges.size() == 3);
+    CHECK(reached_m == vehicles_until_m);
+  }
 }
 
 TEST_CASE("every part of every vehicle is finite and lies within reach of its body") {

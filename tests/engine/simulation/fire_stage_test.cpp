@@ -125,9 +125,15 @@ TEST_CASE("the same seed gives the same smoke in the open") {
 
 TEST_CASE("a fire that is put out gives off no more smoke") {
   FireState state = burn(600.0, 60, 3);
-  extinguish(5, state);
-  const std::size_t before = state.smoke->particles.size();
   const std::vector<Participant> participants{van_at(600.0)};
-  for (int i = 61; i <= 120; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
-  CHECK(state.smoke->particles.size() < before);
+  const auto go_on = [&](int from) {
+    for (int i = from; i < from + 60; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
+  };
+  const auto younger_than_a_second = [&] { return std::ranges::count_if(state.smoke->particles.age_s, [](float age_s) { return age_s < 0.99f; }); };
+  go_on(61);
+  CHECK(younger_than_a_second() > 100);
+  extinguish(5, state);
+  go_on(121);
+  CHECK(younger_than_a_second() == 0);
+  CHECK(state.smoke->particles.size() > 0);  // What was given off before is still there.
 }
