@@ -43,6 +43,7 @@ if(SEPTET_CCACHE AND NOT SEPTET_PRECOMPILE)
 endif()
 
 find_package(PkgConfig REQUIRED)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)

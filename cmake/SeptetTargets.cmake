@@ -1,4 +1,4 @@
-# Three functions make every target of the project, so that a folder's CMakeLists.txt is a few lines.
+# Four functions make every target of the project, so that a folder's CMakeLists.txt is a few lines.
 
 # The headers that most files include, precompiled once for all targets.
 set(SEPTET_COMMON_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional>
@@ -32,8 +32,22 @@ function(septet_precompile target from)
   endif()
 endfunction()
 
+# Every FILE.toml of the target's folder becomes build/…/generated/FOLDER/FILE.toml.inc.
+function(septet_sourced_entries target)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.toml)
+  foreach(file IN LISTS files)
+    set(entries ${CMAKE_BINARY_DIR}/generated/${file}.inc)
+    set(script ${CMAKE_SOURCE_DIR}/cmake/sourced_entries.py)
+    add_custom_command(OUTPUT ${entries} COMMAND Python3::Interpreter ${script} ${CMAKE_SOURCE_DIR}/${file} ${entries}
+                       DEPENDS ${script} ${CMAKE_SOURCE_DIR}/${file} VERBATIM)
+    target_sources(${target} PRIVATE ${entries})
+    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+  endforeach()
+endfunction()
+
 # septet_library(NAME [HOT] [DEPENDS library…] [PRIVATE library…])
-# A static library `septet_NAME` of all .cpp files below this folder, and of its headers, which are included by their path from the root. HOT: a server's tick is spent there. DEPENDS names other
+# A static library `septet_NAME` of all .cpp files below this folder, which may include its FILE.toml as FILE.toml.inc (sourced_entries.py), and of
+# its headers, which are included by their path from the root. HOT: a server's tick is spent there. DEPENDS names other
 # Septet libraries without their prefix; PRIVATE names third-party targets, whose headers stay in the .cpp files.
 function(septet_library name)
   cmake_parse_arguments(arg "HOT" "" "DEPENDS;PRIVATE" ${ARGN})
@@ -64,6 +78,7 @@ function(septet_library name)
     target_link_libraries(septet_${name} INTERFACE ${arg_PRIVATE})
   endif()
   target_sources(septet_${name} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${headers})
+  septet_sourced_entries(septet_${name})
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(septet_${name} ${scope} ${arg_DEPENDS})
 endfunction()

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/math/gravity.hpp"
+
 namespace septet::car_io {
 
 SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car,
@@ -21,7 +23,6 @@ SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowle
 
 double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m,
                         double roll_rad) {
-  constexpr double gravity_mps2 = 9.81;
   const double sideways_mps2 =
       speed_mps * speed_mps * curvature_per_m + gravity_mps2 * std::sin(roll_rad);
   return car.steering_ratio *

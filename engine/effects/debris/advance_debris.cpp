@@ -12,6 +12,7 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/effects/debris/shards.hpp"
+#include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/step.hpp"
 
@@ -75,7 +76,7 @@ Frame frame_of(const Piece& piece, std::span<const FoundContact> found, double s
   for (const FoundContact& f : found)
     apart = std::max(apart, (f.contact.surface_velocity_mps - frame.velocity_mps).norm());
   // And what weight and being pushed out of a surface may add.
-  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * 9.81 * step_s * (speed + 0.2);
+  const double speed = std::sqrt(2.0 * before / mass), weight_j = mass * gravity_mps2 * step_s * (speed + 0.2);
   frame.allowed_j = weight_j + std::max(before, 0.5 * mass * apart * apart);
   return frame;
 }

@@ -3,8 +3,8 @@
 ///
 /// Thin parts are lattices thicker than the sheet they stand for. Mass, stiffness and strength are
 /// those of the sheet, spread over the thicker section: they, and the energy of a crack, are
-/// multiplied by the fill, the sheet's volume over the lattice's. Where each value comes from is
-/// written in DEBRIS.md.
+/// multiplied by the fill, the sheet's volume over the lattice's. The values and their sources stand
+/// in materials.toml and parts.toml beside this file.
 
 #include <cstdint>
 

@@ -11,13 +11,10 @@
 #include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "engine/world/vehicle_body.hpp"
 
 namespace septet::debris {
 namespace {
-
-/// Frequency of a passenger car's crush against a rigid wall. Chosen: C = V/ω, and a front has 0.5 to 0.8 m to give at 56 km/h,
-/// the speed of the full-width barrier test, so that ω lies between 19 and 31. 23.5 gives 0.66 m and a peak of 37 g.
-constexpr double crush_frequency_radps = 23.5;
 
 Vec3 velocity_at(const Box& box, const Vec3& point_m) {
   return box.velocity_mps +
@@ -125,14 +122,15 @@ void release(Context& context, std::vector<Piece> pieces, const Vec3& push) {
 void break_off(Context& context, const Crash& crash, CrashBody& body, const CrashBody& other,
                double lost_speed_mps, const Vec3& push) {
   const double closing = context.report.closing_speed_mps;
-  const double crush_m = closing / crush_frequency_radps;
+  const double frequency_radps = passenger_car_crush().frequency_radps;
+  const double crush_m = closing / frequency_radps;
   std::vector<MountedPart> left;
   for (const MountedPart& mounted : body.parts) {
     const RigidTransform place = body.box.world_from_box * mounted.box_from_part;
     const double mass = part_recipe(mounted.part).mass_kg;
     const bool struck = gap_to_box(other.box, place.position_m).gap_m <
-                        lost_speed_mps / crush_frequency_radps + part_radius_m(mounted.part);
-    const double peak_n = mass * lost_speed_mps * crush_frequency_radps;
+                        lost_speed_mps / frequency_radps + part_radius_m(mounted.part);
+    const double peak_n = mass * lost_speed_mps * frequency_radps;
     if (!struck && peak_n <= mounted.mount_strength_n) {
       left.push_back(mounted);
       continue;

@@ -1,18 +1,21 @@
 #include "engine/effects/debris/mounted_part.hpp"
 
-#include <algorithm>
 #include <numbers>
+
+#include "engine/math/gravity.hpp"
 
 namespace septet::debris {
 namespace {
 
-constexpr double gravity_mps2 = 9.81;
-constexpr double door_strength_n = 11e3;        // UN R11 5.2, FMVSS 206 S4: 11 kN along the car.
-constexpr double clips_hold_g = 30.0;           // Chosen, see the header.
-constexpr double windscreen_strength_n = 40e3;  // 4 m of bead, 10 mm wide, at 1 MPa of shear.
+struct Mounts {
+  double door_strength_n, windscreen_strength_n;
+  double clips_hold_g;  // Of bumpers and lamps, in their own weights.
+};
+#define SEPTET_ENTRY(name, ...) constexpr Mounts name __VA_ARGS__;
+#include "engine/effects/debris/mounts.toml.inc"
 
 double clip_strength_n(Part part) {
-  return clips_hold_g * gravity_mps2 * part_recipe(part).mass_kg;
+  return passenger_car.clips_hold_g * gravity_mps2 * part_recipe(part).mass_kg;
 }
 
 }  // namespace
@@ -40,10 +43,10 @@ std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m) {
           {Part::door,
            {{0.15 * h.x - row * (2.0 * door.x + 0.02), side * (h.y - door.y), -0.15 * h.z},
             straight},
-           door_strength_n});
+           passenger_car.door_strength_n});
   parts.push_back({Part::windscreen,
                    {{0.35 * h.x, 0, 0.5 * h.z}, glm::angleAxis(-0.6, Vec3(0, 1, 0))},
-                   windscreen_strength_n});
+                   passenger_car.windscreen_strength_n});
   return parts;
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/piece.hpp"
+#include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 
 namespace septet::debris {
@@ -49,7 +50,7 @@ Shard shard_of(const Piece& piece) {
 
 void advance_shards(State& state, const ContactWorld& world, double step_s) {
   for (Shard& shard : state.shards) {
-    shard.velocity_mps.z -= 9.81 * step_s;
+    shard.velocity_mps.z -= gravity_mps2 * step_s;
     for (const Box& box : world.boxes) {
       const BoxGap gap = gap_to_box(box, shard.position_m);
       if (gap.gap_m > 0.0) continue;

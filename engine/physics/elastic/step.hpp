@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/elastic_body.hpp"
 
 namespace septet::elastic {
@@ -34,7 +35,7 @@ enum class Solver {
 struct StepSettings {
   double step_s = 0.015;
   double damping_ratio = 0.2;  ///< β/Δt; 0 conserves, 0.5 damps stiff modes within one step.
-  Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
+  Eigen::Vector3d gravity_mps2{0.0, 0.0, -septet::gravity_mps2};
   bool tension_stiffness = true;
   bool follow_spin = true;  ///< Of bodies without fixed nodes; false is the published update.
   bool keep_stress = false;  ///< Fill ElasticBody::step_stress_pa.

@@ -6,13 +6,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/world/vehicle_body.hpp"
+
 namespace septet::vehicle {
 namespace {
 
-/// As debris::crash has it: 0.66 m of crush at 56 km/h against a wall.
-constexpr double crush_frequency_radps = 23.5;
-constexpr double crumple_m = 0.7;           // From here on the engine, the sills and the cabin carry.
-constexpr double hard_times = 6.0;          // So much stiffer they are.
 constexpr double blow_s = 0.25;             // The blow itself is over by then; what follows is sliding.
 constexpr double let_go_s = 0.1, forgotten_s = 0.5;
 constexpr double joint_m = 0.15;            // By so much more than before a next stretch may enter.
@@ -21,8 +19,9 @@ double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 Vec2 left_of(const Vec2& v) { return {-v.y, v.x}; }
 
 double crush_force_n(double mass_kg, double depth_m) {
-  const double stiffness_npm = 0.5 * mass_kg * crush_frequency_radps * crush_frequency_radps;
-  return stiffness_npm * (depth_m + (hard_times - 1.0) * std::max(0.0, depth_m - crumple_m));
+  const Crush& crush = passenger_car_crush();
+  const double stiffness_npm = 0.5 * mass_kg * crush.frequency_radps * crush.frequency_radps;
+  return stiffness_npm * (depth_m + (crush.harder_times - 1.0) * std::max(0.0, depth_m - crush.crumple_m));
 }
 
 /// Loads along the curve of the crush, and unloads within a few centimetres.

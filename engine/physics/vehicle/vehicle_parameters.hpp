@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/math/gravity.hpp"
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/physics/vehicle/table.hpp"
 #include "engine/physics/vehicle/tyre_parameters.hpp"
@@ -16,7 +17,6 @@
 namespace septet::vehicle {
 
 inline constexpr int axle_count = 2;  ///< Front, rear.
-inline constexpr double gravity_mps2 = 9.81;
 
 struct BodyParameters {
   double mass_kg = 0.0;  ///< Whole car with driver.

@@ -1,41 +1,13 @@
 #include "engine/simulation/effects/body_box.hpp"
 
-#include <optional>
-
 #include <glm/geometric.hpp>
 
+#include "engine/world/vehicle_body.hpp"
+
 namespace septet::simulation {
-namespace {
-
-double clearance_m(ParticipantKind kind) {
-  switch (kind) {
-    case ParticipantKind::lorry:
-    case ParticipantKind::bus: return 0.45;
-    case ParticipantKind::motorcycle:
-    case ParticipantKind::bicycle:
-    case ParticipantKind::pedestrian: return 0.05;
-    default: return 0.20;
-  }
-}
-
-/// From the bonnet's edge to where the roof begins, as shares of the height and the length (engine/scenery/car_body.cpp).
-struct Slope {
-  double edge_height, roof_begins;
-};
-std::optional<Slope> front_slope(ParticipantKind kind) {
-  switch (kind) {
-    case ParticipantKind::car: return Slope{0.55, 0.43};
-    case ParticipantKind::van:
-    case ParticipantKind::ambulance: return Slope{0.48, 0.26};
-    default: return std::nullopt;
-  }
-}
-
-}  // namespace
-
 debris::Box body_box(const Participant& participant) {
   const VehicleModel& model = vehicle_models()[participant.model];
-  const double low = clearance_m(model.kind), high = model.height_m;
+  const double low = vehicle_body(model.kind).clearance_m, high = model.height_m;
   const Vec3 centre(model.centre_x_m(), 0.0, 0.5 * (low + high));
   const Vec3 arm = participant.world_from_vehicle.orientation * centre;
   debris::Box box;

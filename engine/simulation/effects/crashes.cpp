@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/world/vehicle_body.hpp"
 
 namespace septet::simulation {
 namespace {
@@ -75,16 +76,7 @@ void crash_with_standing(const Participant& car, const vehicle::HullTouch& touch
 }  // namespace
 
 double vehicle_mass_kg(const Participant& participant) {
-  switch (vehicle_models()[participant.model].kind) {
-    case ParticipantKind::lorry:
-    case ParticipantKind::bus: return 16'000.0;
-    case ParticipantKind::van: return 2'400.0;
-    case ParticipantKind::ambulance: return 3'500.0;
-    case ParticipantKind::motorcycle: return 290.0;
-    case ParticipantKind::bicycle:
-    case ParticipantKind::pedestrian: return 80.0;
-    default: return 1'500.0;
-  }
+  return vehicle_body(vehicle_models()[participant.model].kind).mass_kg;
 }
 
 std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b) {

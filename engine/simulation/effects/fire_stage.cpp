@@ -1,6 +1,7 @@
 #include "engine/simulation/effects/fire_stage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -47,38 +48,50 @@ Vec3 seat_of_fire(const Participant& vehicle) {
   return vehicle.world_from_vehicle * Vec3(model.front_m() - 0.25 * model.length_m, 0.0, 0.85 * model.height_m);
 }
 
-void add_fire(const Participant& vehicle, FireState& state) {
-  if (state.smoke->emitters.size() + 2 > smoke::max_emitters) return;
-  smoke::Emitter flames, soot;
-  flames.position_m = soot.position_m = seat_of_fire(vehicle);
-  flames.radius_m = 1.0;
-  flames.heat = 2.5;
-  flames.lifetime_s = 1.6;
-  flames.albedo = {0.9f, 0.45f, 0.12f};
-  flames.extinction_area_m2 = 0.05;
-  flames.glow = 1.0;
-  soot.position_m.z += 0.8;
-  soot.radius_m = 1.2;
-  soot.heat = 1.5;
-  soot.lifetime_s = 64.0;
-  soot.albedo = {0.07f, 0.065f, 0.06f};
-  soot.extinction_area_m2 = 0.40;
-  state.fires.push_back({vehicle.id, state.smoke->emitters.size(), state.smoke->emitters.size() + 1, 0.0, true});
-  state.smoke->emitters.push_back(flames);
-  state.smoke->emitters.push_back(soot);
+/// What a burning vehicle gives off; values and sources in fires.toml.
+struct Source {
+  double radius_m, heat, lifetime_s;
+  std::array<float, 3> albedo;
+  double extinction_area_m2, glow;
+  double height_m;  ///< Over the seat of the fire.
+  double first_rate_per_s, growth_per_s2, full_rate_per_s;
+};
+namespace sources {
+#define SEPTET_ENTRY(name, ...) constexpr Source name __VA_ARGS__;
+#include "engine/simulation/effects/fires.toml.inc"
+}  // namespace sources
+
+smoke::Emitter emitter_of(const Source& source, const Vec3& seat_m) {
+  smoke::Emitter emitter;
+  emitter.position_m = seat_m + Vec3(0.0, 0.0, source.height_m);
+  emitter.radius_m = source.radius_m;
+  emitter.heat = source.heat;
+  emitter.lifetime_s = source.lifetime_s;
+  emitter.albedo = source.albedo;
+  emitter.extinction_area_m2 = source.extinction_area_m2;
+  emitter.glow = source.glow;
+  return emitter;
 }
 
-/// A fire grows to its full power within a quarter of a minute; most of what it gives off is soot.
+void add_fire(const Participant& vehicle, FireState& state) {
+  if (state.smoke->emitters.size() + 2 > smoke::max_emitters) return;
+  const Vec3 seat_m = seat_of_fire(vehicle);
+  state.fires.push_back({vehicle.id, state.smoke->emitters.size(), state.smoke->emitters.size() + 1, 0.0, true});
+  for (const Source& source : {sources::flames, sources::soot}) state.smoke->emitters.push_back(emitter_of(source, seat_m));
+}
+
+void burn(const Fire& fire, const Source& source, const std::optional<Vec3>& seat_m, smoke::Emitter& emitter) {
+  emitter.rate_per_s = fire.burning ? std::min(source.full_rate_per_s, source.first_rate_per_s + source.growth_per_s2 * fire.burning_s) : 0.0;
+  if (seat_m) emitter.position_m = *seat_m + Vec3(0.0, 0.0, source.height_m);
+}
+
 void feed(const std::vector<Participant>& participants, double step_s, FireState& state) {
   for (Fire& fire : state.fires) {
-    smoke::Emitter &flames = state.smoke->emitters[fire.flames], &soot = state.smoke->emitters[fire.smoke];
     fire.burning_s += step_s;
-    flames.rate_per_s = fire.burning ? std::min(140.0, 80.0 + 4.0 * fire.burning_s) : 0.0;
-    soot.rate_per_s = fire.burning ? std::min(300.0, 150.0 + 10.0 * fire.burning_s) : 0.0;
     const auto vehicle = std::ranges::find(participants, fire.vehicle, &Participant::id);
-    if (vehicle == participants.end()) continue;
-    flames.position_m = seat_of_fire(*vehicle);
-    soot.position_m = flames.position_m + Vec3(0.0, 0.0, 0.8);
+    const std::optional<Vec3> seat_m = vehicle == participants.end() ? std::nullopt : std::optional(seat_of_fire(*vehicle));
+    burn(fire, sources::flames, seat_m, state.smoke->emitters[fire.flames]);
+    burn(fire, sources::soot, seat_m, state.smoke->emitters[fire.smoke]);
   }
 }
 

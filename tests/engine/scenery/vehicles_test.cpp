@@ -12,6 +12,7 @@
 #include "engine/scenery/cage.hpp"
 #include "engine/scenery/car_body.hpp"
 #include "engine/scenery/vehicle_parts.hpp"
+#include "engine/world/vehicle_body.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -44,6 +45,24 @@ TEST_CASE("the body of a car is closed and faces outwards and fills its bounding
       CHECK(bounds.max_m.y == doctest::Approx(model.width_m / 2).epsilon(0.001));
       CHECK(bounds.max_m.z == doctest::Approx(model.height_m).epsilon(0.001));
     }
+  }
+}
+
+TEST_CASE("the slope that debris meets at a vehicle's front lies close around what is drawn of it") {
+  for (const VehicleModel& model : vehicle_models()) {
+    const auto slope = front_slope(model.kind);
+    if (!slope) continue;
+    CAPTURE(model.name);
+    // In side view: z over x, from the bonnet's edge at the front to where the roof begins.
+    const double rise = (1.0 - slope->edge_height) * model.height_m, run = slope->roof_begins * model.length_m;
+    double furthest_out_m = -1e9;
+    for (const auto& vertex : shown_surface(car_body_cage(model, car_shape(model), 1), 1).vertices_m) {
+      const double behind_m = model.front_m() - vertex.x, above_edge_m = vertex.z - slope->edge_height * model.height_m;
+      if (behind_m > run) continue;
+      furthest_out_m = std::max(furthest_out_m, (above_edge_m * run - behind_m * rise) / std::hypot(rise, run));
+    }
+    CHECK(furthest_out_m < 0.10);
+    CHECK(furthest_out_m > -0.10);
   }
 }
 

@@ -1,0 +1,36 @@
+#include "engine/world/vehicle_body.hpp"
+
+#include "engine/core/check.hpp"
+
+namespace septet {
+
+const VehicleBody& vehicle_body(ParticipantKind kind) {
+  switch (kind) {
+#define SEPTET_ENTRY(name, ...)                    \
+  case ParticipantKind::name: {                    \
+    static constexpr VehicleBody data __VA_ARGS__; \
+    return data;                                   \
+  }
+#include "engine/world/bodies.toml.inc"
+  }
+  SEPTET_CHECK(false, "kind {}", static_cast<int>(kind));
+}
+
+std::optional<FrontSlope> front_slope(ParticipantKind kind) {
+  switch (kind) {
+#define SEPTET_ENTRY(name, ...) \
+  case ParticipantKind::name:   \
+    return FrontSlope __VA_ARGS__;
+#include "engine/world/fronts.toml.inc"
+    default:
+      return std::nullopt;
+  }
+}
+
+const Crush& passenger_car_crush() {
+#define SEPTET_ENTRY(name, ...) static constexpr Crush name __VA_ARGS__;
+#include "engine/world/crush.toml.inc"
+  return passenger_car;
+}
+
+}  // namespace septet

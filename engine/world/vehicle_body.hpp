@@ -1,0 +1,33 @@
+#pragma once
+/// A vehicle's or a person's body as crashes see it: how heavy it is, where it begins above the road, how its front slopes and
+/// gives way. The values and their sources stand in bodies.toml, fronts.toml and crush.toml beside this file.
+
+#include <optional>
+
+#include "engine/world/vehicle_model.hpp"
+
+namespace septet {
+
+struct VehicleBody {
+  double mass_kg;
+  double clearance_m;  ///< From the road to its lowest edge.
+};
+const VehicleBody& vehicle_body(ParticipantKind kind);
+
+/// From the bonnet's edge to where the roof begins, as shares of the height and the length.
+struct FrontSlope {
+  double edge_height, roof_begins;
+};
+/// Nothing for what is as high in front as behind.
+std::optional<FrontSlope> front_slope(ParticipantKind kind);
+
+/// A passenger car crushes against a rigid wall like a spring that does not return (engine/effects/debris/crash.hpp), and harder
+/// beyond its crumple zone.
+struct Crush {
+  double frequency_radps;
+  double crumple_m;
+  double harder_times;
+};
+const Crush& passenger_car_crush();
+
+}  // namespace septet
