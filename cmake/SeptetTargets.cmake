@@ -41,6 +41,7 @@ function(septet_sourced_entries target)
     add_custom_command(OUTPUT ${entries} COMMAND Python3::Interpreter ${script} ${CMAKE_SOURCE_DIR}/${file} ${entries}
                        DEPENDS ${script} ${CMAKE_SOURCE_DIR}/${file} VERBATIM)
     target_sources(${target} PRIVATE ${entries})
+    set_property(GLOBAL APPEND PROPERTY SEPTET_SOURCED_ENTRIES ${entries})
     target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
   endforeach()
 endfunction()
