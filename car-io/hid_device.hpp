@@ -3,7 +3,7 @@
 /// device fills, too.
 ///
 /// Reports carry their id in byte 0 (a device without ids: the bytes as they come). Threads: one
-/// thread at a time. Errors: a device that was unplugged answers an Error from every call and stays
+/// thread at a time. Errors: a device that was unplugged returns an Error from every call and stays
 /// dead; close it and open it anew, for it comes back as another one.
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class HidDevice {
  public:
   virtual ~HidDevice() = default;
 
-  /// Takes all reports that wait and answers the newest, or nothing where none waits. Never blocks.
+  /// Takes all reports that wait and returns the newest, or nothing where none waits. Never blocks.
   /// The kernel keeps the oldest reports and drops new ones when nobody reads, so that this belongs
   /// into every tick.
   virtual Expected<std::optional<Bytes>> read_newest() = 0;

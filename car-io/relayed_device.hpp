@@ -3,8 +3,8 @@
 /// of a device here, so that the server reads near and far cars alike.
 ///
 /// Whoever has the connection says what came (`receive`) and when it broke (`lose`); who reads
-/// opens the device as any other. Reading answers the newest report; a far device that is away
-/// answers why. Threads: one at a time, both ends together.
+/// opens the device as any other. Reading returns the newest report; a far device that is away
+/// returns why. Threads: one at a time, both ends together.
 
 #include <cstdint>
 #include <memory>

@@ -7,7 +7,7 @@
 /// slow: once the queue is full, `record` waits, and `waited_s` says for how long.
 ///
 /// Threads: `record` and the queries may be called from any thread. Records of one kind come in
-/// ascending ticks. Errors: `create` answers them. Later ones (a full disk, a file that somebody has
+/// ascending ticks. Errors: `create` returns them. Later ones (a full disk, a file that somebody has
 /// deleted) end the recording, not the drive: what was committed stays, `take_error` hands the one
 /// message over, and further records are counted and not written.
 

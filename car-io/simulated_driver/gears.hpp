@@ -40,7 +40,7 @@ struct GearSenses {
   bool braking = false;
 };
 
-/// Moves foot and hand; answers the accelerator that the right foot gives meanwhile.
+/// Moves foot and hand; returns the accelerator that the right foot gives meanwhile.
 double advance_gears(GearState& state, const GearParameters& gears, const CarKnowledge& car,
                      const GearSenses& senses, double dt_s);
 

@@ -24,7 +24,7 @@ struct WanderingError {
 template <class Seen>
 class ReactionDelay {
  public:
-  /// Takes what is seen now and answers what was seen `delay_s` ago, or the first ever.
+  /// Takes what is seen now and returns what was seen `delay_s` ago, or the first ever.
   const Seen& through(double now_s, Seen seen, double delay_s) {
     past_.emplace_back(now_s, std::move(seen));
     while (past_.size() > 1 && past_[1].first <= now_s - delay_s) past_.pop_front();

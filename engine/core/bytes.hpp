@@ -2,7 +2,7 @@
 /// Bounded little-endian reading and writing of bytes: the base of every wire and file format of Septet.
 ///
 /// The writer trusts the program; the reader trusts nothing. Reading past the end, or a value out of bounds, puts the
-/// reader into its failed state, in which every further read answers zero, so that a decoder checks `ok()` once per
+/// reader into its failed state, in which every further read returns zero, so that a decoder checks `ok()` once per
 /// record and never indexes with a value it has not bounded.
 
 #include <bit>
@@ -19,7 +19,7 @@ namespace septet {
 
 using Bytes = std::vector<std::byte>;
 
-/// Writes a varint at `at`, where there is room for ten bytes, and answers its end: seven bits a byte, least significant first.
+/// Writes a varint at `at`, where there is room for ten bytes, and returns its end: seven bits a byte, least significant first.
 inline std::byte* write_varint(std::byte* at, std::uint64_t value) {
   for (; value >= 0x80; value >>= 7) *at++ = static_cast<std::byte>(value | 0x80);
   *at++ = static_cast<std::byte>(value);
@@ -93,7 +93,7 @@ class ByteReader {
     const std::uint64_t bits = get_varint();
     return static_cast<std::int64_t>((bits >> 1) ^ (0 - (bits & 1)));
   }
-  /// A count that must not exceed `limit`; anything larger fails the reader and answers zero.
+  /// A count that must not exceed `limit`; anything larger fails the reader and returns zero.
   std::size_t get_count(std::size_t limit) {
     const std::uint64_t count = get_varint();
     if (count > limit) {

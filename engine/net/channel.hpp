@@ -61,7 +61,7 @@ class Channel {
 
   /// Finds losses; once per pump, after receiving.
   void advance_to(double now_s) { sender_.advance_to(now_s); }
-  /// Sends what is due, up to about `budget_bytes` of new or resent fragments; answers how many
+  /// Sends what is due, up to about `budget_bytes` of new or resent fragments; returns how many
   /// bytes went out.
   std::size_t emit(DatagramSocket& socket, double now_s, std::size_t budget_bytes);
   bool wants_to_send() const { return sender_.wants_to_send(); }

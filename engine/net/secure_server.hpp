@@ -67,7 +67,7 @@ class SecureServer {
   SecureServer(DatagramSocket& socket, SecureServerOptions options);
   ~SecureServer();
 
-  /// Receives, acknowledges, resends and sends; answers what has happened since, in order.
+  /// Receives, acknowledges, resends and sends; returns what has happened since, in order.
   std::vector<ServerEvent> pump(double now_s);
   /// More is waiting to be sent than the last pump was allowed to: pump again soon.
   bool has_backlog() const;

@@ -37,7 +37,7 @@ Border centre_border(const Road& road, double s_m) {
   return {offset.value(s_m), offset.slope(s_m)};
 }
 
-/// Walks one side outwards from the centre line; visit(lane, inner, outer) answers whether to go
+/// Walks one side outwards from the centre line; visit(lane, inner, outer) returns whether to go
 /// on.
 template <class Visit>
 void visit_lanes(const Road& road, const LaneSection& section, double s_m, int side, Visit visit) {

@@ -41,7 +41,7 @@ Offset offset_from(const Road& road, const CrossSection& section, const Vec2& wo
   return {along - section.sin_pitch * (t * section.sin_roll + h * section.cos_roll), t};
 }
 
-/// Moves `foot` by `ahead_m / slope`, within the road; answers by how much.
+/// Moves `foot` by `ahead_m / slope`, within the road; returns by how much.
 double step_foot(const Road& road, double ahead_m, double slope, Foot& foot) {
   const double target = foot.s_m + std::clamp(ahead_m / slope, -100.0, 100.0);
   if (!std::isfinite(target)) return 0.0;

@@ -6,7 +6,7 @@
 
 namespace septet::scenario {
 
-/// Evaluates every condition, so that each sees its edges, and answers whether any group holds.
+/// Evaluates every condition, so that each sees its edges, and returns whether any group holds.
 /// Changes only the states of the conditions. A trigger without groups does not hold.
 bool evaluate_trigger(const Scenario& scenario, const road::RoadNetwork& network,
                       const Trigger& trigger, ScenarioState& state);

@@ -50,7 +50,7 @@ constexpr Function functions[] = {
     {"max", 2, [](double x, double y) { return std::fmax(x, y); }},
 };
 
-/// Recursive descent; after the first error everything answers 0 and nothing is consumed.
+/// Recursive descent; after the first error everything returns 0 and nothing is consumed.
 class Expression {
  public:
   Expression(std::string_view text, const Parameters& parameters)

@@ -39,7 +39,7 @@ void change_value(const ValueAction& action, ScenarioState& state) {
                                                                     : *number * action.number);
 }
 
-/// Starts an action of one entity; answers whether it goes on.
+/// Starts an action of one entity; returns whether it goes on.
 struct StartPrivate {
   const Scenario& scenario;
   const road::RoadNetwork& network;

@@ -44,7 +44,7 @@ struct GlanceDetector {
   std::optional<Glance> current;
 };
 
-/// Takes the next sample; answers the glance that ended with it.
+/// Takes the next sample; returns the glance that ended with it.
 std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample);
 
 /// A glance that lasts until the last sample counts with the time it has.

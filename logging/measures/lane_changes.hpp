@@ -40,7 +40,7 @@ struct LaneChangeDetector {
   LaneChange pending;             ///< Dated at the crossing that left the counted lane.
 };
 
-/// Takes the next sample; answers the lane change that counts as of this sample.
+/// Takes the next sample; returns the lane change that counts as of this sample.
 std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sample);
 
 std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples,

@@ -22,7 +22,7 @@ class PictureWriter {
 
   /// Queues one picture; waits while four are queued already. Answers the first failure of an earlier one.
   Expected<void> write(std::filesystem::path file, image::Image picture);
-  /// Waits until everything is written; answers the first failure.
+  /// Waits until everything is written; returns the first failure.
   Expected<void> finish();
 
  private:

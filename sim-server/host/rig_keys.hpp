@@ -25,7 +25,7 @@ struct MachineKeys {
 /// The server's machine first, then the others as the rig names them.
 std::vector<MachineKeys> machines_of(const rig::Rig& rig);
 
-/// Writes what is missing; answers one line for each machine of what is new there, and for each key that took another's place in the list.
+/// Writes what is missing; returns one line for each machine of what is new there, and for each key that took another's place in the list.
 Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const std::filesystem::path& out);
 
 }  // namespace septet::server

@@ -172,7 +172,7 @@ double lost_j(const Piece& piece, const Frame& frame) {
 }
 
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds what the boxes
-/// received, and answers what the contacts did to the piece.
+/// received, and returns what the contacts did to the piece.
 Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s,
                      Report& report) {
   auto found = find_contacts(piece, world, step_s, ahead_s);

@@ -31,7 +31,7 @@ struct FractureResult {
 /// Opens the overloaded faces. The pieces' ids are zero.
 FractureResult fracture(const Piece& piece, const Blow& blow = {});
 
-/// Lets the overloaded elements flow; answers how many did. What a blow overloads flows as far as
+/// Lets the overloaded elements flow; returns how many did. What a blow overloads flows as far as
 /// the energy that it lost reaches.
 int flow(Piece& piece, const Blow& blow = {});
 

@@ -35,7 +35,7 @@ int list_of(int count, std::array<std::uint16_t, Block::most>& list, Chosen&& ch
 /// Ages every particle, lets it die or leave, moves it by the step that `fill_steps` gives it, and keeps the densities.
 StepReport move_particles(State& state, double step_s, const std::function<void(Block&)>& fill_steps);
 
-/// Moves particles out of cells that became full; answers how many.
+/// Moves particles out of cells that became full; returns how many.
 int push_out_of_full_cells(State& state);
 
 }  // namespace septet::smoke

@@ -6,7 +6,7 @@
 
 namespace septet::vehicle {
 
-/// Moves the steering column on and answers the mean road-wheel angle. Also sets the torque that
+/// Moves the steering column on and returns the mean road-wheel angle. Also sets the torque that
 /// the driver feels.
 double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad,
                         double speed_mps, double dt_s, VehicleState& state);

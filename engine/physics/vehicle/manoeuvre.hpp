@@ -1,6 +1,6 @@
 #pragma once
 /// The standard manoeuvres: what a test track does to a car, done to ours. Each starts from settled
-/// straight running, answers its figures and the time series they come from, and is a pure
+/// straight running, returns its figures and the time series they come from, and is a pure
 /// function.
 ///
 /// Angles of steer are those of the road wheels in the mean of the axle: hand wheel over steering

@@ -47,7 +47,7 @@ inline TyreForce steady_force(const TyreParameters& tyre, const TyreContact& con
   return tyre.published ? published_force(tyre, contact) : load_sensitive_force(tyre, contact);
 }
 
-/// Moves the patch's deflection on by `dt_s` and answers the force that it carries (Rill 2006,
+/// Moves the patch's deflection on by `dt_s` and returns the force that it carries (Rill 2006,
 /// "First order tire dynamics", eq. 15): (d v_T + f) dy/dt = v_T (F(s) − c y), force c y + d dy/dt;
 /// implicit in y, so stable at every speed. The force never exceeds what the surface can hold.
 Vec2 relax(const TyreForce& steady, double most_force_n, double dt_s, Vec2& deflection_m);

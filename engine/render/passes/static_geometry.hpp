@@ -64,7 +64,7 @@ struct Gathered {
 inline constexpr std::uint32_t no_group = std::numeric_limits<std::uint32_t>::max();
 
 /// The pieces within their range of the eye that `keep` wants, nearest first. `group_of` says which of a block's materials
-/// are drawn together, and answers no_group for those that are not drawn.
+/// are drawn together, and returns no_group for those that are not drawn.
 Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
                 const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
                 const std::function<std::uint32_t(std::uint32_t material)>& group_of);

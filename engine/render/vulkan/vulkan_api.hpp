@@ -2,7 +2,7 @@
 /// Vulkan's functions and types, and how its failures travel inside engine/render.
 ///
 /// Only files of engine/render include this. A failed call throws Failure; Renderer's public functions are the edge that
-/// catches it and answers an Error, so that the code between stays a straight list of Vulkan calls. Vulkan 1.3 with
+/// catches it and returns an Error, so that the code between stays a straight list of Vulkan calls. Vulkan 1.3 with
 /// dynamic rendering, synchronization2 and push descriptors; no descriptor indexing, which lavapipe lacks.
 
 #include <volk.h>
