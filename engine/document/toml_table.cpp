@@ -32,26 +32,53 @@ std::size_t behind_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// The place of the first key of more parts than anybody needs; npos: there is none. Numbers count as keys of two parts.
-std::size_t find_long_key(std::string_view text) {
+/// What toml++ must not see: where it begins (npos: nowhere), and what it is.
+struct Unreadable {
+  std::size_t at = std::string_view::npos;
+  std::string what, remedy;
+};
+
+bool is_bare_key_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
+
+std::size_t behind_blanks(std::string_view text, std::size_t at) { return std::min(text.find_first_not_of(" \t", at), text.size()); }
+
+/// Whether the header of a table whose first bracket stands at `at` goes on with what toml++ takes for granted there (it asserts it): a
+/// key, or the bracket that closes an empty one, which it refuses itself.
+bool begins_with_key(std::string_view text, std::size_t at) {
+  at = behind_blanks(text, at + 1);
+  if (at < text.size() && text[at] == '[') at = behind_blanks(text, at + 1);
+  return at == text.size() || is_bare_key_character(text[at]) || text[at] == '"' || text[at] == '\'' || text[at] == ']';
+}
+
+/// The first key of more parts than anybody needs, or the first header of a table whose name does not begin as a key does. Numbers count
+/// as keys of two parts. What follows the first mistake of a text does not matter: nobody reads on.
+Unreadable find_unreadable(std::string_view text) {
   int parts = 1;
-  std::size_t at = 0;
+  int open_brackets = 0;  // Of the arrays and tables within a value: a bracket there begins no header.
+  bool line_begins = true;
+  std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // A byte order mark.
   while (at < text.size()) {
     const char c = text[at];
     if (c == '"' || c == '\'') {
       at = behind_string(text, at);
+      line_begins = false;
       continue;
     }
     if (c == '#') {
       at = std::min(text.find('\n', at), text.size());
       continue;
     }
-    const bool of_key = std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == ' ' || c == '\t';
-    if (c == '.' && ++parts > most_parts) return at;
-    if (c != '.' && !of_key) parts = 1;
+    if (c == '[' && line_begins && open_brackets == 0 && !begins_with_key(text, at))
+      return {at, "the name of a table does not begin as a key does", "write letters, digits, '_' or '-', or put the name into quotes"};
+    if (c == '[' || c == '{') ++open_brackets;
+    if (c == ']' || c == '}') --open_brackets;
+    const bool is_blank = c == ' ' || c == '\t';
+    if (c == '.' && ++parts > most_parts) return {at, fmt::format("a key has more than {} parts", most_parts), "write a shorter key"};
+    if (c != '.' && !is_blank && !is_bare_key_character(c)) parts = 1;
+    line_begins = c == '\n' || (line_begins && is_blank);
     ++at;
   }
-  return text.npos;
+  return {};
 }
 
 std::string text_of(const toml::source_position& place, std::string_view file) { return fmt::format("{}:{}:{}", file, place.line, place.column); }
@@ -63,11 +90,11 @@ std::string place_of(const toml::node& node, std::string_view file) { return tex
 Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
   if (text.size() > most_bytes)
     return failure(fmt::format("is {} bytes long, and no more than {} are read as TOML", text.size(), most_bytes), std::string(file), "give a rig, a vehicle or a film script");
-  if (const auto at = find_long_key(text); at != text.npos) {
-    const std::string_view before = text.substr(0, at);
+  if (const Unreadable found = find_unreadable(text); found.at != text.npos) {
+    const std::string_view before = text.substr(0, found.at);
     const toml::source_position place{static_cast<toml::source_index>(1 + std::ranges::count(before, '\n')),
-                                      static_cast<toml::source_index>(at - (before.rfind('\n') + 1) + 1)};
-    return failure(fmt::format("a key has more than {} parts", most_parts), text_of(place, file), "write a shorter key");
+                                      static_cast<toml::source_index>(found.at - (before.rfind('\n') + 1) + 1)};
+    return failure(found.what, text_of(place, file), found.remedy);
   }
   try {
     return toml::parse(text, file);

@@ -2,8 +2,9 @@
 /// TOML text to a table: the one place where Septet parses TOML.
 ///
 /// Files may come from anywhere, session files bring theirs along. toml++ bounds how deeply values are nested, but not of how
-/// many parts a dotted key consists, each of which is a table within a table: such keys are refused before it sees them, and so
-/// is a text of more than 1 MiB, which it would read for seconds.
+/// many parts a dotted key consists, each of which is a table within a table, and takes for granted that the name of a table
+/// begins as a key does: such texts are refused before it sees them, and so is one of more than 1 MiB, which it would read for
+/// seconds.
 
 #include <string>
 #include <string_view>

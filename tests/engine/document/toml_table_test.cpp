@@ -42,6 +42,26 @@ TEST_CASE("the place of a key of too many parts is that of its first part too ma
   CHECK(table.error().where == "hostile.toml:2:34");
 }
 
+TEST_CASE("a table whose name does not begin as a key does is refused with its place") {
+  for (const std::string text : {"[%shot]", "[ +x]", "[[%shot]]", "[ \t[", "[\xc3\xa4]", "[.a]", "[#", "[\n]", "[[", "[=", "  [,]"}) {
+    CAPTURE(text);
+    const auto table = parse_toml("a = 1\n" + text + "\n", "hostile.toml");
+    REQUIRE_FALSE(table.has_value());
+    CHECK(table.error().where.starts_with("hostile.toml:"));
+  }
+  const auto table = parse_toml("a = 1\n  [[%shot]]\n", "hostile.toml");
+  REQUIRE_FALSE(table.has_value());
+  CHECK(table.error().where == "hostile.toml:2:3");
+  CHECK(table.error().what == "the name of a table does not begin as a key does");
+  CHECK_FALSE(parse_toml("\xef\xbb\xbf[%shot]\n", "hostile.toml").has_value());
+}
+
+TEST_CASE("arrays over many lines are not taken for names of tables") {
+  const auto table = parse_toml("a = [\n[+1, 2],\n  [\n[+3], {b = [\n[+4]]}]]\n[\"b\"]\n['c']\n[-]\n[ d ]\nx = [\n{y = 1},\n{y = 2}\n]\n[[e]]\n", "good.toml");
+  REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
+  CHECK(table->size() == 6);
+}
+
 TEST_CASE("text that is no TOML is refused with its line and column") {
   const auto table = parse_toml("a = 1\nb = \n", "broken.toml");
   REQUIRE_FALSE(table.has_value());
