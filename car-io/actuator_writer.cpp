@@ -31,13 +31,11 @@ Actuators scaled(Actuators actuators, double share) {
 }  // namespace
 
 struct ActuatorWriter::State {
-  State(OpenHidDevice opener, const ActuatorWriterOptions& chosen)
-      : open(std::move(opener)), options(chosen) {}
+  State(OpenHidDevice opener, const ActuatorWriterOptions& chosen) : open(std::move(opener)), options(chosen) {}
 
   void run() {
     std::unique_lock lock(mutex);
-    for (auto due = Clock::now(); !stopping;
-         due = std::max(due + duration(options.period_s), Clock::now())) {
+    for (auto due = Clock::now(); !stopping; due = std::max(due + duration(options.period_s), Clock::now())) {
       if (changed.wait_until(lock, due, [&] { return stopping; })) break;
       const Actuators wanted = scaled(newest, share_now());
       lock.unlock();
@@ -73,8 +71,7 @@ struct ActuatorWriter::State {
       fault = set_watchdog();
     }
     auto written = device->write(encode_actuators(actuators, ++sequence));
-    if (written && options.has_steering_force)
-      written = device->write(encode_steering(actuators.steering, sequence));
+    if (written && options.has_steering_force) written = device->write(encode_steering(actuators.steering, sequence));
     if (written) {
       refusals = 0;
       // Of a device that is there: one that was unplugged in the midst of it has answered nothing.
@@ -97,8 +94,11 @@ struct ActuatorWriter::State {
     const auto status = kept ? decode_device_status(*kept) : tl::unexpected(kept.error());
     if (status && status->watchdog_ms == watchdog_ms) return std::nullopt;
     const std::string answer = status ? fmt::format("it says {} ms", status->watchdog_ms) : status.error().what;
-    return Error{fmt::format("its watchdog does not hold {} ms ({}): fan, shaker and wheel force would go on if this program were killed", watchdog_ms, answer),
-                 "the car's device", "correct its firmware (feature report 3), and keep a hand on the emergency switch"};
+    return Error{fmt::format("its watchdog does not hold {} ms ({}): fan, shaker and wheel force would go on if this "
+                             "program were killed",
+                             watchdog_ms, answer),
+                 "the car's device",
+                 "correct its firmware (feature report 3), and keep a hand on the emergency switch"};
   }
 
   // Of the thread alone.

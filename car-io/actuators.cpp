@@ -25,8 +25,7 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
   Actuators result;
   if (speed_mps > 0.5) {
     const double share = std::min(speed_mps / limits.fan_full_speed_mps, 1.0);
-    result.fan =
-        std::min(limits.fan_least + (1.0 - limits.fan_least) * share, 1.0) * limits.fan_most;
+    result.fan = std::min(limits.fan_least + (1.0 - limits.fan_least) * share, 1.0) * limits.fan_most;
   }
 
   constexpr double turn_rad = 2.0 * std::numbers::pi;
@@ -37,8 +36,7 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
   const Shake shakes[] = {
       {engine_hz > 1.0 ? idling_engine + load * (loaded_engine - idling_engine) : 0.0,
        engine_hz * motion.cylinders / 2.0},
-      {road_at_30_mps * std::clamp(finite(motion.roughness), 0.0, 10.0) *
-           std::sqrt(speed_mps / 30.0),
+      {road_at_30_mps * std::clamp(finite(motion.roughness), 0.0, 10.0) * std::sqrt(speed_mps / 30.0),
        speed_mps / (turn_rad * std::max(motion.wheel_radius_m, 0.1))},
       {motion.anti_lock_active ? anti_lock : 0.0, anti_lock_hz}};
   double power = 0.0;
@@ -50,8 +48,7 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
   result.vibration = std::min(std::sqrt(power), 1.0) * limits.vibration_most;
   result.vibration_hz = std::clamp(strongest.frequency_hz, lowest_hz, highest_hz);
   result.steering =
-      std::clamp(finite(motion.steering_torque_nm) / limits.steering_full_nm, -1.0, 1.0) *
-      limits.steering_most;
+      std::clamp(finite(motion.steering_torque_nm) / limits.steering_full_nm, -1.0, 1.0) * limits.steering_most;
   return result;
 }
 

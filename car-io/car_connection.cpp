@@ -19,8 +19,7 @@ CarReading CarConnection::poll(double now_s) {
   if (device_) read(now_s, reading);
   reading.is_connected = device_ != nullptr;
   const bool beats = options_.layout->sequence_byte.has_value() || options_.repeats;
-  reading.is_stale = !reading.is_connected || !fresh_at_s_ ||
-                     (beats && now_s - *fresh_at_s_ > options_.stale_after_s);
+  reading.is_stale = !reading.is_connected || !fresh_at_s_ || (beats && now_s - *fresh_at_s_ > options_.stale_after_s);
   reading.input = reading.is_stale ? released(input_) : input_;
   return reading;
 }
@@ -42,8 +41,7 @@ void CarConnection::read(double now_s, CarReading& reading) {
     report_error(input.error());
     return;
   }
-  if (!fresh_at_s_ || !options_.layout->sequence_byte || input->sequence != input_.sequence)
-    fresh_at_s_ = now_s;
+  if (!fresh_at_s_ || !options_.layout->sequence_byte || input->sequence != input_.sequence) fresh_at_s_ = now_s;
   input_ = *input;
   last_reason_.clear();
 }

@@ -12,26 +12,18 @@ namespace {
 using enum CarButton;
 
 constexpr std::uint8_t septet_buttons = 9 * 8;
-constexpr std::array septet_car_buttons{ButtonField{indicator_left, septet_buttons + 0},
-                                        ButtonField{indicator_right, septet_buttons + 1},
-                                        ButtonField{hazard_lights, septet_buttons + 2},
-                                        ButtonField{horn, septet_buttons + 3},
-                                        ButtonField{low_beam, septet_buttons + 4},
-                                        ButtonField{high_beam, septet_buttons + 5},
-                                        ButtonField{parking_brake, septet_buttons + 6}};
+constexpr std::array septet_car_buttons{
+    ButtonField{indicator_left, septet_buttons + 0}, ButtonField{indicator_right, septet_buttons + 1},
+    ButtonField{hazard_lights, septet_buttons + 2},  ButtonField{horn, septet_buttons + 3},
+    ButtonField{low_beam, septet_buttons + 4},       ButtonField{high_beam, septet_buttons + 5},
+    ButtonField{parking_brake, septet_buttons + 6}};
 
 // Button n of the G29, in Linux' order, is bit 4 + n.
-constexpr std::array g29_buttons{ButtonField{horn, 4 + 0},
-                                 ButtonField{high_beam, 4 + 3},
-                                 ButtonField{indicator_right, 4 + 6},
-                                 ButtonField{indicator_left, 4 + 7},
-                                 ButtonField{gear_1, 4 + 12},
-                                 ButtonField{gear_2, 4 + 13},
-                                 ButtonField{gear_3, 4 + 14},
-                                 ButtonField{gear_4, 4 + 15},
-                                 ButtonField{gear_5, 4 + 16},
-                                 ButtonField{gear_6, 4 + 17},
-                                 ButtonField{gear_reverse, 4 + 18}};
+constexpr std::array g29_buttons{
+    ButtonField{horn, 4 + 0},           ButtonField{high_beam, 4 + 3},    ButtonField{indicator_right, 4 + 6},
+    ButtonField{indicator_left, 4 + 7}, ButtonField{gear_1, 4 + 12},      ButtonField{gear_2, 4 + 13},
+    ButtonField{gear_3, 4 + 14},        ButtonField{gear_4, 4 + 15},      ButtonField{gear_5, 4 + 16},
+    ButtonField{gear_6, 4 + 17},        ButtonField{gear_reverse, 4 + 18}};
 
 const std::array layouts{
     CarLayout{.name = "septet-car",
@@ -78,8 +70,7 @@ std::int16_t signed_at(std::span<const std::byte> report, std::size_t index) {
 double read_axis(const AxisField& field, std::span<const std::byte> report) {
   double raw = byte_at(report, field.byte);
   if (field.bits == 16)
-    raw = field.is_signed ? signed_at(report, field.byte)
-                          : static_cast<std::uint16_t>(signed_at(report, field.byte));
+    raw = field.is_signed ? signed_at(report, field.byte) : static_cast<std::uint16_t>(signed_at(report, field.byte));
   return (raw - field.at_zero) / (field.at_one - field.at_zero);
 }
 
@@ -97,16 +88,14 @@ double calibrated_pedal(const rig::AxisCalibration& axis, double reading) {
 /// −1 full right to 1 full left.
 double calibrated_wheel(const rig::AxisCalibration& axis, double reading) {
   const double from_centre = reading - axis.centre;
-  const double travel =
-      std::abs(from_centre) / (from_centre < 0.0 ? axis.centre - axis.min : axis.max - axis.centre);
+  const double travel = std::abs(from_centre) / (from_centre < 0.0 ? axis.centre - axis.min : axis.max - axis.centre);
   const double side = (from_centre < 0.0) != axis.inverted ? -1.0 : 1.0;
   return side * beyond(travel, axis.dead_zone);
 }
 
 bool is_pressed(const CarLayout& layout, CarButton button, std::span<const std::byte> report) {
   const auto found = std::ranges::find(layout.buttons, button, &ButtonField::button);
-  return found != layout.buttons.end() &&
-         (byte_at(report, found->bit / 8) >> (found->bit % 8) & 1) != 0;
+  return found != layout.buttons.end() && (byte_at(report, found->bit / 8) >> (found->bit % 8) & 1) != 0;
 }
 
 /// The gear lever of the layout's buttons: reverse, 1 to 6, or neutral between them.
@@ -132,19 +121,14 @@ Expected<const CarLayout*> find_car_layout(std::string_view name) {
     if (layout.name == name) return &layout;
     known += (known.empty() ? "" : ", ") + std::string(layout.name);
   }
-  return failure(fmt::format("there is no report layout '{}'", name), "rig, [car] layout",
-                 "use one of: " + known);
+  return failure(fmt::format("there is no report layout '{}'", name), "rig, [car] layout", "use one of: " + known);
 }
 
 Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::byte> report) {
-  const bool fits = layout.may_be_longer ? report.size() >= layout.report_bytes
-                                         : report.size() == layout.report_bytes;
-  if (!fits)
-    return refused(
-        layout, fmt::format("it has {} bytes where {} belong", report.size(), layout.report_bytes));
+  const bool fits = layout.may_be_longer ? report.size() >= layout.report_bytes : report.size() == layout.report_bytes;
+  if (!fits) return refused(layout, fmt::format("it has {} bytes where {} belong", report.size(), layout.report_bytes));
   if (layout.report_id && byte_at(report, 0) != *layout.report_id)
-    return refused(layout, fmt::format("it has id {} where {} belongs", byte_at(report, 0),
-                                       *layout.report_id));
+    return refused(layout, fmt::format("it has id {} where {} belongs", byte_at(report, 0), *layout.report_id));
   return AxisReadings{
       .steering = read_axis(layout.steering, report),
       .accelerator = read_axis(layout.accelerator, report),
@@ -169,13 +153,11 @@ Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalib
     input.selector = GearSelector::manual;
     input.gear = read_gear_lever(layout, report);
   }
-  input.steering_wheel_rad =
-      calibration.steering_lock_rad * calibrated_wheel(calibration.steering, axes->steering);
+  input.steering_wheel_rad = calibration.steering_lock_rad * calibrated_wheel(calibration.steering, axes->steering);
   input.accelerator = calibrated_pedal(calibration.accelerator, axes->accelerator);
   input.brake = calibrated_pedal(calibration.brake, axes->brake);
   input.clutch = calibrated_pedal(calibration.clutch, axes->clutch);
-  const bool left = is_pressed(layout, indicator_left, report),
-             right = is_pressed(layout, indicator_right, report);
+  const bool left = is_pressed(layout, indicator_left, report), right = is_pressed(layout, indicator_right, report);
   if (left != right) input.indicator = left ? IndicatorStalk::left : IndicatorStalk::right;
   input.hazard_lights = is_pressed(layout, hazard_lights, report);
   input.horn = is_pressed(layout, horn, report);

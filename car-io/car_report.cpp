@@ -64,14 +64,12 @@ constexpr std::uint8_t descriptor[] = {
 // clang-format on
 
 std::uint16_t to_u16(double fraction) {
-  return std::isfinite(fraction)
-             ? static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535.0))
-             : 0;
+  return std::isfinite(fraction) ? static_cast<std::uint16_t>(std::lround(std::clamp(fraction, 0.0, 1.0) * 65535.0))
+                                 : 0;
 }
 std::int16_t to_i16(double fraction) {
-  return std::isfinite(fraction)
-             ? static_cast<std::int16_t>(std::lround(std::clamp(fraction, -1.0, 1.0) * 32767.0))
-             : 0;
+  return std::isfinite(fraction) ? static_cast<std::int16_t>(std::lround(std::clamp(fraction, -1.0, 1.0) * 32767.0))
+                                 : 0;
 }
 
 template <std::size_t size>
@@ -81,20 +79,17 @@ std::array<std::byte, size> as_array(const Bytes& bytes) {
   return report;
 }
 
-tl::unexpected<Error> refused(std::span<const std::byte> report, std::uint8_t id,
-                              std::size_t size) {
-  return failure(
-      fmt::format("a report of {} bytes with id {} came where {} bytes with id {} belong",
-                  report.size(), report.empty() ? 0 : static_cast<int>(report[0]), size, id),
-      "car", "check the firmware against car-io/REPORTS.md");
+tl::unexpected<Error> refused(std::span<const std::byte> report, std::uint8_t id, std::size_t size) {
+  return failure(fmt::format("a report of {} bytes with id {} came where {} bytes with id {} belong", report.size(),
+                             report.empty() ? 0 : static_cast<int>(report[0]), size, id),
+                 "car", "check the firmware against car-io/REPORTS.md");
 }
 
 }  // namespace
 
 std::span<const std::uint8_t> car_report_descriptor() { return descriptor; }
 
-std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input,
-                                                             double steering_lock_rad) {
+std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input, double steering_lock_rad) {
   Bytes bytes;
   ByteWriter out(bytes);
   out.put(controls_report_id);
@@ -111,23 +106,20 @@ std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& 
   for (std::size_t i = 0; i < std::size(buttons); ++i)
     bits = static_cast<std::uint16_t>(bits | (buttons[i] ? 1u << i : 0u));
   out.put(bits);
-  out.put(static_cast<std::uint8_t>(static_cast<int>(input.selector) |
-                                    (std::clamp<int>(input.gear, -1, 6) + 1) << 4));
+  out.put(static_cast<std::uint8_t>(static_cast<int>(input.selector) | (std::clamp<int>(input.gear, -1, 6) + 1) << 4));
   out.put(to_i16(-input.gaze_heading_rad / std::numbers::pi));
   out.put(input.sequence);
   return as_array<controls_report_bytes>(bytes);
 }
 
-std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators,
-                                                               std::uint8_t sequence) {
+std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators, std::uint8_t sequence) {
   Bytes bytes;
   ByteWriter out(bytes);
   out.put(actuators_report_id);
   out.put(to_u16(actuators.fan));
   out.put(to_u16(actuators.vibration));
-  out.put(static_cast<std::uint8_t>(std::isfinite(actuators.vibration_hz)
-                                        ? std::clamp(actuators.vibration_hz, 0.0, 255.0)
-                                        : 0.0));
+  out.put(static_cast<std::uint8_t>(
+      std::isfinite(actuators.vibration_hz) ? std::clamp(actuators.vibration_hz, 0.0, 255.0) : 0.0));
   out.put(sequence);
   return as_array<actuators_report_bytes>(bytes);
 }

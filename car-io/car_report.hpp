@@ -16,8 +16,8 @@ namespace septet::car_io {
 
 inline constexpr std::uint8_t controls_report_id = 1, actuators_report_id = 2, device_report_id = 3,
                               steering_report_id = 4;
-inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes = 7,
-                             device_report_bytes = 5, steering_report_bytes = 4;
+inline constexpr std::size_t controls_report_bytes = 15, actuators_report_bytes = 7, device_report_bytes = 5,
+                             steering_report_bytes = 4;
 
 /// Full left or right of a hand wheel with 2½ turns from lock to lock.
 inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
@@ -27,8 +27,8 @@ std::span<const std::uint8_t> car_report_descriptor();
 
 /// Input report of these controls; what is beyond a field's range is taken to its end. A sequence
 /// is the caller's.
-std::array<std::byte, controls_report_bytes> encode_controls(
-    const DriverInput& input, double steering_lock_rad = default_steering_lock_rad);
+std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input,
+                                                             double steering_lock_rad = default_steering_lock_rad);
 
 /// What the car's actuators shall do, 0 to 1.
 struct Actuators {
@@ -37,8 +37,7 @@ struct Actuators {
   double vibration_hz = 0.0;
   double steering = 0.0;  ///< Force of the hand wheel's motor, −1 to 1 (turns it to the left).
 };
-std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators,
-                                                               std::uint8_t sequence);
+std::array<std::byte, actuators_report_bytes> encode_actuators(const Actuators& actuators, std::uint8_t sequence);
 /// Fan and vibration of a report.
 Expected<Actuators> decode_actuators(std::span<const std::byte> report);
 

@@ -14,8 +14,8 @@ namespace septet::car_io {
 
 /// One thing that the driver can do, and the keys that do it.
 struct DrivingKey {
-  std::array<Key, 2> keys;              ///< Either of them; the same one twice where there is no other.
-  bool KeyStates::* held = nullptr;     ///< What it means while it is down; null: the window minds it (Escape, F1).
+  std::array<Key, 2> keys;          ///< Either of them; the same one twice where there is no other.
+  bool KeyStates::*held = nullptr;  ///< What it means while it is down; null: the window minds it (Escape, F1).
   const char* does = "";
 };
 
@@ -32,6 +32,7 @@ std::string driving_keys_text();
 
 /// What a gamepad's sticks and buttons do, in a sentence.
 inline constexpr const char* gamepad_text =
-    "A gamepad drives too: left stick steers, triggers accelerate and brake, bumpers indicate, A horn, B parking brake, Y reverse.";
+    "A gamepad drives too: left stick steers, triggers accelerate and brake, bumpers indicate, A horn, B parking "
+    "brake, Y reverse.";
 
 }  // namespace septet::car_io

@@ -41,8 +41,7 @@ class HidapiDevice final : public HidDevice {
   }
 
   Expected<void> write(std::span<const std::byte> report) override {
-    if (hid_write(device_.get(), reinterpret_cast<const unsigned char*>(report.data()),
-                  report.size()) < 0)
+    if (hid_write(device_.get(), reinterpret_cast<const unsigned char*>(report.data()), report.size()) < 0)
       return lost("writing");
     return {};
   }
@@ -50,17 +49,16 @@ class HidapiDevice final : public HidDevice {
   Expected<Bytes> get_feature(std::uint8_t id, std::size_t size) override {
     Bytes report(std::max<std::size_t>(size, 1));
     report[0] = static_cast<std::byte>(id);
-    const int count = hid_get_feature_report(
-        device_.get(), reinterpret_cast<unsigned char*>(report.data()), report.size());
+    const int count =
+        hid_get_feature_report(device_.get(), reinterpret_cast<unsigned char*>(report.data()), report.size());
     if (count < 0) return lost(fmt::format("reading feature report {}", id));
     report.resize(static_cast<std::size_t>(count));
     return report;
   }
 
   Expected<void> send_feature(std::span<const std::byte> report) override {
-    if (hid_send_feature_report(device_.get(),
-                                reinterpret_cast<const unsigned char*>(report.data()),
-                                report.size()) < 0)
+    if (hid_send_feature_report(device_.get(), reinterpret_cast<const unsigned char*>(report.data()), report.size()) <
+        0)
       return lost("sending a feature report");
     return {};
   }
@@ -89,18 +87,16 @@ Expected<std::unique_ptr<HidDevice>> open_hid_device(const HidAddress& address) 
   hid_device_info* devices = hid_enumerate(address.vendor_id, address.product_id);
   std::string path;
   for (const hid_device_info* device = devices; device; device = device->next)
-    if (address.serial.empty() ||
-        (device->serial_number && narrow(device->serial_number) == address.serial)) {
+    if (address.serial.empty() || (device->serial_number && narrow(device->serial_number) == address.serial)) {
       path = device->path;
       break;
     }
   const bool another_serial = devices != nullptr && path.empty();
   hid_free_enumeration(devices);
   if (path.empty())
-    return failure(
-        another_serial ? "a device of this kind is plugged in, but with another serial number"
-                       : "the device is not plugged in",
-        name, "check the cable and the rig's [car] table (vendor_id, product_id, serial)");
+    return failure(another_serial ? "a device of this kind is plugged in, but with another serial number"
+                                  : "the device is not plugged in",
+                   name, "check the cable and the rig's [car] table (vendor_id, product_id, serial)");
   hid_device* device = hid_open_path(path.c_str());
   if (!device)
     return failure(fmt::format("{} cannot be opened: {}", path, narrow(hid_error(nullptr))), name,

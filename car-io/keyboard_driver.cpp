@@ -9,13 +9,10 @@ namespace {
 
 constexpr double standstill_mps = 0.5;
 
-double approach(double value, double target, double step) {
-  return value + std::clamp(target - value, -step, step);
-}
+double approach(double value, double target, double step) { return value + std::clamp(target - value, -step, step); }
 
 double move_pedal(double pedal, bool pressed, const KeyboardSettings& settings, double dt_s) {
-  return approach(pedal, pressed ? 1.0 : 0.0,
-                  dt_s / (pressed ? settings.press_time_s : settings.release_time_s));
+  return approach(pedal, pressed ? 1.0 : 0.0, dt_s / (pressed ? settings.press_time_s : settings.release_time_s));
 }
 
 bool is_new(bool now, bool before) { return now && !before; }
@@ -28,8 +25,7 @@ void move_switches(KeyboardDriver& driver, const KeyStates& keys) {
   };
   if (is_new(keys.indicator_left, driver.previous.indicator_left)) flip_to(IndicatorStalk::left);
   if (is_new(keys.indicator_right, driver.previous.indicator_right)) flip_to(IndicatorStalk::right);
-  if (is_new(keys.hazard_lights, driver.previous.hazard_lights))
-    input.hazard_lights = !input.hazard_lights;
+  if (is_new(keys.hazard_lights, driver.previous.hazard_lights)) input.hazard_lights = !input.hazard_lights;
   if (is_new(keys.low_beam, driver.previous.low_beam)) input.low_beam = !input.low_beam;
   input.high_beam = keys.high_beam;
   input.horn = keys.horn;
@@ -46,8 +42,7 @@ void choose_direction(KeyboardDriver& driver, const KeyStates& keys, double spee
     return;
   }
   if (selector != GearSelector::reverse) {
-    if (driver.reverse_armed && is_new(keys.brake, driver.previous.brake))
-      selector = GearSelector::reverse;
+    if (driver.reverse_armed && is_new(keys.brake, driver.previous.brake)) selector = GearSelector::reverse;
     if (!keys.brake && !keys.accelerate) driver.reverse_armed = true;
   } else if (is_new(keys.accelerate, driver.previous.accelerate)) {
     selector = GearSelector::drive;
@@ -59,8 +54,8 @@ void choose_direction(KeyboardDriver& driver, const KeyStates& keys, double spee
 
 double largest_steering_rad(const KeyboardSettings& settings, double speed_mps) {
   // Steady turning of a neutral car: tan(road wheel) = wheelbase · a / v².
-  const double tangent = settings.wheelbase_m * settings.lateral_acceleration_mps2 /
-                         std::max(speed_mps * speed_mps, 1e-6);
+  const double tangent =
+      settings.wheelbase_m * settings.lateral_acceleration_mps2 / std::max(speed_mps * speed_mps, 1e-6);
   return std::min(settings.largest_angle_rad, settings.steering_ratio * std::atan(tangent));
 }
 
@@ -69,8 +64,7 @@ DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_
   DriverInput& input = driver.input;
   choose_direction(driver, keys, speed_mps);
   const bool reverse = input.selector == GearSelector::reverse;
-  input.accelerator =
-      move_pedal(input.accelerator, reverse ? keys.brake : keys.accelerate, settings, dt_s);
+  input.accelerator = move_pedal(input.accelerator, reverse ? keys.brake : keys.accelerate, settings, dt_s);
   input.brake = move_pedal(input.brake, reverse ? keys.accelerate : keys.brake, settings, dt_s);
 
   const double largest = largest_steering_rad(settings, speed_mps);
@@ -78,32 +72,27 @@ DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_
   const bool returns = target == 0.0 || target * input.steering_wheel_rad < 0.0;
   const double rate_radps = largest / (returns ? settings.return_time_s : settings.steer_time_s);
   input.steering_wheel_rad = approach(input.steering_wheel_rad, target, rate_radps * dt_s);
-  input.gaze_heading_rad =
-      settings.look_angle_rad * ((keys.look_left ? 1.0 : 0.0) - (keys.look_right ? 1.0 : 0.0));
+  input.gaze_heading_rad = settings.look_angle_rad * ((keys.look_left ? 1.0 : 0.0) - (keys.look_right ? 1.0 : 0.0));
   move_switches(driver, keys);
   return input;
 }
 
-DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double speed_mps,
-                    double dt_s) {
+DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double speed_mps, double dt_s) {
   const GamepadSettings& settings = driver.settings;
   DriverInput& input = driver.switches.input;
   const auto finite = [](double value, double fallback) {
     return std::isfinite(value) ? std::clamp(value, -1.0, 1.0) : fallback;
   };
   const double stick = finite(gamepad.left_stick_x, 0.0);
-  const double beyond =
-      std::max(0.0, std::abs(stick) - settings.dead_zone) / (1.0 - settings.dead_zone);
-  const double target = -std::copysign(std::pow(beyond, settings.exponent), stick) *
-                        largest_steering_rad(settings.keys, speed_mps);
-  input.steering_wheel_rad =
-      approach(input.steering_wheel_rad, target, settings.steering_rate_radps * dt_s);
+  const double beyond = std::max(0.0, std::abs(stick) - settings.dead_zone) / (1.0 - settings.dead_zone);
+  const double target =
+      -std::copysign(std::pow(beyond, settings.exponent), stick) * largest_steering_rad(settings.keys, speed_mps);
+  input.steering_wheel_rad = approach(input.steering_wheel_rad, target, settings.steering_rate_radps * dt_s);
   input.accelerator = (finite(gamepad.right_trigger, -1.0) + 1.0) / 2.0;
   input.brake = (finite(gamepad.left_trigger, -1.0) + 1.0) / 2.0;
   input.gaze_heading_rad = -finite(gamepad.right_stick_x, 0.0) * std::numbers::pi / 2.0;
   if (is_new(gamepad.reverse, driver.previous_reverse) && std::abs(speed_mps) <= standstill_mps)
-    input.selector =
-        input.selector == GearSelector::reverse ? GearSelector::drive : GearSelector::reverse;
+    input.selector = input.selector == GearSelector::reverse ? GearSelector::drive : GearSelector::reverse;
   driver.previous_reverse = gamepad.reverse;
   move_switches(driver.switches, gamepad.buttons);
   return input;

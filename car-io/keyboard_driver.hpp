@@ -16,7 +16,7 @@ struct KeyStates {
   bool accelerate = false, brake = false;
   bool parking_brake = false;
   bool indicator_left = false,
-       indicator_right = false;  ///< Each press switches; the other one or the same switches back.
+       indicator_right = false;                  ///< Each press switches; the other one or the same switches back.
   bool hazard_lights = false, low_beam = false;  ///< Each press switches.
   bool high_beam = false, horn = false;          ///< While held.
   bool look_left = false, look_right = false;    ///< While held.
@@ -25,8 +25,7 @@ struct KeyStates {
 };
 
 struct KeyboardSettings {
-  double lateral_acceleration_mps2 =
-      5.0;  ///< Asked for by full steering, once the lock no longer limits.
+  double lateral_acceleration_mps2 = 5.0;  ///< Asked for by full steering, once the lock no longer limits.
   double wheelbase_m = 2.8;
   double steering_ratio = 16.0;                       ///< Hand wheel over road wheel.
   double largest_angle_rad = 7.0;                     ///< Of the hand wheel, at a standstill.
@@ -76,7 +75,6 @@ struct GamepadDriver {
   bool previous_reverse = false;
 };
 
-DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double speed_mps,
-                    double dt_s);
+DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double speed_mps, double dt_s);
 
 }  // namespace septet::car_io

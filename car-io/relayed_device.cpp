@@ -12,8 +12,7 @@ struct RelayedDevice::Cable {
 
   bool is_there() const { return problem.empty(); }
   tl::unexpected<Error> away() const {
-    return failure(problem, "car on another machine",
-                   "it comes back by itself; see septet-car there");
+    return failure(problem, "car on another machine", "it comes back by itself; see septet-car there");
   }
 };
 

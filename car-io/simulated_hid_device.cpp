@@ -35,18 +35,14 @@ struct SimulatedHidPort::Socket {
 namespace {
 
 constexpr std::size_t kernel_queue = 63;
-constexpr std::size_t kept_reports =
-    4096;  // Of those written; the oldest go when nobody takes them.
+constexpr std::size_t kept_reports = 4096;  // Of those written; the oldest go when nobody takes them.
 constexpr const char* where = "simulated HID device";
 
-tl::unexpected<Error> dead() {
-  return failure("no such device", where, "plug it in; it is opened again by itself");
-}
+tl::unexpected<Error> dead() { return failure("no such device", where, "plug it in; it is opened again by itself"); }
 
 class SimulatedHidDevice final : public HidDevice {
  public:
-  explicit SimulatedHidDevice(std::shared_ptr<SimulatedHidPort::Plugged> plugged)
-      : plugged_(std::move(plugged)) {}
+  explicit SimulatedHidDevice(std::shared_ptr<SimulatedHidPort::Plugged> plugged) : plugged_(std::move(plugged)) {}
 
   Expected<std::optional<Bytes>> read_newest() override {
     const std::lock_guard lock(plugged_->mutex);
@@ -77,9 +73,7 @@ class SimulatedHidDevice final : public HidDevice {
   Expected<void> send_feature(std::span<const std::byte> report) override {
     const std::lock_guard lock(plugged_->mutex);
     if (!plugged_->is_alive) return dead();
-    if (!report.empty())
-      plugged_->features[static_cast<std::uint8_t>(report[0])] =
-          Bytes(report.begin(), report.end());
+    if (!report.empty()) plugged_->features[static_cast<std::uint8_t>(report[0])] = Bytes(report.begin(), report.end());
     return {};
   }
 

@@ -4,8 +4,7 @@
 
 namespace septet::logging {
 
-Observation observe(DriveObserver& observer, const Snapshot& snapshot,
-                    const std::optional<Leader>& leader) {
+Observation observe(DriveObserver& observer, const Snapshot& snapshot, const std::optional<Leader>& leader) {
   Observation result;
   const ParticipantId driver = snapshot.driver_car.participant;
   const auto add = [&](Tick tick, double time_s, const char* kind, std::string detail) {
@@ -15,8 +14,8 @@ Observation observe(DriveObserver& observer, const Snapshot& snapshot,
   result.sample = take_sample(snapshot, leader);
   if (const auto change = advance(observer.lane_changes, *result.sample))
     add(change->tick, change->simulated_time_s, "lane_change",
-        fmt::format("lanes_to_left={} from_lane={} to_lane={}", change->lanes_to_left,
-                    change->from_lane, change->to_lane));
+        fmt::format("lanes_to_left={} from_lane={} to_lane={}", change->lanes_to_left, change->from_lane,
+                    change->to_lane));
   if (const auto glance = advance(observer.glances, *result.sample))
     add(glance->tick, glance->start_s, "mirror_glance",
         fmt::format("area=\"{}\" duration_s={:.2f}", glance->area, glance->duration_s));

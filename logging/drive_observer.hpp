@@ -24,7 +24,6 @@ struct Observation {
   std::vector<Event> events;  ///< lane_change, mirror_glance.
 };
 
-Observation observe(DriveObserver& observer, const Snapshot& snapshot,
-                    const std::optional<Leader>& leader);
+Observation observe(DriveObserver& observer, const Snapshot& snapshot, const std::optional<Leader>& leader);
 
 }  // namespace septet::logging

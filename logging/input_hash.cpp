@@ -5,12 +5,14 @@ namespace septet::logging {
 void add_to_hash(const InputRecord& record, StateHash& hash) {
   const DriverInput& input = record.input;
   hash.add(record.tick);
-  for (const double value : {input.steering_wheel_rad, input.accelerator, input.brake, input.clutch, input.gaze_heading_rad})
+  for (const double value :
+       {input.steering_wheel_rad, input.accelerator, input.brake, input.clutch, input.gaze_heading_rad})
     hash.add(value);
   hash.add(static_cast<int>(input.selector));
   hash.add(input.gear);
   hash.add(static_cast<int>(input.indicator));
-  for (const bool is_on : {input.hazard_lights, input.horn, input.low_beam, input.high_beam, input.parking_brake}) hash.add(is_on ? 1 : 0);
+  for (const bool is_on : {input.hazard_lights, input.horn, input.low_beam, input.high_beam, input.parking_brake})
+    hash.add(is_on ? 1 : 0);
   hash.add(input.sequence);
 }
 

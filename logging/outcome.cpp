@@ -84,7 +84,9 @@ Json json_of(const DriveOutcome& outcome) {
 std::string to_json(const DriveOutcome& outcome) { return document::text_of(json_of(outcome)); }
 
 Expected<DriveOutcome> read_outcome(const std::string& text) {
-  const auto refused = [] { return failure("the meta row outcome is not what Septet writes", "session", "the file was altered: use a copy"); };
+  const auto refused = [] {
+    return failure("the meta row outcome is not what Septet writes", "session", "the file was altered: use a copy");
+  };
   try {
     const Json json = Json::parse(text);
     const auto end = drive_end_called(json.at("ended").get<std::string>());

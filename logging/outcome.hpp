@@ -13,15 +13,18 @@ namespace septet::logging {
 
 struct ScreenOutcome {
   std::string name;
-  std::uint64_t frames = 0;           ///< That it presented, in all its lives.
-  std::uint64_t frames_off_tick = 0;  ///< Presented while other screens presented another tick. This and what follows: of its last life.
+  std::uint64_t frames = 0;  ///< That it presented, in all its lives.
+  std::uint64_t frames_off_tick =
+      0;  ///< Presented while other screens presented another tick. This and what follows: of its last life.
   std::uint64_t datagrams_lost = 0;
   std::uint64_t datagrams_repaired = 0;  ///< By the copy in the next datagram.
   std::uint64_t refused_ticks = 0;       ///< That arrived and could not be read.
-  double frame_ms_p50 = 0.0, frame_ms_p99 = 0.0;    ///< From picture to picture: drawing, device, display and waiting for others.
+  double frame_ms_p50 = 0.0,
+         frame_ms_p99 = 0.0;  ///< From picture to picture: drawing, device, display and waiting for others.
   double submit_ms_p50 = 0.0, submit_ms_p99 = 0.0;  ///< Of that, until the picture was handed to the device.
-  std::vector<double> connected_s, left_s, left_behind_s;  ///< When, in simulated time; more than one `connected_s`: it came back.
-  bool has_reported = false;                               ///< At the end it was there and said what it had seen.
+  std::vector<double> connected_s, left_s,
+      left_behind_s;          ///< When, in simulated time; more than one `connected_s`: it came back.
+  bool has_reported = false;  ///< At the end it was there and said what it had seen.
 };
 
 struct DriveOutcome {
@@ -29,10 +32,11 @@ struct DriveOutcome {
   std::string error;  ///< Where the end is one.
   std::uint64_t ticks = 0;
   double simulated_s = 0.0, wall_s = 0.0;
-  std::uint64_t state_hash = 0;  ///< Of the last tick; sixteen hexadecimal digits in the file.
+  std::uint64_t state_hash = 0;   ///< Of the last tick; sixteen hexadecimal digits in the file.
   std::uint64_t inputs_hash = 0;  ///< Of all driver inputs (input_hash.hpp): tells whether they have been altered.
   std::uint64_t late_ticks = 0;   ///< Real time: that began more than a tick late.
-  std::uint64_t bad_numbers = 0;  ///< That were none (0/0, beyond all bounds) and were reset; the events say whose and when.
+  std::uint64_t bad_numbers =
+      0;  ///< That were none (0/0, beyond all bounds) and were reset; the events say whose and when.
   std::uint64_t lost_records = 0;  ///< That the log lacks.
   double log_waited_s = 0.0;       ///< For how long the drive waited for the log's disk.
   std::vector<ScreenOutcome> screens;

@@ -82,8 +82,7 @@ std::string placeholders(int count) {
 std::optional<std::uint64_t> parse_unsigned(const std::string& text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(value)
-                                                                  : std::nullopt;
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
@@ -93,21 +92,19 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto input = database.prepare("INSERT INTO driver_inputs VALUES(" + placeholders(16) + ")");
   auto edit = database.prepare("INSERT INTO scene_edits(tick, data) VALUES(?,?)");
   auto sample = database.prepare("INSERT INTO samples VALUES(" + placeholders(26) + ")");
-  auto event = database.prepare(
-      "INSERT INTO events(tick, simulated_time_s, kind, participant, detail) VALUES(?,?,?,?,?)");
+  auto event =
+      database.prepare("INSERT INTO events(tick, simulated_time_s, kind, participant, detail) VALUES(?,?,?,?,?)");
   auto answer = database.prepare(
       "INSERT INTO questionnaire(item, question, answer, value, observed_s, censored, reason) "
       "VALUES(?,?,?,?,?,?,?)");
   auto state = database.prepare("INSERT INTO saved_states VALUES(?,?)");
   for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state})
     if (!*statement) return tl::unexpected(statement->error());
-  return InsertStatements{std::move(*snapshot), std::move(*input), std::move(*edit),
-                          std::move(*sample),   std::move(*event), std::move(*answer),
-                          std::move(*state)};
+  return InsertStatements{std::move(*snapshot), std::move(*input),  std::move(*edit), std::move(*sample),
+                          std::move(*event),    std::move(*answer), std::move(*state)};
 }
 
-Expected<void> insert_meta(const Database& database, const std::string& key,
-                           const std::string& value) {
+Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value) {
   auto statement = database.prepare("INSERT OR REPLACE INTO meta VALUES(?,?)");
   if (!statement) return tl::unexpected(statement.error());
   RowBinder(*statement).add_text(key).add_text(value);
@@ -121,18 +118,14 @@ Expected<void> insert_info(const Database& database, const SessionInfo& info) {
   meta["started_utc"] = info.started_utc;
   meta["participant"] = info.participant;
   meta["ticks_per_second"] = fmt::format("{}", info.ticks_per_second);
-  for (const auto& [name, seed] : info.seeds)
-    meta[std::string(seed_prefix) + name] = fmt::format("{}", seed);
+  for (const auto& [name, seed] : info.seeds) meta[std::string(seed_prefix) + name] = fmt::format("{}", seed);
   for (const auto& [name, value] : info.parameters) meta[std::string(parameter_prefix) + name] = value;
   for (const auto& [key, value] : meta)
     if (auto done = insert_meta(database, key, value); !done) return done;
   auto statement = database.prepare("INSERT INTO files VALUES(?,?,?)");
   if (!statement) return tl::unexpected(statement.error());
   for (const SourceFile& file : info.files) {
-    RowBinder(*statement)
-        .add_text(file.role)
-        .add_text(file.name)
-        .add_bytes(std::as_bytes(std::span(file.content)));
+    RowBinder(*statement).add_text(file.role).add_text(file.name).add_bytes(std::as_bytes(std::span(file.content)));
     if (auto done = statement->run(); !done) return done;
   }
   return {};
@@ -145,11 +138,7 @@ Expected<void> insert(Statement& statement, const InputRecord& record) {
   const DriverInput& input = record.input;
   row.add(input.steering_wheel_rad).add(input.accelerator).add(input.brake).add(input.clutch);
   row.add(static_cast<int>(input.selector)).add(input.gear).add(static_cast<int>(input.indicator));
-  row.add(input.hazard_lights)
-      .add(input.horn)
-      .add(input.low_beam)
-      .add(input.high_beam)
-      .add(input.parking_brake);
+  row.add(input.hazard_lights).add(input.horn).add(input.low_beam).add(input.high_beam).add(input.parking_brake);
   row.add(input.gaze_heading_rad).add(input.sequence);
   return statement.run();
 }
@@ -168,9 +157,9 @@ Expected<InputRecord> read_input(const Statement& row) {
   in.to(input.gear);
   const std::int64_t indicator = in.integer();
   if (selector < 0 || selector > 4 || indicator < -1 || indicator > 1)
-    return failure(fmt::format("the driver input of tick {} says selector {} and indicator {}",
-                               record.tick, selector, indicator),
-                   row.where(), "the file is damaged: use a copy");
+    return failure(
+        fmt::format("the driver input of tick {} says selector {} and indicator {}", record.tick, selector, indicator),
+        row.where(), "the file is damaged: use a copy");
   input.selector = static_cast<GearSelector>(selector);
   input.indicator = static_cast<IndicatorStalk>(indicator);
   in.to_all(input.hazard_lights, input.horn, input.low_beam, input.high_beam, input.parking_brake,
@@ -206,13 +195,7 @@ Expected<StateRecord> read_state(const Statement& row) {
 
 Expected<void> insert(Statement& statement, const Sample& s) {
   RowBinder row(statement);
-  row.add(s.tick)
-      .add(s.simulated_time_s)
-      .add(s.x_m)
-      .add(s.y_m)
-      .add(s.z_m)
-      .add(s.heading_rad)
-      .add(s.speed_mps);
+  row.add(s.tick).add(s.simulated_time_s).add(s.x_m).add(s.y_m).add(s.z_m).add(s.heading_rad).add(s.speed_mps);
   row.add(s.longitudinal_acceleration_mps2).add(s.lateral_acceleration_mps2).add(s.yaw_rate_radps);
   row.add(s.road).add(s.lane).add(s.road_s_m).add(s.lateral_position_m).add(s.lane_width_m);
   if (s.leader)
@@ -222,12 +205,7 @@ Expected<void> insert(Statement& statement, const Sample& s) {
         .add(s.leader->speed_mps);
   else
     row.add_null().add_null().add_null().add_null();
-  row.add(s.steering_wheel_rad)
-      .add(s.accelerator)
-      .add(s.brake)
-      .add(s.clutch)
-      .add(s.gear)
-      .add(s.lamps.bits);
+  row.add(s.steering_wheel_rad).add(s.accelerator).add(s.brake).add(s.clutch).add(s.gear).add(s.lamps.bits);
   row.add(s.gaze_heading_rad);
   return statement.run();
 }
@@ -236,17 +214,15 @@ Expected<Sample> read_sample(const Statement& row) {
   Sample s;
   RowReader in(row);
   in.to_all(s.tick, s.simulated_time_s, s.x_m, s.y_m, s.z_m, s.heading_rad, s.speed_mps,
-            s.longitudinal_acceleration_mps2, s.lateral_acceleration_mps2, s.yaw_rate_radps, s.road,
-            s.lane, s.road_s_m, s.lateral_position_m, s.lane_width_m);
+            s.longitudinal_acceleration_mps2, s.lateral_acceleration_mps2, s.yaw_rate_radps, s.road, s.lane, s.road_s_m,
+            s.lateral_position_m, s.lane_width_m);
   if (in.is_null()) {
     in.skip(4);
   } else {
     Leader& leader = s.leader.emplace();
-    in.to_all(leader.participant, leader.distance_gap_m, leader.distance_headway_m,
-              leader.speed_mps);
+    in.to_all(leader.participant, leader.distance_gap_m, leader.distance_headway_m, leader.speed_mps);
   }
-  in.to_all(s.steering_wheel_rad, s.accelerator, s.brake, s.clutch, s.gear, s.lamps.bits,
-            s.gaze_heading_rad);
+  in.to_all(s.steering_wheel_rad, s.accelerator, s.brake, s.clutch, s.gear, s.lamps.bits, s.gaze_heading_rad);
   return s;
 }
 
@@ -310,8 +286,7 @@ Expected<SessionInfo> read_info(const Database& database) {
   move_out("started_utc", info.started_utc);
   move_out("participant", info.participant);
   move_out("ticks_per_second", rate);
-  const auto [end, error] =
-      std::from_chars(rate.data(), rate.data() + rate.size(), info.ticks_per_second);
+  const auto [end, error] = std::from_chars(rate.data(), rate.data() + rate.size(), info.ticks_per_second);
   if (error != std::errc() || !(info.ticks_per_second > 0.0))
     return failure(fmt::format("the meta row ticks_per_second says '{}'", rate), database.where(),
                    "this session cannot be used; a number above 0 belongs there");
@@ -319,8 +294,8 @@ Expected<SessionInfo> read_info(const Database& database) {
        row != info.other.end() && row->first.starts_with(seed_prefix);) {
     const auto seed = parse_unsigned(row->second);
     if (!seed)
-      return failure(fmt::format("the meta row {} says '{}'", row->first, row->second),
-                     database.where(), "this session cannot be used; a whole number belongs there");
+      return failure(fmt::format("the meta row {} says '{}'", row->first, row->second), database.where(),
+                     "this session cannot be used; a whole number belongs there");
     info.seeds[row->first.substr(seed_prefix.size())] = *seed;
     row = info.other.erase(row);
   }

@@ -14,8 +14,7 @@ struct InsertStatements {
 Expected<InsertStatements> prepare_inserts(const Database& database);
 
 Expected<void> insert_info(const Database& database, const SessionInfo& info);
-Expected<void> insert_meta(const Database& database, const std::string& key,
-                           const std::string& value);
+Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value);
 Expected<void> insert(Statement& statement, const InputRecord& record);
 Expected<void> insert(Statement& statement, const SceneEdit& edit);
 Expected<void> insert(Statement& statement, const Sample& sample);

@@ -30,7 +30,7 @@ struct SessionInfo {
   double ticks_per_second = 120.0;
   std::map<std::string, std::uint64_t> seeds;
   std::map<std::string, std::string> parameters;  ///< Of the scenario, where they were given from outside.
-  std::map<std::string, std::string> other;  ///< Any other meta rows.
+  std::map<std::string, std::string> other;       ///< Any other meta rows.
   std::vector<SourceFile> files;
   bool operator==(const SessionInfo&) const = default;
 };

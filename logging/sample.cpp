@@ -40,8 +40,7 @@ Sample take_sample(const Snapshot& snapshot, const std::optional<Leader>& leader
 bool is_sample_due(Tick tick, double ticks_per_second) {
   // The k-th sample belongs to the first tick at or after k/10 s.
   const auto tenths_at = [&](double t) { return std::floor(t * 10.0 / ticks_per_second + 1e-9); };
-  return tick == 0 ||
-         tenths_at(static_cast<double>(tick)) > tenths_at(static_cast<double>(tick) - 1.0);
+  return tick == 0 || tenths_at(static_cast<double>(tick)) > tenths_at(static_cast<double>(tick) - 1.0);
 }
 
 }  // namespace septet::logging

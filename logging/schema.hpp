@@ -16,10 +16,8 @@ struct Table {
 };
 
 inline constexpr std::array tables{
-    Table{"meta",
-          "CREATE TABLE meta(key TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID"},
-    Table{"files",
-          "CREATE TABLE files(role TEXT NOT NULL, name TEXT NOT NULL, content BLOB NOT NULL)"},
+    Table{"meta", "CREATE TABLE meta(key TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID"},
+    Table{"files", "CREATE TABLE files(role TEXT NOT NULL, name TEXT NOT NULL, content BLOB NOT NULL)"},
     Table{"snapshots",
           "CREATE TABLE snapshots(tick INTEGER PRIMARY KEY, simulated_time_s REAL NOT NULL, "
           "baseline_tick INTEGER, "
@@ -57,7 +55,8 @@ inline constexpr std::array tables{
 };
 
 /// Sessions of earlier builds lack it.
-inline constexpr Table saved_states{"saved_states", "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
+inline constexpr Table saved_states{"saved_states",
+                                    "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
 
 /// Finds the keyframe before a time without reading the table.
 inline constexpr std::string_view keyframe_index =

@@ -19,28 +19,23 @@ Expected<void> check_format(const Database& database) {
   const auto version = database.query_integer("PRAGMA user_version");
   if (!version) return tl::unexpected(version.error());
   if (*version != format_version)
-    return failure(fmt::format("the session has format {}, and this Septet reads format {}",
-                               *version, format_version),
-                   database.where(),
-                   "use the version of Septet that wrote it (meta row septet_version)");
+    return failure(fmt::format("the session has format {}, and this Septet reads format {}", *version, format_version),
+                   database.where(), "use the version of Septet that wrote it (meta row septet_version)");
   for (const Table& table : tables) {
-    auto statement =
-        database.prepare("SELECT sql FROM sqlite_schema WHERE name = ? AND type = 'table'");
+    auto statement = database.prepare("SELECT sql FROM sqlite_schema WHERE name = ? AND type = 'table'");
     if (!statement) return tl::unexpected(statement.error());
     statement->bind(1, table.name);
     const auto row = statement->step();
     if (!row) return tl::unexpected(row.error());
     if (!*row || statement->text(0) != table.sql)
-      return failure(fmt::format("the table {} is missing or not that of format {}", table.name,
-                                 format_version),
+      return failure(fmt::format("the table {} is missing or not that of format {}", table.name, format_version),
                      database.where(), "use an unaltered session file");
   }
   return {};
 }
 
 template <class T>
-Expected<std::vector<T>> read_rows(Expected<Statement> statement,
-                                   Expected<T> (*read)(const Statement&)) {
+Expected<std::vector<T>> read_rows(Expected<Statement> statement, Expected<T> (*read)(const Statement&)) {
   if (!statement) return tl::unexpected(statement.error());
   std::vector<T> rows;
   for (;;) {
@@ -66,10 +61,10 @@ Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::
   return *row && !statement->is_null(0) ? std::optional(statement->integer(0)) : std::nullopt;
 }
 
-Expected<Statement> prepare_range(const Database& database, std::string_view columns,
-                                  std::string_view table, TickRange range, std::string_view order) {
-  auto statement = database.prepare(fmt::format(
-      "SELECT {} FROM {} WHERE tick BETWEEN ? AND ? ORDER BY {}", columns, table, order));
+Expected<Statement> prepare_range(const Database& database, std::string_view columns, std::string_view table,
+                                  TickRange range, std::string_view order) {
+  auto statement =
+      database.prepare(fmt::format("SELECT {} FROM {} WHERE tick BETWEEN ? AND ? ORDER BY {}", columns, table, order));
   if (statement) {
     constexpr auto most = static_cast<Tick>(std::numeric_limits<std::int64_t>::max());
     statement->bind(1, static_cast<std::int64_t>(std::min(range.first, most)));
@@ -115,15 +110,13 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
   const auto bytes = rows.blob(1);
   const auto header = read_snapshot_header(bytes);
   if (!header) return damaged(header.error().what);
-  if (header->tick != tick)
-    return damaged(fmt::format("its bytes are those of tick {}", header->tick));
+  if (header->tick != tick) return damaged(fmt::format("its bytes are those of tick {}", header->tick));
   const auto& previous = state_->previous;
   if (header->baseline && *header->baseline < tick && (!previous || previous->rest.tick < *header->baseline))
-    return failure(fmt::format("the snapshot of tick {} is missing: the log has a gap", *header->baseline), state_->where,
-                   "replay up to the tick before it, or use a copy of the file");
+    return failure(fmt::format("the snapshot of tick {} is missing: the log has a gap", *header->baseline),
+                   state_->where, "replay up to the tick before it, or use a copy of the file");
   if (header->baseline && (!previous || previous->rest.tick != *header->baseline))
-    return damaged(fmt::format("it is a difference to tick {}, which is not the row before",
-                               *header->baseline));
+    return damaged(fmt::format("it is a difference to tick {}, which is not the row before", *header->baseline));
   auto snapshot = decode_snapshot(bytes, header->baseline ? &*previous : nullptr);
   if (!snapshot) return damaged(snapshot.error().what);
   state_->previous = *snapshot;
@@ -150,16 +143,14 @@ Expected<SessionReader> SessionReader::open(const std::filesystem::path& path) {
   auto info = read_info(*database);
   if (!info) return tl::unexpected(info.error());
   const bool ended = info->other.contains("ended");
-  return SessionReader(
-      std::make_unique<State>(State{std::move(*database), std::move(*info), ended}));
+  return SessionReader(std::make_unique<State>(State{std::move(*database), std::move(*info), ended}));
 }
 
 const SessionInfo& SessionReader::info() const { return state_->info; }
 bool SessionReader::ended_cleanly() const { return state_->ended_cleanly; }
 
 Expected<std::uint64_t> SessionReader::missing_ticks() const {
-  return state_->database
-      .query_integer("SELECT ifnull(max(tick) + 1, 0) - count(*) FROM snapshots WHERE tick >= 0")
+  return state_->database.query_integer("SELECT ifnull(max(tick) + 1, 0) - count(*) FROM snapshots WHERE tick >= 0")
       .map([](std::int64_t missing) { return static_cast<std::uint64_t>(missing); });
 }
 
@@ -167,8 +158,7 @@ Expected<std::optional<std::pair<double, double>>> SessionReader::time_span_s() 
   std::pair<double, double> span;
   for (const auto& [sql, value] :
        {std::pair("SELECT simulated_time_s FROM snapshots ORDER BY tick LIMIT 1", &span.first),
-        std::pair("SELECT simulated_time_s FROM snapshots ORDER BY tick DESC LIMIT 1",
-                  &span.second)}) {
+        std::pair("SELECT simulated_time_s FROM snapshots ORDER BY tick DESC LIMIT 1", &span.second)}) {
     auto statement = state_->database.prepare(sql);
     if (!statement) return tl::unexpected(statement.error());
     const auto row = statement->step();
@@ -189,10 +179,9 @@ Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) 
                                    simulated_time_s);
   if (!keyframe) return tl::unexpected(keyframe.error());
   const std::int64_t first = keyframe->value_or(0);
-  const auto after = query_tick(
-      database,
-      "SELECT tick FROM snapshots WHERE tick >= ? AND simulated_time_s > ? ORDER BY tick LIMIT 1",
-      first, simulated_time_s);
+  const auto after =
+      query_tick(database, "SELECT tick FROM snapshots WHERE tick >= ? AND simulated_time_s > ? ORDER BY tick LIMIT 1",
+                 first, simulated_time_s);
   if (!after) return tl::unexpected(after.error());
   const auto at = query_tick(database, "SELECT max(tick) FROM snapshots WHERE tick < ?",
                              after->value_or(std::numeric_limits<std::int64_t>::max()));
@@ -217,34 +206,33 @@ Expected<SnapshotCursor> SessionReader::snapshots() const {
 }
 
 Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const {
-  return read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"),
-                   read_input);
+  return read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
 }
 Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
-  return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"),
-                   read_scene_edit);
+  return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"), read_scene_edit);
 }
 Expected<std::vector<Sample>> SessionReader::samples(TickRange range) const {
   return read_rows(prepare_range(state_->database, "*", "samples", range, "tick"), read_sample);
 }
 Expected<std::vector<Event>> SessionReader::events(TickRange range) const {
   return read_rows(
-      prepare_range(state_->database, "tick, simulated_time_s, kind, participant, detail", "events",
-                    range, "id"),
+      prepare_range(state_->database, "tick, simulated_time_s, kind, participant, detail", "events", range, "id"),
       read_event);
 }
 Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const {
-  return read_rows(
-      state_->database.prepare("SELECT item, question, answer, value, observed_s, censored, reason "
-                               "FROM questionnaire ORDER BY id"),
-      read_answer);
+  return read_rows(state_->database.prepare("SELECT item, question, answer, value, observed_s, censored, reason "
+                                            "FROM questionnaire ORDER BY id"),
+                   read_answer);
 }
 
 Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
-  const auto has_table = state_->database.query_integer("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'saved_states'");
+  const auto has_table = state_->database.query_integer(
+      "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'saved_states'");
   if (!has_table) return tl::unexpected(has_table.error());
   if (*has_table == 0) return std::optional<StateRecord>();
-  auto rows = read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"), read_state);
+  auto rows =
+      read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"),
+                read_state);
   if (!rows) return tl::unexpected(rows.error());
   return rows->empty() ? std::nullopt : std::optional(std::move(rows->front()));
 }

@@ -21,16 +21,16 @@ namespace septet::logging {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Record = std::variant<std::shared_ptr<const TakenSnapshot>, InputRecord, SceneEdit, Sample,
-                            Event, QuestionnaireRecord, StateRecord>;
+using Record = std::variant<std::shared_ptr<const TakenSnapshot>, InputRecord, SceneEdit, Sample, Event,
+                            QuestionnaireRecord, StateRecord>;
 
 /// The memory that a record keeps while it is queued, roughly.
 std::size_t bytes_of(const Record& record) {
   struct Extra {
     std::size_t operator()(const std::shared_ptr<const TakenSnapshot>& taken) const {
       const Snapshot& snapshot = taken->snapshot();
-      std::size_t bytes = sizeof(TakenSnapshot) + snapshot.participants.capacity() *
-                                                      (sizeof(Participant) + sizeof(WireParticipant));
+      std::size_t bytes =
+          sizeof(TakenSnapshot) + snapshot.participants.capacity() * (sizeof(Participant) + sizeof(WireParticipant));
       for (const EffectKeyframe& effect : snapshot.effects) bytes += 2 * (sizeof effect + effect.data.size());
       return bytes;
     }
@@ -167,8 +167,7 @@ void SessionWriter::State::commit() {
   if (done && uncommitted > 0) done = database.execute("COMMIT");
   if (!done) return fail(std::move(done.error()));
   uncommitted = 0;
-  if (previous)
-    committed.store(static_cast<std::int64_t>(previous->snapshot().tick), std::memory_order_release);
+  if (previous) committed.store(static_cast<std::int64_t>(previous->snapshot().tick), std::memory_order_release);
 }
 
 void SessionWriter::State::fail(Error reason) {
@@ -187,17 +186,11 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
     Expected<void> operator()(const std::shared_ptr<const TakenSnapshot>& record) {
       return state.write_snapshot(record);
     }
-    Expected<void> operator()(const InputRecord& record) {
-      return insert(state.inserts.input, record);
-    }
-    Expected<void> operator()(const SceneEdit& record) {
-      return insert(state.inserts.scene_edit, record);
-    }
+    Expected<void> operator()(const InputRecord& record) { return insert(state.inserts.input, record); }
+    Expected<void> operator()(const SceneEdit& record) { return insert(state.inserts.scene_edit, record); }
     Expected<void> operator()(const Sample& record) { return insert(state.inserts.sample, record); }
     Expected<void> operator()(const Event& record) { return insert(state.inserts.event, record); }
-    Expected<void> operator()(const QuestionnaireRecord& record) {
-      return insert(state.inserts.answer, record);
-    }
+    Expected<void> operator()(const QuestionnaireRecord& record) { return insert(state.inserts.answer, record); }
     Expected<void> operator()(const StateRecord& record) { return insert(state.inserts.state, record); }
   };
   for (const Record& record : batch)
@@ -205,21 +198,18 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
   return {};
 }
 
-Expected<void> SessionWriter::State::write_snapshot(
-    const std::shared_ptr<const TakenSnapshot>& taken) {
+Expected<void> SessionWriter::State::write_snapshot(const std::shared_ptr<const TakenSnapshot>& taken) {
   const Snapshot& rest = taken->snapshot();
   SEPTET_CHECK(!previous || rest.tick > previous->snapshot().tick, "snapshot {} after {}", rest.tick,
                previous->snapshot().tick);
-  const bool is_keyframe =
-      !previous || rest.simulated_time_s >= keyframe_time_s + options.keyframe_interval_s;
+  const bool is_keyframe = !previous || rest.simulated_time_s >= keyframe_time_s + options.keyframe_interval_s;
   if (is_keyframe) keyframe_time_s = rest.simulated_time_s;
   encoded.clear();
   encode_snapshot(taken->wire(), is_keyframe ? nullptr : &previous->wire(), encoded);
   Statement& statement = inserts.snapshot;
   statement.bind(1, static_cast<std::int64_t>(rest.tick));
   statement.bind(2, rest.simulated_time_s);
-  is_keyframe ? statement.bind_null(3)
-              : statement.bind(3, static_cast<std::int64_t>(previous->snapshot().tick));
+  is_keyframe ? statement.bind_null(3) : statement.bind(3, static_cast<std::int64_t>(previous->snapshot().tick));
   statement.bind(4, static_cast<std::int64_t>(rest.state_hash));
   statement.bind(5, std::span<const std::byte>(encoded));
   previous = taken;
@@ -229,12 +219,11 @@ Expected<void> SessionWriter::State::write_snapshot(
 /// An open file that has been deleted takes what is written without a word, and it is gone in the end.
 Expected<void> SessionWriter::State::check_file() const {
   if (file_at(database.where()) == file && file_at(database.where() + "-wal")) return {};
-  return failure("the session file was deleted or moved, or its disk has gone, while it was written",
-                 database.where(), "leave the folder alone until the drive is over, and drive again");
+  return failure("the session file was deleted or moved, or its disk has gone, while it was written", database.where(),
+                 "leave the folder alone until the drive is over, and drive again");
 }
 
-Expected<SessionWriter> SessionWriter::create(const std::filesystem::path& path,
-                                              const SessionInfo& info,
+Expected<SessionWriter> SessionWriter::create(const std::filesystem::path& path, const SessionInfo& info,
                                               const WriterOptions& options) {
   SEPTET_CHECK(options.queue_bytes > 0, "a queue of {} bytes", options.queue_bytes);
   auto database = create_database(path, info, options);
@@ -249,9 +238,7 @@ SessionWriter::SessionWriter(SessionWriter&&) noexcept = default;
 SessionWriter& SessionWriter::operator=(SessionWriter&&) noexcept = default;
 SessionWriter::~SessionWriter() = default;
 
-void SessionWriter::record(std::shared_ptr<const TakenSnapshot> snapshot) {
-  state_->push(std::move(snapshot));
-}
+void SessionWriter::record(std::shared_ptr<const TakenSnapshot> snapshot) { state_->push(std::move(snapshot)); }
 void SessionWriter::record(InputRecord input) { state_->push(std::move(input)); }
 void SessionWriter::record(SceneEdit edit) { state_->push(std::move(edit)); }
 void SessionWriter::record(Sample sample) { state_->push(std::move(sample)); }
@@ -264,9 +251,7 @@ std::optional<Error> SessionWriter::take_error() {
   return std::exchange(state_->error, std::nullopt);
 }
 
-std::uint64_t SessionWriter::lost_records() const {
-  return state_->lost.load(std::memory_order_relaxed);
-}
+std::uint64_t SessionWriter::lost_records() const { return state_->lost.load(std::memory_order_relaxed); }
 
 double SessionWriter::waited_s() const {
   return 1e-9 * static_cast<double>(state_->waited_ns.load(std::memory_order_relaxed));

@@ -17,22 +17,18 @@ tl::unexpected<Error> sqlite_failure(sqlite3* database, const std::string& where
     case SQLITE_NOTADB:
       return failure("this is not an SQLite file", where, "give a session file that Septet wrote");
     case SQLITE_CORRUPT:
-      return failure("the file is damaged", where,
-                     "use a copy, or rescue what is left with `sqlite3 FILE .recover`");
+      return failure("the file is damaged", where, "use a copy, or rescue what is left with `sqlite3 FILE .recover`");
     case SQLITE_CANTOPEN:
-      return failure("the file cannot be opened", where,
-                     "check the path and the permissions of its folder");
+      return failure("the file cannot be opened", where, "check the path and the permissions of its folder");
     case SQLITE_IOERR:
-      return failure(
-          fmt::format("the disk reports an error ({})", sqlite3_errmsg(database)), where,
-          "check free space, quota and the disk itself; what was written so far is safe");
+      return failure(fmt::format("the disk reports an error ({})", sqlite3_errmsg(database)), where,
+                     "check free space, quota and the disk itself; what was written so far is safe");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return failure("another program holds the file", where, "close that program and try again");
     default:
-      return failure(
-          fmt::format("SQLite says: {}", database ? sqlite3_errmsg(database) : "out of memory"),
-          where, "check the file with `sqlite3 FILE 'PRAGMA integrity_check'`");
+      return failure(fmt::format("SQLite says: {}", database ? sqlite3_errmsg(database) : "out of memory"), where,
+                     "check the file with `sqlite3 FILE 'PRAGMA integrity_check'`");
   }
 }
 
@@ -52,25 +48,18 @@ std::string uri_of(const std::string& path) {
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
-void Statement::bind(int index, std::int64_t value) {
-  sqlite3_bind_int64(statement_.get(), index, value);
-}
-void Statement::bind(int index, double value) {
-  sqlite3_bind_double(statement_.get(), index, value);
-}
+void Statement::bind(int index, std::int64_t value) { sqlite3_bind_int64(statement_.get(), index, value); }
+void Statement::bind(int index, double value) { sqlite3_bind_double(statement_.get(), index, value); }
 void Statement::bind(int index, std::string_view text) {
-  sqlite3_bind_text64(statement_.get(), index, text.data() ? text.data() : "", text.size(),
-                      SQLITE_TRANSIENT, SQLITE_UTF8);
+  sqlite3_bind_text64(statement_.get(), index, text.data() ? text.data() : "", text.size(), SQLITE_TRANSIENT,
+                      SQLITE_UTF8);
 }
 void Statement::bind(int index, std::span<const std::byte> bytes) {
   static constexpr std::byte nothing{};
-  sqlite3_bind_blob64(statement_.get(), index, bytes.empty() ? &nothing : bytes.data(),
-                      bytes.size(), SQLITE_STATIC);
+  sqlite3_bind_blob64(statement_.get(), index, bytes.empty() ? &nothing : bytes.data(), bytes.size(), SQLITE_STATIC);
 }
 void Statement::bind_null(int index) { sqlite3_bind_null(statement_.get(), index); }
-void Statement::bind(int index, const std::optional<double>& value) {
-  value ? bind(index, *value) : bind_null(index);
-}
+void Statement::bind(int index, const std::optional<double>& value) { value ? bind(index, *value) : bind_null(index); }
 void Statement::bind(int index, const std::optional<std::int64_t>& value) {
   value ? bind(index, *value) : bind_null(index);
 }
@@ -91,15 +80,10 @@ Expected<void> Statement::run() {
   return {};
 }
 
-bool Statement::is_null(int column) const {
-  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
-}
-std::int64_t Statement::integer(int column) const {
-  return sqlite3_column_int64(statement_.get(), column);
-}
+bool Statement::is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
+std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
 double Statement::real(int column) const {
-  return is_null(column) ? std::numeric_limits<double>::quiet_NaN()
-                         : sqlite3_column_double(statement_.get(), column);
+  return is_null(column) ? std::numeric_limits<double>::quiet_NaN() : sqlite3_column_double(statement_.get(), column);
 }
 std::string Statement::text(int column) const {
   const auto bytes = blob(column);
@@ -143,12 +127,10 @@ Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mo
   // With write permission the WAL of a killed writer is folded in; without it, a closed file still
   // reads as immutable.
   auto [code, database] = open_with(where, SQLITE_OPEN_READWRITE);
-  if (code == SQLITE_OK && database.query_integer("SELECT count(*) FROM sqlite_schema"))
-    return std::move(database);
+  if (code == SQLITE_OK && database.query_integer("SELECT count(*) FROM sqlite_schema")) return std::move(database);
   const auto error = sqlite_failure(database.database_.get(), where);
   if ((sqlite3_errcode(database.database_.get()) & 0xff) == SQLITE_NOTADB) return error;
-  auto [read_code, read_only] =
-      open_with(uri_of(where) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+  auto [read_code, read_only] = open_with(uri_of(where) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
   if (read_code == SQLITE_OK && !std::filesystem::exists(where + "-wal", ignored) &&
       read_only.query_integer("SELECT count(*) FROM sqlite_schema"))
     return std::move(read_only);
@@ -157,8 +139,7 @@ Expected<Database> Database::open(const std::filesystem::path& path, OpenMode mo
 
 Expected<Statement> Database::prepare(std::string_view sql) const {
   sqlite3_stmt* statement = nullptr;
-  if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement,
-                         nullptr) != SQLITE_OK)
+  if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr) != SQLITE_OK)
     return sqlite_failure(database_.get(), where_);
   return Statement(statement, where_);
 }

@@ -28,9 +28,8 @@ class Statement {
   void bind(int index, std::int64_t value);
   void bind(int index, double value);  ///< NaN is stored as NULL: SQLite has none.
   void bind(int index, std::string_view text);
-  void bind(
-      int index,
-      std::span<const std::byte> bytes);  ///< The bytes must live until the next `run` or `step`.
+  void bind(int index,
+            std::span<const std::byte> bytes);  ///< The bytes must live until the next `run` or `step`.
   void bind_null(int index);
   void bind(int index, const std::optional<double>& value);
   void bind(int index, const std::optional<std::int64_t>& value);
@@ -53,8 +52,7 @@ class Statement {
   struct Finalize {
     void operator()(sqlite3_stmt* statement) const;
   };
-  Statement(sqlite3_stmt* statement, std::string where)
-      : statement_(statement), where_(std::move(where)) {}
+  Statement(sqlite3_stmt* statement, std::string where) : statement_(statement), where_(std::move(where)) {}
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
   std::string where_;
 };

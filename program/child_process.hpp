@@ -16,7 +16,7 @@ struct ChildOptions {
   std::string program;  ///< Path; no search through PATH.
   std::vector<std::string> arguments;
   std::map<std::string, std::string> environment;  ///< Added to this process's own.
-  std::filesystem::path log;  ///< Where its standard error goes; empty: to this process's.
+  std::filesystem::path log;                       ///< Where its standard error goes; empty: to this process's.
 };
 
 /// How a child ended.

@@ -6,6 +6,8 @@
 namespace septet::program {
 
 /// Seconds since the machine was started, or so: they never jump or go back.
-inline double monotonic_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+inline double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 }  // namespace septet::program

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "program/run.hpp"
 
@@ -50,7 +50,8 @@ inline std::optional<std::string> commands_instead_of(const CLI::App& app, int a
 }
 
 /// Reads the command line, then does the work; returns the exit status. 0 after --help and --version, 2 for a wrong command line.
-inline int run(std::string_view name, CLI::App& app, int argc, char** argv, const std::function<Expected<int>()>& work) {
+inline int run(std::string_view name, CLI::App& app, int argc, char** argv,
+               const std::function<Expected<int>()>& work) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

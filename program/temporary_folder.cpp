@@ -36,7 +36,9 @@ void remove_orphans(const fs::path& parent, const std::string& prefix) {
   std::error_code ignored;
   for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(ending) || name.size() != prefix.size() + random_letters.size() + ending.size()) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(ending) ||
+        name.size() != prefix.size() + random_letters.size() + ending.size())
+      continue;
     const int orphan = lock(entry->path());
     if (orphan < 0) continue;
     fs::remove_all(entry->path(), ignored);
@@ -87,8 +89,10 @@ TemporaryFolder::TemporaryFolder(fs::path path, int lock) : path_(std::move(path
 }
 
 TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)),
-      alive_(std::exchange(other.alive_, -1)), keeper_(std::exchange(other.keeper_, -1)) {}
+    : path_(std::exchange(other.path_, {})),
+      lock_(std::exchange(other.lock_, -1)),
+      alive_(std::exchange(other.alive_, -1)),
+      keeper_(std::exchange(other.keeper_, -1)) {}
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;

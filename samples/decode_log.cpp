@@ -31,8 +31,9 @@ int main(int argc, char** argv) {
     const DriverCar& driver = (*snapshot)->driver_car;
     const Participant* car = find_participant(**snapshot, driver.participant);
     if (car && ticks % 60 == 0)
-      fmt::print("tick {:5}  {:7.3f} s  x {:9.3f} m  y {:9.3f} m  {:6.1f} km/h  lane {}  {} others\n", (*snapshot)->tick, (*snapshot)->simulated_time_s,
-                 car->world_from_vehicle.position_m.x, car->world_from_vehicle.position_m.y, driver.speed_mps * 3.6, driver.lane,
+      fmt::print("tick {:5}  {:7.3f} s  x {:9.3f} m  y {:9.3f} m  {:6.1f} km/h  lane {}  {} others\n",
+                 (*snapshot)->tick, (*snapshot)->simulated_time_s, car->world_from_vehicle.position_m.x,
+                 car->world_from_vehicle.position_m.y, driver.speed_mps * 3.6, driver.lane,
                  (*snapshot)->participants.size() - 1);
     ++ticks;
   }

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: read_road ROAD.xodr\n");
     return 2;
   }
-  const auto network = read_regular_file(argv[1]).and_then([&](const std::string& xml) { return road::read_opendrive(xml, argv[1]); });
+  const auto network =
+      read_regular_file(argv[1]).and_then([&](const std::string& xml) { return road::read_opendrive(xml, argv[1]); });
   if (!network) {
     fmt::print(stderr, "read_road: {}\n", describe(network.error()));
     return 1;
@@ -30,9 +31,11 @@ int main(int argc, char** argv) {
       const Vec3& point_m = there.road.position_m;
       const auto back = road::locate(*network, Vec2(point_m));
       if (!back) return 1;  // Not of a point that lies in a lane.
-      fmt::print("  lane {:2} {}, {:.2f} m wide; its middle is at x {:.2f} m, y {:.2f} m, z {:.2f} m: road {}, s {:.2f} m, t {:.2f} m\n", lane.id,
-                 road::name_of(lane.type), there.lane_width_m, point_m.x, point_m.y, point_m.z, network->roads[back->position.road].id,
-                 back->position.s_m, back->position.t_m);
+      fmt::print(
+          "  lane {:2} {}, {:.2f} m wide; its middle is at x {:.2f} m, y {:.2f} m, z {:.2f} m: road {}, s {:.2f} m, t "
+          "{:.2f} m\n",
+          lane.id, road::name_of(lane.type), there.lane_width_m, point_m.x, point_m.y, point_m.z,
+          network->roads[back->position.road].id, back->position.s_m, back->position.t_m);
     }
   }
   return 0;

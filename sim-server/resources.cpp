@@ -47,16 +47,19 @@ std::string names_in(const fs::path& folder, std::string_view extension) {
 Expected<fs::path> data_folder() {
   if (const char* chosen = std::getenv("SEPTET_DATA")) {
     if (is_data_folder(chosen)) return fs::path(chosen);
-    return failure("it holds no rigs/ and scenarios/", fmt::format("SEPTET_DATA={}", chosen), "point it at Septet's folder");
+    return failure("it holds no rigs/ and scenarios/", fmt::format("SEPTET_DATA={}", chosen),
+                   "point it at Septet's folder");
   }
-  if (const fs::path installed = program::own_folder().parent_path() / "share/septet"; is_data_folder(installed)) return installed;
+  if (const fs::path installed = program::own_folder().parent_path() / "share/septet"; is_data_folder(installed))
+    return installed;
   std::error_code ignored;
   for (fs::path start : {program::own_folder(), fs::current_path(ignored)})
     for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
       if (is_data_folder(folder)) return folder;
       if (folder == folder.root_path()) break;
     }
-  return failure("cannot find the folders rigs/ and scenarios/", "data", "run Septet inside its tree or set SEPTET_DATA");
+  return failure("cannot find the folders rigs/ and scenarios/", "data",
+                 "run Septet inside its tree or set SEPTET_DATA");
 }
 
 Expected<fs::path> find_resource(const std::string& name, std::string_view kind, std::string_view extension) {

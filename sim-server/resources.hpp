@@ -15,6 +15,7 @@ Expected<std::filesystem::path> data_folder();
 
 /// A rig, scenario or vehicle: the file itself; a folder that holds one file of that extension; or a name below the data
 /// folder's `kind` ("rigs", "scenarios", "vehicles"). The error lists the names there are.
-Expected<std::filesystem::path> find_resource(const std::string& name, std::string_view kind, std::string_view extension);
+Expected<std::filesystem::path> find_resource(const std::string& name, std::string_view kind,
+                                              std::string_view extension);
 
 }  // namespace septet::server

@@ -11,7 +11,9 @@ int main(int argc, char** argv) {
   options.scenario = "motorway-ambulance";
   options.rig = "seven-screens";
   options.out = "out/server";
-  CLI::App app{"septet-server: the simulation of one drive. `septet drive` starts it; on a rig of several machines start it yourself."};
+  CLI::App app{
+      "septet-server: the simulation of one drive. `septet drive` starts it; on a rig of several machines start it "
+      "yourself."};
   app.option_defaults()->always_capture_default();
   app.set_version_flag("--version", version_text());
   app.add_option("--scenario", options.scenario, "OpenSCENARIO file, its folder, or a name below scenarios/");
@@ -19,19 +21,29 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder for the session file and the results");
   app.add_option("--keys", options.keys, "Folder with server.key and allowed-clients")->required();
   app.add_option("--replay", options.replay, "Show this session instead of driving")->default_str("");
-  app.add_option("--from", options.replay_from_s, "Simulated second to begin the replay at")->check(number_between(0.0, 1e6));
-  app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until the scenario ends or somebody stops it")->check(number_between(0.0, 1e6));
+  app.add_option("--from", options.replay_from_s, "Simulated second to begin the replay at")
+      ->check(number_between(0.0, 1e6));
+  app.add_option("--seconds", options.seconds, "Simulated seconds; 0: until the scenario ends or somebody stops it")
+      ->check(number_between(0.0, 1e6));
   app.add_option("--seed", options.seed, "Seed of everything random")->check(seed_number());
-  app.add_option("--driver", options.driver, "A simulated driver drives: plain, novice, experienced, tired or escort")->default_str("whom the rig names");
-  app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
+  app.add_option("--driver", options.driver, "A simulated driver drives: plain, novice, experienced, tired or escort")
+      ->default_str("whom the rig names");
+  app.add_option("--parameter", options.parameters, "Of the scenario, instead of its own value; as often as needed")
+      ->type_name("NAME=VALUE")
+      ->default_str("")
+      ->allow_extra_args(false);
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
-  app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")->default_str("none");
+  app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")
+      ->default_str("none");
   app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
   app.add_option("--wait-for-screens", options.wait_for_screens_s,
-                 "Seconds to wait for the rig's screens and car, then drive without those that are missing")->default_str("until all are there, or Enter or the line \"go\"")->check(number_between(0.0, 1e6));
+                 "Seconds to wait for the rig's screens and car, then drive without those that are missing")
+      ->default_str("until all are there, or Enter or the line \"go\"")
+      ->check(number_between(0.0, 1e6));
   app.add_flag("--start-now", options.start_now, "Do not wait until the driver presses a key or a pedal");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");
-  return program::run("septet-server", app, argc, argv, [&] { return server::run_server(options).map(logging::exit_status); });
+  return program::run("septet-server", app, argc, argv,
+                      [&] { return server::run_server(options).map(logging::exit_status); });
 }

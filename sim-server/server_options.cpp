@@ -16,8 +16,9 @@ Expected<void> check_names(const ServerOptions& options) {
   if (auto traffic = check_traffic(options.traffic); !traffic) return traffic;
   const auto characters = printable_characters(options.participant);
   if (!characters || *characters > most_participant_characters)
-    return failure(fmt::format("\"{}\" is no participant's code", printable(options.participant)), "--participant",
-                   fmt::format("use at most {} characters, none of them a control character", most_participant_characters));
+    return failure(
+        fmt::format("\"{}\" is no participant's code", printable(options.participant)), "--participant",
+        fmt::format("use at most {} characters, none of them a control character", most_participant_characters));
   return {};
 }
 

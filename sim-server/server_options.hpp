@@ -23,8 +23,9 @@ struct ServerOptions {
   std::string vehicle;      ///< A file or a name; empty: the rig's.
   std::string participant;  ///< The driver's code.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
-  std::string traffic = "own";  ///< Who moves the traffic: own or sumo.
-  double wait_for_screens_s = -1.0;  ///< Before it drives, in real time; then without those that are missing. Negative: until all are there.
+  std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
+  double wait_for_screens_s =
+      -1.0;  ///< Before it drives, in real time; then without those that are missing. Negative: until all are there.
   bool start_now = false;  ///< Do not wait for a person to take the controls.
   bool lockstep = false;
   bool no_screens = false;

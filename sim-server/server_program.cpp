@@ -38,10 +38,14 @@ std::optional<logging::DriveEnd> end_by_signal() {
   if (!signal) return std::nullopt;
   program::obey_stop_signal();
   switch (*signal) {
-    case SIGINT: return logging::DriveEnd::interrupted;
-    case SIGHUP: return logging::DriveEnd::hung_up;
-    case SIGUSR1: return logging::DriveEnd::no_screens;
-    default: return logging::DriveEnd::terminated;
+    case SIGINT:
+      return logging::DriveEnd::interrupted;
+    case SIGHUP:
+      return logging::DriveEnd::hung_up;
+    case SIGUSR1:
+      return logging::DriveEnd::no_screens;
+    default:
+      return logging::DriveEnd::terminated;
   }
 }
 
@@ -119,7 +123,7 @@ struct Drive {
   bool by_person = false;                         ///< A person drives, not a simulated driver.
   std::shared_ptr<RemoteCar> remote_car;          ///< Of a drive whose car is on another machine.
   std::unique_ptr<TickSource> source;
-  LiveDrive* live = nullptr;                      ///< The source, of a drive.
+  LiveDrive* live = nullptr;  ///< The source, of a drive.
 };
 
 Expected<void> prepare_replay(const ServerOptions& options, Drive& drive) {
@@ -152,7 +156,9 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
 }
 
 /// The seat that command line and rig ask for; `car` says in the end what it became.
-Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car, const std::shared_ptr<const simulation::Model>& model, program::ProgressLine& progress) {
+Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car,
+                                 const std::shared_ptr<const simulation::Model>& model,
+                                 program::ProgressLine& progress) {
   const auto let_drive = [&](const std::string& driver) {
     car.source = rig::CarSource::simulated_driver;
     car.driver = driver;
@@ -218,7 +224,8 @@ Expected<void> begin_drive(const ServerOptions& options, Drive& drive) {
 }
 
 /// Closes the log and writes summary and report. A log that cannot be closed is the drive's end, unless something else was.
-void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result, const std::vector<HostedScreen>& screens, program::ProgressLine& progress) {
+void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result,
+                const std::vector<HostedScreen>& screens, program::ProgressLine& progress) {
   SessionLog& log = *drive.log;
   const auto failed = [&](const Error& error) {
     if (result.end == logging::DriveEnd::log_failed) return;  // That has been said.
@@ -228,7 +235,8 @@ void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result,
     result.error = error;
   };
   if (const auto finished = log.finish(log.outcome(result, screens)); !finished) failed(finished.error());
-  if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written) failed(written.error());
+  if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written)
+    failed(written.error());
 }
 
 void show(const Progress& now, program::ProgressLine& progress) {
@@ -249,17 +257,23 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   auto prepared = options.replay.empty() ? prepare_drive(options, drive, progress) : prepare_replay(options, drive);
   if (!prepared) return tl::unexpected(prepared.error());
   const rig::Rig& rig = drive.loaded.rig;
-  ServeOptions serve_options{.lockstep = options.lockstep, .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz())};
-  if (serve_options.ticks > 0) serve_options.draw_every_ticks = std::min(serve_options.draw_every_ticks, serve_options.ticks);
+  ServeOptions serve_options{.lockstep = options.lockstep,
+                             .ticks = ticks_of(options.seconds, drive.source->tick_rate_hz())};
+  if (serve_options.ticks > 0)
+    serve_options.draw_every_ticks = std::min(serve_options.draw_every_ticks, serve_options.ticks);
   std::optional<Endpoint> endpoint;
   std::optional<ScreenHostOptions> for_screens;
   if (!options.no_screens) {
     auto opened = open_endpoint(options, rig);
     if (!opened) return tl::unexpected(opened.error());
     endpoint.emplace(std::move(*opened));
-    ScreenHostOptions& host_options = for_screens.emplace(ScreenHostOptions{.identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)});
-    host_options.welcome = {.rig = drive.loaded.source("rig"), .lockstep = options.lockstep, .tick_rate_hz = drive.source->tick_rate_hz(),
-                            .picture_every_ticks = picture_every(serve_options.ticks, serve_options.draw_every_ticks, drive.source->tick_rate_hz())};
+    ScreenHostOptions& host_options = for_screens.emplace(ScreenHostOptions{
+        .identity = endpoint->identity, .session = net::random_session_id(), .allowed = std::move(endpoint->allowed)});
+    host_options.welcome = {.rig = drive.loaded.source("rig"),
+                            .lockstep = options.lockstep,
+                            .tick_rate_hz = drive.source->tick_rate_hz(),
+                            .picture_every_ticks = picture_every(serve_options.ticks, serve_options.draw_every_ticks,
+                                                                 drive.source->tick_rate_hz())};
     host_options.max_datagram_bytes = rig.network.max_payload_bytes;
     host_options.limits.max_datagram_bytes = rig.network.max_payload_bytes;
     // A screen that compiles its shaders is silent for a while and costs nobody anything: ticks do not wait for it in real
@@ -269,7 +283,9 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     for (const auto& screen : rig.screens) host_options.screens.push_back(screen.name);
     host_options.drivers = rig::driving_screens(rig);
     host_options.car = drive.remote_car;
-    if (auto chosen = choose_transport(rig.network, endpoint->sockets, options.any_port, host_options.welcome, progress); !chosen)
+    if (auto chosen =
+            choose_transport(rig.network, endpoint->sockets, options.any_port, host_options.welcome, progress);
+        !chosen)
       return tl::unexpected(chosen.error());
   }
   // From here on there is something to be ended in order.
@@ -305,15 +321,18 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
       auto list = watch.changed(program::monotonic_s());
       if (!list) return std::nullopt;
       environment.message(*list ? fmt::format("allowed-clients has changed: {} clients may connect", (*list)->size())
-                                : "allowed-clients has changed, and the old list still holds: " + describe(list->error()));
+                                : "allowed-clients has changed, and the old list still holds: " +
+                                      describe(list->error()));
       return *list ? std::optional(std::move(**list)) : std::nullopt;
     };
     const bool by_keyboard = drive.by_person && rig.car.source == rig::CarSource::keyboard;
     host.give_notice({"", by_keyboard});
     if (by_keyboard) progress.message(car_io::driving_keys_text());
     if (drive.by_person && !options.start_now)
-      serve_options.wait_for_driver = by_keyboard ? "Press any key to start" : "Press a pedal or turn the wheel to start";
-    const double wait_s = options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
+      serve_options.wait_for_driver =
+          by_keyboard ? "Press any key to start" : "Press a pedal or turn the wheel to start";
+    const double wait_s =
+        options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
     serve_options.wait_for_screens_s = wait_s;
     result = serve(*drive.source, host, serve_options, environment);
     screens = host.screens();
@@ -321,7 +340,8 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   progress.close();
   if (result.error) progress.message(fmt::format("septet-server: {}", describe(*result.error)));
   if (drive.log) finish_log(options, drive, result, screens, progress);
-  program::announce(fmt::format("ended {} {}", name_of(result.end), drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
+  program::announce(fmt::format("ended {} {}", name_of(result.end),
+                                drive.log ? drive.log->ending(result) : std::string(text_of(result.end))));
   return result.end;
 }
 

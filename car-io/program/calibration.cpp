@@ -16,10 +16,8 @@ struct Axis {
   rig::AxisCalibration rig::CarCalibration::*calibration;
 };
 constexpr Axis axes[] = {
-    {"steering", &AxisReadings::steering, &CalibrationRecord::steering,
-     &rig::CarCalibration::steering},
-    {"accelerator", &AxisReadings::accelerator, &CalibrationRecord::accelerator,
-     &rig::CarCalibration::accelerator},
+    {"steering", &AxisReadings::steering, &CalibrationRecord::steering, &rig::CarCalibration::steering},
+    {"accelerator", &AxisReadings::accelerator, &CalibrationRecord::accelerator, &rig::CarCalibration::accelerator},
     {"brake", &AxisReadings::brake, &CalibrationRecord::brake, &rig::CarCalibration::brake},
     {"clutch", &AxisReadings::clutch, &CalibrationRecord::clutch, &rig::CarCalibration::clutch}};
 
@@ -41,16 +39,14 @@ void CalibrationRecord::add(const AxisReadings& readings) {
   ++reports;
 }
 
-RecordedCalibration calibration_of(const CalibrationRecord& record,
-                                   const rig::CarCalibration& before) {
+RecordedCalibration calibration_of(const CalibrationRecord& record, const rig::CarCalibration& before) {
   RecordedCalibration result{before, ""};
   for (const Axis& axis : axes) {
     const AxisRange& range = record.*axis.range;
     rig::AxisCalibration& calibration = result.calibration.*axis.calibration;
     const double travel = range.most - range.least;
     // A wheel must be turned to both sides of where it stood.
-    const bool moved = is_wheel(axis) ? std::min(range.first - range.least,
-                                                 range.most - range.first) >= least_travel
+    const bool moved = is_wheel(axis) ? std::min(range.first - range.least, range.most - range.first) >= least_travel
                                       : travel >= least_travel;
     if (!moved) {
       result.unmoved += (result.unmoved.empty() ? "" : ", ") + std::string(axis.name);
@@ -73,11 +69,9 @@ std::string calibration_toml(const rig::CarCalibration& calibration) {
                                  calibration.steering_lock_rad, calibration.gear_lever);
   for (const Axis& axis : axes) {
     const rig::AxisCalibration& values = calibration.*axis.calibration;
-    const std::string centre =
-        is_wheel(axis) ? fmt::format("centre = {:.5f}, ", values.centre) : "";
-    text +=
-        fmt::format("{} = {{ min = {:.5f}, {}max = {:.5f}, dead_zone = {:.3f}, inverted = {} }}\n",
-                    axis.name, values.min, centre, values.max, values.dead_zone, values.inverted);
+    const std::string centre = is_wheel(axis) ? fmt::format("centre = {:.5f}, ", values.centre) : "";
+    text += fmt::format("{} = {{ min = {:.5f}, {}max = {:.5f}, dead_zone = {:.3f}, inverted = {} }}\n", axis.name,
+                        values.min, centre, values.max, values.dead_zone, values.inverted);
   }
   return text;
 }

@@ -28,8 +28,7 @@ struct RecordedCalibration {
   rig::CarCalibration calibration;
   std::string unmoved;  ///< "clutch, brake"; empty: all were moved.
 };
-RecordedCalibration calibration_of(const CalibrationRecord& record,
-                                   const rig::CarCalibration& before);
+RecordedCalibration calibration_of(const CalibrationRecord& record, const rig::CarCalibration& before);
 
 /// The rig's table [car.calibration].
 std::string calibration_toml(const rig::CarCalibration& calibration);

@@ -10,9 +10,7 @@ namespace {
 
 constexpr double report_interval_s = 0.02;
 
-std::string as_text(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string as_text(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 }  // namespace
 
@@ -75,8 +73,7 @@ void CarLink::take_rig(const std::string& text) {
   connection_ = std::make_unique<CarConnection>(
       open, CarConnectionOptions{.layout = *layout, .calibration = rig->car.calibration});
   writer_ = std::make_unique<ActuatorWriter>(
-      open, ActuatorWriterOptions{.layout = *layout,
-                                  .has_steering_force = rig->car.actuators.steering_most > 0.0});
+      open, ActuatorWriterOptions{.layout = *layout, .has_steering_force = rig->car.actuators.steering_most > 0.0});
   was_connected_ = false;
   problem_.clear();
 }

@@ -20,20 +20,16 @@ int main(int argc, char** argv) {
   app.add_option("--server", drive.server, "Server's address and port");
   app.add_option("--keys", drive.keys, "Folder with server.public, and car.key, made if missing");
 
-  CLI::App* calibration =
-      app.add_subcommand("calibrate", "Record the axes and print the rig's [car.calibration]");
+  CLI::App* calibration = app.add_subcommand("calibrate", "Record the axes and print the rig's [car.calibration]");
   calibration->add_option("--rig", calibrate.rig, "Rig file")->required();
-  calibration->add_option("--seconds", calibrate.seconds, "How long")
-      ->check(number_between(0.1, 600.0));
+  calibration->add_option("--seconds", calibrate.seconds, "How long")->check(number_between(0.1, 600.0));
 
   CLI::App* trial = app.add_subcommand("try", "Set fan, vibration and steering force for a while");
   trial->add_option("--rig", actuate.rig, "Rig file")->required();
   trial->add_option("--seconds", actuate.seconds, "How long")->check(number_between(0.1, 600.0));
   trial->add_option("--fan", actuate.actuators.fan, "0 to 1")->check(number_between(0.0, 1.0));
-  trial->add_option("--vibration", actuate.actuators.vibration, "0 to 1")
-      ->check(number_between(0.0, 1.0));
-  trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")
-      ->check(number_between(0.0, 255.0));
+  trial->add_option("--vibration", actuate.actuators.vibration, "0 to 1")->check(number_between(0.0, 1.0));
+  trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")->check(number_between(0.0, 255.0));
   trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
       ->check(number_between(-1.0, 1.0));
   app.require_subcommand(0, 1);
@@ -41,7 +37,9 @@ int main(int argc, char** argv) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
   });
   return program::run("septet-car", app, argc, argv, [&] {
-    const auto done = calibration->parsed() ? car_io::run_calibration(calibrate) : trial->parsed() ? car_io::run_actuators(actuate) : car_io::run_car(drive);
+    const auto done = calibration->parsed() ? car_io::run_calibration(calibrate)
+                      : trial->parsed()     ? car_io::run_actuators(actuate)
+                                            : car_io::run_car(drive);
     return done.map([] { return 0; });
   });
 }

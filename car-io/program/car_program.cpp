@@ -21,9 +21,7 @@ namespace {
 void say(const std::string& what) { program::say("septet-car: " + what); }
 
 OpenHidDevice find_device(const rig::Car& car) {
-  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] {
-    return open_hid_device(address);
-  };
+  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] { return open_hid_device(address); };
 }
 
 /// The rig's car with its layout and its device.
@@ -45,14 +43,13 @@ Expected<CarHere> open_car(const std::filesystem::path& file) {
   return CarHere{rig->car, *layout, std::move(*device)};
 }
 
-void sleep_s(double seconds) {
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
+void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 }  // namespace
 
 Expected<void> run_car(const DriveOptions& options) {
-  if (options.keys.empty()) return failure("it needs the folder of its keys", "--keys", "give one; --help lists the options");
+  if (options.keys.empty())
+    return failure("it needs the folder of its keys", "--keys", "give one; --help lists the options");
   program::catch_stop_signals();
   const auto server = net::parse_address(options.server, "--server");
   if (!server) return tl::unexpected(server.error());
@@ -62,8 +59,7 @@ Expected<void> run_car(const DriveOptions& options) {
   if (!identity) return tl::unexpected(identity.error());
   auto socket = net::UdpSocket::open({{net::is_loopback(*server) ? net::loopback_ip : 0, 0}});
   if (!socket) return tl::unexpected(socket.error());
-  say(fmt::format("the server's allowed-clients must hold the line: {} car",
-                  net::to_text(identity->public_key())));
+  say(fmt::format("the server's allowed-clients must hold the line: {} car", net::to_text(identity->public_key())));
 
   CarLink link(*socket, {*server, *server_key, *identity, {}}, find_device);
   while (!program::should_stop() && !link.finished()) {
@@ -82,10 +78,10 @@ Expected<void> run_calibration(const CalibrateOptions& options) {
   program::catch_stop_signals();
   auto here = open_car(options.rig);
   if (!here) return tl::unexpected(here.error());
-  say(fmt::format(
-      "hold the wheel straight and touch nothing else; then, within {:.0f} s, turn it to "
-      "both ends and press each pedal down once",
-      options.seconds));
+  say(
+      fmt::format("hold the wheel straight and touch nothing else; then, within {:.0f} s, turn it to "
+                  "both ends and press each pedal down once",
+                  options.seconds));
   CalibrationRecord record;
   for (const double end_s = program::monotonic_s() + options.seconds;
        program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.001)) {
@@ -99,8 +95,7 @@ Expected<void> run_calibration(const CalibrateOptions& options) {
   if (record.reports == 0)
     return failure("the device sent nothing", options.rig.string(), "check its power and firmware");
   const auto recorded = calibration_of(record, here->car.calibration);
-  if (!recorded.unmoved.empty())
-    say(fmt::format("not moved, and left as the rig has it: {}", recorded.unmoved));
+  if (!recorded.unmoved.empty()) say(fmt::format("not moved, and left as the rig has it: {}", recorded.unmoved));
   std::fputs(calibration_toml(recorded.calibration).c_str(), stdout);
   return {};
 }
@@ -110,11 +105,10 @@ Expected<void> run_actuators(const ActuateOptions& options) {
   auto here = open_car(options.rig);
   if (!here) return tl::unexpected(here.error());
   if (!here->layout->has_actuators)
-    return failure(fmt::format("the layout {} has no actuators", here->layout->name),
-                   options.rig.string(), "choose another layout in [car]");
-  ActuatorWriter writer(
-      find_device(here->car),
-      {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
+    return failure(fmt::format("the layout {} has no actuators", here->layout->name), options.rig.string(),
+                   "choose another layout in [car]");
+  ActuatorWriter writer(find_device(here->car),
+                        {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
   std::optional<Error> fault;
   for (const double end_s = program::monotonic_s() + options.seconds;
        program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.02)) {

@@ -15,8 +15,7 @@ constexpr double beside_behind_m = 15.0, beside_ahead_m = 8.0;
 const SeenVehicle* nearest_ambulance(std::span<const SeenVehicle> vehicles) {
   const SeenVehicle* nearest = nullptr;
   for (const SeenVehicle& vehicle : vehicles)
-    if (vehicle.is_ambulance && vehicle.is_ahead && (!nearest || vehicle.gap_m < nearest->gap_m))
-      nearest = &vehicle;
+    if (vehicle.is_ambulance && vehicle.is_ahead && (!nearest || vehicle.gap_m < nearest->gap_m)) nearest = &vehicle;
   return nearest;
 }
 
@@ -58,7 +57,8 @@ void look_at_tracks(TracksState& state, const traffic::Corridor& corridor, const
   const double right_m = to_the_left ? own.across_m + own.half_width_m : there_m - own.half_width_m;
   const double left_m = to_the_left ? there_m + own.half_width_m : own.across_m - own.half_width_m;
   for (const SeenVehicle& vehicle : vehicles)
-    if (vehicle.gap_m < (vehicle.is_ahead ? beside_ahead_m : beside_behind_m) && lies_over(vehicle, right_m, left_m)) return;
+    if (vehicle.gap_m < (vehicle.is_ahead ? beside_ahead_m : beside_behind_m) && lies_over(vehicle, right_m, left_m))
+      return;
   begin_way(state, 1.0, duration_s);
 }
 

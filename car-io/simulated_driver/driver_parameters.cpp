@@ -11,38 +11,20 @@ namespace {
 constexpr auto limit_factor = [](DriverParameters& d) -> double& { return d.speed.limit_factor; };
 constexpr auto time_gap = [](DriverParameters& d) -> double& { return d.speed.time_gap_s; };
 constexpr auto reaction = [](DriverParameters& d) -> double& { return d.speed.reaction_time_s; };
-constexpr auto distance_noise = [](DriverParameters& d) -> double& {
-  return d.speed.distance_noise;
-};
-constexpr auto frequency = [](DriverParameters& d) -> double& {
-  return d.steering.natural_frequency_radps;
-};
-constexpr auto position_noise = [](DriverParameters& d) -> double& {
-  return d.steering.position_noise_m;
-};
-constexpr auto position_time = [](DriverParameters& d) -> double& {
-  return d.steering.position_noise_s;
-};
-constexpr auto heading_noise = [](DriverParameters& d) -> double& {
-  return d.steering.heading_noise_rad;
-};
-constexpr auto peripheral = [](DriverParameters& d) -> double& {
-  return d.steering.peripheral_share;
-};
+constexpr auto distance_noise = [](DriverParameters& d) -> double& { return d.speed.distance_noise; };
+constexpr auto frequency = [](DriverParameters& d) -> double& { return d.steering.natural_frequency_radps; };
+constexpr auto position_noise = [](DriverParameters& d) -> double& { return d.steering.position_noise_m; };
+constexpr auto position_time = [](DriverParameters& d) -> double& { return d.steering.position_noise_s; };
+constexpr auto heading_noise = [](DriverParameters& d) -> double& { return d.steering.heading_noise_rad; };
+constexpr auto peripheral = [](DriverParameters& d) -> double& { return d.steering.peripheral_share; };
 constexpr auto eye_to_hand = [](DriverParameters& d) -> double& { return d.steering.delay_s; };
-constexpr auto change_threshold = [](DriverParameters& d) -> double& {
-  return d.lanes.threshold_mps2;
-};
+constexpr auto change_threshold = [](DriverParameters& d) -> double& { return d.lanes.threshold_mps2; };
 constexpr auto signal_time = [](DriverParameters& d) -> double& { return d.lanes.signal_s; };
 constexpr auto change_time = [](DriverParameters& d) -> double& { return d.lanes.duration_s; };
-constexpr auto glance_interval = [](DriverParameters& d) -> double& {
-  return d.mirrors.interval_s;
-};
+constexpr auto glance_interval = [](DriverParameters& d) -> double& { return d.mirrors.interval_s; };
 constexpr auto glance = [](DriverParameters& d) -> double& { return d.mirrors.glance_s; };
 
-constexpr auto in_tracks = [](DriverParameters& d) -> double& {
-  return d.lanes.in_tracks_within_m;
-};
+constexpr auto in_tracks = [](DriverParameters& d) -> double& { return d.lanes.in_tracks_within_m; };
 
 struct Difference {
   double& (*parameter)(DriverParameters&);
@@ -61,24 +43,23 @@ constexpr std::initializer_list<Difference> from_novice = {
     {signal_time, 2.5},     {change_time, 6.0},     {glance_interval, 14.0},
     {glance, 0.9}};
 constexpr std::initializer_list<Difference> from_experienced = {
-    {position_noise, 0.15}, {peripheral, 0.8}, {heading_noise, 0.0014}, {limit_factor, 1.05},
-    {time_gap, 1.3},        {reaction, 0.6},   {distance_noise, 0.04},  {change_threshold, 0.2},
-    {glance_interval, 6.0}, {glance, 0.55}};
+    {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05},   {time_gap, 1.3},
+    {reaction, 0.6},        {distance_noise, 0.04}, {change_threshold, 0.2}, {glance_interval, 6.0}, {glance, 0.55}};
 constexpr std::initializer_list<Difference> from_tired = {
     // Corrects late and slowly: the lane is kept loosely.
     {frequency, 0.45}, {position_noise, 0.28}, {position_time, 4.0},   {eye_to_hand, 0.30},
     {reaction, 1.2},   {distance_noise, 0.12}, {glance_interval, 20.0}};
 constexpr std::initializer_list<Difference> from_escort = {
     // An experienced driver on duty: in the ambulance's tracks, through the lane that opens for it.
-    {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05},
-    {time_gap, 1.1},        {reaction, 0.6},        {distance_noise, 0.04},  {glance_interval, 10.0},
-    {glance, 0.55},         {in_tracks, 120.0}};
+    {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05}, {time_gap, 1.1},
+    {reaction, 0.6},        {distance_noise, 0.04}, {glance_interval, 10.0}, {glance, 0.55},       {in_tracks, 120.0}};
 
-constexpr Kind kinds[] = {{{"plain", "An ordinary driver"}, {}},
-                      {{"novice", "Looks less often and longer, keeps more distance, reacts later"}, from_novice},
-                      {{"experienced", "Looks often and shortly, keeps the lane closely, reacts early"}, from_experienced},
-                      {{"tired", "Corrects late and slowly, so that the lane is kept loosely"}, from_tired},
-                      {{"escort", "Follows an ambulance in its tracks, through the lane that opens for it"}, from_escort}};
+constexpr Kind kinds[] = {
+    {{"plain", "An ordinary driver"}, {}},
+    {{"novice", "Looks less often and longer, keeps more distance, reacts later"}, from_novice},
+    {{"experienced", "Looks often and shortly, keeps the lane closely, reacts early"}, from_experienced},
+    {{"tired", "Corrects late and slowly, so that the lane is kept loosely"}, from_tired},
+    {{"escort", "Follows an ambulance in its tracks, through the lane that opens for it"}, from_escort}};
 
 }  // namespace
 
@@ -94,12 +75,10 @@ Expected<DriverParameters> find_driver(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(kind.driver.name);
     if (kind.driver.name != name) continue;
     DriverParameters driver{.name = std::string(kind.driver.name)};
-    for (const Difference& difference : kind.differences)
-      difference.parameter(driver) = difference.value;
+    for (const Difference& difference : kind.differences) difference.parameter(driver) = difference.value;
     return driver;
   }
-  return failure(fmt::format("there is no simulated driver '{}'", name), "rig, [car] driver",
-                 "use one of: " + known);
+  return failure(fmt::format("there is no simulated driver '{}'", name), "rig, [car] driver", "use one of: " + known);
 }
 
 }  // namespace septet::car_io

@@ -19,8 +19,7 @@ namespace septet::car_io {
 struct CarKnowledge {
   double steering_ratio = 16.0;
   double wheelbase_m = 2.8;
-  double understeer_radps2pm =
-      0.005;  ///< Road-wheel angle per lateral acceleration beyond the geometric one.
+  double understeer_radps2pm = 0.005;        ///< Road-wheel angle per lateral acceleration beyond the geometric one.
   double power_per_mass_wpkg = 72.0;         ///< At the wheels.
   double strongest_acceleration_mps2 = 3.5;  ///< In low gears.
   double drag_per_speed2_pm = 2.1e-4;        ///< Deceleration by air per speed squared.
@@ -42,8 +41,7 @@ struct SteeringParameters {
   double delay_s = 0.20;               ///< From eye to hand.
   double hand_lag_s = 0.10;
   double largest_rate_radps = 6.0;
-  double peripheral_share =
-      0.6;  ///< Of what changes on the road, answered while looking elsewhere.
+  double peripheral_share = 0.6;  ///< Of what changes on the road, answered while looking elsewhere.
   double position_noise_m = 0.19,
          position_noise_s = 2.5;  ///< Of the perceived place in the lane: SD, correlation time.
   double heading_noise_rad = 0.0018, heading_noise_s = 0.6;
@@ -59,7 +57,7 @@ struct SpeedParameters {
   double coolness = 0.99;  ///< Trust that the one ahead keeps its acceleration.
   double reaction_time_s = 0.7;
   double distance_noise = 0.06,
-         noise_s = 8.0;  ///< Relative SD of perceived distances and speeds, correlation time.
+         noise_s = 8.0;            ///< Relative SD of perceived distances and speeds, correlation time.
   double largest_jerk_mps3 = 2.5;  ///< Of the wish, unless it is an emergency.
 };
 
@@ -80,8 +78,8 @@ struct MirrorParameters {
   double interval_s = 8.0;  ///< Mean time between glances that no manoeuvre calls for.
   double glance_s = 0.7, glance_spread = 0.3,
          longest_glance_s = 1.4;  ///< Median duration, and SD of its logarithm.
-  double ease_m = 0.5;   ///< Nearer than this to the path, the driver feels free to look away.
-  double turn_s = 0.25;  ///< Head to the mirror, or back.
+  double ease_m = 0.5;            ///< Nearer than this to the path, the driver feels free to look away.
+  double turn_s = 0.25;           ///< Head to the mirror, or back.
 };
 
 /// Clutch and lever of a manual gearbox; engine speeds as the driver hears them, with little

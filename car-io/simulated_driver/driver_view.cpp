@@ -14,9 +14,7 @@ constexpr double sight_m = 250.0;
 constexpr double acceleration_seen_in_s = 0.5;
 constexpr double foresight_s = 1.0;  ///< Who comes over a line is seen to do so this much earlier.
 
-Vec2 ground_position(const Participant& participant) {
-  return Vec2(participant.world_from_vehicle.position_m);
-}
+Vec2 ground_position(const Participant& participant) { return Vec2(participant.world_from_vehicle.position_m); }
 
 /// Offset from the lane's centre to the driver's left, for an offset towards +t.
 double to_the_left(const traffic::CorridorPiece& piece, double towards_t_m) {
@@ -33,8 +31,7 @@ double sideways_mps(const road::RoadNetwork& network, const road::RoadPosition& 
 road::LaneRange lanes_taken(const road::RoadNetwork& network, const road::RoadPosition& position,
                             const Participant& vehicle, const VehicleModel& model, double sideways_mps) {
   const Vec3 heads = vehicle.world_from_vehicle.orientation * Vec3(1, 0, 0);
-  const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m,
-                               model.front_m(), model.width_m};
+  const road::BodyOutline body{std::atan2(heads.y, heads.x), model.rear_overhang_m, model.front_m(), model.width_m};
   const road::LaneRange now = road::drivable_lanes_under(network, position, body);
   if (std::abs(sideways_mps) < 0.1) return now;
   road::RoadPosition soon_at = position;
@@ -46,23 +43,18 @@ road::LaneRange lanes_taken(const road::RoadNetwork& network, const road::RoadPo
 
 }  // namespace
 
-bool lanes_grow_to_the_right(const traffic::CorridorPiece& piece) {
-  return (piece.side < 0) == piece.along_s;
-}
+bool lanes_grow_to_the_right(const traffic::CorridorPiece& piece) { return (piece.side < 0) == piece.along_s; }
 
-std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network,
-                                               const Snapshot& snapshot) {
+std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network, const Snapshot& snapshot) {
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   if (!body) return std::nullopt;
   const auto location = road::locate(network, ground_position(*body));
   if (!location || location->lanes.lane == 0) return std::nullopt;
-  return traffic::build_corridor(
-      network, {location->position.road, location->lanes.lane, location->position.s_m, 0.0});
+  return traffic::build_corridor(network, {location->position.road, location->lanes.lane, location->position.s_m, 0.0});
 }
 
-std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
-                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
-                                      const std::optional<road::RoadPosition>& hint) {
+std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                                      const Snapshot& snapshot, const std::optional<road::RoadPosition>& hint) {
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   if (!body) return std::nullopt;
   const auto location = road::locate(network, ground_position(*body), hint ? &*hint : nullptr);
@@ -89,9 +81,8 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
   return own;
 }
 
-std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
-                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
-                                      const OwnPlace& own) {
+std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                                      const Snapshot& snapshot, const OwnPlace& own) {
   std::vector<SeenVehicle> seen;
   const Participant* self = find_participant(snapshot, snapshot.driver_car.participant);
   if (!self) return seen;
@@ -125,11 +116,10 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
     vehicle.across_soon_m = vehicle.across_m + foresight_s * to_the_left(piece, sideways);
     vehicle.half_width_m = model.width_m / 2.0;
     vehicle.is_ahead = ahead_m + model.centre_x_m() > (own.front_m - own.rear_m) / 2.0;
-    vehicle.gap_m = vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m
-                                     : -ahead_m - model.front_m() - own.rear_m;
+    vehicle.gap_m =
+        vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m : -ahead_m - model.front_m() - own.rear_m;
     vehicle.speed_mps = glm::dot(other.velocity_mps, heads);
-    vehicle.is_ambulance =
-        model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
+    vehicle.is_ambulance = model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
     seen.push_back(vehicle);
   }
   return seen;
@@ -143,15 +133,13 @@ std::vector<SeenVehicle> remembered_vehicles(std::vector<SeenVehicle> seen, doub
   return seen;
 }
 
-void see_accelerations(std::span<const SeenVehicle> before, double dt_s,
-                       std::vector<SeenVehicle>& now) {
+void see_accelerations(std::span<const SeenVehicle> before, double dt_s, std::vector<SeenVehicle>& now) {
   const double share = 1.0 - std::exp(-dt_s / acceleration_seen_in_s);
   for (SeenVehicle& vehicle : now) {
     const auto last = std::ranges::lower_bound(before, vehicle.id, {}, &SeenVehicle::id);
     if (last == before.end() || last->id != vehicle.id) continue;
     const double rate_mps2 = (vehicle.speed_mps - last->speed_mps) / dt_s;
-    vehicle.acceleration_mps2 =
-        last->acceleration_mps2 + share * (rate_mps2 - last->acceleration_mps2);
+    vehicle.acceleration_mps2 = last->acceleration_mps2 + share * (rate_mps2 - last->acceleration_mps2);
   }
 }
 

@@ -33,16 +33,16 @@ struct OwnPlace {
 
 struct SeenVehicle {
   ParticipantId id = 0;
-  int lane = 0;                           ///< That its middle is in or nearest to.
+  int lane = 0;                                ///< That its middle is in or nearest to.
   int innermost_lane = 0, outermost_lane = 0;  ///< Those that its body lies over, or will within a second.
-  double x_m = 0.0;                       ///< Along the corridor, of its origin.
+  double x_m = 0.0;                            ///< Along the corridor, of its origin.
   double across_m = 0.0, across_soon_m = 0.0;  ///< As OwnPlace; soon: within a second, moving sideways as it does.
   double half_width_m = 0.9;
   bool is_ahead = false;
   double gap_m = 0.0;  ///< Bumper to bumper; negative while it is alongside.
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;  ///< As its changing speed has told it.
-  bool is_ambulance = false;  ///< With its beacon on.
+  bool is_ambulance = false;       ///< With its beacon on.
 };
 
 /// Bearings of two points of the intended path from the car's origin, against its heading, positive
@@ -52,23 +52,19 @@ struct PathAngles {
 };
 
 /// The corridor that the car is in; none off the road.
-std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network,
-                                               const Snapshot& snapshot);
+std::optional<traffic::Corridor> find_corridor(const road::RoadNetwork& network, const Snapshot& snapshot);
 
 /// Nothing where the car is off the corridor.
-std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network,
-                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
-                                      const std::optional<road::RoadPosition>& hint);
+std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                                      const Snapshot& snapshot, const std::optional<road::RoadPosition>& hint);
 
 /// All vehicles in the corridor's lanes, or about to be, within 250 m, by ascending id. Who stands on the
 /// shoulder is not among them. Accelerations stay 0.
-std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network,
-                                      const traffic::Corridor& corridor, const Snapshot& snapshot,
-                                      const OwnPlace& own);
+std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                                      const Snapshot& snapshot, const OwnPlace& own);
 
 /// Accelerations by what changed since the look `dt_s` before: the eye takes half a second to tell.
-void see_accelerations(std::span<const SeenVehicle> before, double dt_s,
-                       std::vector<SeenVehicle>& now);
+void see_accelerations(std::span<const SeenVehicle> before, double dt_s, std::vector<SeenVehicle>& now);
 
 /// What was seen some time ago, as the driver takes it to be now: everybody has gone on evenly.
 std::vector<SeenVehicle> remembered_vehicles(std::vector<SeenVehicle> seen, double ago_s, double own_speed_mps);

@@ -13,9 +13,7 @@ void enter(GearState& state, GearPhase phase) {
   state.phase_s = 0.0;
 }
 
-double between(double light, double full, double accelerator) {
-  return light + accelerator * (full - light);
-}
+double between(double light, double full, double accelerator) { return light + accelerator * (full - light); }
 
 /// The gear that the engine asks for, one step away at most.
 int wished_gear(const GearState& state, const GearParameters& gears, const CarKnowledge& car,
@@ -35,8 +33,7 @@ double coupled_radps(const CarKnowledge& car, int gear, const GearSenses& senses
 /// The gear for the speed at which the car rolls with the clutch down.
 int rolling_gear(const GearParameters& gears, const CarKnowledge& car, const GearSenses& senses) {
   int gear = 1;
-  while (gear < car.gears && coupled_radps(car, gear + 1, senses) > 1.2 * gears.down_light_radps)
-    ++gear;
+  while (gear < car.gears && coupled_radps(car, gear + 1, senses) > 1.2 * gears.down_light_radps) ++gear;
   return gear;
 }
 
@@ -49,8 +46,8 @@ void let_bite(GearState& state, const GearParameters& gears, double engine_radps
 
 }  // namespace
 
-double advance_gears(GearState& state, const GearParameters& gears, const CarKnowledge& car,
-                     const GearSenses& senses, double dt_s) {
+double advance_gears(GearState& state, const GearParameters& gears, const CarKnowledge& car, const GearSenses& senses,
+                     double dt_s) {
   if (!state.started) {
     state.started = true;
     if (senses.gear > 0 && senses.speed_mps > walking_mps) {
@@ -100,8 +97,7 @@ double advance_gears(GearState& state, const GearParameters& gears, const CarKno
       }
       // Braking is done in the gear that is in; the next one is chosen with the clutch down.
       state.target = senses.braking ? state.lever : wished_gear(state, gears, car, senses);
-      if (state.target != state.lever && state.driving_s > gears.pause_s)
-        enter(state, GearPhase::pressing);
+      if (state.target != state.lever && state.driving_s > gears.pause_s) enter(state, GearPhase::pressing);
       return senses.accelerator;
     case GearPhase::pressing:
       state.clutch = std::min(1.0, state.clutch + dt_s / gears.press_s);

@@ -41,7 +41,7 @@ struct GearSenses {
 };
 
 /// Moves foot and hand; returns the accelerator that the right foot gives meanwhile.
-double advance_gears(GearState& state, const GearParameters& gears, const CarKnowledge& car,
-                     const GearSenses& senses, double dt_s);
+double advance_gears(GearState& state, const GearParameters& gears, const CarKnowledge& car, const GearSenses& senses,
+                     double dt_s);
 
 }  // namespace septet::car_io

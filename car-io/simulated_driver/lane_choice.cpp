@@ -16,9 +16,7 @@ bool is_in(const SeenVehicle& vehicle, int lane) {
   return vehicle.innermost_lane <= lane && lane <= vehicle.outermost_lane;
 }
 
-bool lies_left(const LaneScene& scene, int lane) {
-  return (lane < scene.own.lane) == scene.grows_to_the_right;
-}
+bool lies_left(const LaneScene& scene, int lane) { return (lane < scene.own.lane) == scene.grows_to_the_right; }
 
 /// What a lane offers by the plain intelligent driver model, which minds a slower vehicle long before
 /// the foot has to.
@@ -27,8 +25,7 @@ double offer_mps2(const LaneScene& scene, int lane, const DriverParameters& driv
   double tightest = 0.0;
   for (const SeenVehicle& vehicle : scene.vehicles)
     if (vehicle.is_ahead && (is_in(vehicle, lane) || vehicle.is_ambulance))
-      tightest = std::max(tightest, wanted_gap_m(driver.speed, v, vehicle.speed_mps) /
-                                        std::max(vehicle.gap_m, 0.5));
+      tightest = std::max(tightest, wanted_gap_m(driver.speed, v, vehicle.speed_mps) / std::max(vehicle.gap_m, 0.5));
   return a * (1.0 - std::pow(v / std::max(scene.desired_speed_mps, 0.1), 4) - tightest * tightest);
 }
 
@@ -39,9 +36,8 @@ double value_of(const LaneScene& scene, int lane, const DriverParameters& driver
   if (lane > scene.own.lane) value = std::min(value, offer_mps2(scene, scene.own.lane, driver));
   // A lane that ends is a wall at its end.
   if (lane == scene.own.lane && scene.lane_ends_in_m < 500.0)
-    value = std::min(
-        value, wished_acceleration_mps2(driver.speed, scene.own.speed_mps, scene.desired_speed_mps,
-                                        Obstacle{scene.lane_ends_in_m, 0.0}));
+    value = std::min(value, wished_acceleration_mps2(driver.speed, scene.own.speed_mps, scene.desired_speed_mps,
+                                                     Obstacle{scene.lane_ends_in_m, 0.0}));
   value = std::max(value, -4.0) + driver.lanes.keep_out_mps2 * (lane - scene.own.lane);
   for (const SeenVehicle& vehicle : scene.vehicles)
     if (vehicle.is_ambulance && vehicle.is_ahead)
@@ -84,16 +80,14 @@ void turn_back(LaneState& state, const LaneChoiceParameters& lanes) {
 
 }  // namespace
 
-std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
-                                         const SpeedParameters& speed) {
+std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane, const SpeedParameters& speed) {
   std::optional<Obstacle> hardest;
   double least_mps2 = 0.0;
   for (const SeenVehicle& vehicle : scene.vehicles) {
     if (!vehicle.is_ahead || !(is_in(vehicle, lane) || vehicle.is_ambulance)) continue;
     Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
     if (!is_in(vehicle, lane)) obstacle.worth_mps2 = speed.braking_mps2;
-    const double wish_mps2 =
-        wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
+    const double wish_mps2 = wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
     if (hardest && wish_mps2 >= least_mps2) continue;
     hardest = obstacle;
     least_mps2 = wish_mps2;
@@ -101,8 +95,7 @@ std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
   return hardest;
 }
 
-std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene,
-                                        const SpeedParameters& speed) {
+std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene, const SpeedParameters& speed) {
   if (state.phase < LanePhase::change) return obstacle_in_lane(scene, state.lane, speed);
   const int to = state.phase == LanePhase::change ? state.target : state.lane;
   const int from = state.phase == LanePhase::change ? state.lane : state.target;
@@ -125,13 +118,12 @@ bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, d
     const double behind_mps = vehicle.is_ahead ? own_mps : vehicle.speed_mps;
     const double ahead_mps = vehicle.is_ahead ? vehicle.speed_mps : own_mps;
     const double closing_mps = std::max(behind_mps - ahead_mps, 0.0);
-    const double needed_m = strictness * (driver.speed.standstill_gap_m +
-                                          driver.lanes.accepted_gap * driver.speed.time_gap_s * behind_mps);
+    const double needed_m =
+        strictness * (driver.speed.standstill_gap_m + driver.lanes.accepted_gap * driver.speed.time_gap_s * behind_mps);
     const double left_m = vehicle.gap_m - closing_mps * until_crossed_s - needed_m;
     if (left_m < 0.0) return false;
     // Braking that takes the closing speed out of what is left.
-    if (closing_mps * closing_mps > 2.0 * left_m * driver.lanes.safe_braking_mps2 / strictness)
-      return false;
+    if (closing_mps * closing_mps > 2.0 * left_m * driver.lanes.safe_braking_mps2 / strictness) return false;
   }
   return true;
 }
@@ -155,15 +147,11 @@ double place_across(const LaneState& state, double own_speed_mps, double ahead_s
   return point_on_way(state.way, state.phase_s + pace(own_speed_mps) * ahead_s).at;
 }
 
-void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene,
-                         MirrorState& mirrors, const std::optional<Mirror>& looked, double dt_s,
-                         Random& random) {
-  state.phase_s +=
-      state.phase < LanePhase::change ? dt_s : pace(scene.own.speed_mps) * dt_s;
+void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene, MirrorState& mirrors,
+                         const std::optional<Mirror>& looked, double dt_s, Random& random) {
+  state.phase_s += state.phase < LanePhase::change ? dt_s : pace(scene.own.speed_mps) * dt_s;
   state.since_change_s += dt_s;
-  const auto mirror_of_target = [&] {
-    return lies_left(scene, state.target) ? Mirror::left : Mirror::right;
-  };
+  const auto mirror_of_target = [&] { return lies_left(scene, state.target) ? Mirror::left : Mirror::right; };
   switch (state.phase) {
     case LanePhase::keep:
       state.next_thought_s -= dt_s;
@@ -171,8 +159,7 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       state.next_thought_s = thought_interval_s;
       if (state.since_change_s < driver.lanes.pause_s || scene.own.speed_mps < 3.0) return;
       state.target = wished_lane(scene, driver);
-      if (state.target != state.lane &&
-          begin_glance(mirrors, mirror_of_target(), driver.mirrors, random))
+      if (state.target != state.lane && begin_glance(mirrors, mirror_of_target(), driver.mirrors, random))
         enter(state, LanePhase::look);
       else
         state.target = state.lane;
@@ -186,8 +173,7 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       return;
     case LanePhase::signal:
       if (state.phase_s < driver.lanes.signal_s) return;
-      if (begin_glance(mirrors, mirror_of_target(), driver.mirrors, random))
-        enter(state, LanePhase::look_again);
+      if (begin_glance(mirrors, mirror_of_target(), driver.mirrors, random)) enter(state, LanePhase::look_again);
       return;
     case LanePhase::look_again:
       if (!looked) return;
@@ -195,8 +181,7 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       state.way = {.duration_s = driver.lanes.duration_s};
       return enter(state, LanePhase::change);
     case LanePhase::change:
-      if (scene.own.lane != state.target &&
-          !is_safe(scene, state.target, driver, driver.lanes.strictness_underway))
+      if (scene.own.lane != state.target && !is_safe(scene, state.target, driver, driver.lanes.strictness_underway))
         return turn_back(state, driver.lanes);
       if (state.phase_s < state.way.duration_s) return;
       state.lane = state.target;

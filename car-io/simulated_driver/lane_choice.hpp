@@ -24,7 +24,7 @@ enum class LanePhase : std::uint8_t {
   look,    ///< The mirror of the wished side.
   signal,  ///< The indicator is on.
   look_again,
-  change,  ///< The wheel turns.
+  change,   ///< The wheel turns.
   go_back,  ///< To the lane that the change began in.
 };
 
@@ -55,29 +55,24 @@ struct LaneScene {
   double desired_speed_mps = 0.0;
   bool grows_to_the_right = true;
   bool open_inside = false,
-       open_outside =
-           false;  ///< Lane number one less and one more can be driven on, here and ahead.
+       open_outside = false;    ///< Lane number one less and one more can be driven on, here and ahead.
   double lane_ends_in_m = 1e9;  ///< The present lane.
 };
 
 /// Whoever ahead in a lane asks for the most braking, or nothing. An ambulance counts in every lane: it
 /// is followed and never passed; from another lane it is only stayed behind, with comfortable braking.
-std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane,
-                                         const SpeedParameters& speed);
+std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane, const SpeedParameters& speed);
 /// The same on the way that the car goes: in its lane; while it changes, in the lane to be, and in the one to be left
 /// until the whole body has left it.
-std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene,
-                                        const SpeedParameters& speed);
+std::optional<Obstacle> obstacle_on_way(const LaneState& state, const LaneScene& scene, const SpeedParameters& speed);
 /// Whether a change into this lane leaves everyone room. Strictness scales what has to be left, and the
 /// time until then, and loosens the braking that may be asked of anybody.
-bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver,
-             double strictness = 1.0);
+bool is_safe(const LaneScene& scene, int lane, const DriverParameters& driver, double strictness = 1.0);
 /// How far across from `lane` to `target` the driver means to be, some time from now.
 double place_across(const LaneState& state, double own_speed_mps, double ahead_s);
 
 /// Thinks, looks and decides. `looked` is the mirror whose glance just ended.
-void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene,
-                         MirrorState& mirrors, const std::optional<Mirror>& looked, double dt_s,
-                         Random& random);
+void advance_lane_choice(LaneState& state, const DriverParameters& driver, const LaneScene& scene, MirrorState& mirrors,
+                         const std::optional<Mirror>& looked, double dt_s, Random& random);
 
 }  // namespace septet::car_io

@@ -28,31 +28,26 @@ double head_heading_rad(Mirror mirror) {
   return 0.0;
 }
 
-bool begin_glance(MirrorState& state, Mirror mirror, const MirrorParameters& mirrors,
-                  Random& random) {
+bool begin_glance(MirrorState& state, Mirror mirror, const MirrorParameters& mirrors, Random& random) {
   if (state.target) return false;
   state.target = mirror;
   state.since_s = 0.0;
-  state.hold_s = std::min(mirrors.longest_glance_s,
-                          mirrors.glance_s * std::exp(mirrors.glance_spread * random.normal()));
+  state.hold_s =
+      std::min(mirrors.longest_glance_s, mirrors.glance_s * std::exp(mirrors.glance_spread * random.normal()));
   state.from_rad = state.head_rad;
   return true;
 }
 
 bool sees_road(const MirrorState& state) { return !state.target; }
 
-std::optional<Mirror> advance_mirrors(MirrorState& state, const MirrorParameters& mirrors,
-                                      bool at_ease, double dt_s, Random& random) {
+std::optional<Mirror> advance_mirrors(MirrorState& state, const MirrorParameters& mirrors, bool at_ease, double dt_s,
+                                      Random& random) {
   if (!state.target) {
     state.next_habit_s -= dt_s;
     if (state.next_habit_s <= 0.0 && at_ease) {
       state.next_habit_s = -mirrors.interval_s * std::log(1.0 - random.uniform());
       const double which = random.uniform();
-      begin_glance(state,
-                   which < 0.6    ? Mirror::inside
-                   : which < 0.85 ? Mirror::left
-                                  : Mirror::right,
-                   mirrors, random);
+      begin_glance(state, which < 0.6 ? Mirror::inside : which < 0.85 ? Mirror::left : Mirror::right, mirrors, random);
     }
     return std::nullopt;
   }
@@ -60,8 +55,7 @@ std::optional<Mirror> advance_mirrors(MirrorState& state, const MirrorParameters
   const double there = head_heading_rad(*state.target);
   const double back_at_s = mirrors.turn_s + state.hold_s;
   if (state.since_s < back_at_s) {
-    state.head_rad =
-        state.from_rad + (there - state.from_rad) * smooth_step(state.since_s / mirrors.turn_s);
+    state.head_rad = state.from_rad + (there - state.from_rad) * smooth_step(state.since_s / mirrors.turn_s);
     return std::nullopt;
   }
   state.head_rad = there * (1.0 - smooth_step((state.since_s - back_at_s) / mirrors.turn_s));

@@ -25,15 +25,14 @@ struct MirrorState {
 };
 
 /// Begins a glance unless one is going on; returns whether it did.
-bool begin_glance(MirrorState& state, Mirror mirror, const MirrorParameters& mirrors,
-                  Random& random);
+bool begin_glance(MirrorState& state, Mirror mirror, const MirrorParameters& mirrors, Random& random);
 
 /// Whether the eyes are on the road: before and after glances.
 bool sees_road(const MirrorState& state);
 
 /// Moves the head; returns the mirror that was just looked into, at the end of its glance. Glances
 /// from habit wait until the driver is at ease with where the car goes.
-std::optional<Mirror> advance_mirrors(MirrorState& state, const MirrorParameters& mirrors,
-                                      bool at_ease, double dt_s, Random& random);
+std::optional<Mirror> advance_mirrors(MirrorState& state, const MirrorParameters& mirrors, bool at_ease, double dt_s,
+                                      Random& random);
 
 }  // namespace septet::car_io

@@ -36,8 +36,8 @@ double wanted_gap_m(const SpeedParameters& speed, double own_speed_mps, double l
 /// who believed it would stamp on the pedal for each of them.)
 double heuristic_acceleration_mps2(double own_speed_mps, const Obstacle& obstacle);
 /// Acceleration behind an obstacle, or on a free road: eq. 2.7.
-double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_mps,
-                                double desired_speed_mps, const std::optional<Obstacle>& obstacle);
+double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_mps, double desired_speed_mps,
+                                const std::optional<Obstacle>& obstacle);
 
 struct PedalState {
   WanderingError distance_error, speed_error;  ///< Relative.
@@ -49,8 +49,7 @@ struct PedalState {
 };
 
 /// Moves the foot; the pedals are in the state. The obstacle is what was seen a reaction time ago (`remembered_vehicles`).
-void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car,
-                    const OwnPlace& own, double desired_speed_mps,
-                    std::optional<Obstacle> obstacle, double dt_s, Random& random);
+void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car, const OwnPlace& own,
+                    double desired_speed_mps, std::optional<Obstacle> obstacle, double dt_s, Random& random);
 
 }  // namespace septet::car_io

@@ -14,15 +14,13 @@ constexpr double look_around_interval_s = 0.05;
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
 
 /// A point of the lane's centre, or of the way between two while changing.
-Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
-                double ahead_m, double speed_mps) {
+Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m, double ahead_m,
+                double speed_mps) {
   const LaneState& lanes = driver.lanes;
   const traffic::Corridor& corridor = *driver.corridor;
-  const double x = std::min(
-      x_m + ahead_m, corridor.closed ? std::numeric_limits<double>::max() : corridor.length_m);
+  const double x = std::min(x_m + ahead_m, corridor.closed ? std::numeric_limits<double>::max() : corridor.length_m);
   const auto centre = [&](int lane) {
-    return road::evaluate_lane(network,
-                               traffic::position_at(corridor, traffic::wrap_x(corridor, x), lane))
+    return road::evaluate_lane(network, traffic::position_at(corridor, traffic::wrap_x(corridor, x), lane))
         .road.position_m;
   };
   const Vec3 here = centre(lanes.lane);
@@ -32,8 +30,8 @@ Vec3 lane_point(const SimulatedDriver& driver, const road::RoadNetwork& network,
 }
 
 /// A point of the intended path: in the lane, or in an ambulance's tracks, or on the way between.
-Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m,
-                double ahead_m, double speed_mps) {
+Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network, double x_m, double ahead_m,
+                double speed_mps) {
   const Vec3 in_lane = lane_point(driver, network, x_m, ahead_m, speed_mps);
   const double share = share_of_tracks(driver.tracks, ahead_m / std::max(speed_mps, 1.0));
   if (share == 0.0) return in_lane;
@@ -47,51 +45,39 @@ Vec3 path_point(const SimulatedDriver& driver, const road::RoadNetwork& network,
 }
 
 double bearing_rad(const RigidTransform& world_from_vehicle, const Vec3& point_m) {
-  const Vec3 seen =
-      glm::conjugate(world_from_vehicle.orientation) * (point_m - world_from_vehicle.position_m);
+  const Vec3 seen = glm::conjugate(world_from_vehicle.orientation) * (point_m - world_from_vehicle.position_m);
   return std::atan2(seen.y, seen.x);
 }
 
-PathAngles see_path(const SimulatedDriver& driver, const road::RoadNetwork& network,
-                    const Participant& body, const OwnPlace& own) {
+PathAngles see_path(const SimulatedDriver& driver, const road::RoadNetwork& network, const Participant& body,
+                    const OwnPlace& own) {
   const SteeringParameters& steering = driver.parameters.steering;
-  const double near_m = steering.near_distance_m,
-               far_m = std::max(near_m, steering.far_time_s * own.speed_mps);
-  return {bearing_rad(body.world_from_vehicle,
-                      path_point(driver, network, own.x_m, near_m, own.speed_mps)),
-          bearing_rad(body.world_from_vehicle,
-                      path_point(driver, network, own.x_m, far_m, own.speed_mps))};
+  const double near_m = steering.near_distance_m, far_m = std::max(near_m, steering.far_time_s * own.speed_mps);
+  return {bearing_rad(body.world_from_vehicle, path_point(driver, network, own.x_m, near_m, own.speed_mps)),
+          bearing_rad(body.world_from_vehicle, path_point(driver, network, own.x_m, far_m, own.speed_mps))};
 }
 
 /// Who takes the wheel under way holds it as the bend asks for.
-void take_the_wheel(SimulatedDriver& driver, const road::RoadNetwork& network,
-                    const OwnPlace& own) {
-  const road::LanePoint lane =
-      road::evaluate_lane(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
+void take_the_wheel(SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own) {
+  const road::LanePoint lane = road::evaluate_lane(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
   const double ahead = traffic::piece_at(*driver.corridor, own.x_m).along_s ? 1.0 : -1.0;
-  driver.steering.intended_rad = driver.steering.hands_rad =
-      steady_wheel_rad(driver.parameters.car, own.speed_mps, ahead * lane.road.curvature_per_m,
-                       ahead * lane.road.roll_rad);
+  driver.steering.intended_rad = driver.steering.hands_rad = steady_wheel_rad(
+      driver.parameters.car, own.speed_mps, ahead * lane.road.curvature_per_m, ahead * lane.road.roll_rad);
 }
 
 /// How far the lane stays open, up to the preview.
-double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& corridor, double x_m,
-                  int lane) {
+double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& corridor, double x_m, int lane) {
   if (lane < 1) return 0.0;
   for (double ahead_m = 0.0; ahead_m <= lane_preview_m; ahead_m += 50.0) {
     const double x = traffic::wrap_x(corridor, x_m + ahead_m);
-    if ((!corridor.closed && x >= corridor.length_m) ||
-        !traffic::lane_open(network, corridor, x, lane))
-      return ahead_m;
+    if ((!corridor.closed && x >= corridor.length_m) || !traffic::lane_open(network, corridor, x, lane)) return ahead_m;
   }
   return std::numeric_limits<double>::infinity();
 }
 
-double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network,
-                         const OwnPlace& own) {
+double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own) {
   const SpeedParameters& speed = driver.parameters.speed;
-  const double limit =
-      road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
+  const double limit = road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
   return limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
 }
 
@@ -126,15 +112,12 @@ DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
 
 }  // namespace
 
-DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
-                    const Snapshot& snapshot, double dt_s) {
+DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot, double dt_s) {
   driver.now_s += dt_s;
   ++driver.sequence;
   if (!driver.corridor) driver.corridor = find_corridor(network, snapshot);
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
-  const auto own = driver.corridor
-                       ? see_own_place(network, *driver.corridor, snapshot, driver.place)
-                       : std::nullopt;
+  const auto own = driver.corridor ? see_own_place(network, *driver.corridor, snapshot, driver.place) : std::nullopt;
   if (!own || !body) {
     driver.corridor.reset();
     driver.place.reset();
@@ -152,11 +135,13 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     see_accelerations(driver.vehicles, look_around_interval_s, seen);
     driver.vehicles = std::move(seen);
     const double reaction_s = driver.parameters.speed.reaction_time_s;
-    driver.minded = remembered_vehicles(driver.foot_eyes.through(driver.now_s, driver.vehicles, reaction_s), reaction_s, own->speed_mps);
+    driver.minded = remembered_vehicles(driver.foot_eyes.through(driver.now_s, driver.vehicles, reaction_s), reaction_s,
+                                        own->speed_mps);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
-      look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m, lanes.duration_s);
+      look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m,
+                     lanes.duration_s);
   }
 
   const DriverParameters& parameters = driver.parameters;
@@ -165,27 +150,23 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
   scene.grows_to_the_right = lanes_grow_to_the_right(traffic::piece_at(*driver.corridor, own->x_m));
   scene.open_inside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane - 1));
   scene.open_outside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane + 1));
-  scene.lane_ends_in_m =
-      std::min(1e9, open_for_m(network, *driver.corridor, own->x_m, driver.lanes.lane));
+  scene.lane_ends_in_m = std::min(1e9, open_for_m(network, *driver.corridor, own->x_m, driver.lanes.lane));
 
   const PathAngles path = see_path(driver, network, *body, *own);
-  const bool at_ease =
-      std::abs(path.near_rad) * parameters.steering.near_distance_m < parameters.mirrors.ease_m;
-  const auto looked =
-      advance_mirrors(driver.mirrors, parameters.mirrors, at_ease, dt_s, driver.head_random);
+  const bool at_ease = std::abs(path.near_rad) * parameters.steering.near_distance_m < parameters.mirrors.ease_m;
+  const auto looked = advance_mirrors(driver.mirrors, parameters.mirrors, at_ease, dt_s, driver.head_random);
   advance_tracks(driver.tracks, dt_s);
   if (driver.tracks.follows)
     driver.lanes = {.lane = own->lane, .target = own->lane};  // The one to go back to.
   else
-    advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s,
-                        driver.head_random);
+    advance_lane_choice(driver.lanes, parameters, scene, driver.mirrors, looked, dt_s, driver.head_random);
   advance_pedals(driver.pedals, parameters.speed, parameters.car, *own, scene.desired_speed_mps,
                  obstacle_ahead(driver, scene), dt_s, driver.foot_random);
 
   DriverInput input;
-  input.steering_wheel_rad = advance_steering(driver.steering, parameters.steering, parameters.car,
-                                              path, sees_road(driver.mirrors), own->speed_mps,
-                                              driver.now_s, dt_s, driver.hands_random);
+  input.steering_wheel_rad =
+      advance_steering(driver.steering, parameters.steering, parameters.car, path, sees_road(driver.mirrors),
+                       own->speed_mps, driver.now_s, dt_s, driver.hands_random);
   input.accelerator = driver.pedals.accelerator;
   input.brake = driver.pedals.brake;
   if (parameters.car.has_clutch) {
@@ -201,12 +182,10 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
     input.gear = static_cast<std::int8_t>(driver.gears.lever);
     input.clutch = driver.gears.clutch;
   }
-  const bool signals =
-      driver.lanes.phase >= LanePhase::signal && driver.lanes.phase != LanePhase::go_back;
+  const bool signals = driver.lanes.phase >= LanePhase::signal && driver.lanes.phase != LanePhase::go_back;
   if (signals)
-    input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right
-                          ? IndicatorStalk::left
-                          : IndicatorStalk::right;
+    input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right ? IndicatorStalk::left
+                                                                                            : IndicatorStalk::right;
   input.gaze_heading_rad = driver.mirrors.head_rad;
   input.sequence = driver.sequence;
   return input;

@@ -31,10 +31,7 @@ namespace septet::car_io {
 /// What the driver remembers from tick to tick.
 struct SimulatedDriver {
   SimulatedDriver(DriverParameters parameters_in, std::uint64_t seed)
-      : parameters(std::move(parameters_in)),
-        hands_random(seed, 1),
-        foot_random(seed, 2),
-        head_random(seed, 3) {}
+      : parameters(std::move(parameters_in)), hands_random(seed, 1), foot_random(seed, 2), head_random(seed, 3) {}
 
   DriverParameters parameters;
   Random hands_random, foot_random, head_random;
@@ -55,14 +52,12 @@ struct SimulatedDriver {
 };
 
 /// The controls `dt_s` later. Off every road the driver brakes to a stop.
-DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network,
-                    const Snapshot& snapshot, double dt_s);
+DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot, double dt_s);
 
 /// The driver in a car that speaks HID. The network must live as long.
 class SimulatedDriverCar {
  public:
-  SimulatedDriverCar(DriverParameters parameters, std::uint64_t seed,
-                     const road::RoadNetwork& network);
+  SimulatedDriverCar(DriverParameters parameters, std::uint64_t seed, const road::RoadNetwork& network);
   /// Looks, acts, and sends one input report.
   void drive(const Snapshot& snapshot, double dt_s);
   OpenHidDevice opener() const { return port_.opener(); }

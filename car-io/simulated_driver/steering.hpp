@@ -22,14 +22,12 @@ struct SteeringGains {
   double near = 0.0, far = 0.0, integral_per_s = 0.0;
 };
 /// Gains for a speed; below 5 m/s those for 5 m/s.
-SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car,
-                             double speed_mps);
+SteeringGains steering_gains(const SteeringParameters& steering, const CarKnowledge& car, double speed_mps);
 
 /// The hand wheel that holds a bend in a steady state: the bend's geometry, and understeer with the
 /// lateral acceleration that banking does not give. Curvature positive to the left; roll positive lifts
 /// the left side.
-double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m,
-                        double roll_rad);
+double steady_wheel_rad(const CarKnowledge& car, double speed_mps, double curvature_per_m, double roll_rad);
 
 struct SteeringState {
   ReactionDelay<PathAngles> eyes;
@@ -43,8 +41,8 @@ struct SteeringState {
 
 /// The hand wheel after `dt_s` more. With the eyes off the road only a share of what changes is
 /// answered, out of the corner of the eye; the rest follows when they are back.
-double advance_steering(SteeringState& state, const SteeringParameters& steering,
-                        const CarKnowledge& car, const PathAngles& path, bool sees_road,
-                        double speed_mps, double now_s, double dt_s, Random& random);
+double advance_steering(SteeringState& state, const SteeringParameters& steering, const CarKnowledge& car,
+                        const PathAngles& path, bool sees_road, double speed_mps, double now_s, double dt_s,
+                        Random& random);
 
 }  // namespace septet::car_io

@@ -12,50 +12,123 @@ constexpr std::size_t max_text = 256;
 constexpr std::size_t max_rig_text = 1 << 18;
 
 // One `fields` per message names its members once, for writing and reading alike.
-template <class Visitor> void fields(Hello& m, Visitor& v) { v(m.screen); v(m.tick_port); v(m.protocol); }
-template <class Visitor> void fields(Welcome& m, Visitor& v) {
-  v.text(m.rig, max_rig_text); v(m.lockstep); v(m.tick_rate_hz); v(m.picture_every_ticks);
-  v(m.group_ip); v(m.group_port); v(m.interface_ip);
+template <class Visitor>
+void fields(Hello& m, Visitor& v) {
+  v(m.screen);
+  v(m.tick_port);
+  v(m.protocol);
 }
-template <class Visitor> void fields(Refusal& m, Visitor& v) { v(m.reason); }
-template <class Visitor> void fields(TickArrived& m, Visitor& v) { v(m.tick); v(m.lateness_s); v(m.lost_baseline); }
-template <class Visitor> void fields(SceneArrived& m, Visitor& v) { v(m.revision); }
-template <class Visitor> void fields(Presented& m, Visitor& v) { v(m.tick); v(m.frame_ms); }
-template <class Visitor> void fields(Controls& m, Visitor& v) {
+template <class Visitor>
+void fields(Welcome& m, Visitor& v) {
+  v.text(m.rig, max_rig_text);
+  v(m.lockstep);
+  v(m.tick_rate_hz);
+  v(m.picture_every_ticks);
+  v(m.group_ip);
+  v(m.group_port);
+  v(m.interface_ip);
+}
+template <class Visitor>
+void fields(Refusal& m, Visitor& v) {
+  v(m.reason);
+}
+template <class Visitor>
+void fields(TickArrived& m, Visitor& v) {
+  v(m.tick);
+  v(m.lateness_s);
+  v(m.lost_baseline);
+}
+template <class Visitor>
+void fields(SceneArrived& m, Visitor& v) {
+  v(m.revision);
+}
+template <class Visitor>
+void fields(Presented& m, Visitor& v) {
+  v(m.tick);
+  v(m.frame_ms);
+}
+template <class Visitor>
+void fields(Controls& m, Visitor& v) {
   DriverInput& i = m.input;
-  v.within(i.steering_wheel_rad, -50.0, 50.0); v.within(i.accelerator, 0.0, 1.0); v.within(i.brake, 0.0, 1.0); v.within(i.clutch, 0.0, 1.0);
+  v.within(i.steering_wheel_rad, -50.0, 50.0);
+  v.within(i.accelerator, 0.0, 1.0);
+  v.within(i.brake, 0.0, 1.0);
+  v.within(i.clutch, 0.0, 1.0);
   v.enumeration(i.selector, GearSelector::park, GearSelector::manual);
   v(i.gear);
   v.enumeration(i.indicator, IndicatorStalk::right, IndicatorStalk::left);
-  v(i.hazard_lights); v(i.horn); v(i.low_beam); v(i.high_beam); v(i.parking_brake);
-  v.within(i.gaze_heading_rad, -7.0, 7.0); v(i.sequence);
+  v(i.hazard_lights);
+  v(i.horn);
+  v(i.low_beam);
+  v(i.high_beam);
+  v(i.parking_brake);
+  v.within(i.gaze_heading_rad, -7.0, 7.0);
+  v(i.sequence);
 }
-template <class Visitor> void fields(Finish& m, Visitor& v) { v(m.reason); }
-template <class Visitor> void fields(ScreenReport& m, Visitor& v) {
-  v(m.frames); v(m.frames_off_tick); v(m.datagrams_lost); v(m.datagrams_repaired); v(m.refused_ticks);
-  v(m.frame_ms_p50); v(m.frame_ms_p99); v(m.submit_ms_p50); v(m.submit_ms_p99);
+template <class Visitor>
+void fields(Finish& m, Visitor& v) {
+  v(m.reason);
 }
-template <class Visitor> void fields(CarHello& m, Visitor& v) { v(m.protocol); }
-template <class Visitor> void fields(CarWelcome& m, Visitor& v) { v.text(m.rig, max_rig_text); }
-template <class Visitor> void fields(CarReport& m, Visitor& v) { v(m.number); v(m.report); v(m.problem); }
-template <class Visitor> void fields(CarFeedback& m, Visitor& v) {
-  v(m.tick); v(m.fan); v(m.vibration); v(m.vibration_hz); v(m.steering);
+template <class Visitor>
+void fields(ScreenReport& m, Visitor& v) {
+  v(m.frames);
+  v(m.frames_off_tick);
+  v(m.datagrams_lost);
+  v(m.datagrams_repaired);
+  v(m.refused_ticks);
+  v(m.frame_ms_p50);
+  v(m.frame_ms_p99);
+  v(m.submit_ms_p50);
+  v(m.submit_ms_p99);
 }
-template <class Visitor> void fields(Quit& m, Visitor& v) { v(m.by_escape); }
-template <class Visitor> void fields(Notice& m, Visitor& v) { v(m.text); v(m.keys); }
+template <class Visitor>
+void fields(CarHello& m, Visitor& v) {
+  v(m.protocol);
+}
+template <class Visitor>
+void fields(CarWelcome& m, Visitor& v) {
+  v.text(m.rig, max_rig_text);
+}
+template <class Visitor>
+void fields(CarReport& m, Visitor& v) {
+  v(m.number);
+  v(m.report);
+  v(m.problem);
+}
+template <class Visitor>
+void fields(CarFeedback& m, Visitor& v) {
+  v(m.tick);
+  v(m.fan);
+  v(m.vibration);
+  v(m.vibration_hz);
+  v(m.steering);
+}
+template <class Visitor>
+void fields(Quit& m, Visitor& v) {
+  v(m.by_escape);
+}
+template <class Visitor>
+void fields(Notice& m, Visitor& v) {
+  v(m.text);
+  v(m.keys);
+}
 
 struct Put {
   ByteWriter writer;
   template <class T>
   void operator()(T& value) {
-    if constexpr (std::is_same_v<T, bool>) writer.put<std::uint8_t>(value);
-    else writer.put(value);
+    if constexpr (std::is_same_v<T, bool>)
+      writer.put<std::uint8_t>(value);
+    else
+      writer.put(value);
   }
   void operator()(std::string& value) { text(value, max_text); }
   void text(std::string& value, std::size_t limit) { writer.put_string(std::string_view(value).substr(0, limit)); }
   void within(double& value, double least, double most) { writer.put(std::clamp(value, least, most)); }
   template <class T>
-  void enumeration(T& value, T, T) { writer.put(static_cast<std::int8_t>(value)); }
+  void enumeration(T& value, T, T) {
+    writer.put(static_cast<std::int8_t>(value));
+  }
 };
 
 struct Get {
@@ -132,7 +205,8 @@ Bytes scene_message(std::span<const std::byte> message) {
 }
 
 std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes) {
-  if (bytes.empty() || static_cast<std::uint8_t>(bytes[0]) > static_cast<std::uint8_t>(LaneMessage::control)) return std::nullopt;
+  if (bytes.empty() || static_cast<std::uint8_t>(bytes[0]) > static_cast<std::uint8_t>(LaneMessage::control))
+    return std::nullopt;
   return static_cast<LaneMessage>(bytes[0]);
 }
 

@@ -49,7 +49,7 @@ struct Refusal {
 /// Screen → server: a tick has arrived and is kept as a possible baseline.
 struct TickArrived {
   Tick tick = 0;
-  float lateness_s = 0.0f;   ///< From its publication on the server's clock to its arrival.
+  float lateness_s = 0.0f;     ///< From its publication on the server's clock to its arrival.
   bool lost_baseline = false;  ///< It could not be read for want of its baseline: send a keyframe.
 };
 
@@ -80,9 +80,9 @@ struct ScreenReport {
   std::uint64_t frames = 0;
   std::uint64_t frames_off_tick = 0;  ///< Frames that showed another tick than they should have.
   std::uint64_t datagrams_lost = 0, datagrams_repaired = 0;
-  std::uint64_t refused_ticks = 0;                      ///< That arrived and could not be read.
-  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;       ///< From picture to picture.
-  float submit_ms_p50 = 0.0f, submit_ms_p99 = 0.0f;     ///< Of that, until the picture was handed to the device.
+  std::uint64_t refused_ticks = 0;                   ///< That arrived and could not be read.
+  float frame_ms_p50 = 0.0f, frame_ms_p99 = 0.0f;    ///< From picture to picture.
+  float submit_ms_p50 = 0.0f, submit_ms_p99 = 0.0f;  ///< Of that, until the picture was handed to the device.
 };
 
 /// septet-car → server, first of all.
@@ -121,8 +121,8 @@ struct Notice {
   bool operator==(const Notice&) const = default;
 };
 
-using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport, CarHello,
-                                    CarWelcome, CarReport, CarFeedback, Quit, Notice>;
+using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish,
+                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);
@@ -139,10 +139,10 @@ std::optional<LaneMessage> lane_of(std::span<const std::byte> bytes);
 /// The offset is the server's alone and changes at an announced instant of its clock: were it taken from the ticks that a
 /// screen happens to hold, screens would differ by the jitter of publication, and a difference tears the seams.
 struct TickHeader {
-  double published_s = 0.0;     ///< Server's clock.
-  double offset_s = 0.0;        ///< Shown simulated time = server's clock − offset.
+  double published_s = 0.0;  ///< Server's clock.
+  double offset_s = 0.0;     ///< Shown simulated time = server's clock − offset.
   double next_offset_s = 0.0;
-  double next_from_s = 0.0;     ///< Server's clock from which the next offset holds.
+  double next_from_s = 0.0;  ///< Server's clock from which the next offset holds.
 };
 void put_tick_header(ByteWriter& writer, const TickHeader& header);
 /// Puts the reader into its failed state where the header makes no sense.

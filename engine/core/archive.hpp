@@ -95,29 +95,53 @@ template <class S, class T>
 concept SameButForConst = std::same_as<std::remove_const_t<S>, T>;
 
 /// The members of a plain struct, all of them, in their order.
-#define SEPTET_MEMBERS(Type, ...)                \
-  template <::septet::SameButForConst<Type> S_>  \
-  auto members(S_& whole_) {                     \
-    auto& [__VA_ARGS__] = whole_;                \
-    return std::tie(__VA_ARGS__);                \
+#define SEPTET_MEMBERS(Type, ...)               \
+  template <::septet::SameButForConst<Type> S_> \
+  auto members(S_& whole_) {                    \
+    auto& [__VA_ARGS__] = whole_;               \
+    return std::tie(__VA_ARGS__);               \
   }
 
 namespace archive {
-template <class T> inline constexpr bool is_vector = false;
-template <class T> inline constexpr bool is_vector<std::vector<T>> = true;
-template <class T> inline constexpr bool is_array = false;
-template <class T, std::size_t n> inline constexpr bool is_array<std::array<T, n>> = true;
-template <class T> inline constexpr bool is_optional = false;
-template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
-template <class T> inline constexpr bool is_shared = false;
-template <class T> inline constexpr bool is_shared<std::shared_ptr<const T>> = true;
-template <class T> inline constexpr bool is_map = false;
-template <class K, class V> inline constexpr bool is_map<std::map<K, V>> = true;
+template <class T>
+inline constexpr bool is_vector = false;
+template <class T>
+inline constexpr bool is_vector<std::vector<T>> = true;
+template <class T>
+inline constexpr bool is_array = false;
+template <class T, std::size_t n>
+inline constexpr bool is_array<std::array<T, n>> = true;
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool is_shared = false;
+template <class T>
+inline constexpr bool is_shared<std::shared_ptr<const T>> = true;
+template <class T>
+inline constexpr bool is_map = false;
+template <class K, class V>
+inline constexpr bool is_map<std::map<K, V>> = true;
 /// GLM's vectors and quaternions.
-template <class T> concept FixedVector = requires(T v) { typename T::value_type; T::length(); v[0]; };
-template <class T> concept Quaternion = FixedVector<T> && requires(T v) { v.w; } && T::length() == 4;
+template <class T>
+concept FixedVector = requires(T v) {
+  typename T::value_type;
+  T::length();
+  v[0];
+};
+template <class T>
+concept Quaternion = FixedVector<T> && requires(T v) {
+  v.w;
+} && T::length()
+== 4;
 /// Eigen's matrices of fixed size.
-template <class T> concept FixedMatrix = requires(T m) { T::SizeAtCompileTime; typename T::Scalar; m.data(); };
+template <class T>
+concept FixedMatrix = requires(T m) {
+  T::SizeAtCompileTime;
+  typename T::Scalar;
+  m.data();
+};
 
 template <class T>
 void require_number(StateReader& reader, T& value) {
@@ -131,7 +155,9 @@ void require_number(StateReader& reader, T& value) {
 inline std::size_t transfer_count(StateReader& reader, std::size_t element_size = 1) {
   std::uint64_t count = 0;
   reader.get(&count, sizeof count);
-  return reader.require(count <= reader.remaining() / element_size, "it ends too early") ? static_cast<std::size_t>(count) : 0;
+  return reader.require(count <= reader.remaining() / element_size, "it ends too early")
+             ? static_cast<std::size_t>(count)
+             : 0;
 }
 
 /// `V` is const for the writer.
@@ -155,7 +181,8 @@ void transfer(Archive& archive, V& value) {
     }
   } else if constexpr (archive::is_vector<T> || std::is_same_v<T, std::string>) {
     using Element = typename T::value_type;
-    constexpr bool is_flat = (std::is_arithmetic_v<Element> && !std::is_same_v<Element, bool>) || std::is_same_v<Element, std::byte>;
+    constexpr bool is_flat =
+        (std::is_arithmetic_v<Element> && !std::is_same_v<Element, bool>) || std::is_same_v<Element, std::byte>;
     if constexpr (Archive::reads) {
       const std::size_t count = transfer_count(archive, is_flat ? sizeof(Element) : 1);
       value.clear();
@@ -166,7 +193,8 @@ void transfer(Archive& archive, V& value) {
         if constexpr (std::is_floating_point_v<Element>)
           for (Element& element : value) archive::require_number(archive, element);
       } else {
-        for (std::size_t i = 0; i < count && archive.take_memory(sizeof(Element)); ++i) transfer(archive, value.emplace_back());
+        for (std::size_t i = 0; i < count && archive.take_memory(sizeof(Element)); ++i)
+          transfer(archive, value.emplace_back());
       }
     } else {
       const std::uint64_t count = value.size();
@@ -180,7 +208,8 @@ void transfer(Archive& archive, V& value) {
     std::array<std::uint64_t, 4> state = value.state();
     if constexpr (Archive::reads) {
       transfer(archive, state);
-      if (archive.require((state[0] | state[1] | state[2] | state[3]) != 0, "its random numbers would all be the same")) value = std::bit_cast<Random>(state);
+      if (archive.require((state[0] | state[1] | state[2] | state[3]) != 0, "its random numbers would all be the same"))
+        value = std::bit_cast<Random>(state);
     } else {
       transfer(archive, std::as_const(state));
     }

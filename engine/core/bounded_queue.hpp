@@ -31,8 +31,7 @@ class BoundedQueue {
   }
   /// Takes everything that is there into `batch` (emptied first), after waiting for `enough`
   /// values, the deadline or the close. Answers false once the queue is closed and empty.
-  bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline,
-                std::size_t enough = 1) {
+  bool take_all(std::vector<T>& batch, std::chrono::steady_clock::time_point deadline, std::size_t enough = 1) {
     batch.clear();
     std::unique_lock lock(mutex_);
     enough_ = enough;

@@ -12,7 +12,11 @@ namespace {
 std::size_t read_character(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : (first & 0xE0) == 0xC0 ? 2 : (first & 0xF0) == 0xE0 ? 3 : (first & 0xF8) == 0xF0 ? 4 : 0;
+  const std::size_t length = first < 0x80             ? 1
+                             : (first & 0xE0) == 0xC0 ? 2
+                             : (first & 0xF0) == 0xE0 ? 3
+                             : (first & 0xF8) == 0xF0 ? 4
+                                                      : 0;
   if (length == 0 || length > text.size()) return 0;
   constexpr std::uint8_t payload[] = {0, 0x7F, 0x1F, 0x0F, 0x07};
   code = first & payload[length];
@@ -27,7 +31,8 @@ std::size_t read_character(std::string_view text, std::uint32_t& code) {
 
 bool is_shown(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029;
-  const bool turns = code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  const bool turns =
+      code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
   return !control && !turns;
 }
 
@@ -42,7 +47,8 @@ std::string printable(std::string_view text, std::size_t most_bytes) {
     if (length > 0 && is_shown(code))
       next = code == '\\' ? "\\\\" : std::string(text.substr(0, length));
     else
-      for (std::size_t i = 0; i < std::max<std::size_t>(length, 1); ++i) next += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(text[i]));
+      for (std::size_t i = 0; i < std::max<std::size_t>(length, 1); ++i)
+        next += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(text[i]));
     if (shown.size() + next.size() > most_bytes) return shown + "…";
     shown += next;
     text.remove_prefix(std::max<std::size_t>(length, 1));

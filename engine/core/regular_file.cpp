@@ -49,7 +49,8 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
   if (!S_ISREG(status.st_mode))
     return failure(fmt::format("it is {}, not a file", kind_of(status.st_mode)), file.string(), "give a file");
   const auto too_long = [&] {
-    return failure(fmt::format("the file is longer than {}", size_text(largest_bytes)), file.string(), "give a shorter file");
+    return failure(fmt::format("the file is longer than {}", size_text(largest_bytes)), file.string(),
+                   "give a shorter file");
   };
   if (static_cast<std::size_t>(status.st_size) > largest_bytes) return too_long();
   // A file may grow while it is read, and those below /proc call themselves empty: what counts is what comes.

@@ -21,7 +21,8 @@ struct Frame {
 };
 
 Frame frame_of(const Place& place, std::size_t legend_rows = 0) {
-  return {place, place.x + 58.0, place.x + place.width - 14.0, place.y + 30.0, place.y + place.height - 38.0 - legend_row * static_cast<double>(legend_rows)};
+  return {place, place.x + 58.0, place.x + place.width - 14.0, place.y + 30.0,
+          place.y + place.height - 38.0 - legend_row * static_cast<double>(legend_rows)};
 }
 
 std::string text(std::string_view css_class, double x, double y, std::string_view content) {
@@ -42,7 +43,8 @@ std::string y_axis(const Frame& frame, const Axis& y) {
 }
 
 std::string x_tick(const Frame& frame, double x, std::string_view label) {
-  return fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}v5\"/>", x, frame.bottom) + text("x-tick", x, frame.bottom + 18, label);
+  return fmt::format("<path class=\"axis\" d=\"M{:.1f} {:.1f}v5\"/>", x, frame.bottom) +
+         text("x-tick", x, frame.bottom + 18, label);
 }
 
 std::string x_line(const Frame& frame, std::string_view x_label) {
@@ -69,7 +71,9 @@ std::vector<Point> thinned(const std::vector<Point>& line, const Axis& x) {
   return result;
 }
 
-bool is_inside(const Point& point, const Axis& y) { return std::isfinite(point.y) && point.y >= y.low && point.y <= y.high; }
+bool is_inside(const Point& point, const Axis& y) {
+  return std::isfinite(point.y) && point.y >= y.low && point.y <= y.high;
+}
 
 std::string path_of(const std::vector<Point>& line, const Axis& x, const Axis& y) {
   std::string path;
@@ -91,10 +95,13 @@ std::string css_class(const Series& series, std::size_t number) {
 
 std::string drawn(const Series& series, std::size_t number, const Axis& x, const Axis& y) {
   const std::string its_class = css_class(series, number);
-  if (series.stroke != Stroke::dots) return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", its_class, path_of(thinned(series.points, x), x, y));
+  if (series.stroke != Stroke::dots)
+    return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", its_class, path_of(thinned(series.points, x), x, y));
   std::string svg;
   for (const Point& point : series.points)
-    if (is_inside(point, y)) svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>\n", its_class, x(point.x), y(point.y));
+    if (is_inside(point, y))
+      svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>\n", its_class, x(point.x),
+                         y(point.y));
   return svg;
 }
 
@@ -104,10 +111,12 @@ std::string legend(const LineChart& chart, const Frame& frame) {
   std::string svg;
   if (legend_rows(chart) == 0) return svg;
   for (std::size_t n = 0; n < chart.series.size(); ++n) {
-    const double x = frame.left + (frame.right - frame.left) / 2 * static_cast<double>(n % 2), y = frame.bottom + 52 + legend_row * static_cast<double>(n / 2);
+    const double x = frame.left + (frame.right - frame.left) / 2 * static_cast<double>(n % 2),
+                 y = frame.bottom + 52 + legend_row * static_cast<double>(n / 2);
     const std::string its_class = css_class(chart.series[n], n);
-    svg += chart.series[n].stroke == Stroke::dots ? fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>", its_class, x + 12, y - 4)
-                                                  : fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h24\"/>", its_class, x, y - 4);
+    svg += chart.series[n].stroke == Stroke::dots
+               ? fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>", its_class, x + 12, y - 4)
+               : fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h24\"/>", its_class, x, y - 4);
     svg += text("legend", x + 30, y, chart.series[n].name);
   }
   return svg;
@@ -127,7 +136,8 @@ Range range_of(const LineChart& chart, double Point::*coordinate) {
 
 std::string in_svg(const std::string& title, const std::string& content) {
   const Place place;
-  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", place.width, place.height, escaped(title), content);
+  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", place.width,
+                     place.height, escaped(title), content);
 }
 
 }  // namespace
@@ -147,7 +157,8 @@ std::string drawn(const LineChart& chart, const Place& place) {
   const auto ticks = round_ticks(x_range, static_cast<int>(place.width / 96.0));
   for (const double tick : ticks) svg += x_tick(frame, x(tick), tick_label(tick, ticks));
   for (const Mark& mark : chart.marks) {
-    svg += fmt::format("<g><title>{}</title><path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", escaped(mark.tip), x(mark.x), frame.top + 4, frame.bottom);
+    svg += fmt::format("<g><title>{}</title><path class=\"mark\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", escaped(mark.tip),
+                       x(mark.x), frame.top + 4, frame.bottom);
     svg += text("mark-label", x(mark.x), frame.top + 2, mark.label) + "</g>";
   }
   for (std::size_t n = 0; n < chart.series.size(); ++n) svg += drawn(chart.series[n], n, x, y);
@@ -165,8 +176,9 @@ std::string to_svg(const BarChart& chart) {
   std::string svg = heading(frame, chart.title, chart.y_label) + y_axis(frame, y);
   for (const Bar& bar : chart.bars) {
     const double a = std::min(x(bar.from), x(bar.to)) + 1.5, b = std::max(x(bar.from), x(bar.to)) - 1.5;
-    svg += fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}</title></rect>\n",
-                       bar.emphasised ? "bar strong" : "bar", a, y(bar.value), b - a, frame.bottom - y(bar.value), escaped(bar.tip));
+    svg += fmt::format(
+        "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}</title></rect>\n",
+        bar.emphasised ? "bar strong" : "bar", a, y(bar.value), b - a, frame.bottom - y(bar.value), escaped(bar.tip));
   }
   for (const auto& [value, label] : chart.x_ticks) svg += x_tick(frame, x(value), label);
   return in_svg(chart.title, svg + x_line(frame, chart.x_label));

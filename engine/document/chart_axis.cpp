@@ -25,7 +25,8 @@ std::vector<double> round_ticks(Range range, int count) {
   if (!(range.high > range.low) || count < 1) return {range.low};
   const double step = round_step(range, count);
   std::vector<double> ticks;
-  for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + step * 1e-9; k += 1.0) ticks.push_back(k * step);
+  for (double k = std::ceil(range.low / step - 1e-9); k * step <= range.high + step * 1e-9; k += 1.0)
+    ticks.push_back(k * step);
   return ticks;
 }
 
@@ -38,7 +39,8 @@ Range round_range(Range range, int count) {
 std::string tick_label(double value, const std::vector<double>& ticks) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
   int decimals = 0;
-  for (double scaled = step; decimals < 6 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0) ++decimals;
+  for (double scaled = step; decimals < 6 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0)
+    ++decimals;
   // No minus before a zero.
   return fmt::format("{:.{}f}", std::abs(value) < 1e-9 * step ? 0.0 : value, decimals);
 }

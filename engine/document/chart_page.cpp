@@ -35,14 +35,18 @@ std::string to_svg(const ChartPage& page) {
     return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", css_class, x, y, escaped(words));
   };
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n<style>{2}</style>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\">\n<style>{2}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
       width, height, style);
   svg += text("page-title", 2 * margin, 30.0, page.title);
-  for (std::size_t n = 0; n < page.lines.size(); ++n) svg += text("words", 2 * margin, 51.0 + row * static_cast<double>(n), page.lines[n]);
+  for (std::size_t n = 0; n < page.lines.size(); ++n)
+    svg += text("words", 2 * margin, 51.0 + row * static_cast<double>(n), page.lines[n]);
   for (std::size_t n = 0; n < page.charts.size(); ++n)
-    svg += drawn(page.charts[n], {margin + chart_width * static_cast<double>(n % 2), head + chart_height * static_cast<double>(n / 2), chart_width, chart_height});
-  for (std::size_t n = 0; n < page.notes.size(); ++n) svg += text("words", notes_at, head + 24.0 + 24.0 * static_cast<double>(n), page.notes[n]);
+    svg += drawn(page.charts[n], {margin + chart_width * static_cast<double>(n % 2),
+                                  head + chart_height * static_cast<double>(n / 2), chart_width, chart_height});
+  for (std::size_t n = 0; n < page.notes.size(); ++n)
+    svg += text("words", notes_at, head + 24.0 + 24.0 * static_cast<double>(n), page.notes[n]);
   return svg + "</svg>\n";
 }
 

@@ -49,12 +49,14 @@ double TableReader::get_double(std::string_view key, double fallback, double low
   return fallback;
 }
 
-std::int64_t TableReader::get_integer(std::string_view key, std::int64_t fallback, std::int64_t low, std::int64_t high) {
+std::int64_t TableReader::get_integer(std::string_view key, std::int64_t fallback, std::int64_t low,
+                                      std::int64_t high) {
   const toml::node* node = find(key);
   if (!node) return fallback;
   const auto value = node->value<std::int64_t>();
   if (value && *value >= low && *value <= high) return *value;
-  report(key, fmt::format("{}.{} is out of range", title_, key), fmt::format("give a whole number from {} to {}", low, high));
+  report(key, fmt::format("{}.{} is out of range", title_, key),
+         fmt::format("give a whole number from {} to {}", low, high));
   return fallback;
 }
 
@@ -93,7 +95,8 @@ std::vector<const toml::table*> TableReader::get_tables(std::string_view key) {
   if (const toml::array* array = node->as_array())
     for (const auto& element : *array)
       if (const toml::table* table = element.as_table()) tables.push_back(table);
-  if (tables.empty()) report(key, fmt::format("{}.{} is not a list of tables", title_, key), fmt::format("write [[{}]]", key));
+  if (tables.empty())
+    report(key, fmt::format("{}.{} is not a list of tables", title_, key), fmt::format("write [[{}]]", key));
   return tables;
 }
 
@@ -105,7 +108,8 @@ const toml::table* TableReader::get_table(std::string_view key) {
 void TableReader::finish(std::string_view documented_in) {
   for (const auto& [key, node] : table_)
     if (!known_.contains(key.str()))
-      report(key.str(), fmt::format("{} has no key \"{}\"", title_, key.str()), fmt::format("check its spelling against {}", documented_in));
+      report(key.str(), fmt::format("{} has no key \"{}\"", title_, key.str()),
+             fmt::format("check its spelling against {}", documented_in));
 }
 
 }  // namespace septet::document

@@ -15,7 +15,8 @@ Expected<void> write_text_file(const std::filesystem::path& path, std::string_vi
     out.close();
     if (!out) {
       std::filesystem::remove(draft, error);
-      return failure("the file cannot be written", path.string(), "check the folder, its permissions and the free space");
+      return failure("the file cannot be written", path.string(),
+                     "check the folder, its permissions and the free space");
     }
   }
   std::filesystem::rename(draft, path, error);
@@ -23,7 +24,8 @@ Expected<void> write_text_file(const std::filesystem::path& path, std::string_vi
   return {};
 }
 
-Expected<void> write_text_files(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {
+Expected<void> write_text_files(const std::filesystem::path& folder,
+                                const std::vector<std::pair<std::string, std::string>>& files) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return failure(error.message(), folder.string(), "choose a folder that can be written");

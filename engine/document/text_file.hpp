@@ -15,6 +15,7 @@ namespace septet::document {
 Expected<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// (name, text) each as a file of `folder`, which is made where it is not there.
-Expected<void> write_text_files(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files);
+Expected<void> write_text_files(const std::filesystem::path& folder,
+                                const std::vector<std::pair<std::string, std::string>>& files);
 
 }  // namespace septet::document

@@ -40,7 +40,9 @@ struct Unreadable {
 
 bool is_bare_key_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; }
 
-std::size_t behind_blanks(std::string_view text, std::size_t at) { return std::min(text.find_first_not_of(" \t", at), text.size()); }
+std::size_t behind_blanks(std::string_view text, std::size_t at) {
+  return std::min(text.find_first_not_of(" \t", at), text.size());
+}
 
 /// Whether the header of a table whose first bracket stands at `at` goes on with what toml++ takes for granted there (it asserts it): a
 /// key, or the bracket that closes an empty one, which it refuses itself.
@@ -69,11 +71,13 @@ Unreadable find_unreadable(std::string_view text) {
       continue;
     }
     if (c == '[' && line_begins && open_brackets == 0 && !begins_with_key(text, at))
-      return {at, "the name of a table does not begin as a key does", "write letters, digits, '_' or '-', or put the name into quotes"};
+      return {at, "the name of a table does not begin as a key does",
+              "write letters, digits, '_' or '-', or put the name into quotes"};
     if (c == '[' || c == '{') ++open_brackets;
     if (c == ']' || c == '}') --open_brackets;
     const bool is_blank = c == ' ' || c == '\t';
-    if (c == '.' && ++parts > most_parts) return {at, fmt::format("a key has more than {} parts", most_parts), "write a shorter key"};
+    if (c == '.' && ++parts > most_parts)
+      return {at, fmt::format("a key has more than {} parts", most_parts), "write a shorter key"};
     if (c != '.' && !is_blank && !is_bare_key_character(c)) parts = 1;
     line_begins = c == '\n' || (line_begins && is_blank);
     ++at;
@@ -81,7 +85,9 @@ Unreadable find_unreadable(std::string_view text) {
   return {};
 }
 
-std::string text_of(const toml::source_position& place, std::string_view file) { return fmt::format("{}:{}:{}", file, place.line, place.column); }
+std::string text_of(const toml::source_position& place, std::string_view file) {
+  return fmt::format("{}:{}:{}", file, place.line, place.column);
+}
 
 }  // namespace
 
@@ -89,7 +95,8 @@ std::string place_of(const toml::node& node, std::string_view file) { return tex
 
 Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
   if (text.size() > most_bytes)
-    return failure(fmt::format("is {} bytes long, and no more than {} are read as TOML", text.size(), most_bytes), std::string(file), "give a rig, a vehicle or a film script");
+    return failure(fmt::format("is {} bytes long, and no more than {} are read as TOML", text.size(), most_bytes),
+                   std::string(file), "give a rig, a vehicle or a film script");
   if (const Unreadable found = find_unreadable(text); found.at != text.npos) {
     const std::string_view before = text.substr(0, found.at);
     const toml::source_position place{static_cast<toml::source_index>(1 + std::ranges::count(before, '\n')),
@@ -99,7 +106,8 @@ Expected<toml::table> parse_toml(std::string_view text, std::string_view file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    return failure(fmt::format("is not TOML: {}", error.description()), text_of(error.source().begin, file), "correct the TOML there");
+    return failure(fmt::format("is not TOML: {}", error.description()), text_of(error.source().begin, file),
+                   "correct the TOML there");
   }
 }
 

@@ -20,7 +20,8 @@ double get_angle(TableReader& reader, std::string_view key, double fallback_rad,
 }
 
 double get_required(TableReader& reader, const toml::table& table, std::string_view key, double low, double high) {
-  if (!table.contains(key)) reader.report(key, fmt::format("a table lacks the key \"{}\"", key), fmt::format("add {}, a number", key));
+  if (!table.contains(key))
+    reader.report(key, fmt::format("a table lacks the key \"{}\"", key), fmt::format("add {}, a number", key));
   return reader.get_double(key, low, low, high);
 }
 
@@ -32,8 +33,10 @@ Turn read_turn(const toml::table& table, const Turn& before, double to_s, std::s
   turn.pitch_rad = get_angle(reader, "pitch_deg", before.pitch_rad, 90.0);
   turn.sigma = reader.get_double("sigma", 0.0, -1.0, 1.0);
   if (turn.until_s <= before.until_s)
-    reader.report("until_s", "a turn ends before it begins", "let until_s be later than the shot's from_s and the turn's before it");
-  if (turn.until_s > to_s) reader.report("until_s", "a turn ends after its shot", "let until_s be at most the shot's to_s");
+    reader.report("until_s", "a turn ends before it begins",
+                  "let until_s be later than the shot's from_s and the turn's before it");
+  if (turn.until_s > to_s)
+    reader.report("until_s", "a turn ends after its shot", "let until_s be at most the shot's to_s");
   reader.finish(documented_in);
   return turn;
 }
@@ -54,24 +57,30 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   shot.from_s = get_required(reader, table, "from_s", 0.0, longest_s);
   shot.to_s = get_required(reader, table, "to_s", 0.0, longest_s);
   if (shot.to_s <= shot.from_s)
-    reader.report("to_s", fmt::format("the shot lasts from {} to {} s", shot.from_s, shot.to_s), "let to_s be later than from_s");
+    reader.report("to_s", fmt::format("the shot lasts from {} to {} s", shot.from_s, shot.to_s),
+                  "let to_s be later than from_s");
   shot.speed = reader.get_double("speed", 1.0, 0.01, 100.0);
   shot.participant = reader.get_string("participant", shot.participant);
-  if (const toml::table* place = reader.get_table("place")) shot.place_m = read_place(*place, file, error);
-  else if (table.contains("place")) reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
+  if (const toml::table* place = reader.get_table("place"))
+    shot.place_m = read_place(*place, file, error);
+  else if (table.contains("place"))
+    reader.report("place", "shot.place is not a table", "write { x_m = 1.0, y_m = 2.0, z_m = 3.0 }");
   if (shot.place_m && table.contains("participant"))
     reader.report("participant", "a shot hangs on a participant or on a place, not on both", "leave one of them out");
   shot.distance_m = reader.get_double("distance_m", 0.0, 0.0, 1000.0);
   shot.bearings = static_cast<Bearings>(reader.get_choice("bearings", shot.place_m ? 1 : 0, {"vehicle", "world"}));
   if (shot.place_m && shot.bearings == Bearings::vehicle)
-    reader.report("bearings", "a place has no heading that others could be counted from", "leave bearings out, or write \"world\"");
+    reader.report("bearings", "a place has no heading that others could be counted from",
+                  "leave bearings out, or write \"world\"");
   shot.heading_rad = get_angle(reader, "heading_deg", 0.0, 360.0);
   shot.pitch_rad = get_angle(reader, "pitch_deg", 0.0, 90.0);
-  shot.field_of_view_rad = radians * reader.get_double("field_of_view_deg", shot.field_of_view_rad / radians, 1.0, 150.0);
+  shot.field_of_view_rad =
+      radians * reader.get_double("field_of_view_deg", shot.field_of_view_rad / radians, 1.0, 150.0);
   shot.interior = reader.get_bool("interior", shot.interior);
   Turn before{shot.from_s, shot.heading_rad, shot.pitch_rad, 0.0};
   const auto turns = reader.get_tables("turn");
-  if (turns.size() > most_turns) reader.report("turn", fmt::format("a shot has more than {} turns", most_turns), "split it");
+  if (turns.size() > most_turns)
+    reader.report("turn", fmt::format("a shot has more than {} turns", most_turns), "split it");
   for (const toml::table* turn : turns) {
     if (!error.what.empty()) break;
     shot.turns.push_back(before = read_turn(*turn, before, shot.to_s, file, error));
@@ -90,7 +99,8 @@ Expected<Script> read_script(std::string_view text, std::string_view name) {
   Script script;
   const auto shots = reader.get_tables("shot");
   if (shots.empty()) reader.report("shot", "the film has no shot", "add a [[shot]]");
-  if (shots.size() > most_shots) reader.report("shot", fmt::format("the film has more than {} shots", most_shots), "split it");
+  if (shots.size() > most_shots)
+    reader.report("shot", fmt::format("the film has more than {} shots", most_shots), "split it");
   for (const toml::table* table : shots) {
     if (!error.what.empty()) break;
     script.shots.push_back(read_shot(*table, name, error));

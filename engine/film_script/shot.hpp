@@ -29,8 +29,8 @@ struct Turn {
 };
 
 struct Shot {
-  double from_s = 0.0, to_s = 0.0;     ///< Simulated time; a frame at from_s, none at to_s.
-  double speed = 1.0;                  ///< Of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
+  double from_s = 0.0, to_s = 0.0;  ///< Simulated time; a frame at from_s, none at to_s.
+  double speed = 1.0;  ///< Of time: 0.25 is slow motion, in which a frame is a quarter as far from the next.
   std::string participant = "driver";  ///< "driver", "nearest", a model's name or an id.
   std::optional<Vec3> place_m;         ///< World: the pivot, in the participant's stead.
   double distance_m = 0.0;
@@ -39,7 +39,7 @@ struct Shot {
   std::vector<Turn> turns;                    ///< Ascending `until_s`; after the last one the camera holds still.
   double field_of_view_rad = std::numbers::pi / 3.0;  ///< Across the picture's width.
   bool interior = false;  ///< Through a participant's eyes: the car's inside is drawn, where there is a model of it.
-  std::string where;     ///< For messages: "shots.toml, shot 2".
+  std::string where;      ///< For messages: "shots.toml, shot 2".
 };
 
 struct Script {

@@ -28,26 +28,23 @@ void give_edge_creases(PolygonMesh& mesh) {
 
 void MeshBuilder::polygon(const PolygonCorners& corners, const CornerUvs& uvs) {
   for (std::uint32_t k = 0; k < corner_count(corners); ++k)
-    SEPTET_CHECK(corners[k] < mesh_.vertices_m.size(), "corner {} of {} vertices", corners[k],
-                 mesh_.vertices_m.size());
+    SEPTET_CHECK(corners[k] < mesh_.vertices_m.size(), "corner {} of {} vertices", corners[k], mesh_.vertices_m.size());
   mesh_.polygons.push_back(corners);
   mesh_.corner_uvs.push_back(uvs);
   mesh_.polygon_materials.push_back(material);
   if (!mesh_.edge_creases.empty()) give_edge_creases(mesh_);
 }
 
-void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
-                       const CornerUvs& uvs) {
+void MeshBuilder::quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, const CornerUvs& uvs) {
   polygon({a, b, c, d}, uvs);
 }
 
-void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                           const CornerUvs& uvs) {
+void MeshBuilder::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const CornerUvs& uvs) {
   polygon({a, b, c, no_vertex}, uvs);
 }
 
-void MeshBuilder::patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
-                        const glm::vec3& d, const CornerUvs& uvs) {
+void MeshBuilder::patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
+                        const CornerUvs& uvs) {
   const std::uint32_t first = vertex(a);
   vertex(b);
   vertex(c);
@@ -57,22 +54,18 @@ void MeshBuilder::patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 
 void MeshBuilder::append(const PolygonMesh& part, const glm::mat4& to_builder, bool recolor) {
   const auto offset = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-  if (!part.edge_creases.empty() || part.default_edge_crease != mesh_.default_edge_crease)
-    give_edge_creases(mesh_);
-  for (const glm::vec3& p : part.vertices_m)
-    mesh_.vertices_m.push_back(glm::vec3(to_builder * glm::vec4(p, 1.0f)));
+  if (!part.edge_creases.empty() || part.default_edge_crease != mesh_.default_edge_crease) give_edge_creases(mesh_);
+  for (const glm::vec3& p : part.vertices_m) mesh_.vertices_m.push_back(glm::vec3(to_builder * glm::vec4(p, 1.0f)));
   for (std::size_t i = 0; i < part.polygons.size(); ++i) {
     PolygonCorners corners = part.polygons[i];
     for (std::uint32_t k = 0; k < corner_count(corners); ++k) corners[k] += offset;
     mesh_.polygons.push_back(corners);
     mesh_.corner_uvs.push_back(part.corner_uvs.empty() ? CornerUvs{} : part.corner_uvs[i]);
-    mesh_.polygon_materials.push_back(
-        recolor || part.polygon_materials.empty() ? material : part.polygon_materials[i]);
+    mesh_.polygon_materials.push_back(recolor || part.polygon_materials.empty() ? material : part.polygon_materials[i]);
     if (!mesh_.edge_creases.empty()) {
       const std::uint32_t value = part.default_edge_crease;
-      mesh_.edge_creases.push_back(part.edge_creases.empty()
-                                       ? std::array{value, value, value, value}
-                                       : part.edge_creases[i]);
+      mesh_.edge_creases.push_back(part.edge_creases.empty() ? std::array{value, value, value, value}
+                                                             : part.edge_creases[i]);
     }
   }
 }
@@ -83,8 +76,7 @@ void crease_by_angle(PolygonMesh& mesh, float angle_rad) {
   std::map<Edge, std::pair<std::size_t, std::uint32_t>> sides;
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const std::uint32_t count = corner_count(mesh.polygons[i]);
-    for (std::uint32_t k = 0; k < count; ++k)
-      sides[{mesh.polygons[i][k], mesh.polygons[i][(k + 1) % count]}] = {i, k};
+    for (std::uint32_t k = 0; k < count; ++k) sides[{mesh.polygons[i][k], mesh.polygons[i][(k + 1) % count]}] = {i, k};
   }
   for (const auto& [edge, side] : sides) {
     const auto other = sides.find({edge.second, edge.first});

@@ -25,16 +25,14 @@ class MeshBuilder {
     mesh_.vertices_m.push_back(position_m);
     return static_cast<std::uint32_t>(mesh_.vertices_m.size() - 1);
   }
-  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
-            const CornerUvs& uvs = {});
+  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, const CornerUvs& uvs = {});
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, const CornerUvs& uvs = {});
   /// Four new vertices and their quad.
   void patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
              const CornerUvs& uvs = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}}});
   /// Adds a copy of `part`, its points moved by `to_builder`. Its materials are kept, or all
   /// become the current one if `recolor`.
-  void append(const PolygonMesh& part, const glm::mat4& to_builder = glm::mat4(1.0f),
-              bool recolor = false);
+  void append(const PolygonMesh& part, const glm::mat4& to_builder = glm::mat4(1.0f), bool recolor = false);
 
   const PolygonMesh& mesh() const { return mesh_; }
   PolygonMesh take() { return std::move(mesh_); }
@@ -49,8 +47,7 @@ class MeshBuilder {
 void crease_by_angle(PolygonMesh& mesh, float angle_rad);
 
 /// Marks the edge between two vertices in every polygon that has it.
-void crease_edge(PolygonMesh& mesh, std::uint32_t a, std::uint32_t b,
-                 std::uint32_t value = crease_sharp);
+void crease_edge(PolygonMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t value = crease_sharp);
 
 /// Moves, turns and scales; a mirroring transform also turns the polygons round.
 PolygonMesh transformed(const PolygonMesh& mesh, const glm::mat4& transform);

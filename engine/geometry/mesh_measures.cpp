@@ -38,8 +38,7 @@ double signed_volume_m3(const PolygonMesh& mesh) {
   double six_volumes = 0.0;
   for (const PolygonCorners& corners : mesh.polygons)
     for (std::uint32_t k = 1; k + 1 < corner_count(corners); ++k) {
-      const Vec3 a(mesh.vertices_m[corners[0]]), b(mesh.vertices_m[corners[k]]),
-          c(mesh.vertices_m[corners[k + 1]]);
+      const Vec3 a(mesh.vertices_m[corners[0]]), b(mesh.vertices_m[corners[k]]), c(mesh.vertices_m[corners[k + 1]]);
       six_volumes += glm::dot(a, glm::cross(b, c));
     }
   return six_volumes / 6.0;
@@ -49,9 +48,8 @@ std::size_t triangle_count(const PolygonMesh& mesh, std::uint32_t subdivision_le
   std::size_t count = 0;
   for (const PolygonCorners& corners : mesh.polygons)
     // The first step makes a quad of every corner, each further one four of every quad.
-    count += subdivision_level == 0
-                 ? corner_count(corners) - 2
-                 : std::size_t{corner_count(corners)} * 2 << 2 * (subdivision_level - 1);
+    count += subdivision_level == 0 ? corner_count(corners) - 2
+                                    : std::size_t{corner_count(corners)} * 2 << 2 * (subdivision_level - 1);
   return count;
 }
 

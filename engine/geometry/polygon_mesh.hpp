@@ -26,9 +26,7 @@ inline constexpr std::uint32_t crease_sharp = 0xFFFFFFFFu;
 using PolygonCorners = std::array<std::uint32_t, 4>;
 
 inline bool is_triangle(const PolygonCorners& corners) { return corners[3] == no_vertex; }
-inline std::uint32_t corner_count(const PolygonCorners& corners) {
-  return is_triangle(corners) ? 3 : 4;
-}
+inline std::uint32_t corner_count(const PolygonCorners& corners) { return is_triangle(corners) ? 3 : 4; }
 
 struct PolygonMesh {
   std::vector<glm::vec3> vertices_m;

@@ -28,12 +28,10 @@ PolygonMesh box(const glm::vec3& min_m, const glm::vec3& max_m, float bevel_m) {
   std::array<std::array<std::uint32_t, 3>, 8> vertices{};
   for (int c = 0; c < 8; ++c)
     for (int axis = 0; axis < 3; ++axis)
-      vertices[c][axis] =
-          bevel_m > 0.0f || axis == 0 ? builder.vertex(corner(c, axis)) : vertices[c][0];
+      vertices[c][axis] = bevel_m > 0.0f || axis == 0 ? builder.vertex(corner(c, axis)) : vertices[c][0];
   for (int axis = 0; axis < 3; ++axis) {
     const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, w = 1 << axis;
-    builder.quad(vertices[w][axis], vertices[w + u][axis], vertices[w + u + v][axis],
-                 vertices[w + v][axis]);
+    builder.quad(vertices[w][axis], vertices[w + u][axis], vertices[w + u + v][axis], vertices[w + v][axis]);
     builder.quad(vertices[0][axis], vertices[v][axis], vertices[u + v][axis], vertices[u][axis]);
     if (bevel_m <= 0.0f) continue;
     // The four edges along this axis, between the faces across the two other axes.
@@ -42,8 +40,7 @@ PolygonMesh box(const glm::vec3& min_m, const glm::vec3& max_m, float bevel_m) {
       const int low = (side & 1 ? u : 0) + (side & 2 ? v : 0), high = low + w;
       const bool flip = side == 1 || side == 2;
       const int first = flip ? au : av, second = flip ? av : au;
-      builder.quad(vertices[low][second], vertices[low][first], vertices[high][first],
-                   vertices[high][second]);
+      builder.quad(vertices[low][second], vertices[low][first], vertices[high][first], vertices[high][second]);
     }
   }
   if (bevel_m > 0.0f)
@@ -67,10 +64,9 @@ PolygonMesh lathe(std::span<const LathePoint> profile, std::uint32_t sides) {
       continue;
     }
     for (std::uint32_t i = 0; i < sides; ++i) {
-      const float angle =
-          2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
-      ring.push_back(builder.vertex(
-          {point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.height_m}));
+      const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
+      ring.push_back(
+          builder.vertex({point.radius_m * std::cos(angle), point.radius_m * std::sin(angle), point.height_m}));
     }
   }
   for (std::size_t row = 0; row + 1 < rings.size(); ++row) {
@@ -82,31 +78,25 @@ PolygonMesh lathe(std::span<const LathePoint> profile, std::uint32_t sides) {
       const float u0 = static_cast<float>(i) / static_cast<float>(sides),
                   u1 = static_cast<float>(i + 1) / static_cast<float>(sides);
       if (low.size() > 1 && high.size() > 1)
-        builder.quad(low[i], low[next], high[next], high[i],
-                     {{{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}}});
+        builder.quad(low[i], low[next], high[next], high[i], {{{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}}});
       else if (low.size() > 1)
-        builder.triangle(low[i], low[next], high[0],
-                         {{{u0, v0}, {u1, v0}, {(u0 + u1) / 2, v1}, {}}});
+        builder.triangle(low[i], low[next], high[0], {{{u0, v0}, {u1, v0}, {(u0 + u1) / 2, v1}, {}}});
       else if (high.size() > 1)
-        builder.triangle(low[0], high[next], high[i],
-                         {{{(u0 + u1) / 2, v0}, {u1, v1}, {u0, v1}, {}}});
+        builder.triangle(low[0], high[next], high[i], {{{(u0 + u1) / 2, v0}, {u1, v1}, {u0, v1}, {}}});
     }
   }
   return builder.take();
 }
 
 PolygonMesh cylinder(float radius_m, float low_m, float high_m, std::uint32_t sides) {
-  const std::array<LathePoint, 4> profile{
-      {{0, low_m}, {radius_m, low_m}, {radius_m, high_m}, {0, high_m}}};
+  const std::array<LathePoint, 4> profile{{{0, low_m}, {radius_m, low_m}, {radius_m, high_m}, {0, high_m}}};
   PolygonMesh mesh = lathe(profile, sides);
   crease_by_angle(mesh, 1.2f);
   return mesh;
 }
 
-PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path,
-                    bool closed, bool cap) {
-  SEPTET_CHECK(profile.size() >= 2 && path.size() >= 2, "{} profile points, {} frames",
-               profile.size(), path.size());
+PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path, bool closed, bool cap) {
+  SEPTET_CHECK(profile.size() >= 2 && path.size() >= 2, "{} profile points, {} frames", profile.size(), path.size());
   MeshBuilder builder;
   const auto count = static_cast<std::uint32_t>(profile.size());
   std::vector<float> lengths{0.0f};
@@ -120,9 +110,8 @@ PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFram
     for (std::uint32_t j = 0; j < bands; ++j) {
       const std::uint32_t next = (j + 1) % count;
       const float v0 = path[i].length_m, v1 = path[i + 1].length_m;
-      builder.quad(
-          i * count + j, (i + 1) * count + j, (i + 1) * count + next, i * count + next,
-          {{{lengths[j], v0}, {lengths[j], v1}, {lengths[j + 1], v1}, {lengths[j + 1], v0}}});
+      builder.quad(i * count + j, (i + 1) * count + j, (i + 1) * count + next, i * count + next,
+                   {{{lengths[j], v0}, {lengths[j], v1}, {lengths[j + 1], v1}, {lengths[j + 1], v0}}});
     }
   if (closed && cap)
     for (const bool end : {false, true}) {
@@ -137,19 +126,17 @@ PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFram
 
 PolygonMesh icosphere(std::uint32_t splits) {
   const float t = (1.0f + std::sqrt(5.0f)) / 2.0f;
-  std::vector<glm::vec3> points{{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0},
-                                {0, -1, t}, {0, 1, t}, {0, -1, -t}, {0, 1, -t},
-                                {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
-  std::vector<std::array<std::uint32_t, 3>> faces{
-      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  std::vector<glm::vec3> points{{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                                {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
+  std::vector<std::array<std::uint32_t, 3>> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                                  {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                                  {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                                  {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   for (glm::vec3& p : points) p = glm::normalize(p);
   for (std::uint32_t split = 0; split < splits; ++split) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [place, fresh] =
-          middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+      const auto [place, fresh] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
       if (fresh) points.push_back(glm::normalize(points[a] + points[b]));
       return place->second;
     };

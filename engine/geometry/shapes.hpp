@@ -40,8 +40,7 @@ struct PathFrame {
 /// direction: a counter-clockwise tube (`closed` joins the last point to the first) faces outwards,
 /// a sheet from right to left faces up. `cap` closes a convex tube's ends. u is the length along
 /// the profile, v the length along the path.
-PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path,
-                    bool closed, bool cap = false);
+PolygonMesh extrude(std::span<const glm::vec2> profile, std::span<const PathFrame> path, bool closed, bool cap = false);
 
 /// An icosahedron whose triangles are split `splits` times; radius 1, 20·4^splits triangles.
 /// Texture coordinates wrap it like a globe, without a seam repair: for textures of noise.

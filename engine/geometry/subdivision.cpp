@@ -27,9 +27,7 @@ struct Blend {
 /// The crease of every edge that has one, by its lower and higher vertex; sorted.
 using EdgeCreases = std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>>;
 
-std::array<std::uint32_t, 2> edge_key(std::uint32_t a, std::uint32_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
+std::array<std::uint32_t, 2> edge_key(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
 std::uint32_t crease_at(const PolygonMesh& mesh, std::size_t polygon, std::uint32_t corner) {
   return mesh.edge_creases.empty() ? mesh.default_edge_crease : mesh.edge_creases[polygon][corner];
@@ -42,13 +40,11 @@ EdgeCreases edge_creases(const PolygonMesh& mesh) {
     const std::uint32_t count = corner_count(mesh.polygons[p]);
     for (std::uint32_t k = 0; k < count; ++k)
       if (const std::uint32_t crease = crease_at(mesh, p, k); crease != crease_smooth)
-        creases.push_back(
-            {edge_key(mesh.polygons[p][k], mesh.polygons[p][(k + 1) % count]), crease});
+        creases.push_back({edge_key(mesh.polygons[p][k], mesh.polygons[p][(k + 1) % count]), crease});
   }
   // Of two entries for one edge the sharper stays: it is sorted to the front of its equals.
-  std::sort(creases.begin(), creases.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first, ~a.second) < std::pair(b.first, ~b.second);
-  });
+  std::sort(creases.begin(), creases.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.first, ~a.second) < std::pair(b.first, ~b.second); });
   const auto same_edge = [](const auto& a, const auto& b) { return a.first == b.first; };
   creases.erase(std::unique(creases.begin(), creases.end(), same_edge), creases.end());
   return creases;
@@ -56,9 +52,8 @@ EdgeCreases edge_creases(const PolygonMesh& mesh) {
 
 std::uint32_t crease_of(const EdgeCreases& creases, std::uint32_t a, std::uint32_t b) {
   const auto key = edge_key(a, b);
-  const auto found =
-      std::lower_bound(creases.begin(), creases.end(), key,
-                       [](const auto& entry, const auto& wanted) { return entry.first < wanted; });
+  const auto found = std::lower_bound(creases.begin(), creases.end(), key,
+                                      [](const auto& entry, const auto& wanted) { return entry.first < wanted; });
   return found != creases.end() && found->first == key ? found->second : crease_smooth;
 }
 
@@ -84,12 +79,10 @@ void fill(Topology& topology, const PolygonMesh& mesh, const EdgeCreases& crease
   for (const PolygonCorners& corners : mesh.polygons) {
     const std::uint32_t count = corner_count(corners);
     topology.face_sizes.push_back(static_cast<int>(count));
-    for (std::uint32_t k = 0; k < count; ++k)
-      topology.face_vertices.push_back(static_cast<int>(corners[k]));
+    for (std::uint32_t k = 0; k < count; ++k) topology.face_vertices.push_back(static_cast<int>(corners[k]));
   }
   for (const auto& [edge, crease] : creases) {
-    topology.creased_pairs.insert(topology.creased_pairs.end(),
-                                  {static_cast<int>(edge[0]), static_cast<int>(edge[1])});
+    topology.creased_pairs.insert(topology.creased_pairs.end(), {static_cast<int>(edge[0]), static_cast<int>(edge[1])});
     topology.edge_sharpness.push_back(one_level_sharpness(crease));
   }
   for (std::size_t v = 0; v < mesh.vertices_m.size(); ++v)
@@ -110,8 +103,7 @@ void fill(Topology& topology, const PolygonMesh& mesh, const EdgeCreases& crease
   d.cornerWeights = topology.vertex_sharpness.data();
   if (!mesh.corner_uvs.empty()) {
     // Every corner has a value of its own, so that seams of the texture need no bookkeeping.
-    for (std::size_t i = 0; i < topology.face_vertices.size(); ++i)
-      topology.uv_indices.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < topology.face_vertices.size(); ++i) topology.uv_indices.push_back(static_cast<int>(i));
     topology.uv_channel.numValues = static_cast<int>(topology.uv_indices.size());
     topology.uv_channel.valueIndices = topology.uv_indices.data();
     d.numFVarChannels = 1;
@@ -133,8 +125,8 @@ std::unique_ptr<Far::TopologyRefiner> refine_once(const Topology& topology, bool
 
 /// Creases of the next level: a vertex's own, and an edge's on both of its halves; what lies inside
 /// a face is smooth.
-void inherit_creases(const PolygonMesh& mesh, const EdgeCreases& creases,
-                     const Far::TopologyLevel& parent, PolygonMesh& refined) {
+void inherit_creases(const PolygonMesh& mesh, const EdgeCreases& creases, const Far::TopologyLevel& parent,
+                     PolygonMesh& refined) {
   if (!mesh.vertex_creases.empty() || mesh.default_vertex_crease != crease_smooth) {
     refined.vertex_creases.assign(refined.vertices_m.size(), crease_smooth);
     for (int v = 0; v < parent.GetNumVertices(); ++v)
@@ -145,20 +137,17 @@ void inherit_creases(const PolygonMesh& mesh, const EdgeCreases& creases,
   EdgeCreases halves;
   for (int e = 0; e < parent.GetNumEdges(); ++e) {
     const auto ends = parent.GetEdgeVertices(e);
-    const auto crease = crease_of(creases, static_cast<std::uint32_t>(ends[0]),
-                                  static_cast<std::uint32_t>(ends[1]));
+    const auto crease = crease_of(creases, static_cast<std::uint32_t>(ends[0]), static_cast<std::uint32_t>(ends[1]));
     if (crease == crease_smooth) continue;
     const auto middle = static_cast<std::uint32_t>(parent.GetEdgeChildVertex(e));
     for (const int end : {ends[0], ends[1]})
-      halves.push_back(
-          {edge_key(static_cast<std::uint32_t>(parent.GetVertexChildVertex(end)), middle), crease});
+      halves.push_back({edge_key(static_cast<std::uint32_t>(parent.GetVertexChildVertex(end)), middle), crease});
   }
   std::sort(halves.begin(), halves.end());
   for (const PolygonCorners& corners : refined.polygons) {
     auto& values = refined.edge_creases.emplace_back();
     const std::uint32_t count = corner_count(corners);
-    for (std::uint32_t k = 0; k < count; ++k)
-      values[k] = crease_of(halves, corners[k], corners[(k + 1) % count]);
+    for (std::uint32_t k = 0; k < count; ++k) values[k] = crease_of(halves, corners[k], corners[(k + 1) % count]);
   }
 }
 
@@ -176,8 +165,7 @@ Expected<PolygonMesh> subdivide_once(const PolygonMesh& mesh) {
   const Far::PrimvarRefiner refine(*refiner);
 
   PolygonMesh refined;
-  std::vector<Blend<glm::vec3>> from(mesh.vertices_m.size()),
-      to(static_cast<std::size_t>(child.GetNumVertices()));
+  std::vector<Blend<glm::vec3>> from(mesh.vertices_m.size()), to(static_cast<std::size_t>(child.GetNumVertices()));
   for (std::size_t i = 0; i < from.size(); ++i) from[i].value = mesh.vertices_m[i];
   refine.Interpolate(1, from, to);
   for (const auto& blend : to) refined.vertices_m.push_back(blend.value);
@@ -186,8 +174,7 @@ Expected<PolygonMesh> subdivide_once(const PolygonMesh& mesh) {
   if (!mesh.corner_uvs.empty()) {
     std::vector<Blend<glm::vec2>> corners;
     for (std::size_t p = 0; p < mesh.polygons.size(); ++p)
-      for (std::uint32_t k = 0; k < corner_count(mesh.polygons[p]); ++k)
-        corners.push_back({mesh.corner_uvs[p][k]});
+      for (std::uint32_t k = 0; k < corner_count(mesh.polygons[p]); ++k) corners.push_back({mesh.corner_uvs[p][k]});
     uvs.resize(static_cast<std::size_t>(child.GetNumFVarValues()));
     refine.InterpolateFaceVarying(1, corners, uvs);
   }
@@ -198,8 +185,7 @@ Expected<PolygonMesh> subdivide_once(const PolygonMesh& mesh) {
       corners[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(vertices[k]);
     refined.polygons.push_back(corners);
     const auto parent_face = static_cast<std::size_t>(child.GetFaceParentFace(f));
-    if (!mesh.polygon_materials.empty())
-      refined.polygon_materials.push_back(mesh.polygon_materials[parent_face]);
+    if (!mesh.polygon_materials.empty()) refined.polygon_materials.push_back(mesh.polygon_materials[parent_face]);
     if (uvs.empty()) continue;
     auto& corner_uvs = refined.corner_uvs.emplace_back();
     const auto values = child.GetFaceFVarValues(f);
@@ -216,8 +202,7 @@ Expected<PolygonMesh> subdivide(const PolygonMesh& cage, std::uint32_t levels) {
   for (std::size_t p = 0; p < cage.polygons.size(); ++p)
     for (std::uint32_t k = 0; k < corner_count(cage.polygons[p]); ++k)
       if (cage.polygons[p][k] >= cage.vertices_m.size())
-        return failure(fmt::format("polygon {} names vertex {} of {}", p, cage.polygons[p][k],
-                                   cage.vertices_m.size()),
+        return failure(fmt::format("polygon {} names vertex {} of {}", p, cage.polygons[p][k], cage.vertices_m.size()),
                        "control cage", "name vertices that exist");
   PolygonMesh mesh = cage;
   if (cage.polygons.empty()) return mesh;

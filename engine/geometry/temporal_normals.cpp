@@ -25,11 +25,9 @@ FaceVectors lagrange(const MovingFace& face, int degree) {
   for (int i = 0; i <= degree; ++i)
     n[static_cast<std::size_t>(i)] = face_normal(face, static_cast<float>(i) / static_cast<float>(degree));
   if (degree == 1) return {n[0], n[1] - n[0]};
-  if (degree == 2)
-    return {n[0], -3.0f * n[0] + 4.0f * n[1] - n[2], 2.0f * n[0] - 4.0f * n[1] + 2.0f * n[2]};
+  if (degree == 2) return {n[0], -3.0f * n[0] + 4.0f * n[1] - n[2], 2.0f * n[0] - 4.0f * n[1] + 2.0f * n[2]};
   return {n[0], 0.5f * (-11.0f * n[0] + 18.0f * n[1] - 9.0f * n[2] + 2.0f * n[3]),
-          4.5f * (2.0f * n[0] - 5.0f * n[1] + 4.0f * n[2] - n[3]),
-          4.5f * (-n[0] + 3.0f * n[1] - 3.0f * n[2] + n[3])};
+          4.5f * (2.0f * n[0] - 5.0f * n[1] + 4.0f * n[2] - n[3]), 4.5f * (-n[0] + 3.0f * n[1] - 3.0f * n[2] + n[3])};
 }
 
 /// Eq. 2, multiplied out.
@@ -73,8 +71,7 @@ Frames frames_of(const MovingFace& face) {
 
 std::string_view name_of(NormalMethod method) {
   constexpr std::array<std::string_view, normal_method_count> names{
-      "t_variant", "linear", "quadratic", "cubic", "vector_slerp", "spherical_de_casteljau",
-      "quaternion_slerp"};
+      "t_variant", "linear", "quadratic", "cubic", "vector_slerp", "spherical_de_casteljau", "quaternion_slerp"};
   return names[static_cast<std::size_t>(method)];
 }
 
@@ -112,11 +109,21 @@ TemporalNormals::TemporalNormals(NormalMethod method, std::span<const MovingFace
   for (std::size_t n = 0; n < count_; ++n) {
     const MovingFace& face = faces[n];
     switch (method) {
-      case NormalMethod::t_variant: keep(n, t_variant(face)); break;
-      case NormalMethod::linear: keep(n, lagrange(face, 1)); break;
-      case NormalMethod::quadratic: keep(n, lagrange(face, 2)); break;
-      case NormalMethod::cubic: keep(n, lagrange(face, 3)); break;
-      case NormalMethod::vector_slerp: keep(n, {face_normal(face, 0.0f), face_normal(face, 1.0f)}); break;
+      case NormalMethod::t_variant:
+        keep(n, t_variant(face));
+        break;
+      case NormalMethod::linear:
+        keep(n, lagrange(face, 1));
+        break;
+      case NormalMethod::quadratic:
+        keep(n, lagrange(face, 2));
+        break;
+      case NormalMethod::cubic:
+        keep(n, lagrange(face, 3));
+        break;
+      case NormalMethod::vector_slerp:
+        keep(n, {face_normal(face, 0.0f), face_normal(face, 1.0f)});
+        break;
       case NormalMethod::spherical_de_casteljau:
         keep(n, {face_normal(face, 0.0f), face_normal(face, 1.0f / 3.0f), face_normal(face, 2.0f / 3.0f),
                  face_normal(face, 1.0f)});
@@ -139,17 +146,19 @@ void TemporalNormals::at(float t, FaceNormals& normals) const {
   std::array<const float*, 12> planes{};
   for (std::size_t n = 0; n * stride_ < planes_.size(); ++n) planes[n] = planes_.data() + n * stride_;
   const auto vector = [&](std::size_t which, std::size_t face) {
-    return glm::vec3(planes[3 * which][face], planes[3 * which + 1][face],
-                     planes[3 * which + 2][face]);
+    return glm::vec3(planes[3 * which][face], planes[3 * which + 1][face], planes[3 * which + 2][face]);
   };
   const auto store = [&](std::size_t face, const glm::vec3& normal) {
     for (int c = 0; c < 3; ++c) out[c][face] = normal[c];
   };
   switch (method_) {
-    case NormalMethod::linear: return unit_polynomial_1(planes.data(), count_, t, out);
+    case NormalMethod::linear:
+      return unit_polynomial_1(planes.data(), count_, t, out);
     case NormalMethod::t_variant:
-    case NormalMethod::quadratic: return unit_polynomial_2(planes.data(), count_, t, out);
-    case NormalMethod::cubic: return unit_polynomial_3(planes.data(), count_, t, out);
+    case NormalMethod::quadratic:
+      return unit_polynomial_2(planes.data(), count_, t, out);
+    case NormalMethod::cubic:
+      return unit_polynomial_3(planes.data(), count_, t, out);
     case NormalMethod::vector_slerp:
       for (std::size_t n = 0; n < count_; ++n) store(n, slerp(vector(0, n), vector(1, n), t));
       return;

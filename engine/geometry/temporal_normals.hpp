@@ -18,9 +18,10 @@
 namespace septet {
 
 enum class NormalMethod : std::uint8_t {
-  t_variant,               ///< Exact (eq. 3).
-  linear,                  ///< Between the first and the last normal (eq. 4).
-  quadratic, cubic,        ///< Lagrange, through one or two exact normals more.
+  t_variant,  ///< Exact (eq. 3).
+  linear,     ///< Between the first and the last normal (eq. 4).
+  quadratic,
+  cubic,                   ///< Lagrange, through one or two exact normals more.
   vector_slerp,            ///< Eq. 5.
   spherical_de_casteljau,  ///< Section 2.4, with two exact normals between.
   quaternion_slerp,        ///< Section 2.5: the face's frame turns (eqs. 6 to 8).

@@ -6,9 +6,7 @@
 namespace septet::image {
 namespace {
 
-std::uint8_t to_byte(float value) {
-  return static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
-}
+std::uint8_t to_byte(float value) { return static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f)); }
 
 void blend_pixel(Image& image, std::int64_t x, std::int64_t y, Color color, double coverage) {
   if (coverage <= 0.0 || !image.contains(x, y)) return;
@@ -57,12 +55,10 @@ Color blend(Color under, Color over, float coverage) {
   const auto mix = [&](std::uint8_t below, std::uint8_t above) {
     return to_byte((above * over_alpha + below * under_alpha) / alpha);
   };
-  return {mix(under.red, over.red), mix(under.green, over.green), mix(under.blue, over.blue),
-          to_byte(alpha * 255.0f)};
+  return {mix(under.red, over.red), mix(under.green, over.green), mix(under.blue, over.blue), to_byte(alpha * 255.0f)};
 }
 
-void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height,
-          Color color) {
+void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height, Color color) {
   const std::int64_t right = std::min<std::int64_t>(x + width, image.width);
   const std::int64_t bottom = std::min<std::int64_t>(y + height, image.height);
   for (std::int64_t row = std::max<std::int64_t>(y, 0); row < bottom; ++row)
@@ -108,14 +104,12 @@ void polygon(Image& image, const std::vector<Point>& corners, Color color) {
     for (auto x = std::max<std::int64_t>(std::llround(std::floor(left->x)), 0); x < x_end; ++x) {
       int inside = 0;
       for (int sample = 0; sample < 16; ++sample)
-        if (winding_number(corners, x + (sample % 4 + 0.5) / 4, y + (sample / 4 + 0.5) / 4) != 0)
-          ++inside;
+        if (winding_number(corners, x + (sample % 4 + 0.5) / 4, y + (sample / 4 + 0.5) / 4) != 0) ++inside;
       blend_pixel(image, x, y, color, inside / 16.0);
     }
 }
 
-void rounded_rectangle(Image& image, double x, double y, double width, double height,
-                       double radius_px, Color color) {
+void rounded_rectangle(Image& image, double x, double y, double width, double height, double radius_px, Color color) {
   const double middle_x = x + width / 2, middle_y = y + height / 2;
   const auto x_end = std::min<std::int64_t>(std::llround(std::ceil(x + width)), image.width);
   const auto y_end = std::min<std::int64_t>(std::llround(std::ceil(y + height)), image.height);
@@ -130,8 +124,8 @@ void rounded_rectangle(Image& image, double x, double y, double width, double he
 }
 
 Image resize(const Image& image, std::uint32_t width, std::uint32_t height) {
-  SEPTET_CHECK(image.width > 0 && image.height > 0 && width > 0 && height > 0, "{} × {} to {} × {}",
-               image.width, image.height, width, height);
+  SEPTET_CHECK(image.width > 0 && image.height > 0 && width > 0 && height > 0, "{} × {} to {} × {}", image.width,
+               image.height, width, height);
   const auto columns = coverages(image.width, width);
   const auto rows = coverages(image.height, height);
   Image result(width, height);
@@ -140,8 +134,8 @@ Image resize(const Image& image, std::uint32_t width, std::uint32_t height) {
       double sum[4] = {};
       for (std::size_t j = 0; j < rows[y].shares.size(); ++j)
         for (std::size_t i = 0; i < columns[x].shares.size(); ++i) {
-          const Color c = image.at(columns[x].first + static_cast<std::uint32_t>(i),
-                                   rows[y].first + static_cast<std::uint32_t>(j));
+          const Color c =
+              image.at(columns[x].first + static_cast<std::uint32_t>(i), rows[y].first + static_cast<std::uint32_t>(j));
           const double weight = columns[x].shares[i] * rows[y].shares[j] * c.alpha;
           sum[0] += weight * c.red;
           sum[1] += weight * c.green;
@@ -149,10 +143,9 @@ Image resize(const Image& image, std::uint32_t width, std::uint32_t height) {
           sum[3] += weight;
         }
       const double scale = sum[3] > 0.0 ? 1.0 / sum[3] : 0.0;
-      result.set(
-          x, y,
-          {to_byte(static_cast<float>(sum[0] * scale)), to_byte(static_cast<float>(sum[1] * scale)),
-           to_byte(static_cast<float>(sum[2] * scale)), to_byte(static_cast<float>(sum[3]))});
+      result.set(x, y,
+                 {to_byte(static_cast<float>(sum[0] * scale)), to_byte(static_cast<float>(sum[1] * scale)),
+                  to_byte(static_cast<float>(sum[2] * scale)), to_byte(static_cast<float>(sum[3]))});
     }
   return result;
 }

@@ -11,8 +11,7 @@ namespace septet::image {
 Color blend(Color under, Color over, float coverage = 1.0f);
 
 /// The rectangle [x, x + width) × [y, y + height), blended.
-void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height,
-          Color color);
+void fill(Image& image, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height, Color color);
 
 /// `source` with its upper left corner at (x, y), blended.
 void blit(Image& image, const Image& source, std::int64_t x, std::int64_t y);
@@ -27,8 +26,7 @@ struct Point {
 void polygon(Image& image, const std::vector<Point>& corners, Color color);
 
 /// A filled rectangle with round corners, antialiased.
-void rounded_rectangle(Image& image, double x, double y, double width, double height,
-                       double radius_px, Color color);
+void rounded_rectangle(Image& image, double x, double y, double width, double height, double radius_px, Color color);
 
 /// Box filter: every target pixel is the mean of the source area that it covers, weighted by alpha.
 Image resize(const Image& image, std::uint32_t width, std::uint32_t height);

@@ -26,13 +26,10 @@ struct Font::Face {
     if (library) FT_Done_FreeType(library);
   }
 
-  void set_size(double size_px) const {
-    FT_Set_Char_Size(face, 0, std::lround(size_px * 64.0), 72, 72);
-  }
+  void set_size(double size_px) const { FT_Set_Char_Size(face, 0, std::lround(size_px * 64.0), 72, 72); }
   double kerning_px(FT_UInt left, FT_UInt right) const {
     FT_Vector kerning{};
-    if (left != 0 && FT_HAS_KERNING(face))
-      FT_Get_Kerning(face, left, right, FT_KERNING_UNFITTED, &kerning);
+    if (left != 0 && FT_HAS_KERNING(face)) FT_Get_Kerning(face, left, right, FT_KERNING_UNFITTED, &kerning);
     return static_cast<double>(kerning.x) / 64.0;
   }
 };
@@ -56,11 +53,11 @@ const char* file_name(FontStyle style) {
 std::filesystem::path find_file(FontStyle style) {
   std::vector<std::filesystem::path> folders;
   if (const char* folder = std::getenv("SEPTET_FONT_DIR")) folders.emplace_back(folder);
-  folders.insert(folders.end(), {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu",
-                                 "/usr/share/fonts/TTF", "/usr/local/share/fonts/truetype/dejavu"});
+  folders.insert(folders.end(), {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF",
+                                 "/usr/local/share/fonts/truetype/dejavu"});
   // The condensed faces are in a package of their own, so the wide one stands in for them.
-  const std::array<const char*, 2> names{
-      file_name(style), style == FontStyle::regular ? "DejaVuSans.ttf" : "DejaVuSans-Bold.ttf"};
+  const std::array<const char*, 2> names{file_name(style),
+                                         style == FontStyle::regular ? "DejaVuSans.ttf" : "DejaVuSans-Bold.ttf"};
   for (const char* name : names)
     for (const auto& folder : folders) {
       std::error_code ignored;
@@ -73,11 +70,7 @@ std::filesystem::path find_file(FontStyle style) {
 char32_t take_code_point(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
-  const std::size_t length = lead < 0x80         ? 1
-                             : lead >> 5 == 0x6  ? 2
-                             : lead >> 4 == 0xe  ? 3
-                             : lead >> 3 == 0x1e ? 4
-                                                 : 0;
+  const std::size_t length = lead < 0x80 ? 1 : lead >> 5 == 0x6 ? 2 : lead >> 4 == 0xe ? 3 : lead >> 3 == 0x1e ? 4 : 0;
   bool valid = length != 0 && length <= text.size();
   char32_t code = length == 1 ? lead : lead & (0x7f >> length);
   for (std::size_t i = 1; valid && i < length; ++i) {
@@ -101,10 +94,8 @@ Expected<Font> Font::find(FontStyle style) {
     return failure(std::string("the font ") + file_name(style) + " is missing", "/usr/share/fonts",
                    "install Debian's fonts-dejavu-core, or set SEPTET_FONT_DIR to its folder");
   auto face = std::make_unique<Face>();
-  if (FT_Init_FreeType(&face->library) != 0 ||
-      FT_New_Face(face->library, path.c_str(), 0, &face->face) != 0)
-    return failure("FreeType cannot read the font", path.string(),
-                   "install fonts-dejavu-core again");
+  if (FT_Init_FreeType(&face->library) != 0 || FT_New_Face(face->library, path.c_str(), 0, &face->face) != 0)
+    return failure("FreeType cannot read the font", path.string(), "install fonts-dejavu-core again");
   return Font(std::move(face));
 }
 
@@ -128,8 +119,7 @@ double Font::capital_height_px(double size_px) const {
   return static_cast<double>(face_->face->glyph->metrics.height) / 64.0;
 }
 
-void Font::draw(Image& image, double x, double baseline_y, std::string_view text, double size_px,
-                Color color) const {
+void Font::draw(Image& image, double x, double baseline_y, std::string_view text, double size_px, Color color) const {
   face_->set_size(size_px);
   FT_UInt previous = 0;
   while (!text.empty()) {
@@ -147,8 +137,7 @@ void Font::draw(Image& image, double x, double baseline_y, std::string_view text
         for (unsigned column = 0; column < slot->bitmap.width; ++column) {
           const std::int64_t px = left + column, py = top + row;
           if (!image.contains(px, py)) continue;
-          const unsigned char* line =
-              slot->bitmap.buffer + std::ptrdiff_t{slot->bitmap.pitch} * row;
+          const unsigned char* line = slot->bitmap.buffer + std::ptrdiff_t{slot->bitmap.pitch} * row;
           const auto ix = static_cast<std::uint32_t>(px), iy = static_cast<std::uint32_t>(py);
           image.set(ix, iy, blend(image.at(ix, iy), color, line[column] / 255.0f));
         }

@@ -31,11 +31,10 @@ class Font {
   double capital_height_px(double size_px) const;
 
   /// Draws with the left end of the baseline at (x, baseline_y).
-  void draw(Image& image, double x, double baseline_y, std::string_view text, double size_px,
-            Color color) const;
+  void draw(Image& image, double x, double baseline_y, std::string_view text, double size_px, Color color) const;
 
-  void draw_centred(Image& image, double centre_x, double baseline_y, std::string_view text,
-                    double size_px, Color color) const {
+  void draw_centred(Image& image, double centre_x, double baseline_y, std::string_view text, double size_px,
+                    Color color) const {
     draw(image, centre_x - width_px(text, size_px) / 2.0, baseline_y, text, size_px, color);
   }
 

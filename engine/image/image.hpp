@@ -30,9 +30,7 @@ struct Image {
     }
   }
 
-  bool contains(std::int64_t x, std::int64_t y) const {
-    return x >= 0 && y >= 0 && x < width && y < height;
-  }
+  bool contains(std::int64_t x, std::int64_t y) const { return x >= 0 && y >= 0 && x < width && y < height; }
   Color at(std::uint32_t x, std::uint32_t y) const {
     const std::uint8_t* p = &rgba[offset(x, y)];
     return {p[0], p[1], p[2], p[3]};

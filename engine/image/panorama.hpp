@@ -49,8 +49,7 @@ struct PanoramaLayout {
 
 /// Where the ray from the eye along `direction` meets the screen: (0, 0) upper left, (1, 1) lower
 /// right; none where it passes by.
-std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_point_m,
-                                  const Vec3& direction);
+std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_point_m, const Vec3& direction);
 
 PanoramaLayout layout_panorama(const PanoramaView& view);
 

@@ -12,22 +12,18 @@ constexpr double ahead_limit_rad = 125.0 * degree_rad;
 constexpr double margin_px = 44.0, label_above_px = 34.0, label_below_px = 40.0;
 
 double azimuth_rad(const Vec3& direction) { return std::atan2(direction.y, direction.x); }
-double elevation_rad(const Vec3& direction) {
-  return std::atan2(direction.z, std::hypot(direction.x, direction.y));
-}
+double elevation_rad(const Vec3& direction) { return std::atan2(direction.z, std::hypot(direction.x, direction.y)); }
 /// `angle` plus whole turns, within half a turn of `near`.
 double unwrapped(double angle, double near) {
   return angle - 2 * std::numbers::pi * std::round((angle - near) / (2 * std::numbers::pi));
 }
 
-Vec3 middle(const PanoramaScreen& screen) {
-  return (screen.lower_right_m + screen.upper_left_m) / 2.0;
-}
+Vec3 middle(const PanoramaScreen& screen) { return (screen.lower_right_m + screen.upper_left_m) / 2.0; }
 
 /// The row of `screens` around `centre_rad`, its size from the screens' edges; its place is left
 /// open.
-PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> screens,
-                        double centre_rad, double pixels_per_rad) {
+PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> screens, double centre_rad,
+                        double pixels_per_rad) {
   double left = centre_rad, right = centre_rad, top = 0.0, bottom = 0.0;
   constexpr int steps = 16;
   for (const std::size_t index : screens) {
@@ -36,8 +32,8 @@ PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> scree
     const Vec3 up = screen.upper_left_m - screen.lower_left_m;
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; j <= steps; ++j) {
-        const Vec3 direction = screen.lower_left_m + across * (double(i) / steps) +
-                               up * (double(j) / steps) - view.eye_point_m;
+        const Vec3 direction =
+            screen.lower_left_m + across * (double(i) / steps) + up * (double(j) / steps) - view.eye_point_m;
         const double azimuth = unwrapped(azimuth_rad(direction), centre_rad);
         left = std::max(left, azimuth);
         right = std::min(right, azimuth);
@@ -48,8 +44,7 @@ PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> scree
   const auto centre = [&](std::size_t i) {
     return unwrapped(azimuth_rad(middle(view.screens[i]) - view.eye_point_m), centre_rad);
   };
-  std::sort(screens.begin(), screens.end(),
-            [&](std::size_t a, std::size_t b) { return centre(a) > centre(b); });
+  std::sort(screens.begin(), screens.end(), [&](std::size_t a, std::size_t b) { return centre(a) > centre(b); });
   PanoramaRow row;
   row.screens = std::move(screens);
   row.left_azimuth_rad = left;
@@ -61,8 +56,7 @@ PanoramaRow measure_row(const PanoramaView& view, std::vector<std::size_t> scree
 
 }  // namespace
 
-std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_point_m,
-                                  const Vec3& direction) {
+std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_point_m, const Vec3& direction) {
   const Vec3 across = screen.lower_right_m - screen.lower_left_m;
   const Vec3 up = screen.upper_left_m - screen.lower_left_m;
   const Vec3 normal = glm::cross(across, up);
@@ -72,8 +66,7 @@ std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_
   const double distance = glm::dot(normal, screen.lower_left_m - eye_point_m) / approach;
   if (!(distance > 0.0)) return std::nullopt;
   const Vec3 offset = eye_point_m + direction * distance - screen.lower_left_m;
-  const Point point{glm::dot(offset, across) / glm::dot(across, across),
-                    1.0 - glm::dot(offset, up) / glm::dot(up, up)};
+  const Point point{glm::dot(offset, across) / glm::dot(across, across), 1.0 - glm::dot(offset, up) / glm::dot(up, up)};
   if (point.x < 0.0 || point.x > 1.0 || point.y < 0.0 || point.y > 1.0) return std::nullopt;
   return point;
 }
@@ -86,11 +79,9 @@ PanoramaLayout layout_panorama(const PanoramaView& view) {
     const double azimuth = azimuth_rad(middle(view.screens[i]) - view.eye_point_m);
     (std::abs(azimuth) <= ahead_limit_rad ? ahead : behind).push_back(i);
   }
-  if (!ahead.empty())
-    layout.rows.push_back(measure_row(view, std::move(ahead), 0.0, layout.pixels_per_rad));
+  if (!ahead.empty()) layout.rows.push_back(measure_row(view, std::move(ahead), 0.0, layout.pixels_per_rad));
   if (!behind.empty())
-    layout.rows.push_back(
-        measure_row(view, std::move(behind), std::numbers::pi, layout.pixels_per_rad));
+    layout.rows.push_back(measure_row(view, std::move(behind), std::numbers::pi, layout.pixels_per_rad));
   double widest = 640.0, top = label_above_px + 12.0;
   for (const PanoramaRow& row : layout.rows) widest = std::max(widest, row.width_px);
   layout.width_px = static_cast<std::uint32_t>(widest + 2 * margin_px);

@@ -36,8 +36,7 @@ Bytes encode_png(const Image& image, PngEffort effort) {
   if (effort == PngEffort::fast) header.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   Bytes bytes(size);
-  const int written =
-      png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr);
+  const int written = png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr);
   SEPTET_CHECK(written != 0, "libpng: {}", header.message);
   bytes.resize(size);
   return bytes;
@@ -54,8 +53,7 @@ Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view wh
   if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) return refused();
   if (header.width > largest_side_px || header.height > largest_side_px) {
     png_image_free(&header);
-    return failure("the image is larger than 16384 pixels a side", std::string(where),
-                   "give a smaller image");
+    return failure("the image is larger than 16384 pixels a side", std::string(where), "give a smaller image");
   }
   header.format = PNG_FORMAT_RGBA;
   Image image(header.width, header.height);
@@ -67,8 +65,8 @@ Expected<void> write_png(const std::filesystem::path& path, const Image& image, 
   const Bytes bytes = encode_png(image, effort);
   File file(std::fopen(path.c_str(), "wb"));
   if (!file) return file_failure("cannot create the image", path);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
-                       std::fflush(file.get()) == 0;
+  const bool written =
+      std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
   if (!written) return file_failure("cannot write the image", path);
   // The last error of a full disk or a network file system may come only here.
   if (std::fclose(file.release()) != 0) return file_failure("cannot write the image", path);

@@ -22,8 +22,7 @@ Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view wh
 
 /// Fails with the system's reason: no such folder, no permission, disk full. A partial file may
 /// remain.
-Expected<void> write_png(const std::filesystem::path& path, const Image& image,
-                         PngEffort effort = PngEffort::small);
+Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::small);
 
 Expected<Image> read_png(const std::filesystem::path& path);
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
-#include <glm/common.hpp>
 
 namespace septet::instant {
 namespace {
@@ -88,8 +88,8 @@ class Air {
 Vec3 scattered(const Air& air, const Vec3& direction, const Vec3& sun, double sun_scale) {
   const double c = glm::dot(direction, sun), g = haze_anisotropy;
   const double rayleigh_phase = 3.0 / (16.0 * pi) * (1.0 + c * c);
-  const double haze_phase = 3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + c * c) /
-                            ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * c, 1.5));
+  const double haze_phase =
+      3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + c * c) / ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * c, 1.5));
   constexpr double even_phase = 1.0 / (4.0 * pi);
   constexpr double again = 0.55;  // Share of scattered light that is scattered once more, ground included.
   const double z = std::max(direction.z, 0.0), r = ground_radius_m + 2.0;
@@ -105,8 +105,8 @@ Vec3 scattered(const Air& air, const Vec3& direction, const Vec3& sun, double su
     const Vec3 sunlight = air.transmittance(height, glm::dot(position, sun) / radius) * solar_constant * sun_scale;
     const Vec3 rayleigh = rayleigh_per_m * Air::rayleigh_density(height);
     const double haze = air.haze_per_m() * Air::haze_density(height);
-    const Vec3 source = sunlight * (rayleigh * (rayleigh_phase + again * even_phase) +
-                                    Vec3(haze * (haze_phase + again * even_phase)));
+    const Vec3 source =
+        sunlight * (rayleigh * (rayleigh_phase + again * even_phase) + Vec3(haze * (haze_phase + again * even_phase)));
     // Exact for constant air within the step (Hillaire 2015): ∫ S·exp(−βt) dt = S·(1 − exp(−βΔ))/β.
     const Vec3 through = glm::exp(-extinction * step_m);
     sum += glm::exp(-depth) * source * (Vec3(1.0) - through) / extinction;
@@ -162,7 +162,8 @@ SkyLight sky_light(const Environment& environment) {
     }
   const Vec3 clear_sky_irradiance = sky * (pi / weight);
   // A closed cover lets through about a quarter of the light, without its colour (Kasten and Czeplak 1980).
-  const Vec3 clear_total = clear_sky_irradiance + solar_constant * sun_scale * air.transmittance(2.0, sun.z) * std::max(0.0, sun.z);
+  const Vec3 clear_total =
+      clear_sky_irradiance + solar_constant * sun_scale * air.transmittance(2.0, sun.z) * std::max(0.0, sun.z);
   const Vec3 grey = Vec3(luminance(clear_total)) * Vec3(0.97, 1.0, 1.04);
   // At night clouds send back the light of towns: brighter than a clear sky (Kyba et al. 2011).
   const double night = step_between(0.02, -0.12, elevation);
@@ -198,13 +199,16 @@ SkyLight sky_light(const Environment& environment) {
   } else {
     // A moon stands opposite the sun, 40° up.
     const double moon_azimuth = azimuth + pi;
-    light.light_direction = glm::vec3(std::cos(0.7) * std::sin(moon_azimuth), std::cos(0.7) * std::cos(moon_azimuth), std::sin(0.7));
+    light.light_direction =
+        glm::vec3(std::cos(0.7) * std::sin(moon_azimuth), std::cos(0.7) * std::cos(moon_azimuth), std::sin(0.7));
     light.light_irradiance = glm::vec3(Vec3(0.008, 0.010, 0.014) * night * (1.0 - 0.9 * overcast));
   }
   // The eye adapts to the light on level ground, but not wholly: dusk stays darker than noon.
-  const double level = luminance(Vec3(light.sky_irradiance)) + luminance(Vec3(light.light_irradiance)) * std::max(0.0f, light.light_direction.z);
+  const double level = luminance(Vec3(light.sky_irradiance)) +
+                       luminance(Vec3(light.light_irradiance)) * std::max(0.0f, light.light_direction.z);
   // Under a closed cover it stays a little duller still.
-  light.exposure = static_cast<float>((1.0 - 0.22 * overcast) * std::clamp(0.58 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
+  light.exposure = static_cast<float>((1.0 - 0.22 * overcast) *
+                                      std::clamp(0.58 * std::pow(7.5 / std::max(level, 1e-4), 0.72), 0.1, 9.0));
   return light;
 }
 

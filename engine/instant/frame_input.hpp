@@ -38,11 +38,13 @@ struct DrawnParticipant {
 
 /// Triangles of this instant alone, such as debris between two keyframes. They cast shadows and are culled as a whole.
 struct DynamicMesh {
-  std::uint32_t prototype = 0;  ///< Its first part's material is what they are made of; one that is not there is not drawn.
-  Vec3 origin_m{0.0};           ///< World.
-  float radius_m = 0.0f;        ///< Around the origin.
-  glm::vec3 paint{1.0f};        ///< Linear Rec. 709, for materials that take it.
-  std::vector<scene::SurfaceVertex> vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
+  std::uint32_t prototype =
+      0;                  ///< Its first part's material is what they are made of; one that is not there is not drawn.
+  Vec3 origin_m{0.0};     ///< World.
+  float radius_m = 0.0f;  ///< Around the origin.
+  glm::vec3 paint{1.0f};  ///< Linear Rec. 709, for materials that take it.
+  std::vector<scene::SurfaceVertex>
+      vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
 };
 
 /// A ball of smoke whose density falls off as a Gaussian.
@@ -57,15 +59,15 @@ struct SmokePuff {
 
 /// What soot hides of the surfaces in a box of cells, between which it is interpolated. Nothing outside.
 struct SootField {
-  RigidTransform world_from_field;   ///< Origin at the lower corner.
+  RigidTransform world_from_field;  ///< Origin at the lower corner.
   double cell_m = 1.0;
   int nx = 0, ny = 0, nz = 0;
-  std::vector<std::uint8_t> cover;   ///< Share of the light that is lost, in 1/255; x runs fastest.
+  std::vector<std::uint8_t> cover;  ///< Share of the light that is lost, in 1/255; x runs fastest.
 };
 
 /// A line of text over the picture.
 struct OverlayText {
-  std::string text;  ///< UTF-8.
+  std::string text;                ///< UTF-8.
   float x_px = 0.0f, y_px = 0.0f;  ///< Upper left of the line's box, in the target; the middle of it if `centered`.
   float height_px = 18.0f;         ///< Of one line.
   glm::vec4 color{1.0f};           ///< sRGB and opacity.

@@ -40,8 +40,8 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.exposure = exposure_of_scale(scale);
   instant.emission_share = 1.0f / std::max(1.0f, 0.35f * scale);
 
-  PlacedParticipants placed = place_participants(input.participants, scene.prototypes, scene.meshes, input.simulated_time_s,
-                                                 world_eye(input.views.front()),
+  PlacedParticipants placed = place_participants(input.participants, scene.prototypes, scene.meshes,
+                                                 input.simulated_time_s, world_eye(input.views.front()),
                                                  [&](const Vec3& place_m) { return share_of_sky(scene, place_m); });
   instant.parts = std::move(placed.meshes);
   instant.lamps = std::move(placed.glows);

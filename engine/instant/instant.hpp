@@ -33,19 +33,19 @@ struct LooseMesh {
 
 struct Instant {
   double simulated_time_s = 0.0;
-  Environment environment;                 ///< Weather: wetness, snow, rain, cloud cover, wind.
-  std::shared_ptr<const SkyLight> light;   ///< Sun, moon and sky; never null. Instants of one weather share it.
+  Environment environment;                ///< Weather: wetness, snow, rain, cloud cover, wind.
+  std::shared_ptr<const SkyLight> light;  ///< Sun, moon and sky; never null. Instants of one weather share it.
   Exposure exposure;
   /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
   float emission_share = 1.0f;
-  std::vector<FrameView> views;            ///< At least one.
-  std::vector<PlacedMesh> parts;           ///< Of participants, ordered by mesh.
+  std::vector<FrameView> views;   ///< At least one.
+  std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
-  std::vector<LampGlow> lamps;             ///< That shine and are seen, for the glow around them.
-  std::vector<Headlight> headlights;       ///< Empty where it is too light to see their pool.
+  std::vector<LampGlow> lamps;        ///< That shine and are seen, for the glow around them.
+  std::vector<Headlight> headlights;  ///< Empty where it is too light to see their pool.
   std::vector<SmokePuff> smoke;
   SootField soot;
-  std::vector<OverlayText> overlay;        ///< Over the finished picture.
+  std::vector<OverlayText> overlay;  ///< Over the finished picture.
 };
 
 /// `light`: that of the input's environment, if it is at hand (sky_light takes milliseconds). The input has a view (checked).

@@ -23,7 +23,7 @@ struct OffAxisView {
   Vec3 eye_m{0.0};                      ///< Car frame.
   Vec3 right{0.0}, up{0.0}, back{0.0};  ///< The screen's axes in the car frame; `back` points at the viewer.
   double left_slope = 0.0, right_slope = 0.0, bottom_slope = 0.0, top_slope = 0.0;  ///< Edges at distance 1.
-  double near_m = 0.0;  ///< Measured along −back.
+  double near_m = 0.0;                                                              ///< Measured along −back.
   glm::dmat4 clip_from_eye_relative{1.0};  ///< Takes (point − eye), along the car's axes, to clip space.
 };
 

@@ -23,23 +23,31 @@ int wheel_index(PartRole role) {
 
 float glow_radius_m(PartRole role) {
   switch (role) {
-    case PartRole::lamp_head: return 0.55f;
-    case PartRole::beacon: return 1.3f;
-    case PartRole::lamp_tail: return 0.22f;
-    default: return 0.38f;
+    case PartRole::lamp_head:
+      return 0.55f;
+    case PartRole::beacon:
+      return 1.3f;
+    case PartRole::lamp_tail:
+      return 0.22f;
+    default:
+      return 0.38f;
   }
 }
 
 /// Which way a lamp shines, vehicle frame.
 Vec3 facing(PartRole role, double x_m) {
   switch (role) {
-    case PartRole::lamp_head: return {1, 0, 0};
+    case PartRole::lamp_head:
+      return {1, 0, 0};
     case PartRole::lamp_brake:
     case PartRole::lamp_tail:
-    case PartRole::lamp_reverse: return {-1, 0, 0};
+    case PartRole::lamp_reverse:
+      return {-1, 0, 0};
     case PartRole::lamp_indicator_left:
-    case PartRole::lamp_indicator_right: return {x_m > 1.0 ? 1.0 : -1.0, 0, 0};
-    default: return {0, 0, 0};
+    case PartRole::lamp_indicator_right:
+      return {x_m > 1.0 ? 1.0 : -1.0, 0, 0};
+    default:
+      return {0, 0, 0};
   }
 }
 
@@ -48,18 +56,25 @@ Vec3 facing(PartRole role, double x_m) {
 bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m) {
   const bool beams = lamps.has(Lamp::low_beam) || lamps.has(Lamp::high_beam);
   switch (role) {
-    case PartRole::lamp_brake: return lamps.has(Lamp::brake);
-    case PartRole::lamp_reverse: return lamps.has(Lamp::reverse);
-    case PartRole::lamp_indicator_left: return lamps.has(Lamp::indicator_left);
-    case PartRole::lamp_indicator_right: return lamps.has(Lamp::indicator_right);
-    case PartRole::lamp_head: return beams;
-    case PartRole::lamp_tail: return beams;
+    case PartRole::lamp_brake:
+      return lamps.has(Lamp::brake);
+    case PartRole::lamp_reverse:
+      return lamps.has(Lamp::reverse);
+    case PartRole::lamp_indicator_left:
+      return lamps.has(Lamp::indicator_left);
+    case PartRole::lamp_indicator_right:
+      return lamps.has(Lamp::indicator_right);
+    case PartRole::lamp_head:
+      return beams;
+    case PartRole::lamp_tail:
+      return beams;
     case PartRole::beacon: {
       if (!lamps.has(Lamp::beacon)) return false;
       const double phase_s = std::fmod(simulated_time_s, 0.5) - (beacon_y_m < -0.05 ? 0.25 : 0.0);
       return (phase_s >= 0.0 && phase_s < 0.06) || (phase_s >= 0.12 && phase_s < 0.18);
     }
-    default: return true;
+    default:
+      return true;
   }
 }
 
@@ -78,8 +93,8 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
 }
 
 PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
-                                      std::span<const scene::Prototype> prototypes,
-                                      std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
+                                      std::span<const scene::Prototype> prototypes, std::span<const MeshSummary> meshes,
+                                      double simulated_time_s, const Vec3& eye_m,
                                       const std::function<float(const Vec3&)>& share_of_sky) {
   // Further than any part of a vehicle is from its origin, and mirrors' eyes from the driver's.
   constexpr double margin_m = 12.0;
@@ -115,9 +130,9 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
       constexpr double dip_rad = 0.021;  // 1.2° below the level.
       const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
-      result.headlights.push_back({participant.world_from_vehicle * lamp_m,
-                                   glm::vec3(participant.world_from_vehicle.orientation *
-                                             Vec3(std::cos(dip_rad), 0, -std::sin(dip_rad)))});
+      result.headlights.push_back(
+          {participant.world_from_vehicle * lamp_m,
+           glm::vec3(participant.world_from_vehicle.orientation * Vec3(std::cos(dip_rad), 0, -std::sin(dip_rad)))});
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),

@@ -12,9 +12,9 @@ namespace septet::instant {
 
 /// A lamp that shines now.
 struct LampGlow {
-  Vec3 position_m{0.0};          ///< World.
-  glm::vec3 facing{0.0f};        ///< Unit, world axes; zero: all around.
-  glm::vec3 color{1.0f};         ///< Emission of its material, radiance.
+  Vec3 position_m{0.0};    ///< World.
+  glm::vec3 facing{0.0f};  ///< Unit, world axes; zero: all around.
+  glm::vec3 color{1.0f};   ///< Emission of its material, radiance.
   float radius_m = 0.3f;
 };
 
@@ -42,8 +42,8 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
 /// Parts that cannot be seen from around `eye_m`, for their level of detail, are left out; lamps glow where they are seen.
 /// `share_of_sky` answers for the place of a participant.
 PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
-                                      std::span<const scene::Prototype> prototypes,
-                                      std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
+                                      std::span<const scene::Prototype> prototypes, std::span<const MeshSummary> meshes,
+                                      double simulated_time_s, const Vec3& eye_m,
                                       const std::function<float(const Vec3& place_m)>& share_of_sky);
 
 }  // namespace septet::instant

@@ -5,7 +5,8 @@
 
 namespace septet::instant {
 
-PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object, const glm::vec3& scale) {
+PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
+                 const glm::vec3& scale) {
   PlacedMesh placed;
   placed.mesh = mesh;
   placed.origin_m = world_from_object.position_m;

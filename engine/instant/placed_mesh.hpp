@@ -19,7 +19,8 @@ struct PlacedMesh {
   glm::mat3 world_from_object{1.0f};  ///< Rotation and scale.
   glm::vec3 centre_m{0.0f};           ///< Of the bounding sphere, from the origin along the world's axes.
   float radius_m = 0.0f;
-  float visible_from_m = 0.0f, visible_to_m = 1e9f;  ///< Seen while the eye's distance from the origin is in [from, to).
+  float visible_from_m = 0.0f,
+        visible_to_m = 1e9f;  ///< Seen while the eye's distance from the origin is in [from, to).
   bool casts_shadow = true;
   bool seen = true;           ///< False: casts a shadow only.
   glm::vec4 tint{1.0f};       ///< Paint, for materials that take it; w: how much of the materials' emission shines.
@@ -32,7 +33,8 @@ struct MeshBounds {
 };
 
 /// The mesh in its place; `scale` stretches it along the object's axes.
-PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object, const glm::vec3& scale);
+PlacedMesh place(std::uint32_t mesh, const MeshBounds& bounds, const RigidTransform& world_from_object,
+                 const glm::vec3& scale);
 
 /// The same with the instance's scale, and seen and throwing shadows as the instance says.
 PlacedMesh place(const scene::Instance& instance, const MeshBounds& bounds, const RigidTransform& world_from_object);

@@ -47,8 +47,8 @@ float share_of_sky(const SceneSummary& scene, const Vec3& position_m) {
   float share = 1.0f;
   for (const Roof& roof : scene.roofs) {
     const glm::vec3 p(roof.object_from_world * position_m);
-    if (p.x >= roof.min_m.x && p.y >= roof.min_m.y && p.z >= roof.min_m.z && p.x <= roof.max_m.x && p.y <= roof.max_m.y &&
-        p.z <= roof.max_m.z)
+    if (p.x >= roof.min_m.x && p.y >= roof.min_m.y && p.z >= roof.min_m.z && p.x <= roof.max_m.x &&
+        p.y <= roof.max_m.y && p.z <= roof.max_m.z)
       share = std::min(share, roof.share_of_sky);
   }
   return share;

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t no_material = std::numeric_limits<std::uint32_t>:
 
 struct MeshSummary {
   MeshBounds bounds;
-  glm::vec3 emission{0.0f};                  ///< Of its brightest material.
+  glm::vec3 emission{0.0f};                    ///< Of its brightest material.
   std::uint32_t first_material = no_material;  ///< Of its first part with triangles.
 };
 

@@ -47,8 +47,7 @@ class IncrementalTurn {
 
   /// From one unit vector to another in `steps` steps. Refused: |sigma| > 1, no steps, vectors that are not of unit length
   /// (to 10⁻³), and antipodal ones, between which no way is the shortest. Equal vectors stay where they are.
-  static Expected<IncrementalTurn> between(const Vector& from, const Vector& to, std::size_t steps,
-                                           Scalar sigma = 0) {
+  static Expected<IncrementalTurn> between(const Vector& from, const Vector& to, std::size_t steps, Scalar sigma = 0) {
     const auto refuse = [](const char* what, const char* remedy) {
       return failure(what, "turn between unit vectors", remedy);
     };
@@ -90,8 +89,7 @@ class IncrementalTurn {
   /// The vector of this step; the first is `from`.
   Vector value() const {
     Vector result;
-    for (std::size_t n = 0; n < Dimension; ++n)
-      result[n] = from_[n] * turned_.cosine + across_[n] * turned_.sine;
+    for (std::size_t n = 0; n < Dimension; ++n) result[n] = from_[n] * turned_.cosine + across_[n] * turned_.sine;
     return result;
   }
   void advance() {
@@ -111,12 +109,11 @@ class IncrementalTurn {
 };
 
 /// The same for orientations, the shorter way round: q and −q are one orientation, so nothing is antipodal.
-inline Expected<IncrementalTurn<double, 4>> turn_between(const Quat& from, const Quat& to,
-                                                         std::size_t steps, double sigma = 0.0) {
+inline Expected<IncrementalTurn<double, 4>> turn_between(const Quat& from, const Quat& to, std::size_t steps,
+                                                         double sigma = 0.0) {
   const double sign = glm::dot(from, to) < 0.0 ? -1.0 : 1.0;
-  return IncrementalTurn<double, 4>::between(
-      {from.w, from.x, from.y, from.z}, {sign * to.w, sign * to.x, sign * to.y, sign * to.z}, steps,
-      sigma);
+  return IncrementalTurn<double, 4>::between({from.w, from.x, from.y, from.z},
+                                             {sign * to.w, sign * to.x, sign * to.y, sign * to.z}, steps, sigma);
 }
 
 inline Quat to_quat(const UnitVector<double, 4>& v) { return Quat(v[0], v[1], v[2], v[3]); }

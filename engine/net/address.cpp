@@ -36,9 +36,7 @@ std::string ip_text(std::uint32_t ip) {
   return fmt::format("{}.{}.{}.{}", ip >> 24, ip >> 16 & 0xff, ip >> 8 & 0xff, ip & 0xff);
 }
 
-std::string to_text(const Address& address) {
-  return fmt::format("{}:{}", ip_text(address.ip), address.port);
-}
+std::string to_text(const Address& address) { return fmt::format("{}:{}", ip_text(address.ip), address.port); }
 
 Expected<std::uint32_t> parse_ip(std::string_view text, std::string_view where) {
   std::string_view rest = text;

@@ -9,7 +9,8 @@ constexpr double look_every_s = 0.25;
 
 }  // namespace
 
-AllowedClientsWatch::AllowedClientsWatch(std::filesystem::path file) : file_(std::move(file)), known_(look()), seen_(known_) {}
+AllowedClientsWatch::AllowedClientsWatch(std::filesystem::path file)
+    : file_(std::move(file)), known_(look()), seen_(known_) {}
 
 AllowedClientsWatch::Stamp AllowedClientsWatch::look() const {
   struct stat status {};

@@ -39,16 +39,13 @@ struct BadNetwork::Socket final : DatagramSocket {
   Arrival taken;
 };
 
-BadNetwork::BadNetwork(const NetworkFaults& faults, std::uint64_t seed)
-    : faults_(faults), random_(seed) {}
+BadNetwork::BadNetwork(const NetworkFaults& faults, std::uint64_t seed) : faults_(faults), random_(seed) {}
 
-BadNetwork::~BadNetwork() {
-  SEPTET_CHECK(sockets_.empty(), "{} sockets outlive their network", sockets_.size());
-}
+BadNetwork::~BadNetwork() { SEPTET_CHECK(sockets_.empty(), "{} sockets outlive their network", sockets_.size()); }
 
 std::unique_ptr<DatagramSocket> BadNetwork::open(const Address& address) {
-  const bool taken = std::any_of(sockets_.begin(), sockets_.end(),
-                                 [&](const Socket* socket) { return socket->hears == address; });
+  const bool taken =
+      std::any_of(sockets_.begin(), sockets_.end(), [&](const Socket* socket) { return socket->hears == address; });
   SEPTET_CHECK(address.port != 0 && !taken, "{} cannot be opened", to_text(address));
   return std::make_unique<Socket>(*this, address, address);
 }
@@ -73,8 +70,7 @@ void BadNetwork::launch(const Address& from, Socket& to, std::span<const std::by
   const auto path = latency_shares_.find({from.ip, to.own.ip});
   const double share = path == latency_shares_.end() ? 1.0 : path->second;
   const double due_s = now_s_ + share * faults_.latency_s + faults_.jitter_s * random_.uniform();
-  in_flight_.emplace(std::pair{due_s, launches_++},
-                     Flight{from, Bytes(bytes.begin(), bytes.end()), &to});
+  in_flight_.emplace(std::pair{due_s, launches_++}, Flight{from, Bytes(bytes.begin(), bytes.end()), &to});
 }
 
 void BadNetwork::advance_to(double now_s) {

@@ -52,7 +52,9 @@ class BadNetwork {
   /// Applies to datagrams sent from now on.
   void set_faults(const NetworkFaults& faults) { faults_ = faults; }
   /// From one machine to another, this way only: so many times `NetworkFaults::latency_s`.
-  void set_latency_share(std::uint32_t from_ip, std::uint32_t to_ip, double share) { latency_shares_[{from_ip, to_ip}] = share; }
+  void set_latency_share(std::uint32_t from_ip, std::uint32_t to_ip, double share) {
+    latency_shares_[{from_ip, to_ip}] = share;
+  }
   /// What the socket at this address has sent, before any fault and once per send, however many
   /// receive it.
   TrafficCount sent_by(const Address& address) const;
@@ -74,8 +76,7 @@ class BadNetwork {
   Random random_;
   double now_s_ = 0.0;
   std::uint64_t launches_ = 0;
-  std::map<std::pair<double, std::uint64_t>, Flight>
-      in_flight_;  ///< By due time, then by order of sending.
+  std::map<std::pair<double, std::uint64_t>, Flight> in_flight_;  ///< By due time, then by order of sending.
   std::vector<Socket*> sockets_;
   std::map<Address, TrafficCount> sent_;
 };

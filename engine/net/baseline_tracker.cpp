@@ -40,8 +40,7 @@ void BaselineTracker::advance_to(double now_s) {
   for (auto& [client, state] : clients_) {
     if (!state.live) continue;
     const bool silent = now_s - state.heard_s > options_.silence_s;
-    const bool mute =
-        state.acknowledged.empty() && now_s - state.waiting_since_s > options_.patience_s;
+    const bool mute = state.acknowledged.empty() && now_s - state.waiting_since_s > options_.patience_s;
     if (!silent && !mute) continue;
     state.live = false;
     state.acknowledged.clear();
@@ -58,8 +57,8 @@ std::optional<std::uint64_t> BaselineTracker::baseline() const {
       continue;
     }
     std::vector<std::uint64_t> both;
-    std::set_intersection(common->begin(), common->end(), state.acknowledged.begin(),
-                          state.acknowledged.end(), std::back_inserter(both));
+    std::set_intersection(common->begin(), common->end(), state.acknowledged.begin(), state.acknowledged.end(),
+                          std::back_inserter(both));
     common = std::move(both);
   }
   if (!common || common->empty()) return std::nullopt;
@@ -72,8 +71,8 @@ bool BaselineTracker::is_live(Client client) const {
 }
 
 std::size_t BaselineTracker::live_count() const {
-  return static_cast<std::size_t>(std::count_if(
-      clients_.begin(), clients_.end(), [](const auto& entry) { return entry.second.live; }));
+  return static_cast<std::size_t>(
+      std::count_if(clients_.begin(), clients_.end(), [](const auto& entry) { return entry.second.live; }));
 }
 
 }  // namespace septet::net

@@ -18,8 +18,7 @@ struct BaselineOptions {
   double silence_s = 0.5;
   double patience_s = 0.5;
   double penalty_s = 2.0;
-  std::size_t history =
-      64;  ///< Ticks remembered per client; also how many the server and the clients must keep.
+  std::size_t history = 64;  ///< Ticks remembered per client; also how many the server and the clients must keep.
 };
 
 class BaselineTracker {

@@ -16,8 +16,7 @@ constexpr std::size_t max_window_bytes = 64u << 20;
 constexpr std::size_t unreliable_overhead = 1 + 3;
 
 std::size_t datagram_limit(const Terms& own, const Terms& theirs) {
-  return std::min<std::size_t>(
-      {own.max_datagram_bytes, theirs.max_datagram_bytes, largest_datagram});
+  return std::min<std::size_t>({own.max_datagram_bytes, theirs.max_datagram_bytes, largest_datagram});
 }
 
 ReliableSenderLimits sender_limits(const Channel::Options& options) {
@@ -58,25 +57,20 @@ std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram) 
   return reader.get<std::uint32_t>();
 }
 
-Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer,
-               std::size_t sharers) {
+Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer, std::size_t sharers) {
   const std::size_t automatic = is_loopback(peer) ? loopback_datagram : lan_datagram;
-  const std::size_t datagram =
-      limits.max_datagram_bytes == 0 ? automatic : limits.max_datagram_bytes;
+  const std::size_t datagram = limits.max_datagram_bytes == 0 ? automatic : limits.max_datagram_bytes;
   // Linux counts the memory that a datagram occupies, twice its length for one of 1,200 bytes; a
   // third leaves air.
   const std::size_t flight = socket.receive_buffer_bytes() / 3 / std::max<std::size_t>(sharers, 1);
   return {.max_datagram_bytes = static_cast<std::uint32_t>(std::min(datagram, largest_datagram)),
           .max_message_bytes = limits.max_message_bytes,
-          .window_bytes =
-              static_cast<std::uint32_t>(std::min<std::size_t>(limits.window_bytes, 1u << 30)),
-          .flight_bytes =
-              static_cast<std::uint32_t>(std::clamp<std::size_t>(flight, 16 * 1024, 1u << 30))};
+          .window_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(limits.window_bytes, 1u << 30)),
+          .flight_bytes = static_cast<std::uint32_t>(std::clamp<std::size_t>(flight, 16 * 1024, 1u << 30))};
 }
 
 bool are_usable(const Terms& terms) {
-  return terms.max_datagram_bytes >= 576 && terms.window_bytes >= 16 * 1024 &&
-         terms.flight_bytes >= 4096;
+  return terms.max_datagram_bytes >= 576 && terms.window_bytes >= 16 * 1024 && terms.flight_bytes >= 4096;
 }
 
 Channel::Channel(const Options& options, double now_s)
@@ -98,8 +92,8 @@ Channel::Verdict Channel::accept(const ReceivedDatagram& received, double now_s,
     ++counters_.replayed;
     return Verdict::refused;
   }
-  if (!open(options_.keys.receiving, number, datagram.first(data_header_bytes),
-            datagram.subspan(data_header_bytes), text_)) {
+  if (!open(options_.keys.receiving, number, datagram.first(data_header_bytes), datagram.subspan(data_header_bytes),
+            text_)) {
     ++counters_.forged;
     return Verdict::refused;
   }
@@ -110,8 +104,7 @@ Channel::Verdict Channel::accept(const ReceivedDatagram& received, double now_s,
   ByteReader reader(text_);
   Frame frame;
   while (read_frame(reader, frame))
-    if (const Verdict verdict = take(frame, now_s, arrived_s, messages); verdict != Verdict::good)
-      return verdict;
+    if (const Verdict verdict = take(frame, now_s, arrived_s, messages); verdict != Verdict::good) return verdict;
   if (reader.ok()) return Verdict::good;
   ++counters_.malformed;
   return Verdict::broken;
@@ -165,13 +158,11 @@ std::size_t Channel::emit(DatagramSocket& socket, double now_s, std::size_t budg
     text_.clear();
     ByteWriter writer(text_);
     const auto room = [&] { return max_text_bytes_ - text_.size(); };
-    if (acknowledge_due_)
-      write_frame({.kind = FrameKind::acknowledge, .received = received_.ranges()}, writer);
+    if (acknowledge_due_) write_frame({.kind = FrameKind::acknowledge, .received = received_.ranges()}, writer);
     if (ping_due_) write_frame({.kind = FrameKind::ping, .sent_s = now_s}, writer);
     std::size_t pongs = 0, unreliable = 0;
     for (; pongs < pongs_.size() && room() >= 17; ++pongs) write_frame(pongs_[pongs], writer);
-    for (; unreliable < unreliable_.size() &&
-           room() >= unreliable_[unreliable]->size() + unreliable_overhead;
+    for (; unreliable < unreliable_.size() && room() >= unreliable_[unreliable]->size() + unreliable_overhead;
          ++unreliable)
       write_frame({.kind = FrameKind::unreliable, .bytes = *unreliable_[unreliable]}, writer);
     std::vector<std::uint64_t> fragments;
@@ -182,8 +173,7 @@ std::size_t Channel::emit(DatagramSocket& socket, double now_s, std::size_t budg
     const std::uint64_t number = next_number_;
     if (!seal_and_send(socket)) {
       // The system takes no more: the fragments count as sent and lost, the rest stays due.
-      if (!fragments.empty())
-        sender_.packet_sent(number, now_s, text_.size() - before, std::move(fragments));
+      if (!fragments.empty()) sender_.packet_sent(number, now_s, text_.size() - before, std::move(fragments));
       return sent;
     }
     sent += datagram_.size();
@@ -193,8 +183,7 @@ std::size_t Channel::emit(DatagramSocket& socket, double now_s, std::size_t budg
       unreliable_bytes_ -= unreliable_.front()->size() + unreliable_overhead;
       unreliable_.pop_front();
     }
-    if (!fragments.empty())
-      sender_.packet_sent(number, now_s, datagram_.size(), std::move(fragments));
+    if (!fragments.empty()) sender_.packet_sent(number, now_s, datagram_.size(), std::move(fragments));
   }
 }
 

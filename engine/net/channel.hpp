@@ -24,8 +24,7 @@ inline constexpr std::size_t data_header_bytes = scene_prefix_bytes + 4 + 8;
 std::optional<std::uint32_t> connection_of(std::span<const std::byte> datagram);
 /// What this end announces to `peer`, from its limits and its socket's buffer, which `sharers`
 /// other ends fill.
-Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer,
-               std::size_t sharers);
+Terms terms_of(const ChannelLimits& limits, const DatagramSocket& socket, const Address& peer, std::size_t sharers);
 /// Whether a connection can be kept on these terms at all.
 bool are_usable(const Terms& terms);
 
@@ -52,8 +51,7 @@ class Channel {
     goodbye,
   };
   /// Opens a datagram that carries this connection's number, and appends what it completes.
-  Verdict accept(const ReceivedDatagram& datagram, double now_s,
-                 std::vector<ChannelMessage>& messages);
+  Verdict accept(const ReceivedDatagram& datagram, double now_s, std::vector<ChannelMessage>& messages);
 
   SendResult send(SharedBytes message, Reliability reliability, AddressKey key);
   void ping() { ping_due_ = true; }

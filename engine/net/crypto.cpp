@@ -62,14 +62,11 @@ Key32 random_key() {
   return key;
 }
 
-Hash16 hash16(std::initializer_list<std::span<const std::byte>> parts,
-              std::span<const std::uint8_t> key) {
+Hash16 hash16(std::initializer_list<std::span<const std::byte>> parts, std::span<const std::uint8_t> key) {
   return hash<16>(parts, key);
 }
 
-Key32 hash32(std::initializer_list<std::span<const std::byte>> parts) {
-  return hash<32>(parts, {});
-}
+Key32 hash32(std::initializer_list<std::span<const std::byte>> parts) { return hash<32>(parts, {}); }
 
 KeyPair32 derive_keys(const Key32& key, std::span<const std::byte> input) {
   auto both = hash<64>({input}, key);
@@ -82,33 +79,30 @@ KeyPair32 derive_keys(const Key32& key, std::span<const std::byte> input) {
 
 Signature sign(std::span<const std::byte> message, const Identity& identity) {
   Signature signature;
-  crypto_sign_detached(signature.data(), nullptr, raw(message), message.size(),
-                       identity.secret_key().data());
+  crypto_sign_detached(signature.data(), nullptr, raw(message), message.size(), identity.secret_key().data());
   return signature;
 }
 
 bool verify(const Signature& signature, std::span<const std::byte> message, const PublicKey& key) {
   start_sodium();
-  return crypto_sign_verify_detached(signature.data(), raw(message), message.size(), key.data()) ==
-         0;
+  return crypto_sign_verify_detached(signature.data(), raw(message), message.size(), key.data()) == 0;
 }
 
 void seal(const Key32& key, std::uint64_t number, std::span<const std::byte> associated,
           std::span<const std::byte> text, Bytes& out) {
   const std::size_t begin = out.size();
   out.resize(begin + text.size() + seal_bytes);
-  crypto_aead_chacha20poly1305_ietf_encrypt(
-      reinterpret_cast<unsigned char*>(out.data() + begin), nullptr, raw(text), text.size(),
-      raw(associated), associated.size(), nullptr, nonce_of(number).data(), key.data());
+  crypto_aead_chacha20poly1305_ietf_encrypt(reinterpret_cast<unsigned char*>(out.data() + begin), nullptr, raw(text),
+                                            text.size(), raw(associated), associated.size(), nullptr,
+                                            nonce_of(number).data(), key.data());
 }
 
 bool open(const Key32& key, std::uint64_t number, std::span<const std::byte> associated,
           std::span<const std::byte> sealed, Bytes& out) {
   if (sealed.size() < seal_bytes) return false;
   out.resize(sealed.size() - seal_bytes);
-  return crypto_aead_chacha20poly1305_ietf_decrypt(reinterpret_cast<unsigned char*>(out.data()),
-                                                   nullptr, nullptr, raw(sealed), sealed.size(),
-                                                   raw(associated), associated.size(),
+  return crypto_aead_chacha20poly1305_ietf_decrypt(reinterpret_cast<unsigned char*>(out.data()), nullptr, nullptr,
+                                                   raw(sealed), sealed.size(), raw(associated), associated.size(),
                                                    nonce_of(number).data(), key.data()) == 0;
 }
 
@@ -134,8 +128,7 @@ std::optional<Key32> exchange_key_of(const PublicKey& key) {
 
 std::optional<Key32> shared_secret(const Key32& own_secret, const Key32& their_public_key) {
   Key32 result;
-  if (crypto_scalarmult(result.data(), own_secret.data(), their_public_key.data()) != 0)
-    return std::nullopt;
+  if (crypto_scalarmult(result.data(), own_secret.data(), their_public_key.data()) != 0) return std::nullopt;
   return result;
 }
 

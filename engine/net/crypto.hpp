@@ -25,8 +25,7 @@ std::span<const std::byte> as_bytes_of(const std::array<std::uint8_t, N>& array)
 }
 
 /// BLAKE2b, 128 bits, over the parts one after the other; keyed if `key` is not empty.
-Hash16 hash16(std::initializer_list<std::span<const std::byte>> parts,
-              std::span<const std::uint8_t> key = {});
+Hash16 hash16(std::initializer_list<std::span<const std::byte>> parts, std::span<const std::uint8_t> key = {});
 /// BLAKE2b, 256 bits.
 Key32 hash32(std::initializer_list<std::span<const std::byte>> parts);
 /// Two keys from one and an input: the halves of BLAKE2b-512.

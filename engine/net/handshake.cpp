@@ -39,10 +39,8 @@ Terms take_terms(ByteReader& reader) {
 }
 
 /// The datagram after its prefix, if it is of this kind and length.
-std::optional<ByteReader> body(std::span<const std::byte> datagram, SceneDatagramKind kind,
-                               std::size_t bytes) {
-  if (scene_datagram_kind(datagram) != kind || datagram.size() != scene_prefix_bytes + bytes)
-    return std::nullopt;
+std::optional<ByteReader> body(std::span<const std::byte> datagram, SceneDatagramKind kind, std::size_t bytes) {
+  if (scene_datagram_kind(datagram) != kind || datagram.size() != scene_prefix_bytes + bytes) return std::nullopt;
   return ByteReader(datagram.subspan(scene_prefix_bytes));
 }
 
@@ -59,8 +57,7 @@ std::optional<SceneDatagramKind> scene_datagram_kind(std::span<const std::byte> 
   ByteReader reader(datagram);
   const auto first = reader.get<std::uint8_t>(), its_version = reader.get<std::uint8_t>(),
              kind = reader.get<std::uint8_t>();
-  if (!reader.ok() || first != first_byte || its_version != version || kind < 1 || kind > 6)
-    return std::nullopt;
+  if (!reader.ok() || first != first_byte || its_version != version || kind < 1 || kind > 6) return std::nullopt;
   return static_cast<SceneDatagramKind>(kind);
 }
 
@@ -82,9 +79,7 @@ Transcript::Transcript(const PublicKey& server) {
   mix_hash(as_bytes_of(server));
 }
 
-void Transcript::mix_hash(std::span<const std::byte> bytes) {
-  hash_ = hash32({as_bytes_of(hash_), bytes});
-}
+void Transcript::mix_hash(std::span<const std::byte> bytes) { hash_ = hash32({as_bytes_of(hash_), bytes}); }
 
 void Transcript::mix_key(const Key32& shared) {
   const KeyPair32 keys = derive_keys(chaining_, as_bytes_of(shared));
@@ -112,8 +107,8 @@ KeyPair32 Transcript::split() const {
 ClientHandshake::ClientHandshake(const Identity& client, const PublicKey& server)
     : static_(exchange_keys_of(client)), ephemeral_(random_exchange_keys()), transcript_(server) {}
 
-std::optional<ClientHandshake> ClientHandshake::start(const Identity& client,
-                                                      const PublicKey& server, const Terms& own) {
+std::optional<ClientHandshake> ClientHandshake::start(const Identity& client, const PublicKey& server,
+                                                      const Terms& own) {
   const auto server_exchange = exchange_key_of(server);
   if (!server_exchange) return std::nullopt;
   ClientHandshake handshake(client, server);
@@ -161,8 +156,7 @@ Bytes ClientHandshake::initiation() const {
   return datagram;
 }
 
-std::optional<ClientHandshake::Connected> ClientHandshake::accept_response(
-    std::span<const std::byte> datagram) const {
+std::optional<ClientHandshake::Connected> ClientHandshake::accept_response(std::span<const std::byte> datagram) const {
   auto reader = body(datagram, SceneDatagramKind::response, response_body);
   Bytes text;
   const auto transcript = reader ? open_answer(*reader, text) : std::nullopt;
@@ -177,8 +171,7 @@ std::optional<ClientHandshake::Connected> ClientHandshake::accept_response(
   return result;
 }
 
-std::optional<HandshakeRefusal> ClientHandshake::accept_refusal(
-    std::span<const std::byte> datagram) const {
+std::optional<HandshakeRefusal> ClientHandshake::accept_refusal(std::span<const std::byte> datagram) const {
   auto reader = body(datagram, SceneDatagramKind::refusal, refusal_body);
   Bytes text;
   if (!reader || !open_answer(*reader, text)) return std::nullopt;
@@ -204,8 +197,7 @@ std::optional<Transcript> ClientHandshake::open_answer(ByteReader& reader, Bytes
   return transcript;
 }
 
-std::optional<Bytes> CookieJar::answer(std::span<const std::byte> hello, const Address& from,
-                                       double now_s) const {
+std::optional<Bytes> CookieJar::answer(std::span<const std::byte> hello, const Address& from, double now_s) const {
   auto reader = body(hello, SceneDatagramKind::hello, hello_body);
   if (!reader) return std::nullopt;
   const auto ephemeral = reader->take(32);
@@ -213,13 +205,11 @@ std::optional<Bytes> CookieJar::answer(std::span<const std::byte> hello, const A
   ByteWriter writer(datagram);
   write_scene_prefix(SceneDatagramKind::cookie, writer);
   writer.put_bytes(ephemeral.first(16));
-  writer.put_bytes(
-      as_bytes_of(cookie(from, ephemeral, static_cast<std::uint64_t>(now_s / cookie_slot_s))));
+  writer.put_bytes(as_bytes_of(cookie(from, ephemeral, static_cast<std::uint64_t>(now_s / cookie_slot_s))));
   return datagram;
 }
 
-bool CookieJar::is_good(std::span<const std::byte> initiation, const Address& from,
-                        double now_s) const {
+bool CookieJar::is_good(std::span<const std::byte> initiation, const Address& from, double now_s) const {
   auto reader = body(initiation, SceneDatagramKind::initiation, initiation_body);
   if (!reader) return false;
   const auto given = take_array<16>(*reader);
@@ -229,8 +219,7 @@ bool CookieJar::is_good(std::span<const std::byte> initiation, const Address& fr
          (slot > 0 && equal_in_constant_time(given, cookie(from, ephemeral, slot - 1)));
 }
 
-Hash16 CookieJar::cookie(const Address& from, std::span<const std::byte> ephemeral,
-                         std::uint64_t slot) const {
+Hash16 CookieJar::cookie(const Address& from, std::span<const std::byte> ephemeral, std::uint64_t slot) const {
   Bytes place;
   ByteWriter writer(place);
   writer.put(from.ip);
@@ -239,8 +228,7 @@ Hash16 CookieJar::cookie(const Address& from, std::span<const std::byte> ephemer
   return hash16({place, ephemeral}, secret_);
 }
 
-std::optional<ServerHandshake> ServerHandshake::accept(std::span<const std::byte> initiation,
-                                                       const Identity& server) {
+std::optional<ServerHandshake> ServerHandshake::accept(std::span<const std::byte> initiation, const Identity& server) {
   auto reader = body(initiation, SceneDatagramKind::initiation, initiation_body);
   if (!reader) return std::nullopt;
   reader->take(16);
@@ -269,8 +257,7 @@ std::optional<ServerHandshake> ServerHandshake::accept(std::span<const std::byte
   return handshake;
 }
 
-std::optional<ServerHandshake::Connected> ServerHandshake::respond(std::uint32_t connection,
-                                                                   const SessionId& session,
+std::optional<ServerHandshake::Connected> ServerHandshake::respond(std::uint32_t connection, const SessionId& session,
                                                                    const Terms& own) const {
   Bytes text;
   ByteWriter fields(text);
@@ -294,8 +281,7 @@ std::optional<Bytes> ServerHandshake::refuse(HandshakeRefusal reason) const {
 }
 
 /// The second half of the key exchange as a datagram, with `text` sealed at its end.
-std::optional<Transcript> ServerHandshake::seal_answer(SceneDatagramKind kind,
-                                                       std::span<const std::byte> text,
+std::optional<Transcript> ServerHandshake::seal_answer(SceneDatagramKind kind, std::span<const std::byte> text,
                                                        Bytes& datagram) const {
   const ExchangeKeys ephemeral = random_exchange_keys();
   const auto ephemeral_ephemeral = shared_secret(ephemeral.secret, client_ephemeral_);

@@ -64,8 +64,7 @@ class Transcript {
 class ClientHandshake {
  public:
   /// None if the server's key is no point of the curve.
-  static std::optional<ClientHandshake> start(const Identity& client, const PublicKey& server,
-                                              const Terms& own);
+  static std::optional<ClientHandshake> start(const Identity& client, const PublicKey& server, const Terms& own);
 
   Bytes hello() const;
   /// False: not the answer to this hello.
@@ -99,13 +98,11 @@ class CookieJar {
  public:
   CookieJar() : secret_(random_key()) {}
   /// The answer to a hello; none if it is not one.
-  std::optional<Bytes> answer(std::span<const std::byte> hello, const Address& from,
-                              double now_s) const;
+  std::optional<Bytes> answer(std::span<const std::byte> hello, const Address& from, double now_s) const;
   bool is_good(std::span<const std::byte> initiation, const Address& from, double now_s) const;
 
  private:
-  Hash16 cookie(const Address& from, std::span<const std::byte> ephemeral,
-                std::uint64_t slot) const;
+  Hash16 cookie(const Address& from, std::span<const std::byte> ephemeral, std::uint64_t slot) const;
   Key32 secret_;
 };
 
@@ -113,8 +110,7 @@ class CookieJar {
 class ServerHandshake {
  public:
   /// None: malformed, or not sealed for this server. Costs two scalar multiplications.
-  static std::optional<ServerHandshake> accept(std::span<const std::byte> initiation,
-                                               const Identity& server);
+  static std::optional<ServerHandshake> accept(std::span<const std::byte> initiation, const Identity& server);
 
   const PublicKey& client() const { return client_; }
   const Terms& client_terms() const { return client_terms_; }
@@ -125,8 +121,7 @@ class ServerHandshake {
     ChannelKeys keys;
   };
   /// None if the client's ephemeral key is of low order.
-  std::optional<Connected> respond(std::uint32_t connection, const SessionId& session,
-                                   const Terms& own) const;
+  std::optional<Connected> respond(std::uint32_t connection, const SessionId& session, const Terms& own) const;
   /// Sealed like a response, so that nobody else can send a client away.
   std::optional<Bytes> refuse(HandshakeRefusal reason) const;
 

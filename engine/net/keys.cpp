@@ -49,9 +49,8 @@ Expected<void> create_identity(const std::filesystem::path& file) {
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   const Identity identity = Identity::generate();
-  const std::string text =
-      fmt::format("{}\npublic {}\nsecret {}\n", file_title, to_text(identity.public_key()),
-                  hexadecimal(std::span(identity.secret_key()).first(32)));
+  const std::string text = fmt::format("{}\npublic {}\nsecret {}\n", file_title, to_text(identity.public_key()),
+                                       hexadecimal(std::span(identity.secret_key()).first(32)));
   const std::string draft = fmt::format("{}.{}", file.string(), ::getpid());
   const int descriptor = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   bool written = descriptor >= 0;
@@ -65,8 +64,8 @@ Expected<void> create_identity(const std::filesystem::path& file) {
   const int reason = errno;
   ::unlink(draft.c_str());
   if (!written)
-    return failure(fmt::format("the key file cannot be written: {}", std::strerror(reason)),
-                   file.string(), "free space, or name a folder that this user may write");
+    return failure(fmt::format("the key file cannot be written: {}", std::strerror(reason)), file.string(),
+                   "free space, or name a folder that this user may write");
   return {};
 }
 
@@ -77,8 +76,7 @@ std::string to_text(const PublicKey& key) { return hexadecimal(key); }
 Expected<PublicKey> parse_public_key(std::string_view text, std::string_view where) {
   const auto bytes = parse_hexadecimal(text);
   if (!bytes)
-    return failure(fmt::format("\"{}\" is not a public key", text.substr(0, 80)),
-                   std::string(where),
+    return failure(fmt::format("\"{}\" is not a public key", text.substr(0, 80)), std::string(where),
                    "copy the 64 hexadecimal digits after `public` in the key file");
   return *bytes;
 }
@@ -87,15 +85,13 @@ Expected<Identity> load_identity(const std::filesystem::path& file) {
   struct stat status {};
   std::ifstream in(file);
   if (!in || ::stat(file.c_str(), &status) != 0)
-    return failure(
-        "the key file cannot be read", file.string(),
-        "check its path and owner; `septet rig keys` makes the keys of a rig's machines");
+    return failure("the key file cannot be read", file.string(),
+                   "check its path and owner; `septet rig keys` makes the keys of a rig's machines");
   if ((status.st_mode & 077) != 0)
-    return failure(
-        "others may read the secret key", file.string(),
-        fmt::format("run `chmod 600 {}`; if it was not you who opened it, delete it and make "
-                    "another one with `septet rig keys`",
-                    file.string()));
+    return failure("others may read the secret key", file.string(),
+                   fmt::format("run `chmod 600 {}`; if it was not you who opened it, delete it and make "
+                               "another one with `septet rig keys`",
+                               file.string()));
   std::string title, public_word, public_text, secret_word, secret_text;
   std::getline(in, title);
   in >> public_word >> public_text >> secret_word >> secret_text;
@@ -104,9 +100,8 @@ Expected<Identity> load_identity(const std::filesystem::path& file) {
     Identity identity = Identity::from_seed(*seed);
     if (to_text(identity.public_key()) == public_text) return identity;
   }
-  return failure(
-      "this is not a whole key file", file.string(),
-      "restore it from a copy, or delete it and make another one with `septet rig keys`");
+  return failure("this is not a whole key file", file.string(),
+                 "restore it from a copy, or delete it and make another one with `septet rig keys`");
 }
 
 Expected<Identity> load_or_create_identity(const std::filesystem::path& file) {
@@ -142,8 +137,12 @@ Expected<std::vector<AllowedClient>> load_allowed_clients(const std::filesystem:
     if (!parsed) return tl::unexpected(parsed.error());
     if (name.empty()) return failure("a key without a name", where, "write `KEY NAME`");
     for (const AllowedClient& other : clients) {
-      if (other.key == *parsed) return failure(fmt::format("the key of {} stands here again", other.name), where, "remove one of the two lines");
-      if (other.name == name) return failure(fmt::format("a second key for {}", name), where, "remove the line of the key that no longer counts");
+      if (other.key == *parsed)
+        return failure(fmt::format("the key of {} stands here again", other.name), where,
+                       "remove one of the two lines");
+      if (other.name == name)
+        return failure(fmt::format("a second key for {}", name), where,
+                       "remove the line of the key that no longer counts");
     }
     clients.push_back({*parsed, name});
   }

@@ -10,11 +10,9 @@
 
 namespace septet::net {
 
-MulticastProbe probe_multicast(const Address& group, std::uint32_t interface_ip, int tries,
-                               double wait_s) {
-  const std::string name =
-      fmt::format("multicast {} on {}", to_text(group),
-                  interface_ip == 0 ? "the default interface" : ip_text(interface_ip));
+MulticastProbe probe_multicast(const Address& group, std::uint32_t interface_ip, int tries, double wait_s) {
+  const std::string name = fmt::format("multicast {} on {}", to_text(group),
+                                       interface_ip == 0 ? "the default interface" : ip_text(interface_ip));
   if (!is_multicast(group)) return {false, name + " is not a group (224.0.0.0 to 239.255.255.255)"};
   auto listener = UdpSocket::open_group(group, interface_ip);
   if (!listener) return {false, fmt::format("{} cannot be heard: {}", name, listener.error().what)};

@@ -36,8 +36,8 @@ PacketRanges ReceivedPackets::ranges() const {
     PacketRanges::Range range{number, number};
     while (range.first > oldest && has(range.first - 1)) {
       // Whole words of ones at once.
-      const bool whole = range.first % 64 == 0 && range.first >= oldest + 64 &&
-                         words_[(range.first - 1) / 64 % words] == ~0ull;
+      const bool whole =
+          range.first % 64 == 0 && range.first >= oldest + 64 && words_[(range.first - 1) / 64 % words] == ~0ull;
       range.first -= whole ? 64 : 1;
     }
     result.ranges[result.count++] = range;

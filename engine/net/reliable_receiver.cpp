@@ -33,8 +33,7 @@ bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed)
     if (!add(incoming, frame.offset, frame.bytes)) return false;
   }
 
-  for (auto first = incoming_.begin();
-       first != incoming_.end() && first->first == next_ && first->second.missing == 0;
+  for (auto first = incoming_.begin(); first != incoming_.end() && first->first == next_ && first->second.missing == 0;
        first = incoming_.erase(first), ++next_) {
     bytes_held_ -= first->second.bytes.size();
     if (!first->second.voided) completed.push_back(std::move(first->second.bytes));
@@ -44,8 +43,7 @@ bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed)
 
 /// Copies a fragment to its place; one that is there already changes nothing, one that overlaps is
 /// refused.
-bool ReliableReceiver::add(Incoming& incoming, std::size_t offset,
-                           std::span<const std::byte> bytes) {
+bool ReliableReceiver::add(Incoming& incoming, std::size_t offset, std::span<const std::byte> bytes) {
   if (bytes.empty()) return incoming.bytes.empty();
   const std::size_t end = offset + bytes.size();
   auto after = incoming.runs.upper_bound(offset);
@@ -53,11 +51,9 @@ bool ReliableReceiver::add(Incoming& incoming, std::size_t offset,
   if (before != incoming.runs.end() && before->second > offset) return before->second >= end;
   if (after != incoming.runs.end() && after->first < end) return false;
 
-  std::copy(bytes.begin(), bytes.end(),
-            incoming.bytes.begin() + static_cast<std::ptrdiff_t>(offset));
+  std::copy(bytes.begin(), bytes.end(), incoming.bytes.begin() + static_cast<std::ptrdiff_t>(offset));
   incoming.missing -= bytes.size();
-  if (before == incoming.runs.end() || before->second != offset)
-    before = incoming.runs.emplace(offset, end).first;
+  if (before == incoming.runs.end() || before->second != offset) before = incoming.runs.emplace(offset, end).first;
   before->second = end;
   if (after != incoming.runs.end() && after->first == end) {
     before->second = after->second;

@@ -24,8 +24,7 @@ ReliableSender::ReliableSender(const ReliableSenderLimits& limits)
 SendResult ReliableSender::enqueue(SharedBytes bytes, AddressKey key) {
   if (bytes->size() > limits_.max_message_bytes) return SendResult::too_large;
   if (key != no_address_key && overwrite(key, bytes)) return SendResult::overwrote;
-  if (queued_bytes_ + bytes->size() + fragment_weight > limits_.max_queue_bytes)
-    return SendResult::queue_full;
+  if (queued_bytes_ + bytes->size() + fragment_weight > limits_.max_queue_bytes) return SendResult::queue_full;
   queued_bytes_ += bytes->size() + fragment_weight;
   const std::uint64_t id = first_message_ + messages_.size();
   messages_.push_back({.bytes = std::move(bytes), .key = key});
@@ -52,8 +51,7 @@ void ReliableSender::void_if_outdated(std::uint64_t fragment_id) {
   if (lost.is_void || source.key == no_address_key || source.cut < source.bytes->size() ||
       newest_with_key_.at(source.key) == lost.message)
     return;
-  for (std::uint64_t id = std::max(source.first_fragment, first_fragment_);
-       id <= source.last_fragment; ++id)
+  for (std::uint64_t id = std::max(source.first_fragment, first_fragment_); id <= source.last_fragment; ++id)
     if (fragment(id).message == lost.message) fragment(id).done = true;
   lost.done = false;
   lost.is_void = true;
@@ -71,8 +69,7 @@ bool ReliableSender::wants_to_send() const {
   return (!lost_.empty() || has_new()) && flight_bytes_ < congestion_window_;
 }
 
-void ReliableSender::fill(ByteWriter& writer, std::size_t room,
-                          std::vector<std::uint64_t>& fragments) {
+void ReliableSender::fill(ByteWriter& writer, std::size_t room, std::vector<std::uint64_t>& fragments) {
   while (!lost_.empty()) {
     const std::uint64_t id = lost_.front();
     const bool stale = id < first_fragment_ || fragment(id).done;
@@ -100,8 +97,7 @@ bool ReliableSender::cut_fragment(std::size_t room) {
       fragment_overhead(next_cut_, source.bytes->size(), source.cut, limits_.max_datagram_bytes);
   if (room < overhead + std::min(rest, smallest_piece)) return false;
   const std::size_t length = std::min(rest, room - overhead);
-  fragments_.push_back(
-      {.message = next_cut_, .offset = source.cut, .length = length, .position = position_});
+  fragments_.push_back({.message = next_cut_, .offset = source.cut, .length = length, .position = position_});
   position_ += length + fragment_weight;
   const std::uint64_t id = first_fragment_ + fragments_.size() - 1;
   if (!source.started) source.first_fragment = id;
@@ -123,8 +119,7 @@ bool ReliableSender::write_fragment(std::uint64_t id, ByteWriter& writer, std::s
     frame.message_bytes = source.size();
     frame.offset = piece.offset;
     frame.bytes = std::span(source).subspan(piece.offset, piece.length);
-    bytes =
-        piece.length + fragment_overhead(piece.message, source.size(), piece.offset, piece.length);
+    bytes = piece.length + fragment_overhead(piece.message, source.size(), piece.offset, piece.length);
   }
   if (bytes > room) return false;
   write_frame(frame, writer);
@@ -140,16 +135,14 @@ void ReliableSender::packet_sent(std::uint64_t number, double now_s, std::size_t
   packets_.push_back({number, now_s, bytes, true, std::move(fragments)});
 }
 
-bool ReliableSender::acknowledge(const PacketRanges& received, std::uint64_t next_number,
-                                 double now_s) {
+bool ReliableSender::acknowledge(const PacketRanges& received, std::uint64_t next_number, double now_s) {
   const std::uint64_t newest = received.ranges[0].last;
   if (newest >= next_number) return false;
   const Packet* latest = nullptr;
   for (std::size_t i = 0; i < received.count; ++i) {
     const auto& range = received.ranges[i];
-    auto packet =
-        std::lower_bound(packets_.begin(), packets_.end(), range.first,
-                         [](const Packet& p, std::uint64_t number) { return p.number < number; });
+    auto packet = std::lower_bound(packets_.begin(), packets_.end(), range.first,
+                                   [](const Packet& p, std::uint64_t number) { return p.number < number; });
     for (; packet != packets_.end() && packet->number <= range.last; ++packet) {
       if (!packet->open) continue;
       packet->open = false;
@@ -201,8 +194,8 @@ void ReliableSender::find_losses(double now_s) {
 void ReliableSender::advance_to(double now_s) {
   find_losses(now_s);
   if (flight_bytes_ > 0) {
-    const double patience_s = std::min(round_trip_.resend_s() * backoff_,
-                                       std::max(longest_backoff_s, round_trip_.resend_s()));
+    const double patience_s =
+        std::min(round_trip_.resend_s() * backoff_, std::max(longest_backoff_s, round_trip_.resend_s()));
     if (now_s - progress_s_ >= patience_s) {
       for (Packet& packet : packets_)
         if (packet.open) lose(packet);
@@ -236,8 +229,7 @@ void ReliableSender::trim() {
     const Message& done = messages_.front();
     queued_bytes_ -= done.bytes->size() + fragment_weight;
     const auto entry = newest_with_key_.find(done.key);
-    if (entry != newest_with_key_.end() && entry->second == first_message_)
-      newest_with_key_.erase(entry);
+    if (entry != newest_with_key_.end() && entry->second == first_message_) newest_with_key_.erase(entry);
     messages_.pop_front();
     ++first_message_;
   }

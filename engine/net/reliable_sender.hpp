@@ -37,8 +37,7 @@ class ReliableSender {
   /// nothing if none fits.
   void fill(ByteWriter& writer, std::size_t room, std::vector<std::uint64_t>& fragments);
   /// The packet with these fragments has gone out.
-  void packet_sent(std::uint64_t number, double now_s, std::size_t bytes,
-                   std::vector<std::uint64_t> fragments);
+  void packet_sent(std::uint64_t number, double now_s, std::size_t bytes, std::vector<std::uint64_t> fragments);
   /// False: it acknowledges what was never sent.
   bool acknowledge(const PacketRanges& received, std::uint64_t next_number, double now_s);
   /// Finds packets that count as lost by now.
@@ -99,8 +98,7 @@ class ReliableSender {
   std::size_t flight_bytes_ = 0;
   std::uint64_t newest_acknowledged_ = 0;
   bool any_acknowledged_ = false;
-  double progress_s_ =
-      0.0;  ///< When something was last sent into an empty flight, acknowledged or given up.
+  double progress_s_ = 0.0;  ///< When something was last sent into an empty flight, acknowledged or given up.
   double backoff_ = 1.0;
   RoundTrip round_trip_;
 

@@ -46,8 +46,7 @@ bool read_frame(ByteReader& reader, Frame& out) {
       out.message_bytes = reader.get_varint();
       out.offset = reader.get_varint();
       out.bytes = reader.take(reader.get_count(reader.remaining()));
-      if (out.offset > out.message_bytes || out.bytes.size() > out.message_bytes - out.offset)
-        reader.fail();
+      if (out.offset > out.message_bytes || out.bytes.size() > out.message_bytes - out.offset) reader.fail();
       break;
     }
     case FrameKind::void_message:
@@ -108,10 +107,9 @@ std::size_t varint_bytes(std::uint64_t value) {
   return bytes;
 }
 
-std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes,
-                              std::uint64_t offset, std::size_t length) {
-  return 1 + varint_bytes(message) + varint_bytes(message_bytes) + varint_bytes(offset) +
-         varint_bytes(length);
+std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes, std::uint64_t offset,
+                              std::size_t length) {
+  return 1 + varint_bytes(message) + varint_bytes(message_bytes) + varint_bytes(offset) + varint_bytes(length);
 }
 
 }  // namespace septet::net

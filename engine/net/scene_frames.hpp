@@ -38,8 +38,8 @@ void write_frame(const Frame& frame, ByteWriter& writer);
 
 std::size_t varint_bytes(std::uint64_t value);
 /// Of a fragment frame without its bytes.
-std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes,
-                              std::uint64_t offset, std::size_t length);
+std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes, std::uint64_t offset,
+                              std::size_t length);
 inline constexpr std::size_t max_goodbye_bytes = 200;
 
 }  // namespace septet::net

@@ -60,14 +60,14 @@ struct SecureClient::State {
   bool has_initiated = false;            ///< It has sent an initiation since then.
   /// A cookie came for a hello that it had sent after an initiation: the server has read that one, and did not understand it.
   bool is_not_understood = false;
-  Obstacle refusal = Obstacle::none;     ///< What the server last said, since then.
-  double refused_s = 0.0;                ///< When it said so.
+  Obstacle refusal = Obstacle::none;  ///< What the server last said, since then.
+  double refused_s = 0.0;             ///< When it said so.
   double cookie_s = 0.0;
   double next_knock_s = 0.0, retry_s = first_retry_s;
 
   double next_ping_s = 0.0;
   double pinged_s = 0.0;  ///< When the first ping was sent since the server was last heard.
-  ChannelCounters past;  ///< Of earlier connections, and of what belongs to none.
+  ChannelCounters past;   ///< Of earlier connections, and of what belongs to none.
   mutable ChannelCounters asked;
   ClockEstimate no_clock;
 };
@@ -84,8 +84,7 @@ std::vector<ClientEvent> SecureClient::pump(double now_s) {
   if (state.closed) return events;
   state.receive(events);
   const double timeout_s = state.options.limits.timeout_s;
-  if (state.silence_s() > timeout_s)
-    state.lose(fmt::format("the server is not heard for {:.1f} s", timeout_s), events);
+  if (state.silence_s() > timeout_s) state.lose(fmt::format("the server is not heard for {:.1f} s", timeout_s), events);
   if (!state.hears_server()) state.knock();
   if (state.channel) {
     if (now_s >= state.next_ping_s) {
@@ -157,8 +156,7 @@ void SecureClient::State::take_refusal(std::span<const std::byte> datagram) {
   retry_s = std::min(retry_s * 1.5, in_use ? longest_in_use_retry_s : longest_unknown_retry_s);
 }
 
-void SecureClient::State::take_data(const ReceivedDatagram& datagram,
-                                    std::vector<ClientEvent>& events) {
+void SecureClient::State::take_data(const ReceivedDatagram& datagram, std::vector<ClientEvent>& events) {
   const auto number = connection_of(datagram.bytes);
   if (!number) {
     ++past.malformed;
@@ -171,16 +169,14 @@ void SecureClient::State::take_data(const ReceivedDatagram& datagram,
   std::vector<ChannelMessage> messages;
   const Channel::Verdict verdict = channel->accept(datagram, now_s, messages);
   for (ChannelMessage& message : messages)
-    events.push_back({.kind = ClientEvent::Kind::message,
-                      .reliability = message.reliability,
-                      .bytes = std::move(message.bytes)});
+    events.push_back(
+        {.kind = ClientEvent::Kind::message, .reliability = message.reliability, .bytes = std::move(message.bytes)});
   if (verdict == Channel::Verdict::goodbye)
     lose(fmt::format("the server said goodbye: {}", printable(channel->goodbye())), events, longest_retry_s);
   if (verdict == Channel::Verdict::broken) lose("the server broke the protocol", events);
 }
 
-void SecureClient::State::connect(const ClientHandshake::Connected& connected,
-                                  std::vector<ClientEvent>& events) {
+void SecureClient::State::connect(const ClientHandshake::Connected& connected, std::vector<ClientEvent>& events) {
   if (channel) lose("the server has been started anew, or had lost this connection", events);
   const Channel::Options channel_options{.connection = connected.connection,
                                          .peer = options.server,
@@ -202,8 +198,7 @@ void SecureClient::State::connect(const ClientHandshake::Connected& connected,
   events.push_back({.kind = ClientEvent::Kind::connected});
 }
 
-void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& events,
-                               double knock_after_s) {
+void SecureClient::State::lose(std::string reason, std::vector<ClientEvent>& events, double knock_after_s) {
   past += channel->counters();
   channel.reset();
   state = ClientState::lost;
@@ -221,8 +216,7 @@ void SecureClient::State::knock() {
     handshake = ClientHandshake::start(options.identity, options.server_key,
                                        terms_of(options.limits, socket, options.server, 1));
   if (!handshake) return;  // The pinned key is none; no server can have it.
-  socket.send(options.server,
-              handshake->has_cookie() ? handshake->initiation() : handshake->hello());
+  socket.send(options.server, handshake->has_cookie() ? handshake->initiation() : handshake->hello());
   next_knock_s = now_s + retry_s;
   const bool refused = refusal == Obstacle::key_in_use || refusal == Obstacle::key_unknown;
   const bool patient = now_s - *trying_since_s > patient_after_s;
@@ -238,17 +232,14 @@ Obstacle SecureClient::State::obstacle() const {
   return is_not_understood ? Obstacle::other_server_key : Obstacle::none;
 }
 
-bool SecureClient::has_backlog() const {
-  return state_->channel && state_->channel->wants_to_send();
-}
+bool SecureClient::has_backlog() const { return state_->channel && state_->channel->wants_to_send(); }
 
 SendResult SecureClient::send(SharedBytes message, Reliability reliability, AddressKey key) {
   if (!state_->channel || state_->closed) return SendResult::not_connected;
   return state_->channel->send(std::move(message), reliability, key);
 }
 
-SendResult SecureClient::send(std::span<const std::byte> message, Reliability reliability,
-                              AddressKey key) {
+SendResult SecureClient::send(std::span<const std::byte> message, Reliability reliability, AddressKey key) {
   return send(share(Bytes(message.begin(), message.end())), reliability, key);
 }
 
@@ -280,9 +271,7 @@ const SessionId& SecureClient::session() const { return state_->session; }
 const ClockEstimate& SecureClient::clock() const {
   return state_->channel ? state_->channel->clock() : state_->no_clock;
 }
-double SecureClient::round_trip_s() const {
-  return state_->channel ? state_->channel->round_trip_s() : 0.0;
-}
+double SecureClient::round_trip_s() const { return state_->channel ? state_->channel->round_trip_s() : 0.0; }
 
 const ChannelCounters& SecureClient::counters() const {
   state_->asked = state_->past;

@@ -57,8 +57,7 @@ class SecureClient {
   bool has_backlog() const;
 
   SendResult send(SharedBytes message, Reliability reliability, AddressKey key = no_address_key);
-  SendResult send(std::span<const std::byte> message, Reliability reliability,
-                  AddressKey key = no_address_key);
+  SendResult send(std::span<const std::byte> message, Reliability reliability, AddressKey key = no_address_key);
   /// Says goodbye and stays silent from then on.
   void close();
 

@@ -72,8 +72,8 @@ SecureServer::~SecureServer() = default;
 std::vector<ServerEvent> SecureServer::pump(double now_s) {
   State& state = *state_;
   SEPTET_CHECK(now_s >= state.now_s, "time goes back from {} to {}", state.now_s, now_s);
-  state.handshake_tokens = std::min(
-      state.handshake_tokens + (now_s - state.now_s) * handshakes_per_s, handshakes_per_s / 5.0);
+  state.handshake_tokens =
+      std::min(state.handshake_tokens + (now_s - state.now_s) * handshakes_per_s, handshakes_per_s / 5.0);
   state.listened_s = state.now_s;
   state.now_s = now_s;
   std::vector<ServerEvent> events;
@@ -111,8 +111,7 @@ void SecureServer::State::receive(std::vector<ServerEvent>& events) {
   }
 }
 
-void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
-                                          std::vector<ServerEvent>& events) {
+void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram, std::vector<ServerEvent>& events) {
   if (!cookies.is_good(datagram.bytes, datagram.from, now_s)) {
     ++strangers.bad_cookies;
     return;
@@ -141,9 +140,8 @@ void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
   }
   if (living_namesake(client->key, datagram.from))
     return refuse(*handshake, HandshakeRefusal::key_in_use, datagram.from, events);
-  std::erase_if(connections, [&](const auto& entry) {
-    return !entry.second.confirmed && entry.second.client.key == client->key;
-  });
+  std::erase_if(connections,
+                [&](const auto& entry) { return !entry.second.confirmed && entry.second.client.key == client->key; });
   const Terms own = terms_of(options.limits, socket, datagram.from, options.allowed.size());
   const std::uint32_t number = unused_number();
   auto answer = handshake->respond(number, options.session, own);
@@ -165,8 +163,7 @@ void SecureServer::State::begin_handshake(const ReceivedDatagram& datagram,
                                          .response = std::move(answer->response)});
 }
 
-void SecureServer::State::take_data(const ReceivedDatagram& datagram,
-                                    std::vector<ServerEvent>& events) {
+void SecureServer::State::take_data(const ReceivedDatagram& datagram, std::vector<ServerEvent>& events) {
   const auto number = connection_of(datagram.bytes);
   if (!number) {
     ++strangers.malformed;
@@ -198,10 +195,9 @@ void SecureServer::State::confirm(Connection& connection, std::vector<ServerEven
     if (&other != &connection && other.confirmed && other.client.key == connection.client.key)
       other.drop_reason = "the same client has connected anew";
   drop_the_marked(events);
-  events.push_back(
-      {.kind = ServerEvent::Kind::connected,
-       .client = connection.channel.connection(),
-       .name = connection.client.name});
+  events.push_back({.kind = ServerEvent::Kind::connected,
+                    .client = connection.channel.connection(),
+                    .name = connection.client.name});
 }
 
 void SecureServer::State::mark_the_silent() {
@@ -210,8 +206,7 @@ void SecureServer::State::mark_the_silent() {
   });
   for (auto& [number, connection] : connections) {
     const double silence_s = now_s - connection.channel.heard_s();
-    if (connection.confirmed && connection.drop_reason.empty() &&
-        silence_s > options.limits.timeout_s)
+    if (connection.confirmed && connection.drop_reason.empty() && silence_s > options.limits.timeout_s)
       connection.drop_reason = fmt::format("not heard for {:.1f} s", silence_s);
   }
 }
@@ -225,9 +220,8 @@ void SecureServer::State::drop_the_marked(std::vector<ServerEvent>& events) {
     }
     if (connection.confirmed) {
       connection.channel.say_goodbye(connection.drop_reason, socket);
-      events.push_back({.kind = ServerEvent::Kind::disconnected,
-                        .client = entry->first,
-                        .reason = connection.drop_reason});
+      events.push_back(
+          {.kind = ServerEvent::Kind::disconnected, .client = entry->first, .reason = connection.drop_reason});
     }
     strangers += connection.channel.counters();
     entry = connections.erase(entry);
@@ -247,14 +241,12 @@ void SecureServer::State::emit() {
   for (bool is_first = true; !turns.empty(); is_first = false) {
     for (Connection* connection : turns) {
       if (!is_first && budget == 0) break;
-      const std::size_t sent =
-          connection->channel.emit(socket, now_s, std::min(turn_bytes, budget));
+      const std::size_t sent = connection->channel.emit(socket, now_s, std::min(turn_bytes, budget));
       budget -= std::min(sent, budget);
       next_turn = connection->channel.connection() + 1;
     }
     if (budget == 0) break;
-    std::erase_if(
-        turns, [](const Connection* connection) { return !connection->channel.wants_to_send(); });
+    std::erase_if(turns, [](const Connection* connection) { return !connection->channel.wants_to_send(); });
   }
   socket.flush();
 }
@@ -275,8 +267,7 @@ std::uint32_t SecureServer::State::unused_number() const {
 }
 
 /// A connection with this key from another address that was heard while the server listened.
-const Connection* SecureServer::State::living_namesake(const PublicKey& key,
-                                                       const Address& from) const {
+const Connection* SecureServer::State::living_namesake(const PublicKey& key, const Address& from) const {
   for (const auto& [number, connection] : connections)
     if (connection.confirmed && connection.drop_reason.empty() && connection.client.key == key &&
         connection.channel.peer() != from && listened_s - connection.channel.heard_s() < alive_s)
@@ -284,8 +275,8 @@ const Connection* SecureServer::State::living_namesake(const PublicKey& key,
   return nullptr;
 }
 
-void SecureServer::State::refuse(const ServerHandshake& handshake, HandshakeRefusal why,
-                                 const Address& from, std::vector<ServerEvent>& events) {
+void SecureServer::State::refuse(const ServerHandshake& handshake, HandshakeRefusal why, const Address& from,
+                                 std::vector<ServerEvent>& events) {
   const PublicKey& key = handshake.client();
   if (const auto answer = handshake.refuse(why)) socket.send(from, *answer);
   ++strangers.not_allowed;
@@ -295,26 +286,22 @@ void SecureServer::State::refuse(const ServerHandshake& handshake, HandshakeRefu
   refusal_reported = key;
   const AllowedClient* client = find_allowed(key);
   const Connection* first = living_namesake(key, from);
-  std::string reason =
-      client && first
-          ? fmt::format("a second client with the key of {} at {}; the first one, at {}, is alive",
-                        client->name, to_text(from), to_text(first->channel.peer()))
-          : fmt::format("a client at {} has the key {}, which is not on the list of allowed clients",
-                        to_text(from), to_text(key));
+  std::string reason = client && first
+                           ? fmt::format("a second client with the key of {} at {}; the first one, at {}, is alive",
+                                         client->name, to_text(from), to_text(first->channel.peer()))
+                           : fmt::format("a client at {} has the key {}, which is not on the list of allowed clients",
+                                         to_text(from), to_text(key));
   events.push_back({.kind = ServerEvent::Kind::refused, .reason = std::move(reason)});
 }
 
 bool SecureServer::has_backlog() const {
-  return std::any_of(state_->connections.begin(), state_->connections.end(), [](const auto& entry) {
-    return entry.second.confirmed && entry.second.channel.wants_to_send();
-  });
+  return std::any_of(state_->connections.begin(), state_->connections.end(),
+                     [](const auto& entry) { return entry.second.confirmed && entry.second.channel.wants_to_send(); });
 }
 
-SendResult SecureServer::send(ClientId client, SharedBytes message, Reliability reliability,
-                              AddressKey key) {
+SendResult SecureServer::send(ClientId client, SharedBytes message, Reliability reliability, AddressKey key) {
   const auto found = state_->connections.find(client);
-  if (found == state_->connections.end() || !found->second.confirmed ||
-      !found->second.drop_reason.empty())
+  if (found == state_->connections.end() || !found->second.confirmed || !found->second.drop_reason.empty())
     return SendResult::not_connected;
   const SendResult result = found->second.channel.send(std::move(message), reliability, key);
   if (result == SendResult::queue_full && reliability == Reliability::reliable)
@@ -322,16 +309,15 @@ SendResult SecureServer::send(ClientId client, SharedBytes message, Reliability 
   return result;
 }
 
-SendResult SecureServer::send(ClientId client, std::span<const std::byte> message,
-                              Reliability reliability, AddressKey key) {
+SendResult SecureServer::send(ClientId client, std::span<const std::byte> message, Reliability reliability,
+                              AddressKey key) {
   return send(client, share(Bytes(message.begin(), message.end())), reliability, key);
 }
 
 void SecureServer::disconnect(ClientId client, std::string reason) {
   const auto found = state_->connections.find(client);
   if (found != state_->connections.end() && found->second.confirmed)
-    found->second.drop_reason =
-        reason.empty() ? "the server ends the connection" : std::move(reason);
+    found->second.drop_reason = reason.empty() ? "the server ends the connection" : std::move(reason);
 }
 
 void SecureServer::set_allowed(std::vector<AllowedClient> allowed) {
@@ -341,8 +327,7 @@ void SecureServer::set_allowed(std::vector<AllowedClient> allowed) {
   });
   for (auto& [number, connection] : state_->connections) {
     const AllowedClient* client = state_->find_allowed(connection.client.key);
-    if (!client || client->name != connection.client.name)
-      connection.drop_reason = "it is no longer allowed";
+    if (!client || client->name != connection.client.name) connection.drop_reason = "it is no longer allowed";
   }
 }
 

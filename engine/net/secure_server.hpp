@@ -72,8 +72,7 @@ class SecureServer {
   /// More is waiting to be sent than the last pump was allowed to: pump again soon.
   bool has_backlog() const;
 
-  SendResult send(ClientId client, SharedBytes message, Reliability reliability,
-                  AddressKey key = no_address_key);
+  SendResult send(ClientId client, SharedBytes message, Reliability reliability, AddressKey key = no_address_key);
   SendResult send(ClientId client, std::span<const std::byte> message, Reliability reliability,
                   AddressKey key = no_address_key);
   /// Says goodbye; the event `disconnected` comes with the next pump.

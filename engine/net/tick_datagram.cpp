@@ -88,16 +88,14 @@ TickDatagramFault read_tick_datagram(std::span<const std::byte> bytes, TickDatag
   if (!reader.ok() || !ours || repetition > 1) return TickDatagramFault::malformed;
   out.repetition = repetition == 1;
 
-  if (header.payload_bytes > max_tick_bytes || header.fragments > max_fragments)
-    return TickDatagramFault::oversized;
+  if (header.payload_bytes > max_tick_bytes || header.fragments > max_fragments) return TickDatagramFault::oversized;
   if (header.sequence == 0 || header.fragment_bytes == 0 || out.index >= header.fragments ||
       header.fragments != fragment_count(header.payload_bytes, header.fragment_bytes))
     return TickDatagramFault::malformed;
   out.path_length = path_length(out.index, header.fragments);
   for (std::size_t i = 0; i < out.path_length; ++i) get_array(reader, out.path[i]);
   const std::size_t offset = std::size_t{out.index} * header.fragment_bytes;
-  const std::size_t length =
-      std::min<std::size_t>(header.fragment_bytes, header.payload_bytes - offset);
+  const std::size_t length = std::min<std::size_t>(header.fragment_bytes, header.payload_bytes - offset);
   out.fragment = reader.take(length);
   return reader.ok() && reader.at_end() ? TickDatagramFault::none : TickDatagramFault::malformed;
 }
@@ -126,8 +124,7 @@ std::array<std::byte, 69> signed_text(const TickHeader& header) {
 }
 
 Hash16 leaf_hash(std::uint16_t index, std::span<const std::byte> fragment) {
-  const std::byte tag[] = {std::byte{0}, static_cast<std::byte>(index & 0xff),
-                           static_cast<std::byte>(index >> 8)};
+  const std::byte tag[] = {std::byte{0}, static_cast<std::byte>(index & 0xff), static_cast<std::byte>(index >> 8)};
   return hash16({tag, fragment});
 }
 
@@ -148,8 +145,7 @@ std::vector<std::vector<Hash16>> build_tree(std::span<const std::span<const std:
 Hash16 root_of(const TickDatagram& datagram) {
   Hash16 hash = leaf_hash(datagram.index, datagram.fragment);
   std::size_t index = datagram.index, used = 0;
-  for (std::size_t count = datagram.header.fragments; count > 1;
-       index /= 2, count = (count + 1) / 2) {
+  for (std::size_t count = datagram.header.fragments; count > 1; index /= 2, count = (count + 1) / 2) {
     if ((index ^ 1) >= count) continue;
     const Hash16& sibling = datagram.path[used++];
     hash = index % 2 == 0 ? node_hash(hash, sibling) : node_hash(sibling, hash);

@@ -13,14 +13,13 @@ void take_path(const std::vector<std::vector<Hash16>>& tree, TickDatagram& datag
   datagram.path_length = 0;
   std::size_t index = datagram.index;
   for (std::size_t level = 0; level + 1 < tree.size(); ++level, index /= 2)
-    if ((index ^ 1) < tree[level].size())
-      datagram.path[datagram.path_length++] = tree[level][index ^ 1];
+    if ((index ^ 1) < tree[level].size()) datagram.path[datagram.path_length++] = tree[level][index ^ 1];
 }
 
 }  // namespace
 
-TickPublisher::TickPublisher(DatagramSocket& socket, const Identity& server,
-                             const SessionId& session, const TickPublisherOptions& options)
+TickPublisher::TickPublisher(DatagramSocket& socket, const Identity& server, const SessionId& session,
+                             const TickPublisherOptions& options)
     : socket_(socket), server_(server), session_(session), options_(options) {
   SEPTET_CHECK(options.max_datagram_bytes >= smallest_max_datagram_bytes &&
                    options.max_datagram_bytes <= largest_max_datagram_bytes,
@@ -32,17 +31,14 @@ void TickPublisher::add_destination(const Address& destination) {
     destinations_.push_back(destination);
 }
 
-void TickPublisher::remove_destination(const Address& destination) {
-  std::erase(destinations_, destination);
-}
+void TickPublisher::remove_destination(const Address& destination) { std::erase(destinations_, destination); }
 
 void TickPublisher::publish(std::uint64_t tick, std::span<const std::byte> payload) {
   SEPTET_CHECK(payload.size() <= max_tick_bytes, "tick {} of {} bytes", tick, payload.size());
   SEPTET_CHECK(sequence_ == 0 || tick > newest_tick_, "tick {} after {}", tick, newest_tick_);
   newest_tick_ = tick;
 
-  const std::size_t fragment_bytes =
-      choose_fragment_bytes(payload.size(), options_.max_datagram_bytes);
+  const std::size_t fragment_bytes = choose_fragment_bytes(payload.size(), options_.max_datagram_bytes);
   std::vector<std::span<const std::byte>> fragments;
   for (std::size_t offset = 0; offset == 0 || offset < payload.size(); offset += fragment_bytes)
     fragments.push_back(payload.subspan(offset, std::min(fragment_bytes, payload.size() - offset)));

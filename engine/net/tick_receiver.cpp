@@ -49,9 +49,9 @@ void TickReceiver::accept(std::span<const std::byte> bytes) {
     ++counters_.duplicates;
     return;
   }
-  const bool authentic = assembly ? header == assembly->header && root_of(datagram) == header.root
-                                  : root_of(datagram) == header.root &&
-                                        verify(datagram.signature, signed_text(header), server_);
+  const bool authentic =
+      assembly ? header == assembly->header && root_of(datagram) == header.root
+               : root_of(datagram) == header.root && verify(datagram.signature, signed_text(header), server_);
   if (!authentic) {
     ++counters_.forged;
     return;
@@ -77,9 +77,8 @@ TickReceiver::Assembly* TickReceiver::find(std::uint64_t sequence) {
 TickReceiver::Assembly& TickReceiver::start(const TickHeader& header) {
   if (!first_sequence_) first_sequence_ = newest_sequence_ = header.sequence;
   if (header.sequence > newest_sequence_) move_window(header.sequence);
-  const auto place =
-      std::find_if(assemblies_.begin(), assemblies_.end(),
-                   [&](const Assembly& other) { return other.header.sequence > header.sequence; });
+  const auto place = std::find_if(assemblies_.begin(), assemblies_.end(),
+                                  [&](const Assembly& other) { return other.header.sequence > header.sequence; });
   Assembly& assembly = *assemblies_.emplace(place);
   assembly.header = header;
   assembly.payload.resize(header.payload_bytes);

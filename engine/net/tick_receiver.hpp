@@ -26,18 +26,16 @@ struct ReceivedTick {
 };
 
 struct TickReceiverCounters {
-  std::uint64_t datagrams = 0;  ///< All that were offered.
-  std::uint64_t ticks = 0;      ///< Complete and handed out.
-  std::uint64_t repaired = 0;   ///< Of those, completed by a repetition.
-  std::uint64_t lost = 0;    ///< Left the window incomplete, or never seen between two that were.
-  std::uint64_t forged = 0;  ///< Signature or fragment hash does not hold.
+  std::uint64_t datagrams = 0;      ///< All that were offered.
+  std::uint64_t ticks = 0;          ///< Complete and handed out.
+  std::uint64_t repaired = 0;       ///< Of those, completed by a repetition.
+  std::uint64_t lost = 0;           ///< Left the window incomplete, or never seen between two that were.
+  std::uint64_t forged = 0;         ///< Signature or fragment hash does not hold.
   std::uint64_t other_session = 0;  ///< Of an earlier or unknown run of the server.
-  std::uint64_t malformed =
-      0;  ///< Not a tick datagram, truncated, or fields that contradict each other.
-  std::uint64_t oversized = 0;  ///< Claims more than max_tick_bytes.
-  std::uint64_t replayed = 0;   ///< Older than the window.
-  std::uint64_t duplicates =
-      0;  ///< Already held or handed out (every repetition of what arrived is one).
+  std::uint64_t malformed = 0;      ///< Not a tick datagram, truncated, or fields that contradict each other.
+  std::uint64_t oversized = 0;      ///< Claims more than max_tick_bytes.
+  std::uint64_t replayed = 0;       ///< Older than the window.
+  std::uint64_t duplicates = 0;     ///< Already held or handed out (every repetition of what arrived is one).
 };
 
 class TickReceiver {

@@ -32,15 +32,12 @@ sockaddr_in to_sockaddr(const Address& address) {
   return result;
 }
 
-Address to_address(const sockaddr_in& from) {
-  return {ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)};
-}
+Address to_address(const sockaddr_in& from) { return {ntohl(from.sin_addr.s_addr), ntohs(from.sin_port)}; }
 
 /// `batch` datagrams of one direction with what sendmmsg and recvmmsg want around them.
 struct Batch {
   /// Not cleared, so that pages which no datagram reaches cost nothing.
-  std::unique_ptr<std::byte[]> bytes =
-      std::make_unique_for_overwrite<std::byte[]>(batch * slot_bytes);
+  std::unique_ptr<std::byte[]> bytes = std::make_unique_for_overwrite<std::byte[]>(batch * slot_bytes);
   std::array<sockaddr_in, batch> addresses{};
   std::array<iovec, batch> spans{};
   std::array<mmsghdr, batch> headers{};
@@ -50,7 +47,7 @@ struct Batch {
   };
   std::array<Notes, batch> notes{};
   double steady_from_wall_s = 0.0;  ///< When these slots were received.
-  std::size_t begin = 0, end = 0;  ///< Slots in use.
+  std::size_t begin = 0, end = 0;   ///< Slots in use.
 
   Batch() {
     for (std::size_t i = 0; i < batch; ++i) {
@@ -88,13 +85,11 @@ tl::unexpected<Error> bind_failure(const Address& address, int error) {
   if (error == EADDRINUSE)
     return failure(
         "the port is in use by another program", where,
-        fmt::format("end it (`ss -lunp sport = :{}` names it) or set another port in the rig",
-                    address.port));
+        fmt::format("end it (`ss -lunp sport = :{}` names it) or set another port in the rig", address.port));
   if (error == EADDRNOTAVAIL)
     return failure("no interface of this machine has this address", where,
                    "set one that `ip -4 address` lists, or 0.0.0.0");
-  if (error == EACCES)
-    return failure("this user may not open the port", where, "set a port above 1023");
+  if (error == EACCES) return failure("this user may not open the port", where, "set a port above 1023");
   return failure(std::strerror(error), where, "check the address and port in the rig");
 }
 
@@ -131,8 +126,7 @@ Expected<UdpSocket> UdpSocket::open(const UdpOptions& options) {
   ::setsockopt(descriptor, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
   ::setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   const int size = static_cast<int>(options.buffer_bytes);
-  for (const auto& [forced, plain] :
-       {std::pair{SO_RCVBUFFORCE, SO_RCVBUF}, std::pair{SO_SNDBUFFORCE, SO_SNDBUF}})
+  for (const auto& [forced, plain] : {std::pair{SO_RCVBUFFORCE, SO_RCVBUF}, std::pair{SO_SNDBUFFORCE, SO_SNDBUF}})
     if (::setsockopt(descriptor, SOL_SOCKET, forced, &size, sizeof size) != 0)
       ::setsockopt(descriptor, SOL_SOCKET, plain, &size, sizeof size);
 
@@ -153,21 +147,17 @@ Expected<UdpSocket> UdpSocket::open(const UdpOptions& options) {
 Expected<UdpSocket> UdpSocket::open_group(const Address& group, std::uint32_t interface_ip) {
   auto socket = open({.bind = group, .share_port = true});
   if (!socket) return socket;
-  if (auto joined = socket->join_group(group, interface_ip); !joined)
-    return tl::unexpected(joined.error());
+  if (auto joined = socket->join_group(group, interface_ip); !joined) return tl::unexpected(joined.error());
   return socket;
 }
 
 Expected<void> UdpSocket::set_multicast(const MulticastOptions& options) {
   const in_addr interface { htonl(options.interface_ip) };
-  if (::setsockopt(state_->descriptor, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface) !=
-      0)
-    return failure("no interface for multicast has this address",
-                   "interface " + ip_text(options.interface_ip),
+  if (::setsockopt(state_->descriptor, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface) != 0)
+    return failure("no interface for multicast has this address", "interface " + ip_text(options.interface_ip),
                    "set one that `ip -4 address` lists in the rig");
   const int time_to_live = options.time_to_live, loopback = options.loopback ? 1 : 0;
-  ::setsockopt(state_->descriptor, IPPROTO_IP, IP_MULTICAST_TTL, &time_to_live,
-               sizeof time_to_live);
+  ::setsockopt(state_->descriptor, IPPROTO_IP, IP_MULTICAST_TTL, &time_to_live, sizeof time_to_live);
   ::setsockopt(state_->descriptor, IPPROTO_IP, IP_MULTICAST_LOOP, &loopback, sizeof loopback);
   return {};
 }
@@ -176,13 +166,11 @@ Expected<void> UdpSocket::join_group(const Address& group, std::uint32_t interfa
   ip_mreq request{};
   request.imr_multiaddr.s_addr = htonl(group.ip);
   request.imr_interface.s_addr = htonl(interface_ip);
-  if (::setsockopt(state_->descriptor, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) !=
-      0)
-    return failure(
-        fmt::format("the group cannot be joined: {}", std::strerror(errno)),
-        fmt::format("group {} on interface {}", to_text(group), ip_text(interface_ip)),
-        "give a group from 239.0.0.0/8 and an interface that `ip -4 address` lists, or let the "
-        "server use unicast");
+  if (::setsockopt(state_->descriptor, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) != 0)
+    return failure(fmt::format("the group cannot be joined: {}", std::strerror(errno)),
+                   fmt::format("group {} on interface {}", to_text(group), ip_text(interface_ip)),
+                   "give a group from 239.0.0.0/8 and an interface that `ip -4 address` lists, or let the "
+                   "server use unicast");
   return {};
 }
 
@@ -201,8 +189,8 @@ bool UdpSocket::send(const Address& to, std::span<const std::byte> bytes) {
 void UdpSocket::flush() {
   Batch& queue = state_->outgoing;
   while (queue.begin < queue.end) {
-    const int sent = ::sendmmsg(state_->descriptor, &queue.headers[queue.begin],
-                                static_cast<unsigned>(queue.end - queue.begin), 0);
+    const int sent =
+        ::sendmmsg(state_->descriptor, &queue.headers[queue.begin], static_cast<unsigned>(queue.end - queue.begin), 0);
     if (sent > 0) {
       queue.begin += static_cast<std::size_t>(sent);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
@@ -233,7 +221,8 @@ std::optional<ReceivedDatagram> UdpSocket::receive() {
   }
   const std::size_t slot = queue.begin++;
   const auto* first = static_cast<const std::byte*>(queue.spans[slot].iov_base);
-  return ReceivedDatagram{to_address(queue.addresses[slot]), {first, queue.headers[slot].msg_len},
+  return ReceivedDatagram{to_address(queue.addresses[slot]),
+                          {first, queue.headers[slot].msg_len},
                           arrival_s(queue.headers[slot].msg_hdr, queue.steady_from_wall_s)};
 }
 
@@ -246,8 +235,7 @@ bool wait_readable(std::span<const UdpSocket* const> sockets, double timeout_s) 
   std::vector<pollfd> waiting;
   for (const UdpSocket* socket : sockets) waiting.push_back({socket->file_descriptor(), POLLIN, 0});
   const double whole_s = std::floor(std::max(timeout_s, 0.0));
-  const timespec limit{static_cast<time_t>(whole_s),
-                       static_cast<long>((std::max(timeout_s, 0.0) - whole_s) * 1e9)};
+  const timespec limit{static_cast<time_t>(whole_s), static_cast<long>((std::max(timeout_s, 0.0) - whole_s) * 1e9)};
   return ::ppoll(waiting.data(), waiting.size(), &limit, nullptr) > 0;
 }
 

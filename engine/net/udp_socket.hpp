@@ -12,12 +12,9 @@
 namespace septet::net {
 
 struct UdpOptions {
-  Address
-      bind;  ///< Port 0: any free one. A multicast address: only that group's datagrams come in.
-  bool share_port =
-      false;  ///< Several sockets may bind it (the screens of one machine on one group).
-  std::size_t buffer_bytes =
-      4 << 20;  ///< Asked of the system for each direction; it may give less.
+  Address bind;             ///< Port 0: any free one. A multicast address: only that group's datagrams come in.
+  bool share_port = false;  ///< Several sockets may bind it (the screens of one machine on one group).
+  std::size_t buffer_bytes = 4 << 20;  ///< Asked of the system for each direction; it may give less.
 };
 
 /// How a socket sends to and hears groups. The interface is the IPv4 address of a local one; 0

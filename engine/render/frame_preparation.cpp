@@ -15,7 +15,8 @@ namespace septet::render {
 namespace {
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
-                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic, std::span<const SmokePuff> smoke) {
+                          const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
+                          std::span<const SmokePuff> smoke) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -28,9 +29,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
     return mesh.seen && mesh.radius_m * mesh.radius_m > least * least * glm::dot(centre_m, centre_m) &&
            intersects(volume, centre_m, mesh.radius_m);
   };
-  prepared.draws = prepare_draws(
-      context, scene, instant.parts, dynamic, eye_m, is_seen,
-      [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; });
+  prepared.draws = prepare_draws(context, scene, instant.parts, dynamic, eye_m, is_seen, [&](std::uint32_t material) {
+    return material < scene.materials.size() ? material : no_group;
+  });
   const ViewUniforms uniforms = view_uniforms(view, instant, shadows);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
@@ -38,7 +39,8 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
   const std::vector<GlowRecord> glows =
-      glow_records(instant.lamps, eye_m, instant.exposure.scale(), [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
+      glow_records(instant.lamps, eye_m, instant.exposure.scale(),
+                   [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
   context.statistics.instances += prepared.draws.instances;
@@ -49,8 +51,8 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
 constexpr std::array<float, cascade_count> caster_ranges_m{60.0f, 200.0f};
 
 /// What casts a shadow into a cascade that some view may see.
-SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const Instant& instant, const ShadowCascades& shadows,
-                             std::size_t index, const DynamicSurfaces& dynamic) {
+SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const Instant& instant,
+                             const ShadowCascades& shadows, std::size_t index, const DynamicSurfaces& dynamic) {
   const Cascade& cascade = shadows.cascades[index];
   const float least_radius_m = 1.5f * cascade.texel_m;
   // A shadow falls away from the light, no further than a high thing's at a low sun.
@@ -73,10 +75,13 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   std::uint32_t solid = no_group;
   for (std::uint32_t i = 0; i < scene.materials.size() && solid == no_group; ++i)
     if (!scene.materials[i].cut && !scene.materials[i].blended) solid = i;
-  return prepare_draws(context, scene, instant.parts, dynamic, shadows.eye_m, casts, [&](std::uint32_t material) {
-    if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
-    return scene.materials[material].cut ? material : solid;
-  }, caster_ranges_m[index]);
+  return prepare_draws(
+      context, scene, instant.parts, dynamic, shadows.eye_m, casts,
+      [&](std::uint32_t material) {
+        if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
+        return scene.materials[material].cut ? material : solid;
+      },
+      caster_ranges_m[index]);
 }
 
 }  // namespace
@@ -89,7 +94,8 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
-  for (std::size_t i = 0; i < cascade_count; ++i) frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
+  for (std::size_t i = 0; i < cascade_count; ++i)
+    frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
   return frame;
 }
 

@@ -25,7 +25,8 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
   }
   description.format = formats.radiance;
   description.samples = formats.samples;
-  description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  description.usage =
+      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   targets.radiance = create_image(memory, description);
   description.format = formats.depth;
   description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -39,7 +40,8 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
 }
 
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory) {
-  for (vulkan::DeviceImage* image : {&targets.radiance, &targets.depth, &targets.mapped, &targets.picture, &targets.shadow_map})
+  for (vulkan::DeviceImage* image :
+       {&targets.radiance, &targets.depth, &targets.mapped, &targets.picture, &targets.shadow_map})
     destroy_image(memory, *image);
   targets = {};
 }
@@ -69,8 +71,10 @@ void begin_view_rendering(PassContext& context, const FrameTargets& targets) {
 void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle) {
   constexpr std::int32_t rim_px = 3;
   const std::int32_t left = std::max(0, rectangle.x - rim_px), top = std::max(0, rectangle.y - rim_px);
-  const std::int32_t right = std::min(std::int32_t(targets.width), rectangle.x + std::int32_t(rectangle.width) + rim_px);
-  const std::int32_t bottom = std::min(std::int32_t(targets.height), rectangle.y + std::int32_t(rectangle.height) + rim_px);
+  const std::int32_t right =
+      std::min(std::int32_t(targets.width), rectangle.x + std::int32_t(rectangle.width) + rim_px);
+  const std::int32_t bottom =
+      std::min(std::int32_t(targets.height), rectangle.y + std::int32_t(rectangle.height) + rim_px);
   VkClearAttachment rim{};
   rim.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
   rim.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
@@ -89,25 +93,28 @@ void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::
   region.bufferOffset = data.offset;
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {image.description.width, image.description.height, 1};
-  vkCmdCopyBufferToImage(context.slot.commands, data.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+  vkCmdCopyBufferToImage(context.slot.commands, data.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                         &region);
 }
 
 namespace {
 
 /// Waits, and copies an image of one sample a pixel, which is a transfer source; `before` is recorded first.
-void read_image(const vulkan::DeviceImage& image, const vulkan::Device& device, vulkan::MemoryPool& memory, std::span<std::byte> texels,
-                const std::function<void(VkCommandBuffer)>& before) {
+void read_image(const vulkan::DeviceImage& image, const vulkan::Device& device, vulkan::MemoryPool& memory,
+                std::span<std::byte> texels, const std::function<void(VkCommandBuffer)>& before) {
   struct Owned {
     vulkan::MemoryPool& memory;
     vulkan::Buffer buffer;
     ~Owned() { destroy_buffer(memory, buffer); }
-  } owned{memory, create_buffer(memory, texels.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::read_by_host)};
+  } owned{memory,
+          create_buffer(memory, texels.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::read_by_host)};
   run_once(device, [&](VkCommandBuffer commands) {
     before(commands);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {image.description.width, image.description.height, 1};
-    vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, owned.buffer.buffer, 1, &region);
+    vkCmdCopyImageToBuffer(commands, image.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, owned.buffer.buffer, 1,
+                           &region);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -129,13 +136,17 @@ void read_picture(const FrameTargets& targets, const vulkan::Device& device, vul
   read_image(targets.picture, device, memory, std::as_writable_bytes(rgba), [](VkCommandBuffer) {});
 }
 
-void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory, std::span<std::uint64_t> rgba) {
+void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
+                   std::span<std::uint64_t> rgba) {
   SEPTET_CHECK(rgba.size() == std::size_t{targets.width} * targets.height, "{} texels", rgba.size());
   const auto texels = std::as_writable_bytes(rgba);
-  const vulkan::ImageBarrier source{&targets.radiance, VK_NULL_HANDLE, targets.radiance_access, Access::transfer_source, false};
+  const vulkan::ImageBarrier source{&targets.radiance, VK_NULL_HANDLE, targets.radiance_access, Access::transfer_source,
+                                    false};
   targets.radiance_access = Access::transfer_source;
   if (targets.radiance.description.samples == VK_SAMPLE_COUNT_1_BIT) {
-    read_image(targets.radiance, device, memory, texels, [&](VkCommandBuffer commands) { vulkan::record_barriers(commands, {&source, 1}); });
+    read_image(targets.radiance, device, memory, texels, [&](VkCommandBuffer commands) {
+      vulkan::record_barriers(commands, {&source, 1});
+    });
     return;
   }
   struct Owned {

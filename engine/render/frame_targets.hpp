@@ -39,6 +39,7 @@ void upload_texels(PassContext& context, const vulkan::DeviceImage& image, std::
 void read_picture(const FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
                   std::span<std::uint8_t> rgba);
 /// The same of the radiance, the mean of its samples, as half floats; it leaves its access changed.
-void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory, std::span<std::uint64_t> rgba);
+void read_radiance(FrameTargets& targets, const vulkan::Device& device, vulkan::MemoryPool& memory,
+                   std::span<std::uint64_t> rgba);
 
 }  // namespace septet::render

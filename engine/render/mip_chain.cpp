@@ -74,8 +74,7 @@ void keep_coverage(std::vector<std::uint8_t>& rgba, double wanted) {
     const double middle = 0.5 * (low + high);
     (share_passing(rgba, middle) < wanted ? low : high) = middle;
   }
-  for (std::size_t i = 3; i < rgba.size(); i += 4)
-    rgba[i] = static_cast<std::uint8_t>(std::min(255.0, rgba[i] * high));
+  for (std::size_t i = 3; i < rgba.size(); i += 4) rgba[i] = static_cast<std::uint8_t>(std::min(255.0, rgba[i] * high));
 }
 
 }  // namespace
@@ -91,7 +90,8 @@ bool has_holes(std::span<const std::uint8_t> rgba) {
   return false;
 }
 
-std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
+std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                bool srgb) {
   SEPTET_CHECK(width > 0 && height > 0 && rgba.size() == std::size_t{4} * width * height, "{} × {} pixels in {} bytes",
                width, height, rgba.size());
   const Transfer& transfer = transfer_of(srgb);

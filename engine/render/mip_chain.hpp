@@ -20,7 +20,8 @@ struct MipLevel {
 double linear_of_code(std::size_t code, bool srgb);
 
 /// All levels, the full image first, down to 1 × 1.
-std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+std::vector<MipLevel> mip_chain(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                bool srgb);
 
 /// Does any pixel fall below the cut at ½?
 bool has_holes(std::span<const std::uint8_t> rgba);

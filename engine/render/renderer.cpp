@@ -59,11 +59,11 @@ struct Renderer::Parts {
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;
-  std::shared_ptr<const SkyLight> light;        ///< Of that environment, for whoever brings none.
+  std::shared_ptr<const SkyLight> light;  ///< Of that environment, for whoever brings none.
   Access sky_table_access = Access::none, atlas_access = Access::none;
   bool smoothed = false;
   bool drawn = false;
-  Exposure exposure;                             ///< Of the last frame.
+  Exposure exposure;                            ///< Of the last frame.
   std::shared_ptr<const SkyLight> table_light;  ///< Whose sky the table holds.
   RenderStatistics statistics;
 
@@ -81,10 +81,9 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   vulkan::DeviceOptions device_options{wanted.device == DevicePreference::software, wanted.validation, {}, {}};
   if (wanted.window) add_window(device_options, *wanted.window);
   create_device(device, device_options);
-  const VkSampleCountFlags samples = device.properties.limits.framebufferColorSampleCounts &
-                                     device.properties.limits.framebufferDepthSampleCounts &
-                                     device.properties.limits.sampledImageColorSampleCounts &
-                                     device.properties.limits.sampledImageDepthSampleCounts;
+  const VkSampleCountFlags samples =
+      device.properties.limits.framebufferColorSampleCounts & device.properties.limits.framebufferDepthSampleCounts &
+      device.properties.limits.sampledImageColorSampleCounts & device.properties.limits.sampledImageDepthSampleCounts;
   const bool software = device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   Antialiasing antialiasing = wanted.antialiasing;
   if (antialiasing == Antialiasing::automatic)
@@ -153,8 +152,8 @@ void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedV
                       prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
     push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
     bind_instances(context, prepared.draws.records);
-    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, environment.snow_cover > 0.0,
-                                     !instant.soot.cover.empty()};
+    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights,
+                                     environment.snow_cover > 0.0, !instant.soot.cover.empty()};
     push_records(context, soot);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
     draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
@@ -202,11 +201,10 @@ void Renderer::Parts::draw(const Instant& instant) {
   if (targets.smoothed()) mapped = add_image("before smoothing", targets.mapped, targets.mapped_access);
 
   if (new_light)
-    graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}},
-                   [&] {
-                     const std::vector<std::uint64_t> texels = packed(instant.light->table);
-                     upload_texels(context, sky_table, std::as_bytes(std::span(texels)));
-                   });
+    graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}}, [&] {
+      const std::vector<std::uint64_t> texels = packed(instant.light->table);
+      upload_texels(context, sky_table, std::as_bytes(std::span(texels)));
+    });
   graph.add_pass("shadows", {{}, {{shadow_map, Access::depth_attachment}}}, [&] {
     for (std::size_t i = 0; i < cascade_count; ++i)
       draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
@@ -216,20 +214,25 @@ void Renderer::Parts::draw(const Instant& instant) {
                  {{{table, Access::sampled}, {shadow_map, Access::sampled}},
                   {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
                  [&] { draw_views(context, frame.views, instant); });
-  graph.add_pass("tone mapping", {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
-    draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view, targets.smoothed() ? targets.mapped.view : targets.picture.view,
-                     targets.width, targets.height, instant.exposure.scale());
-  });
+  graph.add_pass("tone mapping",
+                 {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
+                   draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view,
+                                    targets.smoothed() ? targets.mapped.view : targets.picture.view, targets.width,
+                                    targets.height, instant.exposure.scale());
+                 });
   if (mapped)
     graph.add_pass("smoothing", {{{*mapped, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
       draw_smoothed(smoothing_pass, context, targets.mapped.view, targets.picture.view, targets.width, targets.height);
     });
   if (new_text)
-    graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}}, [&] { upload_atlas(*overlay_pass, context); });
+    graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}},
+                   [&] { upload_atlas(*overlay_pass, context); });
   if (!instant.overlay.empty())
-    graph.add_pass("overlay",
-                   {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}},
-                   [&] { draw_overlay(*overlay_pass, context, instant.overlay, targets.picture.view, targets.width, targets.height); });
+    graph.add_pass(
+        "overlay",
+        {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}}, [&] {
+          draw_overlay(*overlay_pass, context, instant.overlay, targets.picture.view, targets.width, targets.height);
+        });
   graph.keep(picture, Access::transfer_source);
   const std::optional<std::uint32_t> window_image = next_window_image(context.slot);
   if (window_image) {
@@ -317,8 +320,9 @@ Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
 Expected<void> Renderer::draw(const Instant& instant) {
   for (const FrameView& view : instant.views) {
     const auto& [x, y, w, h] = view.viewport;
-    SEPTET_CHECK(x >= 0 && y >= 0 && w > 0 && h > 0 && x + std::int64_t{w} <= width() && y + std::int64_t{h} <= height(),
-                 "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
+    SEPTET_CHECK(
+        x >= 0 && y >= 0 && w > 0 && h > 0 && x + std::int64_t{w} <= width() && y + std::int64_t{h} <= height(),
+        "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
   }
   try {
     parts_->draw(instant);
@@ -359,7 +363,8 @@ Expected<RadianceImage> Renderer::read_radiance() {
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
-  std::ranges::transform(halves, result.radiance.begin(), [](std::uint64_t half) { return glm::vec3(glm::unpackHalf4x16(half)); });
+  std::ranges::transform(halves, result.radiance.begin(),
+                         [](std::uint64_t half) { return glm::vec3(glm::unpackHalf4x16(half)); });
   return result;
 }
 

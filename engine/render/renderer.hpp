@@ -28,7 +28,7 @@ enum class DevicePreference : std::uint8_t {
 
 /// How the stairs of edges are smoothed.
 enum class Antialiasing : std::uint8_t {
-  automatic,     ///< Four samples a pixel on a graphics card, smoothing on a software device, where samples cost as much again.
+  automatic,  ///< Four samples a pixel on a graphics card, smoothing on a software device, where samples cost as much again.
   none,
   smoothing,     ///< After drawing, from the picture alone.
   multisampled,  ///< Four samples a pixel.
@@ -44,10 +44,10 @@ struct RendererOptions {
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.
 struct RenderStatistics {
-  std::uint32_t triangles = 0;         ///< Submitted, shadows included.
+  std::uint32_t triangles = 0;  ///< Submitted, shadows included.
   std::uint32_t shadow_triangles = 0;
   std::uint32_t draws = 0;
-  std::uint32_t instances = 0;         ///< That passed culling, shadows not included.
+  std::uint32_t instances = 0;  ///< That passed culling, shadows not included.
   std::uint32_t validation_messages = 0;
   std::string first_validation_message;
 };

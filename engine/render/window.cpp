@@ -10,8 +10,9 @@ namespace septet::render {
 namespace {
 
 constexpr std::array<int, key_count> glfw_keys{
-    GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD, GLFW_KEY_A, GLFW_KEY_D,
-    GLFW_KEY_E, GLFW_KEY_F, GLFW_KEY_H, GLFW_KEY_L, GLFW_KEY_Q, GLFW_KEY_S, GLFW_KEY_W, GLFW_KEY_X, GLFW_KEY_F1, GLFW_KEY_ESCAPE};
+    GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD,
+    GLFW_KEY_A,  GLFW_KEY_D,    GLFW_KEY_E,    GLFW_KEY_F,     GLFW_KEY_H,     GLFW_KEY_L,     GLFW_KEY_Q,
+    GLFW_KEY_S,  GLFW_KEY_W,    GLFW_KEY_X,    GLFW_KEY_F1,    GLFW_KEY_ESCAPE};
 
 std::string glfw_error() {
   const char* text = nullptr;
@@ -43,7 +44,8 @@ Expected<Window> Window::open(const WindowOptions& options) {
                    "start it in a graphical session, or use --virtual");
   glfw->initialised = true;
   if (!glfwVulkanSupported())
-    return failure("the display cannot show Vulkan pictures", "display", "install mesa-vulkan-drivers, or use --virtual");
+    return failure("the display cannot show Vulkan pictures", "display",
+                   "install mesa-vulkan-drivers, or use --virtual");
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   GLFWmonitor* monitor = nullptr;
   int width = static_cast<int>(options.width), height = static_cast<int>(options.height);
@@ -53,7 +55,8 @@ Expected<Window> Window::open(const WindowOptions& options) {
   const bool is_there = wanted < static_cast<std::uint32_t>(count);
   if (options.full_screen) {
     if (!is_there)
-      return failure(fmt::format("there are {} monitors, and none with index {}", count, wanted), "display", "connect it, or name another monitor in the rig");
+      return failure(fmt::format("there are {} monitors, and none with index {}", count, wanted), "display",
+                     "connect it, or name another monitor in the rig");
     monitor = monitors[wanted];
     // The monitor keeps its own resolution and rate.
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
@@ -76,7 +79,8 @@ Expected<Window> Window::open(const WindowOptions& options) {
   glfwSetInputMode(glfw->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   glfwSetWindowUserPointer(glfw->window, glfw.get());
   glfwSetKeyCallback(glfw->window, [](GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ESCAPE) static_cast<Glfw*>(glfwGetWindowUserPointer(window))->touched = true;
+    if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ESCAPE)
+      static_cast<Glfw*>(glfwGetWindowUserPointer(window))->touched = true;
   });
   if (monitor) glfwSetInputMode(glfw->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
   return Window(std::move(glfw));

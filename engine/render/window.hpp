@@ -18,8 +18,9 @@ namespace septet::render {
 struct WindowOptions {
   std::string title = "Septet";
   std::uint32_t width = 1280, height = 720;
-  std::optional<std::uint32_t> monitor;  ///< Index; nothing: the first for a full screen, for a window where the system likes.
-  bool full_screen = false;              ///< Cover the monitor, in its own resolution and rate.
+  std::optional<std::uint32_t>
+      monitor;               ///< Index; nothing: the first for a full screen, for a window where the system likes.
+  bool full_screen = false;  ///< Cover the monitor, in its own resolution and rate.
 };
 
 /// The first gamepad: sticks in [−1, 1] (right and down positive), triggers in [0, 1].

@@ -14,8 +14,8 @@ enum Packing : std::uint8_t { plain, zstd };
 void put_commands(ByteWriter& out, const Bytes& commands) {
   if (commands.size() >= worth_packing) {
     Bytes packed(ZSTD_compressBound(commands.size()));
-    const std::size_t size = ZSTD_compress(packed.data(), packed.size(), commands.data(),
-                                           commands.size(), packing_level);
+    const std::size_t size =
+        ZSTD_compress(packed.data(), packed.size(), commands.data(), commands.size(), packing_level);
     if (!ZSTD_isError(size) && size < commands.size()) {
       out.put(static_cast<std::uint8_t>(zstd));
       out.put_varint(commands.size());
@@ -51,9 +51,7 @@ struct Put {
   void operator()(const CommandBatch& m) const {
     out.put_varint(m.sequence), out.put_varint(m.received), put_commands(out, m.commands);
   }
-  void operator()(const Complete& m) const {
-    out.put_varint(m.revision), out.put_varint(m.answered);
-  }
+  void operator()(const Complete& m) const { out.put_varint(m.revision), out.put_varint(m.answered); }
   void operator()(const Received& m) const { out.put_varint(m.sequence); }
 };
 
@@ -105,13 +103,11 @@ Expected<Message> decode(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto version = in.get<std::uint8_t>();
   if (!in.ok() || version != message_version)
-    return failure(
-        fmt::format("replication speaks version {} and not {}", version, message_version),
-        "replication message", "run the same release of Septet on both ends");
+    return failure(fmt::format("replication speaks version {} and not {}", version, message_version),
+                   "replication message", "run the same release of Septet on both ends");
   Message message = get(in, in.get<std::uint8_t>());
   if (!in.ok() || !in.at_end())
-    return failure("the bytes are none of a message", "replication message",
-                   "see REPLICATION.md for the format");
+    return failure("the bytes are none of a message", "replication message", "see REPLICATION.md for the format");
   return message;
 }
 

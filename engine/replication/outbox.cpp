@@ -8,14 +8,13 @@ namespace septet::replication {
 namespace {
 
 constexpr std::size_t chunk_bytes = 24 * 1024;  ///< Of a range, before it is packed.
-constexpr std::size_t most_ranges = 64;  ///< More are taken together, with what lies between.
+constexpr std::size_t most_ranges = 64;         ///< More are taken together, with what lies between.
 
 using Ranges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 void add_range(Ranges& ranges, std::uint32_t first, std::uint32_t end) {
-  auto at =
-      std::lower_bound(ranges.begin(), ranges.end(), first,
-                       [](const auto& range, std::uint32_t value) { return range.second < value; });
+  auto at = std::lower_bound(ranges.begin(), ranges.end(), first,
+                             [](const auto& range, std::uint32_t value) { return range.second < value; });
   // Everything from `at` on that touches the new range is taken into it.
   auto last = at;
   for (; last != ranges.end() && last->first <= end; ++last) {
@@ -37,10 +36,8 @@ void Outbox::mark(const Change& change) {
     order_.push_back(change.subject);
   } else {
     waiting.change.renew = waiting.change.renew || change.renew;
-    waiting.change.smallest_vertices =
-        std::min(waiting.change.smallest_vertices, change.smallest_vertices);
-    waiting.change.smallest_polygons =
-        std::min(waiting.change.smallest_polygons, change.smallest_polygons);
+    waiting.change.smallest_vertices = std::min(waiting.change.smallest_vertices, change.smallest_vertices);
+    waiting.change.smallest_polygons = std::min(waiting.change.smallest_polygons, change.smallest_polygons);
   }
   if (is_range(change.subject.kind)) add_range(waiting.ranges, change.first, change.end);
 }
@@ -49,12 +46,10 @@ void Outbox::forget(const Subject& first, const Subject& last) {
   waiting_.erase(waiting_.lower_bound(first), waiting_.upper_bound(last));
 }
 
-void Outbox::write_whole(const scene::Store& store, const Subject& subject, Bytes& out,
-                         std::vector<Change>& sent) {
+void Outbox::write_whole(const scene::Store& store, const Subject& subject, Bytes& out, std::vector<Change>& sent) {
   const auto found = waiting_.find(subject);
   if (found == waiting_.end()) return;
-  describe_change(store, found->second.change,
-                  [&](const scene::Command& command) { encode(command, out); });
+  describe_change(store, found->second.change, [&](const scene::Command& command) { encode(command, out); });
   sent.push_back(found->second.change);
   waiting_.erase(found);
 }
@@ -83,8 +78,7 @@ void Outbox::write_what_it_needs(const scene::Store& store, const Subject& subje
   }
 }
 
-void Outbox::write(const scene::Store& store, std::size_t bytes, Bytes& out,
-                   std::vector<Change>& sent) {
+void Outbox::write(const scene::Store& store, std::size_t bytes, Bytes& out, std::vector<Change>& sent) {
   while (out.size() < bytes && !order_.empty()) {
     const Subject subject = order_.front();
     const auto found = waiting_.find(subject);

@@ -27,14 +27,12 @@ class Outbox {
 
  private:
   struct Waiting {
-    Change change;  ///< Of a range subject only the subject counts.
+    Change change;                                                ///< Of a range subject only the subject counts.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  ///< [first, end), rising, apart.
   };
 
-  void write_whole(const scene::Store& store, const Subject& subject, Bytes& out,
-                   std::vector<Change>& sent);
-  void write_what_it_needs(const scene::Store& store, const Subject& subject, Bytes& out,
-                           std::vector<Change>& sent);
+  void write_whole(const scene::Store& store, const Subject& subject, Bytes& out, std::vector<Change>& sent);
+  void write_what_it_needs(const scene::Store& store, const Subject& subject, Bytes& out, std::vector<Change>& sent);
 
   std::map<Subject, Waiting> waiting_;
   std::deque<Subject> order_;  ///< May name subjects that no longer wait.

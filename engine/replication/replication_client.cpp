@@ -80,8 +80,7 @@ struct ReplicationClient::State {
   }
   void subscribe(NodeId node, NodeType type, PartKind kind, PartId part, std::string_view name) {
     if (policy.wants_part && !policy.wants_part(type, kind, name)) return;
-    if (subscribed_parts.insert({node, kind, part}).second)
-      queue(PartSubscribe{node, kind, part, true});
+    if (subscribed_parts.insert({node, kind, part}).second) queue(PartSubscribe{node, kind, part, true});
   }
   void forget_parts(NodeId node) {
     constexpr PartId last = std::numeric_limits<PartId>::max();
@@ -100,8 +99,7 @@ struct ReplicationClient::State {
     } else if (const auto* destroyed = std::get_if<NodeDestroy>(&command)) {
       forget_parts(destroyed->node);
     } else if (const auto* group = std::get_if<TagGroupSet>(&command)) {
-      subscribe(group->node, mirror().find(group->node)->type(), PartKind::tag_group, group->group,
-                group->name);
+      subscribe(group->node, mirror().find(group->node)->type(), PartKind::tag_group, group->group, group->name);
     } else if (const auto* no_group = std::get_if<TagGroupDestroy>(&command)) {
       subscribed_parts.erase({no_group->node, PartKind::tag_group, no_group->group});
     } else if (const auto* layer = std::get_if<GeometryLayerSet>(&command)) {
@@ -133,8 +131,8 @@ struct ReplicationClient::State {
     acknowledge(message.received);
     if (message.sequence <= received) return {};
     if (message.sequence != received + 1)
-      return failure(fmt::format("batch {} follows {}", message.sequence, received),
-                     "replication server", "connect again");
+      return failure(fmt::format("batch {} follows {}", message.sequence, received), "replication server",
+                     "connect again");
     ByteReader in(message.commands);
     while (!in.at_end()) {
       const auto command = scene::decode(in);
@@ -160,13 +158,11 @@ struct ReplicationClient::State {
     return {};
   }
   Expected<void> operator()(const Hello&) {
-    return failure("a message that only a client sends", "replication server",
-                   "connect to a server");
+    return failure("a message that only a client sends", "replication server", "connect to a server");
   }
 
   void acknowledge(std::uint64_t sequence) {
-    while (!unacknowledged.empty() && unacknowledged.front().sequence <= sequence)
-      unacknowledged.pop_front();
+    while (!unacknowledged.empty() && unacknowledged.front().sequence <= sequence) unacknowledged.pop_front();
     to_repeat = std::min(to_repeat, unacknowledged.size());
   }
 
@@ -204,8 +200,7 @@ Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
   const auto decoded = decode(message);
   // Until the welcome, messages of an earlier session may still be on their way.
   if (decoded && !state_->welcomed && !std::holds_alternative<Welcome>(*decoded)) return {};
-  auto done =
-      decoded ? std::visit(*state_, *decoded) : Expected<void>(tl::unexpected(decoded.error()));
+  auto done = decoded ? std::visit(*state_, *decoded) : Expected<void>(tl::unexpected(decoded.error()));
   if (!done) {
     // A mirror that missed something is not gone on with.
     state_->token = 0;

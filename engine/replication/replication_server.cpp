@@ -35,8 +35,7 @@ struct Session {
   std::string identity;
 
   std::uint32_t node_types = 0;
-  NodeId next_listed =
-      no_node;  ///< From here on the index is still to be listed; no_node: nothing is.
+  NodeId next_listed = no_node;  ///< From here on the index is still to be listed; no_node: nothing is.
   std::set<NodeId> announced;
   std::map<NodeId, std::set<std::pair<PartKind, PartId>>> subscriptions;
 
@@ -53,8 +52,7 @@ struct Session {
   bool wants(const Subject& subject) const {
     const auto node = subscriptions.find(subject.node);
     if (node == subscriptions.end()) return false;
-    if (subject.kind == SubjectKind::tag)
-      return node->second.contains({PartKind::tag_group, subject.part});
+    if (subject.kind == SubjectKind::tag) return node->second.contains({PartKind::tag_group, subject.part});
     if (is_range(subject.kind)) return node->second.contains({PartKind::layer, subject.part});
     return true;
   }
@@ -71,8 +69,7 @@ struct Session {
     acknowledge(arrived);
     for (const Unacknowledged& lost : unacknowledged)
       for (const Change& change : lost.changes)
-        if (change.subject.kind == SubjectKind::existence || wants(change.subject))
-          outbox.mark(change);
+        if (change.subject.kind == SubjectKind::existence || wants(change.subject)) outbox.mark(change);
     unacknowledged.clear();
     unacknowledged_bytes = 0;
     sent = arrived;
@@ -92,8 +89,7 @@ void forget_content(Outbox& outbox, const Subject& definition) {
   if (kind == SubjectKind::tag_group)
     outbox.forget({node, SubjectKind::tag, part, 0}, {node, SubjectKind::tag, part, 0xFFFF});
   if (kind == SubjectKind::geometry_layer)
-    outbox.forget({node, SubjectKind::layer_values, part, 0},
-                  {node, SubjectKind::layer_values, part, 0xFFFF});
+    outbox.forget({node, SubjectKind::layer_values, part, 0}, {node, SubjectKind::layer_values, part, 0xFFFF});
   if (kind == SubjectKind::bitmap_layer)
     outbox.forget({node, SubjectKind::tiles, part, 0}, {node, SubjectKind::tiles, part, 0xFFFF});
 }
@@ -120,15 +116,13 @@ struct ReplicationServer::State {
       } else {
         if (session.announced.erase(node) == 0) return;
         session.subscriptions.erase(node);
-        session.outbox.forget({node, SubjectKind::name, 0, 0},
-                              {node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
+        session.outbox.forget({node, SubjectKind::name, 0, 0}, {node, SubjectKind::tiles, 0xFFFF, 0xFFFF});
       }
       return session.outbox.mark(change);
     }
     if (!session.wants(change.subject)) return;
     if (change.renew) {
-      const PartKind kind =
-          change.subject.kind == SubjectKind::tag_group ? PartKind::tag_group : PartKind::layer;
+      const PartKind kind = change.subject.kind == SubjectKind::tag_group ? PartKind::tag_group : PartKind::layer;
       session.subscriptions[node].erase({kind, change.subject.part});
       forget_content(session.outbox, change.subject);
     }
@@ -206,17 +200,15 @@ struct ReplicationServer::State {
   Expected<void> hello(Connection& connection, const Hello& message) {
     // A client may be back before the loss of its old connection was noticed.
     for (auto& [id, other] : connections)
-      if (other.session && other.session->token == message.token &&
-          other.identity == connection.identity)
+      if (other.session && other.session->token == message.token && other.identity == connection.identity)
         lost.push_back(std::move(other.session));
     trim_lost();
     connection.session.reset();  // A client that found a fault starts anew without a token.
     const auto found = std::find_if(lost.begin(), lost.end(), [&](const auto& session) {
-      return message.token != 0 && session->token == message.token &&
-             session->identity == connection.identity && message.received <= session->sent &&
-             (session->unacknowledged.empty()
-                  ? message.received == session->sent
-                  : message.received + 1 >= session->unacknowledged.front().sequence);
+      return message.token != 0 && session->token == message.token && session->identity == connection.identity &&
+             message.received <= session->sent &&
+             (session->unacknowledged.empty() ? message.received == session->sent
+                                              : message.received + 1 >= session->unacknowledged.front().sequence);
     });
     const bool resumed = found != lost.end();
     if (resumed) {
@@ -231,8 +223,7 @@ struct ReplicationServer::State {
       connection.session->token = std::max<std::uint64_t>(1, token.value());
       connection.session->identity = connection.identity;
     }
-    connection.unsent =
-        encode(Welcome{connection.session->token, resumed, connection.session->received});
+    connection.unsent = encode(Welcome{connection.session->token, resumed, connection.session->received});
     return {};
   }
 
@@ -240,8 +231,7 @@ struct ReplicationServer::State {
     if (message.sequence <= session.received) return std::vector<Command>{};
     if (message.sequence != session.received + 1)
       return failure(fmt::format("batch {} follows {}", message.sequence, session.received),
-                     "replication client " + session.identity,
-                     "repeat unanswered batches in order");
+                     "replication client " + session.identity, "repeat unanswered batches in order");
     std::vector<Command> changes;
     ByteReader in(message.commands);
     while (!in.at_end()) {
@@ -275,8 +265,7 @@ struct ReplicationServer::State {
     Session& session = *connection.session;
 
     int requests = requests_per_pump;
-    for (std::size_t written = 0;
-         written < max_bytes && session.unacknowledged_bytes < options.window_bytes;) {
+    for (std::size_t written = 0; written < max_bytes && session.unacknowledged_bytes < options.window_bytes;) {
       Unacknowledged batch{session.sent + 1, 0, {}};
       Bytes commands;
       const std::size_t limit = std::min(options.batch_bytes, max_bytes - written);
@@ -291,12 +280,10 @@ struct ReplicationServer::State {
       session.unacknowledged_bytes += batch.bytes;
       session.unacknowledged.push_back(std::move(batch));
       session.owes_acknowledgement = false;
-      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands)})))
-        return pumped;
+      if (!offer(encode(CommandBatch{session.sent, session.received, std::move(commands)}))) return pumped;
     }
 
-    const bool all_said =
-        session.outbox.empty() && session.requests.empty() && session.next_listed == no_node;
+    const bool all_said = session.outbox.empty() && session.requests.empty() && session.next_listed == no_node;
     const bool news = !session.told_complete || session.told_revision != store.revision() ||
                       session.told_answered != session.received;
     if (all_said && news) {
@@ -314,8 +301,7 @@ struct ReplicationServer::State {
   }
 };
 
-ReplicationServer::ReplicationServer(const Store& store, std::uint64_t instance,
-                                     const ReplicationOptions& options)
+ReplicationServer::ReplicationServer(const Store& store, std::uint64_t instance, const ReplicationOptions& options)
     : state_(new State{store, instance, options, {}, {}, 0}) {}
 ReplicationServer::~ReplicationServer() = default;
 
@@ -332,12 +318,9 @@ void ReplicationServer::disconnect(ConnectionId connection) {
   state_->connections.erase(found);
 }
 
-bool ReplicationServer::knows(ConnectionId connection) const {
-  return state_->connections.contains(connection);
-}
+bool ReplicationServer::knows(ConnectionId connection) const { return state_->connections.contains(connection); }
 
-Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection,
-                                                          std::span<const std::byte> message) {
+Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connection, std::span<const std::byte> message) {
   const auto found = state_->connections.find(connection);
   SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);
   Connection& from = found->second;
@@ -348,8 +331,7 @@ Expected<std::vector<Command>> ReplicationServer::receive(ConnectionId connectio
     return std::vector<Command>{};
   }
   if (!from.session)
-    return failure("a message before the hello", "replication client " + from.identity,
-                   "say hello first");
+    return failure("a message before the hello", "replication client " + from.identity, "say hello first");
   if (const auto* batch = std::get_if<CommandBatch>(&*decoded)) {
     from.session->acknowledge(batch->received);
     return state_->batch(*from.session, *batch);
@@ -370,8 +352,7 @@ void ReplicationServer::applied(const Command& command) {
   for (auto& session : state_->lost) state_->tell(*session, *change, command);
 }
 
-ReplicationServer::Pumped ReplicationServer::pump(ConnectionId connection, std::size_t max_bytes,
-                                                  const Send& send) {
+ReplicationServer::Pumped ReplicationServer::pump(ConnectionId connection, std::size_t max_bytes, const Send& send) {
   const auto found = state_->connections.find(connection);
   SEPTET_CHECK(found != state_->connections.end(), "connection {} is not known", connection);
   return state_->pump(found->second, max_bytes, send);

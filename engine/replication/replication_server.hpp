@@ -42,8 +42,7 @@ class ReplicationServer {
  public:
   /// `instance` tells this run of the server from earlier ones; any number that does not repeat.
   /// The store must outlive the server.
-  ReplicationServer(const scene::Store& store, std::uint64_t instance,
-                    const ReplicationOptions& options = {});
+  ReplicationServer(const scene::Store& store, std::uint64_t instance, const ReplicationOptions& options = {});
   ~ReplicationServer();
 
   /// `identity` (its key, its name) decides whose sessions a client can resume.
@@ -54,8 +53,7 @@ class ReplicationServer {
 
   /// Answers the changes that the client asks for, for the owner of the store to apply or not.
   /// After an error the connection is to be dropped.
-  Expected<std::vector<scene::Command>> receive(ConnectionId connection,
-                                                std::span<const std::byte> message);
+  Expected<std::vector<scene::Command>> receive(ConnectionId connection, std::span<const std::byte> message);
 
   /// To be called after every command that the store took.
   void applied(const scene::Command& command);

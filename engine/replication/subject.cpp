@@ -21,8 +21,7 @@ const Data* data_of(const Store& store, NodeId id) {
 }
 
 template <class Parts>
-auto find_part(const Parts& parts, typename Parts::key_type id) -> const
-    typename Parts::mapped_type* {
+auto find_part(const Parts& parts, typename Parts::key_type id) -> const typename Parts::mapped_type* {
   const auto found = parts.find(id);
   return found == parts.end() ? nullptr : &found->second;
 }
@@ -58,9 +57,7 @@ struct ChangeOf {
   Result operator()(const NodeDestroy& c) const { return renewed(c.node, Kind::existence, 0); }
   Result operator()(const NodeNameSet& c) const { return whole(c.node, Kind::name); }
   Result operator()(const TagGroupSet& c) const { return whole(c.node, Kind::tag_group, c.group); }
-  Result operator()(const TagGroupDestroy& c) const {
-    return renewed(c.node, Kind::tag_group, c.group);
-  }
+  Result operator()(const TagGroupDestroy& c) const { return renewed(c.node, Kind::tag_group, c.group); }
   Result operator()(const TagSet& c) const { return whole(c.node, Kind::tag, c.group, c.tag); }
   Result operator()(const TagDestroy& c) const { return whole(c.node, Kind::tag, c.group, c.tag); }
   Result operator()(const TransformSet& c) const { return whole(c.node, Kind::transform); }
@@ -74,12 +71,8 @@ struct ChangeOf {
     change.smallest_polygons = c.polygons;
     return change;
   }
-  Result operator()(const GeometryLayerSet& c) const {
-    return whole(c.node, Kind::geometry_layer, c.layer);
-  }
-  Result operator()(const GeometryLayerDestroy& c) const {
-    return renewed(c.node, Kind::geometry_layer, c.layer);
-  }
+  Result operator()(const GeometryLayerSet& c) const { return whole(c.node, Kind::geometry_layer, c.layer); }
+  Result operator()(const GeometryLayerDestroy& c) const { return renewed(c.node, Kind::geometry_layer, c.layer); }
   Result operator()(const VerticesSet& c) const {
     return range_change(c.node, Kind::vertices, base_vertex_layer, c.first, c.positions_m.size());
   }
@@ -94,22 +87,12 @@ struct ChangeOf {
     return range_change(c.node, Kind::layer_values, c.layer, c.first,
                         c.values.size() / width_of(store, c.node, c.layer));
   }
-  Result operator()(const CreaseSet& c) const {
-    return whole(c.node, Kind::crease, static_cast<PartId>(c.kind));
-  }
-  Result operator()(const FragmentSet& c) const {
-    return whole(c.node, Kind::fragment, c.fragment);
-  }
-  Result operator()(const FragmentDestroy& c) const {
-    return whole(c.node, Kind::fragment, c.fragment);
-  }
+  Result operator()(const CreaseSet& c) const { return whole(c.node, Kind::crease, static_cast<PartId>(c.kind)); }
+  Result operator()(const FragmentSet& c) const { return whole(c.node, Kind::fragment, c.fragment); }
+  Result operator()(const FragmentDestroy& c) const { return whole(c.node, Kind::fragment, c.fragment); }
   Result operator()(const BitmapSizeSet& c) const { return whole(c.node, Kind::bitmap_size); }
-  Result operator()(const BitmapLayerSet& c) const {
-    return whole(c.node, Kind::bitmap_layer, c.layer);
-  }
-  Result operator()(const BitmapLayerDestroy& c) const {
-    return renewed(c.node, Kind::bitmap_layer, c.layer);
-  }
+  Result operator()(const BitmapLayerSet& c) const { return whole(c.node, Kind::bitmap_layer, c.layer); }
+  Result operator()(const BitmapLayerDestroy& c) const { return renewed(c.node, Kind::bitmap_layer, c.layer); }
   Result operator()(const BitmapTilesSet& c) const {
     return range_change(c.node, Kind::tiles, c.layer, c.first_tile,
                         c.tiles.size() / tile_size_of(store, c.node, c.layer));
@@ -167,8 +150,7 @@ std::uint32_t element_count(const Store& store, const Subject& subject) {
       if (const auto* layer = find_part(geometry->layers, subject.part))
         count = (layer->integers.size() + layer->reals.size()) / layer_width(layer->type);
   }
-  if (const auto* bitmap = data_of<BitmapData>(store, subject.node);
-      bitmap && subject.kind == Kind::tiles)
+  if (const auto* bitmap = data_of<BitmapData>(store, subject.node); bitmap && subject.kind == Kind::tiles)
     if (const auto* layer = find_part(bitmap->layers, subject.part))
       count = layer->tiles.size() / tile_bytes(layer->type);
   return static_cast<std::uint32_t>(count);
@@ -195,8 +177,7 @@ std::uint32_t elements_in(const Store& store, const Subject& subject, std::size_
   return static_cast<std::uint32_t>(std::max<std::size_t>(1, bytes / one));
 }
 
-void describe_change(const Store& store, const Change& change,
-                     const std::function<void(const Command&)>& emit) {
+void describe_change(const Store& store, const Change& change, const std::function<void(const Command&)>& emit) {
   const auto [id, kind, part, item] = change.subject;
   const Node* node = store.find(id);
   if (kind == Kind::existence) {
@@ -224,8 +205,7 @@ void describe_change(const Store& store, const Change& change,
       return emit(NodeNameSet{id, node->name});
     case Kind::tag_group: {
       if (change.renew) emit(TagGroupDestroy{id, part});
-      if (const auto* group = find_part(node->tag_groups, part))
-        emit(TagGroupSet{id, part, group->name});
+      if (const auto* group = find_part(node->tag_groups, part)) emit(TagGroupSet{id, part, group->name});
       return;
     }
     case Kind::tag: {
@@ -260,15 +240,12 @@ void describe_change(const Store& store, const Change& change,
     }
     case Kind::crease: {
       const auto which = static_cast<CreaseKind>(part);
-      return emit(
-          CreaseSet{id, which,
-                    which == CreaseKind::vertex ? geometry->vertex_crease : geometry->edge_crease});
+      return emit(CreaseSet{id, which, which == CreaseKind::vertex ? geometry->vertex_crease : geometry->edge_crease});
     }
     case Kind::geometry_layer: {
       if (change.renew) emit(GeometryLayerDestroy{id, part});
       if (const auto* layer = find_part(geometry->layers, part))
-        emit(GeometryLayerSet{id, part, layer->name, layer->type, layer->default_integer,
-                              layer->default_real});
+        emit(GeometryLayerSet{id, part, layer->name, layer->type, layer->default_integer, layer->default_real});
       return;
     }
     case Kind::vertices:
@@ -295,14 +272,12 @@ void describe_change(const Store& store, const Change& change,
       return emit(BitmapSizeSet{id, bitmap->width, bitmap->height, bitmap->depth});
     case Kind::bitmap_layer: {
       if (change.renew) emit(BitmapLayerDestroy{id, part});
-      if (const auto* layer = find_part(bitmap->layers, part))
-        emit(BitmapLayerSet{id, part, layer->name, layer->type});
+      if (const auto* layer = find_part(bitmap->layers, part)) emit(BitmapLayerSet{id, part, layer->name, layer->type});
       return;
     }
     case Kind::tiles: {
       const BitmapLayer& layer = bitmap->layers.at(part);
-      return emit(
-          BitmapTilesSet{id, part, cut.first, slice(layer.tiles, cut, tile_bytes(layer.type))});
+      return emit(BitmapTilesSet{id, part, cut.first, slice(layer.tiles, cut, tile_bytes(layer.type))});
     }
   }
 }
@@ -319,8 +294,7 @@ void mark_node(const Node& node, const Mark& mark) {
   }
   if (const auto* geometry = std::get_if<GeometryData>(&node.data)) {
     whole(Kind::geometry_size);
-    for (const CreaseKind kind : {CreaseKind::vertex, CreaseKind::edge})
-      whole(Kind::crease, static_cast<PartId>(kind));
+    for (const CreaseKind kind : {CreaseKind::vertex, CreaseKind::edge}) whole(Kind::crease, static_cast<PartId>(kind));
     for (const auto& [id, layer] : geometry->layers) whole(Kind::geometry_layer, id);
   }
   if (const auto* material = std::get_if<MaterialData>(&node.data))
@@ -341,10 +315,8 @@ void mark_part(const Store& store, NodeId id, PartKind kind, PartId part, const 
   }
   Subject subject{id, Kind::layer_values, part, 0};
   if (node->type() == NodeType::bitmap) subject.kind = Kind::tiles;
-  if (node->type() == NodeType::geometry && part == base_vertex_layer)
-    subject.kind = Kind::vertices;
-  if (node->type() == NodeType::geometry && part == base_polygon_layer)
-    subject.kind = Kind::polygons;
+  if (node->type() == NodeType::geometry && part == base_vertex_layer) subject.kind = Kind::vertices;
+  if (node->type() == NodeType::geometry && part == base_polygon_layer) subject.kind = Kind::polygons;
   if (const std::uint32_t count = element_count(store, subject)) mark({subject, 0, count});
 }
 

@@ -45,15 +45,15 @@ struct Subject {
 };
 
 constexpr bool is_range(SubjectKind kind) {
-  return kind == SubjectKind::vertices || kind == SubjectKind::polygons ||
-         kind == SubjectKind::layer_values || kind == SubjectKind::tiles;
+  return kind == SubjectKind::vertices || kind == SubjectKind::polygons || kind == SubjectKind::layer_values ||
+         kind == SubjectKind::tiles;
 }
 
 /// A change of a subject. Changes of one subject are merged while they wait.
 struct Change {
   Subject subject;
   std::uint32_t first = 0, end = 0;  ///< Of a range: vertices, polygons or tiles.
-  bool renew = false;  ///< Was destroyed (and perhaps made again) since it was last sent.
+  bool renew = false;                ///< Was destroyed (and perhaps made again) since it was last sent.
   /// Of a geometry's size: the smallest since it was last sent; what lay beyond is forgotten.
   std::uint32_t smallest_vertices = ~0u, smallest_polygons = ~0u;
 };
@@ -75,7 +75,6 @@ void describe_change(const scene::Store& store, const Change& change,
 /// The changes that tell a new subscriber everything, by level of subscription.
 using Mark = std::function<void(const Change&)>;
 void mark_node(const scene::Node& node, const Mark& mark);
-void mark_part(const scene::Store& store, NodeId node, scene::PartKind kind, PartId part,
-               const Mark& mark);
+void mark_part(const scene::Store& store, NodeId node, scene::PartKind kind, PartId part, const Mark& mark);
 
 }  // namespace septet::replication

@@ -40,7 +40,8 @@ View read_inset(const toml::table& table, std::string_view file, Error& error) {
   view.width = reader.get_double("width", 0.2, 0.01, 1.0);
   view.height = reader.get_double("height", 0.1, 0.01, 1.0);
   if (view.left + view.width > 1.0 || view.top + view.height > 1.0)
-    reader.report("left", "an inset reaches over the edge of its screen", "keep left + width and top + height at most 1");
+    reader.report("left", "an inset reaches over the edge of its screen",
+                  "keep left + width and top + height at most 1");
   read_window(reader, view.window);
   reader.finish(documented_in);
   return view;
@@ -51,7 +52,8 @@ std::string read_machine(TableReader& reader) {
   std::string machine = reader.get_string("machine", "");
   constexpr std::string_view usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
   if (machine.starts_with('.') || machine.find_first_not_of(usable) != std::string::npos)
-    reader.report("machine", fmt::format("machine is \"{}\"", machine), "use a host name: letters, digits, hyphens and points");
+    reader.report("machine", fmt::format("machine is \"{}\"", machine),
+                  "use a host name: letters, digits, hyphens and points");
   return machine;
 }
 
@@ -59,14 +61,17 @@ Screen read_screen(const toml::table& table, std::string_view file, Error& error
   TableReader reader(table, file, "screen", error);
   Screen screen;
   screen.name = reader.get_string("name", "");
-  if (screen.name.empty() || screen.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
+  if (screen.name.empty() ||
+      screen.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
     reader.report("name", fmt::format("screen.name is \"{}\"", screen.name), "use small letters, digits and hyphens");
   screen.width_px = static_cast<std::uint32_t>(reader.get_integer("width_px", screen.width_px, 16, 16384));
   screen.height_px = static_cast<std::uint32_t>(reader.get_integer("height_px", screen.height_px, 16, 16384));
   if (screen.name == "car" || screen.name == "server")
-    reader.report("name", fmt::format("screen.name is \"{}\", which is the name of another key", screen.name), "call the screen otherwise");
+    reader.report("name", fmt::format("screen.name is \"{}\", which is the name of another key", screen.name),
+                  "call the screen otherwise");
   screen.machine = read_machine(reader);
-  if (const auto monitor = reader.get_integer("monitor", -1, 0, 63); monitor >= 0) screen.monitor = static_cast<std::uint32_t>(monitor);
+  if (const auto monitor = reader.get_integer("monitor", -1, 0, 63); monitor >= 0)
+    screen.monitor = static_cast<std::uint32_t>(monitor);
   screen.full_screen = reader.get_bool("full_screen", false);
   screen.show_interior = reader.get_bool("show_interior", false);
   screen.instruments = reader.get_bool("instruments", false);
@@ -86,7 +91,8 @@ Network read_network(const toml::table& table, std::string_view file, Error& err
   network.tick_group = reader.get_string("tick_group", network.tick_group);
   network.tick_port = static_cast<std::uint16_t>(reader.get_integer("tick_port", network.tick_port, 0, 65535));
   network.interface_address = reader.get_string("interface_address", network.interface_address);
-  network.transport = static_cast<TickTransport>(reader.get_choice("transport", 0, {"automatic", "multicast", "unicast"}));
+  network.transport =
+      static_cast<TickTransport>(reader.get_choice("transport", 0, {"automatic", "multicast", "unicast"}));
   network.max_payload_bytes =
       static_cast<std::uint32_t>(reader.get_integer("max_payload_bytes", network.max_payload_bytes, 512, 8900));
   network.playout_delay_ticks = reader.get_double("playout_delay_ticks", network.playout_delay_ticks, 0.0, 60.0);
@@ -94,7 +100,8 @@ Network read_network(const toml::table& table, std::string_view file, Error& err
   return network;
 }
 
-AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisCalibration fallback, std::string_view file, Error& error) {
+AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisCalibration fallback,
+                          std::string_view file, Error& error) {
   const toml::table* table = calibration.get_table(axis);
   if (!table) return fallback;
   TableReader reader(*table, file, fmt::format("car.calibration.{}", axis), error);
@@ -106,9 +113,11 @@ AxisCalibration read_axis(TableReader& calibration, std::string_view axis, AxisC
   result.dead_zone = reader.get_double("dead_zone", fallback.dead_zone, 0.0, 0.5);
   result.inverted = reader.get_bool("inverted", fallback.inverted);
   if (result.max - result.min < 0.05)
-    reader.report("max", fmt::format("the {}'s max is not above its min by 0.05 or more", axis), "calibrate it again with septet-car calibrate");
+    reader.report("max", fmt::format("the {}'s max is not above its min by 0.05 or more", axis),
+                  "calibrate it again with septet-car calibrate");
   else if (is_wheel && (result.centre - result.min < 0.02 || result.max - result.centre < 0.02))
-    reader.report("centre", fmt::format("the {}'s centre does not lie between min and max", axis), "calibrate it again with septet-car calibrate");
+    reader.report("centre", fmt::format("the {}'s centre does not lie between min and max", axis),
+                  "calibrate it again with septet-car calibrate");
   reader.finish(documented_in);
   return result;
 }
@@ -142,7 +151,8 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
-  car.source = static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic"}));
+  car.source =
+      static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic"}));
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
@@ -151,7 +161,8 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.layout = reader.get_string("layout", car.layout);
   car.vehicle = reader.get_string("vehicle", car.vehicle);
   car.driver = reader.get_string("driver", car.driver);
-  if (const auto* calibration = reader.get_table("calibration")) car.calibration = read_calibration(*calibration, file, error);
+  if (const auto* calibration = reader.get_table("calibration"))
+    car.calibration = read_calibration(*calibration, file, error);
   if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
   reader.finish(documented_in);
   return car;
@@ -161,9 +172,11 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
 void check_keyboard(const Rig& rig, TableReader& reader) {
   const std::string& name = rig.car.keyboard_screen;
   if (!name.empty() && std::ranges::find(rig.screens, name, &Screen::name) == rig.screens.end())
-    reader.report("car", fmt::format("car.keyboard_screen is \"{}\", and there is no such screen", name), "name one of the rig's screens");
+    reader.report("car", fmt::format("car.keyboard_screen is \"{}\", and there is no such screen", name),
+                  "name one of the rig's screens");
   else if (rig.car.source == CarSource::keyboard && !rig.screens.empty() && driving_screens(rig).empty())
-    reader.report("car", "no screen is at the server's own machine, so that no keyboard drives", "name the driver's screen in car.keyboard_screen");
+    reader.report("car", "no screen is at the server's own machine, so that no keyboard drives",
+                  "name the driver's screen in car.keyboard_screen");
 }
 
 }  // namespace
@@ -172,7 +185,8 @@ std::set<std::string> driving_screens(const Rig& rig) {
   std::set<std::string> names;
   if (rig.car.source != CarSource::keyboard) return names;
   for (const Screen& screen : rig.screens)
-    if (rig.car.keyboard_screen.empty() ? screen.machine.empty() : screen.name == rig.car.keyboard_screen) names.insert(screen.name);
+    if (rig.car.keyboard_screen.empty() ? screen.machine.empty() : screen.name == rig.car.keyboard_screen)
+      names.insert(screen.name);
   return names;
 }
 
@@ -209,7 +223,8 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   for (const toml::table* table : reader.get_tables("screen")) {
     rig.screens.push_back(read_screen(*table, name, error));
     if (!names.insert(rig.screens.back().name).second)
-      reader.report("screen", fmt::format("two screens are called \"{}\"", rig.screens.back().name), "give each its own name");
+      reader.report("screen", fmt::format("two screens are called \"{}\"", rig.screens.back().name),
+                    "give each its own name");
   }
   check_keyboard(rig, reader);
   if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");

@@ -35,9 +35,10 @@ struct View {
 struct Screen {
   std::string name;
   std::uint32_t width_px = 640, height_px = 480;
-  std::string machine;         ///< Host that drives it; empty: the server's own machine.
-  std::optional<std::uint32_t> monitor;  ///< Of its machine, from 0; nothing: where the window system likes, full screen the first.
-  bool full_screen = false;    ///< Cover the monitor.
+  std::string machine;  ///< Host that drives it; empty: the server's own machine.
+  std::optional<std::uint32_t>
+      monitor;               ///< Of its machine, from 0; nothing: where the window system likes, full screen the first.
+  bool full_screen = false;  ///< Cover the monitor.
   bool show_interior = false;  ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
   bool instruments = false;    ///< Draw speed, gear and indicators, where no real car shows them.
   std::vector<View> views;     ///< The first one fills the screen.
@@ -50,7 +51,8 @@ struct Network {
   std::uint16_t scene_port = 4750;           ///< UDP, secure unicast lane; 0: any free port (one machine only).
   std::string tick_group = "239.77.77.77";
   std::uint16_t tick_port = 4751;
-  std::string interface_address;  ///< The server's address on the rig's network: it listens there only. Empty: on all of a rig of several machines.
+  std::string
+      interface_address;  ///< The server's address on the rig's network: it listens there only. Empty: on all of a rig of several machines.
   TickTransport transport = TickTransport::automatic;
   std::uint32_t max_payload_bytes = 1200;
   double playout_delay_ticks = 2.0;
@@ -82,15 +84,15 @@ struct CarActuators {
   double fan_least = 0.2;            ///< Share at which the fan just turns.
   double fan_most = 1.0;
   double vibration_most = 0.6;
-  double steering_full_nm = 8.0;     ///< Torque at the hand wheel that full force means.
-  double steering_most = 0.0;        ///< 0: the hand wheel has no motor.
+  double steering_full_nm = 8.0;  ///< Torque at the hand wheel that full force means.
+  double steering_most = 0.0;     ///< 0: the hand wheel has no motor.
 };
 
 struct Car {
   CarSource source = CarSource::simulated_driver;
   std::uint16_t vendor_id = 0x1209, product_id = 0x0001;
   std::string serial;
-  std::string machine;  ///< Host with the device, where septet-car runs; empty: the server's own machine.
+  std::string machine;          ///< Host with the device, where septet-car runs; empty: the server's own machine.
   std::string keyboard_screen;  ///< Whose keyboard or gamepad drives; empty: any screen's at the server's own machine.
   std::string layout = "septet-car";  ///< Report layout of the device (car-io/REPORTS.md).
   std::string vehicle = "volvo-s80";  ///< Parameter file below vehicles/.

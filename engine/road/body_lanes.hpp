@@ -26,7 +26,6 @@ inline constexpr double body_over_line_m = 0.2;
 
 /// The lanes for driving that the body lies over. One that stands on the shoulder is in none of them, unless it
 /// reaches over the edge line.
-LaneRange drivable_lanes_under(const RoadNetwork& network, const RoadPosition& origin,
-                               const BodyOutline& body);
+LaneRange drivable_lanes_under(const RoadNetwork& network, const RoadPosition& origin, const BodyOutline& body);
 
 }  // namespace septet::road

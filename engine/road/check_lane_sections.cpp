@@ -11,17 +11,14 @@ namespace septet::road {
 namespace {
 
 /// From the centre outwards: outside a level lane there are only level lanes.
-void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side,
-                  int count) {
+void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side, int count) {
   bool level = false;
   for (int i = 1; i <= count; ++i) {
     at.lane = side * i;
     if (level && !section.lane(at.lane).level) {
-      file.findings.warning(node_of(file, at),
-                            fmt::format("{} is not level, but the lane inside it is",
-                                        name_of(file, at)),
-                            "let all lanes outside a level one be level",
-                            "asam.net:xodr:1.7.0:road.lane.level_true_one_side");
+      file.findings.warning(
+          node_of(file, at), fmt::format("{} is not level, but the lane inside it is", name_of(file, at)),
+          "let all lanes outside a level one be level", "asam.net:xodr:1.7.0:road.lane.level_true_one_side");
       return;
     }
     level = level || section.lane(at.lane).level;
@@ -32,8 +29,7 @@ void check_levels(const CheckedFile& file, const LaneSection& section, LaneEnd a
 CubicRecord outwards_at(const CubicProfile& borders, double s) {
   const CubicRecord& record = borders[record_at(borders, s)];
   const double ds = s - record.s_m, sign = record.value(s) < 0.0 ? -1.0 : 1.0;
-  return {s, sign * record.value(s), sign * record.slope(s), sign * (record.c + 3.0 * record.d * ds),
-          sign * record.d};
+  return {s, sign * record.value(s), sign * record.slope(s), sign * (record.c + 3.0 * record.d * ds), sign * record.d};
 }
 
 bool overlap(const Lane& inner, const Lane& outer, const LaneSection& section) {
@@ -44,8 +40,7 @@ bool overlap(const Lane& inner, const Lane& outer, const LaneSection& section) {
       if (record.s_m > section.s_m && record.s_m < section.s_end_m) stations.push_back(record.s_m);
   std::sort(stations.begin(), stations.end());
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
-    const CubicRecord a = outwards_at(inner.borders, stations[i]),
-                      b = outwards_at(outer.borders, stations[i]);
+    const CubicRecord a = outwards_at(inner.borders, stations[i]), b = outwards_at(outer.borders, stations[i]);
     const CubicRecord width{stations[i], b.a - a.a, b.b - a.b, b.c - a.c, b.d - a.d};
     if (value_range(width, stations[i], stations[i + 1]).low < -tolerated_m) return true;
   }
@@ -55,26 +50,22 @@ bool overlap(const Lane& inner, const Lane& outer, const LaneSection& section) {
 /// A lane that is given by its border; where widths are given too, those count.
 bool by_border(const Lane& lane) { return lane.widths.empty() && !lane.borders.empty(); }
 
-void check_borders(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side,
-                   int count) {
+void check_borders(const CheckedFile& file, const LaneSection& section, LaneEnd at, int side, int count) {
   for (int i = 2; i <= count; ++i) {
     const Lane &inner = section.lane(side * (i - 1)), &outer = section.lane(side * i);
     if (!by_border(inner) || !by_border(outer) || !overlap(inner, outer, section)) continue;
     at.lane = outer.id;
-    file.findings.warning(node_of(file, at),
-                          fmt::format("the border of {} runs inside that of lane {}",
-                                      name_of(file, at), inner.id),
-                          "let borders lie farther out lane by lane",
-                          "asam.net:xodr:1.4.0:road.lane.border.overlap_with_inner_lanes");
+    file.findings.warning(
+        node_of(file, at), fmt::format("the border of {} runs inside that of lane {}", name_of(file, at), inner.id),
+        "let borders lie farther out lane by lane", "asam.net:xodr:1.4.0:road.lane.border.overlap_with_inner_lanes");
   }
 }
 
 /// Borders are counted from the reference line, so that an offset would say the same twice.
 void check_offset(const CheckedFile& file, const pugi::xml_node& road_node, const Road& road) {
-  const bool borders = std::any_of(
-      road.sections.begin(), road.sections.end(), [](const LaneSection& section) {
-        return std::any_of(section.lanes.begin(), section.lanes.end(), by_border);
-      });
+  const bool borders = std::any_of(road.sections.begin(), road.sections.end(), [](const LaneSection& section) {
+    return std::any_of(section.lanes.begin(), section.lanes.end(), by_border);
+  });
   if (road.lane_offset.empty() || !borders) return;
   file.findings.warning(road_node.child("lanes").child("laneOffset"),
                         "the road has lanes that are given by their borders, and a lane offset",

@@ -23,23 +23,20 @@ void check_profile(const CheckedFile& file, const pugi::xml_node& node, const ch
   std::size_t redundant = 0;
   for (std::size_t i = 1; i < profile.size(); ++i) redundant += goes_on(profile[i - 1], profile[i]);
   if (redundant == 0) return;
-  file.findings.warning(node,
-                        fmt::format("{} of its {} records of {} go on as the one before them",
-                                    redundant, profile.size(), element),
-                        "leave them out", rule);
+  file.findings.warning(
+      node, fmt::format("{} of its {} records of {} go on as the one before them", redundant, profile.size(), element),
+      "leave them out", rule);
 }
 
 void check_lines(const CheckedFile& file, const pugi::xml_node& road_node, const PlanCurve& plan) {
   std::size_t redundant = 0;
   for (std::size_t i = 1; i < plan.records.size(); ++i) {
     const PlanRecord &a = plan.records[i - 1], &b = plan.records[i];
-    redundant += a.kind == PlanKind::line && b.kind == PlanKind::line &&
-                 glm::distance(a.direction, b.direction) < same;
+    redundant += a.kind == PlanKind::line && b.kind == PlanKind::line && glm::distance(a.direction, b.direction) < same;
   }
   if (redundant == 0) return;
   file.findings.warning(road_node.child("planView"),
-                        fmt::format("{} of its lines go on as the one before them", redundant),
-                        "join them", rule);
+                        fmt::format("{} of its lines go on as the one before them", redundant), "join them", rule);
 }
 
 }  // namespace

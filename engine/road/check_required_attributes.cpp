@@ -49,8 +49,7 @@ void check(const CheckedFile& file, const pugi::xml_node& node, std::string_view
     const std::string name(attributes.substr(0, end));
     attributes.remove_prefix(std::min(end + 1, attributes.size()));
     if (node.attribute(name.c_str())) continue;
-    file.findings.warning(node, fmt::format("attribute {} is missing", name),
-                          fmt::format("add {}=\"…\"", name),
+    file.findings.warning(node, fmt::format("attribute {} is missing", name), fmt::format("add {}=\"…\"", name),
                           "asam.net:xodr:1.0.0:xml.valid_schema");
   }
 }

@@ -31,15 +31,13 @@ bool runs_into(const Road& road, const LaneSection& section, int lane, ContactPo
 }
 
 /// A direct junction is passed both ways, a common one by its connecting roads' own links.
-void check_lane_link(const CheckedFile& file, const pugi::xml_node& node,
-                     const JunctionConnection& connection, ContactPoint contact,
-                     const LaneLink& link, bool one_way) {
+void check_lane_link(const CheckedFile& file, const pugi::xml_node& node, const JunctionConnection& connection,
+                     ContactPoint contact, const LaneLink& link, bool one_way) {
   const Road &incoming = file.network.roads[connection.incoming],
              &connecting = file.network.roads[connection.connecting];
-  const LaneSection& from = contact == ContactPoint::end ? incoming.sections.back()
-                                                         : incoming.sections.front();
-  const LaneSection& to = connection.contact == ContactPoint::end ? connecting.sections.back()
-                                                                  : connecting.sections.front();
+  const LaneSection& from = contact == ContactPoint::end ? incoming.sections.back() : incoming.sections.front();
+  const LaneSection& to =
+      connection.contact == ContactPoint::end ? connecting.sections.back() : connecting.sections.front();
   for (const auto& [section, lane, road] :
        {std::tuple{&from, link.from, &incoming}, std::tuple{&to, link.to, &connecting}}) {
     if (section->has_lane(lane)) continue;
@@ -56,26 +54,22 @@ void check_lane_link(const CheckedFile& file, const pugi::xml_node& node,
   const bool enters = from_both || runs_into(incoming, from, link.from, contact),
              leaves = to_both || !runs_into(connecting, to, link.to, connection.contact);
   if (enters && leaves) return;
-  file.findings.warning(node,
-                        fmt::format("its lane link {} to {} runs against the traffic", link.from,
-                                    link.to),
+  file.findings.warning(node, fmt::format("its lane link {} to {} runs against the traffic", link.from, link.to),
                         "link only lanes that lead into the junction",
                         "asam.net:xodr:1.8.0:junctions.connection.one_link_to_incoming");
 }
 
-void check_contact(const CheckedFile& file, const pugi::xml_node& node,
-                   const JunctionConnection& connection) {
+void check_contact(const CheckedFile& file, const pugi::xml_node& node, const JunctionConnection& connection) {
   const Road& connecting = file.network.roads[connection.connecting];
   const bool start = connection.contact == ContactPoint::start;
   const RoadLink& back = start ? connecting.predecessor : connecting.successor;
   if (!file.is_at_least(7) || back.road == no_index || back.road == connection.incoming) return;
-  file.findings.warning(
-      node,
-      fmt::format("contactPoint=\"{}\", but road {} is linked to road {} there", start ? "start" : "end",
-                  connecting.id, file.network.roads[back.road].id),
-      "name the end at which the connecting road touches the incoming one",
-      start ? "asam.net:xodr:1.7.0:junctions.connection.start_along_linkage"
-            : "asam.net:xodr:1.7.0:junctions.connection.end_opposite_linkage");
+  file.findings.warning(node,
+                        fmt::format("contactPoint=\"{}\", but road {} is linked to road {} there",
+                                    start ? "start" : "end", connecting.id, file.network.roads[back.road].id),
+                        "name the end at which the connecting road touches the incoming one",
+                        start ? "asam.net:xodr:1.7.0:junctions.connection.start_along_linkage"
+                              : "asam.net:xodr:1.7.0:junctions.connection.end_opposite_linkage");
 }
 
 }  // namespace
@@ -88,8 +82,7 @@ void check_road_links(const CheckedFile& file) {
     for (const bool along : {false, true}) {
       const RoadLink& link = along ? road.successor : road.predecessor;
       if (link.road == no_index) continue;
-      const auto node =
-          file.road_nodes[index].child("link").child(along ? "successor" : "predecessor");
+      const auto node = file.road_nodes[index].child("link").child(along ? "successor" : "predecessor");
       if (link.road == index && (link.contact == ContactPoint::end) == along) {
         file.findings.warning(node, fmt::format("road {} is linked to this very end of itself", road.id),
                               "link to the end that it joins");
@@ -100,9 +93,8 @@ void check_road_links(const CheckedFile& file) {
       file.findings.warning(
           node,
           fmt::format("the {} of road {} is linked to road {} and road {}",
-                      link.contact == ContactPoint::end ? "end" : "start",
-                      file.network.roads[link.road].id, file.network.roads[other->second].id,
-                      road.id),
+                      link.contact == ContactPoint::end ? "end" : "start", file.network.roads[link.road].id,
+                      file.network.roads[other->second].id, road.id),
           "use a junction where a road goes on in more than one",
           "asam.net:xodr:1.4.0:road.linkage.is_junction_needed");
     }
@@ -128,19 +120,17 @@ void check_connections(const CheckedFile& file) {
       if (file.network.roads[connection.incoming].junction != no_index) {
         file.findings.warning(
             nodes[i],
-            fmt::format("its incoming road {} is a connecting road",
-                        file.network.roads[connection.incoming].id),
+            fmt::format("its incoming road {} is a connecting road", file.network.roads[connection.incoming].id),
             "name a road outside the junction",
             "asam.net:xodr:1.4.0:junctions.connection.connect_road_no_incoming_road");
       }
       // The rule came with 1.7 and went with 1.8.
       const bool first = connected.insert(connection.connecting).second;
       if (!first && file.network.header.revision_minor == 7) {
-        file.findings.warning(nodes[i],
-                              fmt::format("road {} has a connection already",
-                                          file.network.roads[connection.connecting].id),
-                              "give each connecting road one connection with all its lane links",
-                              "asam.net:xodr:1.7.0:junctions.connection.one_connection_element");
+        file.findings.warning(
+            nodes[i], fmt::format("road {} has a connection already", file.network.roads[connection.connecting].id),
+            "give each connecting road one connection with all its lane links",
+            "asam.net:xodr:1.7.0:junctions.connection.one_connection_element");
       }
     }
     ++index;

@@ -21,8 +21,7 @@ std::vector<double> stations_of(const Road& road) {
   std::vector<double> stations;
   const auto add = [&](double from, double to) {
     // Just inside, where the record or the section itself holds.
-    for (int i = 0; i <= parts; ++i)
-      stations.push_back(from + (to - from) * (1e-6 + (1.0 - 2e-6) * i / parts));
+    for (int i = 0; i <= parts; ++i) stations.push_back(from + (to - from) * (1e-6 + (1.0 - 2e-6) * i / parts));
   };
   for (const PlanRecord& record : road.plan.records) {
     if (stations.size() > most_stations) return stations;
@@ -47,18 +46,16 @@ void check_surface(XmlFindings& findings, const pugi::xml_node& road_node, const
       const double height = surface_offset_m(road, s, t);
       if (!(std::abs(height) <= tallest_m)) {
         findings.error(road_node,
-                       fmt::format("the surface stands {:.4g} m above the road at s={:.3f}, t={:.3f}",
-                                   height, s, t),
+                       fmt::format("the surface stands {:.4g} m above the road at s={:.3f}, t={:.3f}", height, s, t),
                        "check lane heights, crossfall and shapes");
         return;
       }
       if (folds || 1.0 - curvature * t > 0.0) continue;
       folds = true;
-      findings.warning(
-          road_node,
-          fmt::format("the lanes fold over at s={:.3f}: they reach {:.4g} m inside a curve of {:.4g} m",
-                      s, std::abs(t), 1.0 / std::abs(curvature)),
-          "give the curve a larger radius, or narrower lanes");
+      findings.warning(road_node,
+                       fmt::format("the lanes fold over at s={:.3f}: they reach {:.4g} m inside a curve of {:.4g} m", s,
+                                   std::abs(t), 1.0 / std::abs(curvature)),
+                       "give the curve a larger radius, or narrower lanes");
     }
   }
 }

@@ -33,9 +33,8 @@ using CubicProfile = std::vector<CubicRecord>;
 template <class Record>
 std::size_t record_at(const std::vector<Record>& records, double s_m) {
   if (records.size() == 1 || s_m < records[1].s_m) return 0;
-  const auto after =
-      std::upper_bound(records.begin() + 2, records.end(), s_m,
-                       [](double s, const Record& record) { return s < record.s_m; });
+  const auto after = std::upper_bound(records.begin() + 2, records.end(), s_m,
+                                      [](double s, const Record& record) { return s < record.s_m; });
   return static_cast<std::size_t>(after - records.begin()) - 1;
 }
 

@@ -106,7 +106,7 @@ struct LaneSpeed {
 /// What the surface is made of (OpenDRIVE 1.8, §11.8.1 lane material; §13.4 material of objects,
 /// for patches of the road).
 struct SurfaceMaterial {
-  std::string surface;  ///< The file's own word; Septet knows wet, snow and ice, else it is paved.
+  std::string surface;     ///< The file's own word; Septet knows wet, snow and ice, else it is paved.
   double friction = 0.0;   ///< Coefficient when dry; 0 where the file gives none.
   double roughness = 0.0;  ///< For sound and shaking; 0 where the file gives none.
 };

@@ -55,20 +55,15 @@ double lane_height_m(const Road& road, double s_m, double t_m) {
   const LaneSection& section = section_at(road, s_m);
   double height = 0.0;
   const int side = t_m > centre_border(road, s_m).t_m ? 1 : -1;
-  visit_lanes(road, section, s_m, side,
-              [&](const Lane& lane, const Border& inner, const Border& outer) {
-                const double width = std::abs(outer.t_m - inner.t_m);
-                const double inside = side * (t_m - inner.t_m);
-                if (inside > width &&
-                    std::abs(lane.id) < (side > 0 ? section.left_count : section.right_count))
-                  return true;
-                if (lane.heights.empty() || width <= 0.0 || s_m < lane.heights.front().s_m)
-                  return false;
-                const LaneHeight& record = lane.heights[record_at(lane.heights, s_m)];
-                height = record.inner_m +
-                         (record.outer_m - record.inner_m) * std::clamp(inside / width, 0.0, 1.0);
-                return false;
-              });
+  visit_lanes(road, section, s_m, side, [&](const Lane& lane, const Border& inner, const Border& outer) {
+    const double width = std::abs(outer.t_m - inner.t_m);
+    const double inside = side * (t_m - inner.t_m);
+    if (inside > width && std::abs(lane.id) < (side > 0 ? section.left_count : section.right_count)) return true;
+    if (lane.heights.empty() || width <= 0.0 || s_m < lane.heights.front().s_m) return false;
+    const LaneHeight& record = lane.heights[record_at(lane.heights, s_m)];
+    height = record.inner_m + (record.outer_m - record.inner_m) * std::clamp(inside / width, 0.0, 1.0);
+    return false;
+  });
   return height;
 }
 
@@ -105,11 +100,10 @@ LaneBorders lane_borders(const Road& road, const LaneSection& section, int lane,
   borders.inner_t_m = borders.outer_t_m = centre_border(road, s_m).t_m;
   borders.inner_slope = borders.outer_slope = centre_border(road, s_m).slope;
   if (lane == 0) return borders;
-  visit_lanes(road, section, s_m, lane > 0 ? 1 : -1,
-              [&](const Lane& at, const Border& inner, const Border& outer) {
-                borders = {inner.t_m, outer.t_m, inner.slope, outer.slope};
-                return at.id != lane;
-              });
+  visit_lanes(road, section, s_m, lane > 0 ? 1 : -1, [&](const Lane& at, const Border& inner, const Border& outer) {
+    borders = {inner.t_m, outer.t_m, inner.slope, outer.slope};
+    return at.id != lane;
+  });
   return borders;
 }
 
@@ -151,27 +145,26 @@ LanesAt lanes_at(const Road& road, double s_m, double t_m) {
   const double centre_t = centre_border(road, s_m).t_m;
   const int own_side = t_m > centre_t ? 1 : -1;
   for (const int side : {own_side, -own_side}) {
-    visit_lanes(
-        road, section, s_m, side, [&](const Lane& lane, const Border& inner, const Border& outer) {
-          const double low = std::min(inner.t_m, outer.t_m), high = std::max(inner.t_m, outer.t_m);
-          if (high <= low) return true;
-          const double centre = 0.5 * (low + high);
-          const double outside = std::max({low - t_m, t_m - high, 0.0});
-          found.outside_m = std::min(found.outside_m, outside);
-          // A lane that holds the point beats every other; among those that do not the nearest
-          // centre wins.
-          const double distance = outside == 0.0 ? -1.0 : std::abs(t_m - centre);
-          if (distance < nearest_any) {
-            nearest_any = distance;
-            found.lane_any_type = lane.id;
-          }
-          if (is_drivable(lane.type) && distance < nearest_drivable) {
-            nearest_drivable = distance;
-            found.lane = lane.id;
-            found.offset_m = t_m - centre;
-          }
-          return nearest_drivable >= 0.0;
-        });
+    visit_lanes(road, section, s_m, side, [&](const Lane& lane, const Border& inner, const Border& outer) {
+      const double low = std::min(inner.t_m, outer.t_m), high = std::max(inner.t_m, outer.t_m);
+      if (high <= low) return true;
+      const double centre = 0.5 * (low + high);
+      const double outside = std::max({low - t_m, t_m - high, 0.0});
+      found.outside_m = std::min(found.outside_m, outside);
+      // A lane that holds the point beats every other; among those that do not the nearest
+      // centre wins.
+      const double distance = outside == 0.0 ? -1.0 : std::abs(t_m - centre);
+      if (distance < nearest_any) {
+        nearest_any = distance;
+        found.lane_any_type = lane.id;
+      }
+      if (is_drivable(lane.type) && distance < nearest_drivable) {
+        nearest_drivable = distance;
+        found.lane = lane.id;
+        found.offset_m = t_m - centre;
+      }
+      return nearest_drivable >= 0.0;
+    });
     if (nearest_drivable < 0.0) return found;
   }
   if (found.outside_m == 1e300) found.outside_m = std::abs(t_m - centre_t);
@@ -183,14 +176,12 @@ double speed_limit_mps(const RoadNetwork& network, const LanePosition& position)
   const LaneSection& section = section_at(road, position.s_m);
   if (section.has_lane(position.lane)) {
     const auto& speeds = section.lane(position.lane).speeds;
-    if (!speeds.empty() && speeds.front().s_m <= position.s_m)
-      return speeds[record_at(speeds, position.s_m)].limit_mps;
+    if (!speeds.empty() && speeds.front().s_m <= position.s_m) return speeds[record_at(speeds, position.s_m)].limit_mps;
   }
   return road.types.empty() ? 0.0 : road.types[record_at(road.types, position.s_m)].speed_limit_mps;
 }
 
-const RoadMark* road_mark_at(const RoadNetwork& network, RoadIndex road_index, int lane,
-                             double s_m) {
+const RoadMark* road_mark_at(const RoadNetwork& network, RoadIndex road_index, int lane, double s_m) {
   const LaneSection& section = section_at(network.roads[road_index], s_m);
   if (!section.has_lane(lane)) return nullptr;
   const auto& marks = section.lane(lane).marks;

@@ -27,9 +27,7 @@ struct LaneBorders {
   double inner_t_m = 0.0, outer_t_m = 0.0;
   double inner_slope = 0.0, outer_slope = 0.0;
 
-  double width_m() const {
-    return outer_t_m > inner_t_m ? outer_t_m - inner_t_m : inner_t_m - outer_t_m;
-  }
+  double width_m() const { return outer_t_m > inner_t_m ? outer_t_m - inner_t_m : inner_t_m - outer_t_m; }
   double centre_t_m() const { return 0.5 * (inner_t_m + outer_t_m); }
   double centre_slope() const { return 0.5 * (inner_slope + outer_slope); }
 };
@@ -52,8 +50,8 @@ RoadExtent road_extent(const Road& road, double s_m);
 /// The lanes at (s, t). A lane that has no width there does not count; a border belongs to the
 /// first lane that holds it.
 struct LanesAt {
-  int lane = 0;  ///< The drivable lane that holds the point, else the drivable lane with the
-                 ///< nearest centre; 0: none.
+  int lane = 0;            ///< The drivable lane that holds the point, else the drivable lane with the
+                           ///< nearest centre; 0: none.
   int lane_any_type = 0;   ///< The lane of any type that holds the point, else the nearest.
   double offset_m = 0.0;   ///< t − centre of `lane`.
   double outside_m = 0.0;  ///< How far the point lies outside the outermost lanes; 0 inside.

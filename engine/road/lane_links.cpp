@@ -36,8 +36,7 @@ void enter_junction(const RoadNetwork& network, JunctionIndex index, RoadIndex f
       }
       // A direct junction is passed both ways: there is no connecting road whose own links would
       // lead back.
-      if (junction.kind == Junction::Kind::direct && connection.connecting == from &&
-          link.to == lane) {
+      if (junction.kind == Junction::Kind::direct && connection.connecting == from && link.to == lane) {
         const ContactPoint contact = end_at_junction(network.roads[connection.incoming], index);
         enter_road(network, connection.incoming, contact, link.from, found);
       }
@@ -53,8 +52,7 @@ std::optional<int> neighbour(const RoadNetwork& network, const LanePosition& pos
   int lane = position.lane + (along ? side : -side);
   if (lane == 0) lane += along ? side : -side;
   if (!section.has_lane(lane) || !is_drivable(section.lane(lane).type)) return std::nullopt;
-  if (runs_along_s(road, section, lane) != along ||
-      lane_width_m(network, position.road, lane, position.s_m) <= 0.0) {
+  if (runs_along_s(road, section, lane) != along || lane_width_m(network, position.road, lane, position.s_m) <= 0.0) {
     return std::nullopt;
   }
   return lane;
@@ -65,8 +63,7 @@ std::optional<int> neighbour(const RoadNetwork& network, const LanePosition& pos
 bool runs_along_s(const Road& road, const LaneSection& section, int lane) {
   const bool right_side = lane < 0;
   const bool along = right_side == (road.rule == TrafficRule::right_hand);
-  const bool reversed =
-      section.has_lane(lane) && section.lane(lane).direction == LaneDirection::reversed;
+  const bool reversed = section.has_lane(lane) && section.lane(lane).direction == LaneDirection::reversed;
   return along != reversed;
 }
 
@@ -84,8 +81,7 @@ std::optional<int> lane_to_the_right(const RoadNetwork& network, const LanePosit
 }
 
 std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road_index,
-                                            std::uint32_t section_index, int lane,
-                                            bool towards_increasing_s) {
+                                            std::uint32_t section_index, int lane, bool towards_increasing_s) {
   const Road& road = network.roads[road_index];
   const LaneSection& section = road.sections[section_index];
   std::vector<LaneContinuation> found;
@@ -93,13 +89,11 @@ std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadInde
   const std::vector<int>& linked =
       towards_increasing_s ? section.lane(lane).successors : section.lane(lane).predecessors;
 
-  const bool last =
-      towards_increasing_s ? section_index + 1 == road.sections.size() : section_index == 0;
+  const bool last = towards_increasing_s ? section_index + 1 == road.sections.size() : section_index == 0;
   if (!last) {
     const std::uint32_t next = towards_increasing_s ? section_index + 1 : section_index - 1;
     for (const int to : linked) {
-      if (to != 0 && road.sections[next].has_lane(to))
-        found.push_back({road_index, next, to, towards_increasing_s});
+      if (to != 0 && road.sections[next].has_lane(to)) found.push_back({road_index, next, to, towards_increasing_s});
     }
     return found;
   }
@@ -119,10 +113,8 @@ Advanced advance(const RoadNetwork& network, const LanePosition& from, double di
   int crossings_without_way = 0;
   for (;;) {
     const Road& road = network.roads[at.position.road];
-    const double end =
-        at.towards_increasing_s ? road.sections[section].s_end_m : road.sections[section].s_m;
-    const double room =
-        std::max(0.0, at.towards_increasing_s ? end - at.position.s_m : at.position.s_m - end);
+    const double end = at.towards_increasing_s ? road.sections[section].s_end_m : road.sections[section].s_m;
+    const double room = std::max(0.0, at.towards_increasing_s ? end - at.position.s_m : at.position.s_m - end);
     if (at.remaining_m <= room) {
       at.position.s_m += at.towards_increasing_s ? at.remaining_m : -at.remaining_m;
       at.remaining_m = 0.0;
@@ -132,18 +124,14 @@ Advanced advance(const RoadNetwork& network, const LanePosition& from, double di
     at.remaining_m -= room;
     // A ring of roads without length would never use the distance up.
     crossings_without_way = room > 0.0 ? 0 : crossings_without_way + 1;
-    const auto next = continuations(network, at.position.road, section, at.position.lane,
-                                    at.towards_increasing_s);
+    const auto next = continuations(network, at.position.road, section, at.position.lane, at.towards_increasing_s);
     if (next.empty() || crossings_without_way > 1000) return at;
-    const std::size_t chosen =
-        next.size() > 1 && choose ? std::min(choose(next), next.size() - 1) : 0;
+    const std::size_t chosen = next.size() > 1 && choose ? std::min(choose(next), next.size() - 1) : 0;
     const LaneContinuation& to = next[chosen];
     const Road& to_road = network.roads[to.road];
-    const double s = to.towards_increasing_s ? to_road.sections[to.section].s_m
-                                             : to_road.sections[to.section].s_end_m;
-    const double offset = to.towards_increasing_s == at.towards_increasing_s
-                              ? at.position.offset_m
-                              : -at.position.offset_m;
+    const double s = to.towards_increasing_s ? to_road.sections[to.section].s_m : to_road.sections[to.section].s_end_m;
+    const double offset =
+        to.towards_increasing_s == at.towards_increasing_s ? at.position.offset_m : -at.position.offset_m;
     at.position = {to.road, to.lane, s, offset};
     at.towards_increasing_s = to.towards_increasing_s;
     section = to.section;

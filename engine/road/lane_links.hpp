@@ -33,8 +33,7 @@ struct LaneContinuation {
 
 /// All continuations of `lane` beyond the end (`towards_increasing_s`) or the start of `section`;
 /// none where the lane ends.
-std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road,
-                                            std::uint32_t section, int lane,
+std::vector<LaneContinuation> continuations(const RoadNetwork& network, RoadIndex road, std::uint32_t section, int lane,
                                             bool towards_increasing_s);
 
 /// Chooses among two or more continuations; the answer is an index.
@@ -43,7 +42,7 @@ using ChooseContinuation = std::function<std::size_t(std::span<const LaneContinu
 struct Advanced {
   LanePosition position;
   bool towards_increasing_s = true;  ///< How s runs at the new position, going on the way one came.
-  double remaining_m = 0.0;  ///< What is left of the distance where the lane ended; 0 otherwise.
+  double remaining_m = 0.0;          ///< What is left of the distance where the lane ended; 0 otherwise.
 };
 
 /// Goes `distance_m` along the lane, in its direction of travel if positive, backwards if negative,

@@ -20,16 +20,13 @@ struct HeaderOffset {
 CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, const char* element,
                           const char* station_attribute, double s_start_m);
 
-void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset,
-               Road& road);
-void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node,
-                    const HeaderOffset& offset, Road& road);
+void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road);
+void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road);
 void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& road);
 /// Whether the lanes make a surface: they do not fold over, nor leave the world upwards.
 void check_surface(XmlFindings& findings, const pugi::xml_node& road_node, const Road& road);
-std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node,
-                                 const LaneSection& section);
+std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node, const LaneSection& section);
 /// A `<material>` of a lane or of an object that is a patch of the road.
 SurfaceMaterial read_material(XmlFindings& findings, const pugi::xml_node& node);
 /// Metres per second of a `<speed max unit>`; 0 for "no limit" and "undefined".
@@ -42,8 +39,7 @@ void read_signals(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
 void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork& network);
 /// Lanes that are linked to lanes that are not there, marks' ends, flat roads: what is known only
 /// when all is linked.
-void check_lane_links(XmlFindings& findings, const pugi::xml_node& root,
-                      const RoadNetwork& network);
+void check_lane_links(XmlFindings& findings, const pugi::xml_node& root, const RoadNetwork& network);
 /// Holds the standard's checker rules against a file without errors (rule_checks.hpp).
 void check_rules(XmlFindings& findings, const pugi::xml_node& root, const RoadNetwork& network);
 

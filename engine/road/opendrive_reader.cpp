@@ -38,25 +38,18 @@ HeaderOffset read_header(XmlFindings& findings, const pugi::xml_node& root, Netw
       revision = node.attribute(attribute).as_int();
       return;
     }
-    findings.warning(node,
-                     fmt::format("{} is missing or no number; the file is read as OpenDRIVE 1.8",
-                                 attribute),
-                     "write revMajor=\"1\" and revMinor=\"4\" to \"8\"",
-                     "asam.net:xodr:1.0.0:xml.version_is_defined");
+    findings.warning(node, fmt::format("{} is missing or no number; the file is read as OpenDRIVE 1.8", attribute),
+                     "write revMajor=\"1\" and revMinor=\"4\" to \"8\"", "asam.net:xodr:1.0.0:xml.version_is_defined");
   };
   read_revision("revMajor", header.revision_major);
   read_revision("revMinor", header.revision_minor);
-  if (header.revision_major != 1 || header.revision_minor < 4 ||
-      header.revision_minor > newest_minor) {
-    findings.warning(
-        node,
-        fmt::format("OpenDRIVE {}.{} is read as 1.8", header.revision_major, header.revision_minor),
-        "use a revision from 1.4 to 1.8");
+  if (header.revision_major != 1 || header.revision_minor < 4 || header.revision_minor > newest_minor) {
+    findings.warning(node, fmt::format("OpenDRIVE {}.{} is read as 1.8", header.revision_major, header.revision_minor),
+                     "use a revision from 1.4 to 1.8");
   }
   const auto offset = node.child("offset");
   if (!offset) return {};
-  return {{findings.number_or(offset, "x", 0.0, farthest_m),
-           findings.number_or(offset, "y", 0.0, farthest_m)},
+  return {{findings.number_or(offset, "x", 0.0, farthest_m), findings.number_or(offset, "y", 0.0, farthest_m)},
           findings.number_or(offset, "z", 0.0, highest_m),
           findings.number_or(offset, "hdg", 0.0)};
 }
@@ -64,8 +57,7 @@ HeaderOffset read_header(XmlFindings& findings, const pugi::xml_node& root, Netw
 TrafficRule read_rule(XmlFindings& findings, const pugi::xml_node& node) {
   const std::string_view rule = node.attribute("rule").value();
   if (!rule.empty() && rule != "RHT" && rule != "LHT") {
-    findings.error(node, fmt::format("rule=\"{}\" is neither RHT nor LHT", rule.substr(0, 40)),
-                   "write RHT or LHT");
+    findings.error(node, fmt::format("rule=\"{}\" is neither RHT nor LHT", rule.substr(0, 40)), "write RHT or LHT");
   }
   return rule == "LHT" ? TrafficRule::left_hand : TrafficRule::right_hand;
 }
@@ -83,12 +75,10 @@ Road read_road(XmlFindings& findings, const pugi::xml_node& node, const HeaderOf
   }
   for (const auto type : node.children("type")) {
     RoadTypeRecord record{findings.number_or(type, "s", 0.0), type.attribute("type").value(), 0.0};
-    if (const auto speed = type.child("speed"))
-      record.speed_limit_mps = read_speed(findings, speed);
+    if (const auto speed = type.child("speed")) record.speed_limit_mps = read_speed(findings, speed);
     road.types.push_back(std::move(record));
   }
-  std::stable_sort(road.types.begin(), road.types.end(),
-                   [](const auto& a, const auto& b) { return a.s_m < b.s_m; });
+  std::stable_sort(road.types.begin(), road.types.end(), [](const auto& a, const auto& b) { return a.s_m < b.s_m; });
   read_plan(findings, node, offset, road);
   read_elevation(findings, node, offset, road);
   read_lateral(findings, node, road);
@@ -99,8 +89,7 @@ Road read_road(XmlFindings& findings, const pugi::xml_node& node, const HeaderOf
   return road;
 }
 
-void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderOffset& offset,
-                RoadNetwork& network) {
+void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderOffset& offset, RoadNetwork& network) {
   std::set<std::string> ids;
   std::size_t knots = 0;
   double length_m = 0.0;
@@ -108,8 +97,7 @@ void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderO
     network.roads.push_back(read_road(findings, node, offset));
     const Road& road = network.roads.back();
     if (!ids.insert(road.id).second) {
-      findings.error(node, fmt::format("road id {} is used twice", road.id),
-                     "give each road its own id");
+      findings.error(node, fmt::format("road id {} is used twice", road.id), "give each road its own id");
     }
     length_m += road.length_m;
     if (length_m > longest_network_m) {
@@ -120,8 +108,7 @@ void read_roads(XmlFindings& findings, const pugi::xml_node& root, const HeaderO
     }
     knots += road.plan.clothoid_knots.size() + road.plan.cubic_knots.size();
     if (knots > most_knots) {
-      findings.error(node, "the curves up to here turn more than a road network can",
-                     "check lengths and curvatures");
+      findings.error(node, "the curves up to here turn more than a road network can", "check lengths and curvatures");
       network.roads.clear();
       return;
     }
@@ -143,15 +130,13 @@ RoadNetwork read_network(XmlFindings& findings, std::string_view xml, Rules rule
   pugi::xml_document document;
   const auto result = document.load_buffer(xml.data(), xml.size());
   if (!result) {
-    findings.error_at(result.offset,
-                      fmt::format("it is no well-formed XML: {}", result.description()),
+    findings.error_at(result.offset, fmt::format("it is no well-formed XML: {}", result.description()),
                       "repair the XML there", "asam.net:xodr:1.0.0:xml.valid_xml_document");
     return network;
   }
   const auto root = document.child("OpenDRIVE");
   if (!root) {
-    findings.error_at(0, "the root element is not <OpenDRIVE>",
-                      "give an ASAM OpenDRIVE file (.xodr)",
+    findings.error_at(0, "the root element is not <OpenDRIVE>", "give an ASAM OpenDRIVE file (.xodr)",
                       "asam.net:xodr:1.0.0:xml.root_tag_is_opendrive");
     return network;
   }
@@ -168,8 +153,7 @@ RoadNetwork read_network(XmlFindings& findings, std::string_view xml, Rules rule
 
 }  // namespace
 
-Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name,
-                                     std::vector<Finding>* warnings) {
+Expected<RoadNetwork> read_opendrive(std::string_view xml, std::string_view name, std::vector<Finding>* warnings) {
   XmlFindings findings(xml, name);
   RoadNetwork network = read_network(findings, xml, Rules::left_alone);
   if (findings.has_error()) return tl::unexpected(findings.first_error());

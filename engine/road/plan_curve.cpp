@@ -17,10 +17,8 @@ constexpr double cubic_knot_spacing_m = 0.5;
 constexpr std::size_t min_cubic_knots = 64, max_cubic_knots = 16384;
 
 // Gauss–Legendre nodes and weights on [0, 1], four points.
-constexpr double gauss_node[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281,
-                                  0.9305681557970263};
-constexpr double gauss_weight[4] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
-                                    0.17392742256872692};
+constexpr double gauss_node[4] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
+constexpr double gauss_weight[4] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307, 0.17392742256872692};
 
 Vec2 left_of(const Vec2& direction) { return {-direction.y, direction.x}; }
 
@@ -50,23 +48,14 @@ ClothoidKnot walk_clothoid(const ClothoidKnot& knot, double curvature, double ra
   }
   moved *= step_m;
   const Vec2 left = left_of(knot.direction);
-  return {knot.position_m + moved.x * knot.direction + moved.y * left,
-          turn.x * knot.direction + turn.y * left};
+  return {knot.position_m + moved.x * knot.direction + moved.y * left, turn.x * knot.direction + turn.y * left};
 }
 
-double polynomial(const std::array<double, 4>& k, double p) {
-  return k[0] + p * (k[1] + p * (k[2] + p * k[3]));
-}
-double derivative(const std::array<double, 4>& k, double p) {
-  return k[1] + p * (2.0 * k[2] + p * 3.0 * k[3]);
-}
-double second_derivative(const std::array<double, 4>& k, double p) {
-  return 2.0 * k[2] + 6.0 * k[3] * p;
-}
+double polynomial(const std::array<double, 4>& k, double p) { return k[0] + p * (k[1] + p * (k[2] + p * k[3])); }
+double derivative(const std::array<double, 4>& k, double p) { return k[1] + p * (2.0 * k[2] + p * 3.0 * k[3]); }
+double second_derivative(const std::array<double, 4>& k, double p) { return 2.0 * k[2] + 6.0 * k[3] * p; }
 
-double speed(const CubicCurve& cubic, double p) {
-  return std::hypot(derivative(cubic.u, p), derivative(cubic.v, p));
-}
+double speed(const CubicCurve& cubic, double p) { return std::hypot(derivative(cubic.u, p), derivative(cubic.v, p)); }
 
 double arc_length(const CubicCurve& cubic, double p0, double p1) {
   double sum = 0.0;
@@ -86,13 +75,11 @@ PlanRecord record_from(const PlanStart& start) {
 PlanPoint evaluate_clothoid(const PlanCurve& curve, const PlanRecord& record, double ds) {
   const auto last = static_cast<double>(record.knot_count - 1);
   const double nearest = std::clamp(std::floor(ds / record.knot_step_m), 0.0, last);
-  const ClothoidKnot& knot =
-      curve.clothoid_knots[record.first_knot + static_cast<std::uint32_t>(nearest)];
+  const ClothoidKnot& knot = curve.clothoid_knots[record.first_knot + static_cast<std::uint32_t>(nearest)];
   const double u = nearest * record.knot_step_m;
   const double curvature = record.curvature_per_m + record.curvature_rate_per_m2 * u;
   const ClothoidKnot end = walk_clothoid(knot, curvature, record.curvature_rate_per_m2, ds - u);
-  return {end.position_m, end.direction,
-          record.curvature_per_m + record.curvature_rate_per_m2 * ds};
+  return {end.position_m, end.direction, record.curvature_per_m + record.curvature_rate_per_m2 * ds};
 }
 
 /// The parameter at ds: cubic Hermite interpolation between two knots.
@@ -103,8 +90,7 @@ double parameter_at(const PlanCurve& curve, const PlanRecord& record, double ds)
   const double h = record.knot_step_m, w = x - index;
   const double rise = knot[1].parameter - knot[0].parameter;
   const double m0 = knot[0].parameter_per_m * h, m1 = knot[1].parameter_per_m * h;
-  return knot[0].parameter +
-         w * (m0 + w * (3.0 * rise - 2.0 * m0 - m1 + w * (m0 + m1 - 2.0 * rise)));
+  return knot[0].parameter + w * (m0 + w * (3.0 * rise - 2.0 * m0 - m1 + w * (m0 + m1 - 2.0 * rise)));
 }
 
 PlanPoint evaluate_cubic(const PlanCurve& curve, const PlanRecord& record, double ds) {
@@ -114,9 +100,8 @@ PlanPoint evaluate_cubic(const PlanCurve& curve, const PlanRecord& record, doubl
   const double du = derivative(cubic.u, p), dv = derivative(cubic.v, p);
   const double norm = std::sqrt(du * du + dv * dv);
   const double bend = du * second_derivative(cubic.v, p) - dv * second_derivative(cubic.u, p);
-  return {
-      record.start_m + polynomial(cubic.u, p) * record.direction + polynomial(cubic.v, p) * left,
-      (du * record.direction + dv * left) / norm, bend / (norm * norm * norm)};
+  return {record.start_m + polynomial(cubic.u, p) * record.direction + polynomial(cubic.v, p) * left,
+          (du * record.direction + dv * left) / norm, bend / (norm * norm * norm)};
 }
 
 /// Parameters and cumulative arc lengths at even steps of the parameter.
@@ -124,8 +109,7 @@ struct ArcLengthTable {
   std::vector<double> parameter, length_m;
 };
 
-Expected<ArcLengthTable> tabulate(const CubicCurve& cubic, double parameter_end,
-                                  std::size_t steps) {
+Expected<ArcLengthTable> tabulate(const CubicCurve& cubic, double parameter_end, std::size_t steps) {
   ArcLengthTable table{{0.0}, {0.0}};
   table.parameter.reserve(steps + 1);
   table.length_m.reserve(steps + 1);
@@ -146,12 +130,10 @@ Expected<ArcLengthTable> tabulate(const CubicCurve& cubic, double parameter_end,
 
 /// The parameter at which the curve is `length_m` long, by Newton's method from the table.
 double invert(const CubicCurve& cubic, const ArcLengthTable& table, double length_m) {
-  const auto after =
-      std::upper_bound(table.length_m.begin() + 1, table.length_m.end() - 1, length_m);
+  const auto after = std::upper_bound(table.length_m.begin() + 1, table.length_m.end() - 1, length_m);
   const auto i = static_cast<std::size_t>(after - table.length_m.begin()) - 1;
   const double p0 = table.parameter[i], p1 = table.parameter[i + 1];
-  double p =
-      p0 + (p1 - p0) * (length_m - table.length_m[i]) / (table.length_m[i + 1] - table.length_m[i]);
+  double p = p0 + (p1 - p0) * (length_m - table.length_m[i]) / (table.length_m[i + 1] - table.length_m[i]);
   for (int iteration = 0; iteration < 3; ++iteration) {
     const double error = table.length_m[i] + arc_length(cubic, p0, p) - length_m;
     p = std::clamp(p - error / speed(cubic, p), p0, p1);
@@ -161,8 +143,8 @@ double invert(const CubicCurve& cubic, const ArcLengthTable& table, double lengt
 
 }  // namespace
 
-Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start,
-                               double curvature_start_per_m, double curvature_end_per_m) {
+Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start, double curvature_start_per_m,
+                               double curvature_end_per_m) {
   PlanRecord record = record_from(start);
   const double sharpest = std::max(std::abs(curvature_start_per_m), std::abs(curvature_end_per_m));
   const double turn = sharpest * start.length_m;
@@ -178,14 +160,12 @@ Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start,
   record.curvature_per_m = curvature_start_per_m;
   record.curvature_rate_per_m2 = (curvature_end_per_m - curvature_start_per_m) / start.length_m;
   record.first_knot = static_cast<std::uint32_t>(curve.clothoid_knots.size());
-  record.knot_count =
-      static_cast<std::uint32_t>(std::max(1.0, std::ceil(turn / max_turn_per_knot_rad)));
+  record.knot_count = static_cast<std::uint32_t>(std::max(1.0, std::ceil(turn / max_turn_per_knot_rad)));
   record.knot_step_m = start.length_m / record.knot_count;
   ClothoidKnot knot{record.start_m, record.direction};
   for (std::uint32_t i = 0; i < record.knot_count; ++i) {
     curve.clothoid_knots.push_back(knot);
-    const double curvature =
-        record.curvature_per_m + record.curvature_rate_per_m2 * i * record.knot_step_m;
+    const double curvature = record.curvature_per_m + record.curvature_rate_per_m2 * i * record.knot_step_m;
     knot = walk_clothoid(knot, curvature, record.curvature_rate_per_m2, record.knot_step_m);
     knot.direction = glm::normalize(knot.direction);
   }
@@ -193,20 +173,17 @@ Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start,
   return {};
 }
 
-Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic,
-                            CubicRange range) {
+Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic, CubicRange range) {
   PlanRecord record = record_from(start);
   record.kind = PlanKind::cubic;
   record.cubic = cubic;
-  const std::size_t steps =
-      std::clamp(static_cast<std::size_t>(std::min(start.length_m / cubic_knot_spacing_m, 1e6)),
-                 min_cubic_knots, max_cubic_knots);
+  const std::size_t steps = std::clamp(static_cast<std::size_t>(std::min(start.length_m / cubic_knot_spacing_m, 1e6)),
+                                       min_cubic_knots, max_cubic_knots);
   // As a function of u a curve of some length reaches no farther than that in u.
   const double parameter_end = range == CubicRange::normalized ? 1.0 : start.length_m;
   const auto table = tabulate(cubic, parameter_end, steps);
   if (!table) return tl::unexpected(table.error());
-  const double stretch =
-      range == CubicRange::abscissa ? 1.0 : table->length_m.back() / start.length_m;
+  const double stretch = range == CubicRange::abscissa ? 1.0 : table->length_m.back() / start.length_m;
 
   record.first_knot = static_cast<std::uint32_t>(curve.cubic_knots.size());
   record.knot_count = static_cast<std::uint32_t>(steps + 1);

@@ -41,12 +41,11 @@ struct PlanRecord {
   double length_m = 0.0;
   PlanKind kind = PlanKind::line;
   Vec2 start_m{0.0, 0.0};
-  Vec2 direction{1.0, 0.0};  ///< Unit tangent at the start (of the local u axis for a cubic curve).
+  Vec2 direction{1.0, 0.0};            ///< Unit tangent at the start (of the local u axis for a cubic curve).
   double curvature_per_m = 0.0;        ///< Clothoid: at the start.
   double curvature_rate_per_m2 = 0.0;  ///< Clothoid: dκ/ds.
   CubicCurve cubic;
-  std::uint32_t first_knot =
-      0;  ///< In PlanCurve::clothoid_knots or ::cubic_knots; knots are evenly spaced in s.
+  std::uint32_t first_knot = 0;  ///< In PlanCurve::clothoid_knots or ::cubic_knots; knots are evenly spaced in s.
   std::uint32_t knot_count = 0;
   double knot_step_m = 0.0;
 };
@@ -83,14 +82,13 @@ enum class CubicRange : std::uint8_t {
 
 /// A clothoid from `curvature_start` to `curvature_end`; both 0 is a line, both equal an arc.
 /// Error: a record that turns through more than 1,000 rad.
-Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start,
-                               double curvature_start_per_m, double curvature_end_per_m);
+Expected<void> append_clothoid(PlanCurve& curve, const PlanStart& start, double curvature_start_per_m,
+                               double curvature_end_per_m);
 
 /// A cubic curve, run through by arc length in every range; paramPoly3 is stretched so that it is
 /// exactly the record's length long. Error: a curve that stands still or whose length is not
 /// finite.
-Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic,
-                            CubicRange range);
+Expected<void> append_cubic(PlanCurve& curve, const PlanStart& start, const CubicCurve& cubic, CubicRange range);
 
 /// The point at s, which is taken into [0, end]; the curve holds at least one record.
 PlanPoint evaluate_plan(const PlanCurve& curve, double s_m);

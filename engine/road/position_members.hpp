@@ -13,10 +13,12 @@ SEPTET_MEMBERS(LanePosition, road, lane, s_m, offset_m)
 
 /// Positions from outside lie on a road that there is.
 inline void require_on_roads(StateReader& reader, const RoadNetwork& roads, const RoadPosition& position) {
-  reader.require(position.road < roads.roads.size() && std::isfinite(position.s_m) && std::isfinite(position.t_m), "a place in it is on no road");
+  reader.require(position.road < roads.roads.size() && std::isfinite(position.s_m) && std::isfinite(position.t_m),
+                 "a place in it is on no road");
 }
 inline void require_on_roads(StateReader& reader, const RoadNetwork& roads, const LanePosition& position) {
-  reader.require(position.road < roads.roads.size() && std::isfinite(position.s_m) && std::isfinite(position.offset_m), "a place in it is on no road");
+  reader.require(position.road < roads.roads.size() && std::isfinite(position.s_m) && std::isfinite(position.offset_m),
+                 "a place in it is on no road");
 }
 
 }  // namespace septet::road

@@ -25,23 +25,19 @@ double on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& ro
   const double kept = std::clamp(s_m, 0.0, road.length_m);
   if (std::abs(s_m - kept) > tolerated_m) {
     findings.warning(
-        node, fmt::format("s={} is beyond the road, which is {} m long; it is taken to its end",
-                          s_m, road.length_m),
+        node, fmt::format("s={} is beyond the road, which is {} m long; it is taken to its end", s_m, road.length_m),
         "keep s within the road");
   }
   return kept;
 }
 
 /// The length of what begins at `s_m`; what reaches beyond the road is cut off there.
-double length_on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road,
-                      double s_m) {
+double length_on_road(XmlFindings& findings, const pugi::xml_node& node, const Road& road, double s_m) {
   const double length = findings.amount_or(node, "length", 0.0);
   const double kept = std::min(length, road.length_m - s_m);
   if (length > kept + tolerated_m) {
-    findings.warning(
-        node,
-        fmt::format("it reaches {:.4g} m beyond the road; it is cut off there", length - kept),
-        "keep s + length within the road");
+    findings.warning(node, fmt::format("it reaches {:.4g} m beyond the road; it is cut off there", length - kept),
+                     "keep s + length within the road");
   }
   return kept;
 }
@@ -56,9 +52,8 @@ ObjectRepeat read_repeat(XmlFindings& findings, const pugi::xml_node& node, cons
   repeat.length_m = length_on_road(findings, node, road, repeat.s_m);
   repeat.distance_m = findings.amount_or(node, "distance", 0.0);
   if (repeat.distance_m > 0.0 && repeat.distance_m < least_spacing_m) {
-    findings.warning(
-        node, fmt::format("distance={}; it is taken as one continuous object", repeat.distance_m),
-        fmt::format("give 0 or at least {} m", least_spacing_m));
+    findings.warning(node, fmt::format("distance={}; it is taken as one continuous object", repeat.distance_m),
+                     fmt::format("give 0 or at least {} m", least_spacing_m));
     repeat.distance_m = 0.0;
   }
   repeat.t_start_m = number_or("tStart", object.t_m);
@@ -77,19 +72,16 @@ Outline read_outline(XmlFindings& findings, const pugi::xml_node& node) {
   outline.closed = node.attribute("closed").as_bool(true);
   for (const auto corner : node.children()) {
     const std::string_view name = corner.name();
-    const auto number = [&](const char* attribute, double most) {
-      return findings.number(corner, attribute, most);
-    };
+    const auto number = [&](const char* attribute, double most) { return findings.number(corner, attribute, most); };
     const auto number_or = [&](const char* attribute) {
       return findings.number_or(corner, attribute, 0.0, largest_object_m);
     };
     if (name == "cornerRoad") {
-      outline.corners.push_back({true, number("s", longest_road_m), number("t", largest_object_m),
-                                 number_or("dz"), number_or("height")});
+      outline.corners.push_back(
+          {true, number("s", longest_road_m), number("t", largest_object_m), number_or("dz"), number_or("height")});
     } else if (name == "cornerLocal") {
-      outline.corners.push_back({false, number("u", largest_object_m),
-                                 number("v", largest_object_m), number_or("z"),
-                                 number_or("height")});
+      outline.corners.push_back(
+          {false, number("u", largest_object_m), number("v", largest_object_m), number_or("z"), number_or("height")});
     }
   }
   return outline;
@@ -116,10 +108,8 @@ RoadObject read_object(XmlFindings& findings, const pugi::xml_node& node, const 
     object.repeats.push_back(read_repeat(findings, repeat, road, object));
   // Up to 1.4 the one outline is a child of the object; since then all are in a list.
   for (const auto& holder : {node, node.child("outlines")})
-    for (const auto outline : holder.children("outline"))
-      object.outlines.push_back(read_outline(findings, outline));
-  if (const auto material = node.child("material"))
-    object.material = read_material(findings, material);
+    for (const auto outline : holder.children("outline")) object.outlines.push_back(read_outline(findings, outline));
+  if (const auto material = node.child("material")) object.material = read_material(findings, material);
   return object;
 }
 
@@ -129,8 +119,7 @@ SurfacePatch patch_of(const RoadObject& object) {
   SurfacePatch patch{*object.material, {}, {}, {}};
   const double cosine = std::cos(object.heading_rad), sine = std::sin(object.heading_rad);
   const auto add_local = [&](double u_m, double v_m) {
-    patch.corners_st_m.push_back(
-        {object.s_m + cosine * u_m - sine * v_m, object.t_m + sine * u_m + cosine * v_m});
+    patch.corners_st_m.push_back({object.s_m + cosine * u_m - sine * v_m, object.t_m + sine * u_m + cosine * v_m});
   };
   if (!object.outlines.empty()) {
     for (const OutlineCorner& corner : object.outlines.front().corners) {
@@ -175,8 +164,7 @@ void read_structures(XmlFindings& findings, const pugi::xml_node& objects, const
 
 void read_objects(XmlFindings& findings, const pugi::xml_node& road_node, Road& road) {
   const auto objects = road_node.child("objects");
-  for (const auto node : objects.children("object"))
-    road.objects.push_back(read_object(findings, node, road));
+  for (const auto node : objects.children("object")) road.objects.push_back(read_object(findings, node, road));
   for (const RoadObject& object : road.objects)
     if (object.material) road.patches.push_back(patch_of(object));
   read_structures(findings, objects, "bridge", RoadStructure::Kind::bridge, road);

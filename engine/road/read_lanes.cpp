@@ -13,8 +13,7 @@ namespace {
 
 constexpr double tolerated_negative_m = 0.01;
 
-std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_node,
-                            const char* element) {
+std::vector<int> read_links(XmlFindings& findings, const pugi::xml_node& lane_node, const char* element) {
   std::vector<int> ids;
   for (const auto node : lane_node.child("link").children(element)) {
     if (const auto id = findings.integer(node, "id")) ids.push_back(*id);
@@ -32,8 +31,7 @@ LaneType read_type(XmlFindings& findings, const pugi::xml_node& node, int id) {
   // Names of older editions.
   if (text == "mwyEntry") return LaneType::entry;
   if (text == "mwyExit") return LaneType::exit;
-  if (text == "roadMark" || text == "special1" || text == "special2" || text == "special3")
-    return LaneType::other;
+  if (text == "roadMark" || text == "special1" || text == "special2" || text == "special3") return LaneType::other;
   if (text == "shared" || text == "walking") return LaneType::sidewalk;
   findings.warning(node,
                    text.empty() ? fmt::format("lane {} has no type", id)
@@ -48,20 +46,18 @@ LaneDirection read_direction(const pugi::xml_node& node) {
   return text == "both" ? LaneDirection::both : LaneDirection::standard;
 }
 
-void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane& lane,
-                  double s_end) {
+void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane& lane, double s_end) {
   const bool by_border = lane.widths.empty();
   const CubicProfile& profile = by_border ? lane.borders : lane.widths;
   visit_records(profile, s_end, [&](const CubicRecord& record, double end) {
     const ValueRange range = value_range(record, record.s_m, end);
     if (!(range.magnitude() <= widest_m)) {
       findings.error(node,
-                     fmt::format("lane {} is {:.4g} m wide from s={:.3f}", lane.id,
-                                 range.magnitude(), record.s_m),
+                     fmt::format("lane {} is {:.4g} m wide from s={:.3f}", lane.id, range.magnitude(), record.s_m),
                      "check its polynomial");
     } else if (!by_border && range.low < -tolerated_negative_m) {
-      const std::string what = fmt::format("the width of lane {} from s={:.3f} is negative ({:.4g} m)",
-                                           lane.id, record.s_m, range.low);
+      const std::string what =
+          fmt::format("the width of lane {} from s={:.3f} is negative ({:.4g} m)", lane.id, record.s_m, range.low);
       if (record.a < -tolerated_negative_m) {
         findings.error(node, what, "give a width of at least 0 m");
       } else {
@@ -71,8 +67,7 @@ void check_widths(XmlFindings& findings, const pugi::xml_node& node, const Lane&
   });
 }
 
-Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSection& section,
-               int id) {
+Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSection& section, int id) {
   Lane lane;
   lane.id = id;
   lane.type = read_type(findings, node, id);
@@ -85,8 +80,7 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
   lane.widths = read_profile(findings, node, "width", "sOffset", section.s_m);
   lane.borders = read_profile(findings, node, "border", "sOffset", section.s_m);
   if (lane.widths.empty() && lane.borders.empty()) {
-    findings.warning(node, fmt::format("lane {} has no width; it is taken as 0", id),
-                     "add a width or a border");
+    findings.warning(node, fmt::format("lane {} has no width; it is taken as 0", id), "add a width or a border");
   }
   check_widths(findings, node, lane, section.s_end_m);
   for (const auto height : node.children("height")) {
@@ -95,12 +89,11 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
                             findings.number_or(height, "outer", 0.0, tallest_m)});
   }
   for (const auto speed : node.children("speed")) {
-    lane.speeds.push_back(
-        {section.s_m + findings.number_or(speed, "sOffset", 0.0), read_speed(findings, speed)});
+    lane.speeds.push_back({section.s_m + findings.number_or(speed, "sOffset", 0.0), read_speed(findings, speed)});
   }
   for (const auto material : node.children("material")) {
-    lane.materials.push_back({section.s_m + findings.number_or(material, "sOffset", 0.0),
-                              read_material(findings, material)});
+    lane.materials.push_back(
+        {section.s_m + findings.number_or(material, "sOffset", 0.0), read_material(findings, material)});
   }
   const auto by_station = [](const auto& a, const auto& b) { return a.s_m < b.s_m; };
   std::stable_sort(lane.heights.begin(), lane.heights.end(), by_station);
@@ -110,8 +103,8 @@ Lane read_lane(XmlFindings& findings, const pugi::xml_node& node, const LaneSect
 }
 
 /// The lanes of one side, from the centre outwards; their ids must run sign·1, sign·2, …
-std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_node,
-                            const LaneSection& section, int sign) {
+std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_node, const LaneSection& section,
+                            int sign) {
   std::vector<Lane> lanes;
   for (const auto node : side_node.children("lane")) {
     const auto id = findings.integer(node, "id");
@@ -133,8 +126,7 @@ std::vector<Lane> read_side(XmlFindings& findings, const pugi::xml_node& side_no
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const int expected = sign * static_cast<int>(i + 1);
     if (lanes[i].id == expected) continue;
-    findings.error(side_node,
-                   fmt::format("lane {} stands where lane {} is due", lanes[i].id, expected),
+    findings.error(side_node, fmt::format("lane {} stands where lane {} is due", lanes[i].id, expected),
                    "number the lanes of a side without a gap from the centre outwards, each once");
     lanes[i].id = expected;
   }
@@ -159,8 +151,7 @@ std::vector<Lane> continue_side(LaneSection& before, const LaneSection& section,
   return lanes;
 }
 
-void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection& section,
-                  LaneSection* before) {
+void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection& section, LaneSection* before) {
   std::vector<Lane> left = read_side(findings, node.child("left"), section, 1);
   std::vector<Lane> right = read_side(findings, node.child("right"), section, -1);
   if (before != nullptr && node.attribute("singleSide").as_bool()) {
@@ -168,13 +159,10 @@ void read_section(XmlFindings& findings, const pugi::xml_node& node, LaneSection
     if (!node.child("right")) right = continue_side(*before, section, -1);
   }
   const auto centre = node.child("center").child("lane");
-  if (!centre)
-    findings.warning(node, "the lane section has no centre lane",
-                     "add <center><lane id=\"0\" …/></center>");
+  if (!centre) findings.warning(node, "the lane section has no centre lane", "add <center><lane id=\"0\" …/></center>");
   section.left_count = static_cast<int>(left.size());
   section.right_count = static_cast<int>(right.size());
-  section.lanes.assign(std::make_move_iterator(left.rbegin()),
-                       std::make_move_iterator(left.rend()));
+  section.lanes.assign(std::make_move_iterator(left.rbegin()), std::make_move_iterator(left.rend()));
   section.lanes.push_back(centre ? read_lane(findings, centre, section, 0) : Lane{});
   section.lanes.insert(section.lanes.end(), std::make_move_iterator(right.begin()),
                        std::make_move_iterator(right.end()));
@@ -198,8 +186,7 @@ double read_speed(XmlFindings& findings, const pugi::xml_node& node) {
   if (unit == "km/h") return value / 3.6;
   if (unit == "mph") return value * 0.44704;
   if (!unit.empty() && unit != "m/s") {
-    findings.warning(node,
-                     fmt::format("unit \"{}\" is unknown; it is taken as m/s", unit.substr(0, 40)),
+    findings.warning(node, fmt::format("unit \"{}\" is unknown; it is taken as m/s", unit.substr(0, 40)),
                      "use m/s, km/h or mph");
   }
   return value;
@@ -211,8 +198,7 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
   visit_records(road.lane_offset, road.length_m, [&](const CubicRecord& record, double end) {
     const double reach = value_range(record, record.s_m, end).magnitude();
     if (reach <= widest_m) return;
-    findings.error(lanes,
-                   fmt::format("the lane offset from s={} reaches {:.4g} m", record.s_m, reach),
+    findings.error(lanes, fmt::format("the lane offset from s={} reaches {:.4g} m", record.s_m, reach),
                    fmt::format("keep it within ±{} m", widest_m));
   });
   std::vector<pugi::xml_node> nodes;
@@ -224,15 +210,12 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
       continue;
     }
     if (road.sections.empty() && s != 0.0) {
-      findings.warning(node,
-                       fmt::format("the first lane section begins at s={}; it is taken as 0", s),
+      findings.warning(node, fmt::format("the first lane section begins at s={}; it is taken as 0", s),
                        "let it begin at 0");
     }
     if (s > road.length_m) {
-      findings.warning(
-          node,
-          fmt::format("s={} lies beyond the road's end at {}; it is left out", s, road.length_m),
-          "let the section begin on the road");
+      findings.warning(node, fmt::format("s={} lies beyond the road's end at {}; it is left out", s, road.length_m),
+                       "let the section begin on the road");
       continue;
     }
     LaneSection section;
@@ -246,8 +229,7 @@ void read_lanes(XmlFindings& findings, const pugi::xml_node& road_node, Road& ro
     return;
   }
   for (std::size_t i = 0; i < road.sections.size(); ++i) {
-    road.sections[i].s_end_m =
-        i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
+    road.sections[i].s_end_m = i + 1 < road.sections.size() ? road.sections[i + 1].s_m : road.length_m;
     read_section(findings, nodes[i], road.sections[i], i > 0 ? &road.sections[i - 1] : nullptr);
   }
   road.flat = road.shapes.empty() && road.crossfall_left.empty() && road.crossfall_right.empty();

@@ -19,8 +19,7 @@ std::uint32_t index_of(const Indices& indices, std::string_view id) {
 ContactPoint read_contact(XmlFindings& findings, const pugi::xml_node& node) {
   const std::string_view text = node.attribute("contactPoint").value();
   if (text != "start" && text != "end") {
-    findings.error(node,
-                   fmt::format("contactPoint=\"{}\" is neither start nor end", text.substr(0, 40)),
+    findings.error(node, fmt::format("contactPoint=\"{}\" is neither start nor end", text.substr(0, 40)),
                    "write start or end");
   }
   return text == "end" ? ContactPoint::end : ContactPoint::start;
@@ -38,9 +37,8 @@ RoadLink read_road_link(XmlFindings& findings, const pugi::xml_node& node, const
     link.road = index_of(roads, id);
     link.contact = read_contact(findings, node);
   } else {
-    findings.error(
-        node, fmt::format("elementType=\"{}\" is neither road nor junction", type.substr(0, 40)),
-        "write road or junction");
+    findings.error(node, fmt::format("elementType=\"{}\" is neither road nor junction", type.substr(0, 40)),
+                   "write road or junction");
     return link;
   }
   // Maps that were cut out of larger ones are full of these.
@@ -52,20 +50,15 @@ RoadLink read_road_link(XmlFindings& findings, const pugi::xml_node& node, const
 }
 
 /// Appended to the junction, unless it leads from or to a road that the file does not have.
-void read_connection(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads,
-                     Junction& junction) {
+void read_connection(XmlFindings& findings, const pugi::xml_node& node, const Indices& roads, Junction& junction) {
   JunctionConnection connection;
   connection.id = node.attribute("id").value();
   connection.incoming = index_of(roads, node.attribute("incomingRoad").value());
   const bool direct = node.attribute("linkedRoad");
-  connection.connecting =
-      index_of(roads, node.attribute(direct ? "linkedRoad" : "connectingRoad").value());
+  connection.connecting = index_of(roads, node.attribute(direct ? "linkedRoad" : "connectingRoad").value());
   if (connection.incoming == no_index || connection.connecting == no_index) {
-    findings.warning(
-        node,
-        fmt::format("connection {} names a road that does not exist; it is left out",
-                    connection.id),
-        "check incomingRoad and connectingRoad (linkedRoad in a direct junction)");
+    findings.warning(node, fmt::format("connection {} names a road that does not exist; it is left out", connection.id),
+                     "check incomingRoad and connectingRoad (linkedRoad in a direct junction)");
     return;
   }
   connection.contact = read_contact(findings, node);
@@ -84,8 +77,7 @@ Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const 
   if (type == "direct") junction.kind = Junction::Kind::direct;
   if (type == "virtual") junction.kind = Junction::Kind::virtual_junction;
   if (type == "crossing") junction.kind = Junction::Kind::crossing;
-  if (junction.kind == Junction::Kind::virtual_junction ||
-      junction.kind == Junction::Kind::crossing) {
+  if (junction.kind == Junction::Kind::virtual_junction || junction.kind == Junction::Kind::crossing) {
     findings.warning(node, fmt::format("junctions of type {} are not followed", type),
                      "use a common or a direct junction");
     return junction;
@@ -97,8 +89,7 @@ Junction read_junction(XmlFindings& findings, const pugi::xml_node& node, const 
 }
 
 /// Lanes that say they go on, but whose next lane is not there.
-void check_ends(XmlFindings& findings, const pugi::xml_node& road_node, const RoadNetwork& network,
-                RoadIndex index) {
+void check_ends(XmlFindings& findings, const pugi::xml_node& road_node, const RoadNetwork& network, RoadIndex index) {
   const Road& road = network.roads[index];
   for (std::uint32_t i = 0; i < road.sections.size(); ++i) {
     for (const Lane& lane : road.sections[i].lanes) {
@@ -108,11 +99,10 @@ void check_ends(XmlFindings& findings, const pugi::xml_node& road_node, const Ro
         const RoadLink& link = along ? road.successor : road.predecessor;
         if (lane.id == 0 || linked.empty() || (at_road_end && link.road == no_index)) continue;
         if (continuations(network, index, i, lane.id, along).size() >= linked.size()) continue;
-        findings.warning(
-            road_node,
-            fmt::format("lane {} of the section at s={} has a {} that does not exist", lane.id,
-                        road.sections[i].s_m, along ? "successor" : "predecessor"),
-            "link to a lane of the adjoining section, or remove the link");
+        findings.warning(road_node,
+                         fmt::format("lane {} of the section at s={} has a {} that does not exist", lane.id,
+                                     road.sections[i].s_m, along ? "successor" : "predecessor"),
+                         "link to a lane of the adjoining section, or remove the link");
       }
     }
   }
@@ -127,8 +117,7 @@ void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork
   for (const auto node : root.children("junction")) {
     const std::string id = findings.text(node, "id");
     if (!junctions.emplace(id, static_cast<JunctionIndex>(junction_nodes.size())).second) {
-      findings.error(node, fmt::format("junction id {} is used twice", id),
-                     "give each junction its own id");
+      findings.error(node, fmt::format("junction id {} is used twice", id), "give each junction its own id");
     }
     junction_nodes.push_back(node);
   }
@@ -140,22 +129,17 @@ void link_network(XmlFindings& findings, const pugi::xml_node& root, RoadNetwork
       road.junction = index_of(junctions, junction);
       if (road.junction == no_index) {
         findings.warning(node,
-                         fmt::format("junction {} does not exist; the road belongs to none",
-                                     junction.substr(0, 40)),
+                         fmt::format("junction {} does not exist; the road belongs to none", junction.substr(0, 40)),
                          "write -1 or an id of a junction");
       }
     }
-    road.predecessor =
-        read_road_link(findings, node.child("link").child("predecessor"), roads, junctions);
-    road.successor =
-        read_road_link(findings, node.child("link").child("successor"), roads, junctions);
+    road.predecessor = read_road_link(findings, node.child("link").child("predecessor"), roads, junctions);
+    road.successor = read_road_link(findings, node.child("link").child("successor"), roads, junctions);
   }
-  for (const auto node : junction_nodes)
-    network.junctions.push_back(read_junction(findings, node, roads));
+  for (const auto node : junction_nodes) network.junctions.push_back(read_junction(findings, node, roads));
 }
 
-void check_lane_links(XmlFindings& findings, const pugi::xml_node& root,
-                      const RoadNetwork& network) {
+void check_lane_links(XmlFindings& findings, const pugi::xml_node& root, const RoadNetwork& network) {
   RoadIndex index = 0;
   for (const auto node : root.children("road")) check_ends(findings, node, network, index++);
 }

@@ -54,17 +54,14 @@ Value word_value(XmlFindings& findings, const pugi::xml_node& node, const char* 
   for (const auto& [word, value] : words) {
     if (word == text) return value;
   }
-  findings.warning(node,
-                   fmt::format("{}=\"{}\" is unknown; it is taken as {}", attribute,
-                               text.substr(0, 40), words[0].first),
-                   "use a word of the standard");
+  findings.warning(
+      node, fmt::format("{}=\"{}\" is unknown; it is taken as {}", attribute, text.substr(0, 40), words[0].first),
+      "use a word of the standard");
   return fallback;
 }
 
 RoadMarkLine solid_line(double t_offset, double width) { return {0.0, 0.0, t_offset, 0.0, width}; }
-RoadMarkLine broken_line(double t_offset, double width) {
-  return {dash_m, gap_m, t_offset, 0.0, width};
-}
+RoadMarkLine broken_line(double t_offset, double width) { return {dash_m, gap_m, t_offset, 0.0, width}; }
 
 /// The lines that a type stands for; the first word of a double line is the inner one (of the
 /// centre lane: the left one).
@@ -106,9 +103,8 @@ void read_line(XmlFindings& findings, const pugi::xml_node& node, bool once, Roa
   line.width_m = own_width > 0.0 ? own_width : mark.width_m;
   line.once = once;
   if (line.space_m > 0.0 && line.length_m < shortest_dash_m) {
-    findings.warning(
-        node, fmt::format("its dashes are {} m long; it is left out", line.length_m),
-        fmt::format("give a length of at least {} m, or no space", shortest_dash_m));
+    findings.warning(node, fmt::format("its dashes are {} m long; it is left out", line.length_m),
+                     fmt::format("give a length of at least {} m, or no space", shortest_dash_m));
     return;
   }
   mark.lines.push_back(line);
@@ -116,8 +112,7 @@ void read_line(XmlFindings& findings, const pugi::xml_node& node, bool once, Roa
 
 }  // namespace
 
-std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node,
-                                 const LaneSection& section) {
+std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& lane_node, const LaneSection& section) {
   std::vector<RoadMark> marks;
   const int lane = lane_node.attribute("id").as_int();
   for (const auto node : lane_node.children("roadMark")) {
@@ -130,23 +125,18 @@ std::vector<RoadMark> read_marks(XmlFindings& findings, const pugi::xml_node& la
     const double width = findings.amount_or(node, "width", 0.0, widest_m);
     mark.width_m = width > 0.0 ? width : (mark.bold ? bold_width_m : standard_width_m);
     mark.height_m = findings.number_or(node, "height", 0.0, tallest_m);
-    for (const auto line : node.child("type").children("line"))
-      read_line(findings, line, false, mark);
-    for (const auto line : node.child("explicit").children("line"))
-      read_line(findings, line, true, mark);
+    for (const auto line : node.child("type").children("line")) read_line(findings, line, false, mark);
+    for (const auto line : node.child("explicit").children("line")) read_line(findings, line, true, mark);
     if (mark.type == RoadMarkType::none) mark.lines.clear();
     if (mark.lines.empty()) mark.lines = lines_of(mark.type, mark.width_m, lane);
     if (!marks.empty() && mark.s_m < marks.back().s_m) {
-      findings.warning(node, "its sOffset lies before that of the mark before it",
-                       "sort the marks by sOffset");
+      findings.warning(node, "its sOffset lies before that of the mark before it", "sort the marks by sOffset");
     }
     marks.push_back(std::move(mark));
   }
-  std::stable_sort(marks.begin(), marks.end(),
-                   [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; });
+  std::stable_sort(marks.begin(), marks.end(), [](const RoadMark& a, const RoadMark& b) { return a.s_m < b.s_m; });
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    marks[i].s_end_m =
-        i + 1 < marks.size() ? marks[i + 1].s_m : std::max(marks[i].s_m, section.s_end_m);
+    marks[i].s_end_m = i + 1 < marks.size() ? marks[i + 1].s_m : std::max(marks[i].s_m, section.s_end_m);
   }
   return marks;
 }

@@ -33,8 +33,8 @@ CubicCurve read_cubic(XmlFindings& findings, const pugi::xml_node& node, bool wi
   return curve;
 }
 
-Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometry,
-                            const PlanStart& start, PlanCurve& plan) {
+Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometry, const PlanStart& start,
+                            PlanCurve& plan) {
   if (geometry.child("line")) return append_clothoid(plan, start, 0.0, 0.0);
   if (const auto arc = geometry.child("arc")) {
     const double curvature = findings.number(arc, "curvature");
@@ -50,15 +50,13 @@ Expected<void> append_shape(XmlFindings& findings, const pugi::xml_node& geometr
   if (const auto poly3 = geometry.child("paramPoly3")) {
     const std::string_view range = poly3.attribute("pRange").value();
     if (!range.empty() && range != "arcLength" && range != "normalized") {
-      findings.warning(poly3,
-                       fmt::format("pRange=\"{}\" is unknown; it is taken as normalized", range),
+      findings.warning(poly3, fmt::format("pRange=\"{}\" is unknown; it is taken as normalized", range),
                        "write arcLength or normalized");
     }
     return append_cubic(plan, start, read_cubic(findings, poly3, true),
                         range == "arcLength" ? CubicRange::arc_length : CubicRange::normalized);
   }
-  return failure("the geometry has no line, arc, spiral, poly3 or paramPoly3", "",
-                 "add one of them");
+  return failure("the geometry has no line, arc, spiral, poly3 or paramPoly3", "", "add one of them");
 }
 
 /// Whether the last record keeps to where roads can be.
@@ -74,40 +72,34 @@ bool is_in_the_world(const PlanCurve& plan) {
 }
 
 /// Says where a record does not begin at the end of the one before it.
-void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end,
-                 const PlanRecord& next) {
+void check_joint(XmlFindings& findings, const pugi::xml_node& geometry, const PlanPoint& end, const PlanRecord& next) {
   // A cubic begins where, and as, its own coefficients say.
   const bool cubic = next.kind == PlanKind::cubic;
   const auto placed = [&](double along, double across) {
     return along * next.direction + across * Vec2(-next.direction.y, next.direction.x);
   };
-  const Vec2 start =
-      next.start_m + (cubic ? placed(next.cubic.u[0], next.cubic.v[0]) : Vec2(0.0));
+  const Vec2 start = next.start_m + (cubic ? placed(next.cubic.u[0], next.cubic.v[0]) : Vec2(0.0));
   const Vec2 direction = cubic ? placed(next.cubic.u[1], next.cubic.v[1]) : next.direction;
   const double gap = glm::distance(end.position_m, start);
   if (gap > break_m) {
-    findings.warning(geometry,
-                     fmt::format("it begins {:.3f} m from the end of the record before it", gap),
+    findings.warning(geometry, fmt::format("it begins {:.3f} m from the end of the record before it", gap),
                      "let the records join");
   }
   const double turn =
-      std::atan2(end.direction.x * direction.y - end.direction.y * direction.x,
-                 glm::dot(end.direction, direction));
+      std::atan2(end.direction.x * direction.y - end.direction.y * direction.x, glm::dot(end.direction, direction));
   if (std::abs(turn) > break_rad) {
-    findings.warning(
-        geometry,
-        fmt::format("its heading differs by {:.4f} rad from the end of the record before it", turn),
-        "let the records join smoothly");
+    findings.warning(geometry,
+                     fmt::format("its heading differs by {:.4f} rad from the end of the record before it", turn),
+                     "let the records join smoothly");
   }
 }
 
-void check_roll(XmlFindings& findings, const pugi::xml_node& lateral, const char* what,
-                const CubicProfile& profile, double s_end) {
+void check_roll(XmlFindings& findings, const pugi::xml_node& lateral, const char* what, const CubicProfile& profile,
+                double s_end) {
   visit_records(profile, s_end, [&](const CubicRecord& record, double end) {
     const double roll = value_range(record, record.s_m, end).magnitude();
     if (roll <= steepest_roll_rad) return;
-    findings.error(lateral,
-                   fmt::format("the {} from s={} reaches {:.4g} rad", what, record.s_m, roll),
+    findings.error(lateral, fmt::format("the {} from s={} reaches {:.4g} rad", what, record.s_m, roll),
                    fmt::format("keep it within ±{} rad", steepest_roll_rad));
   });
 }
@@ -118,14 +110,14 @@ CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, c
                           const char* station_attribute, double s_start_m) {
   CubicProfile profile;
   for (const auto node : parent.children(element)) {
-    CubicRecord record{s_start_m + findings.number(node, station_attribute),
-                       findings.number_or(node, "a", 0.0), findings.number_or(node, "b", 0.0),
-                       findings.number_or(node, "c", 0.0), findings.number_or(node, "d", 0.0)};
+    CubicRecord record{s_start_m + findings.number(node, station_attribute), findings.number_or(node, "a", 0.0),
+                       findings.number_or(node, "b", 0.0), findings.number_or(node, "c", 0.0),
+                       findings.number_or(node, "d", 0.0)};
     if (!profile.empty() && record.s_m < profile.back().s_m) {
-      findings.error(node,
-                     fmt::format("{}={} lies before that of the record before it",
-                                 station_attribute, record.s_m - s_start_m),
-                     "sort the records by their station");
+      findings.error(
+          node,
+          fmt::format("{}={} lies before that of the record before it", station_attribute, record.s_m - s_start_m),
+          "sort the records by their station");
       record.s_m = profile.back().s_m;
     }
     profile.push_back(record);
@@ -133,15 +125,13 @@ CubicProfile read_profile(XmlFindings& findings, const pugi::xml_node& parent, c
   return profile;
 }
 
-void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset,
-               Road& road) {
+void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road) {
   const auto plan_view = road_node.child("planView");
   double s_end = 0.0;
   for (const auto geometry : plan_view.children("geometry")) {
     PlanStart start;
     start.s_m = findings.number(geometry, "s");
-    const Vec2 position(findings.number(geometry, "x", farthest_m),
-                        findings.number(geometry, "y", farthest_m));
+    const Vec2 position(findings.number(geometry, "x", farthest_m), findings.number(geometry, "y", farthest_m));
     start.position_m = turned(position + offset.shift_m, offset.heading_rad);
     start.heading_rad = wrap_angle(findings.number(geometry, "hdg") + offset.heading_rad);
     start.length_m = findings.number(geometry, "length", longest_road_m);
@@ -150,21 +140,17 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
       continue;
     }
     if (start.length_m < 0.0) {
-      findings.error(geometry, fmt::format("its length is negative ({} m)", start.length_m),
-                     "give a length above 0");
+      findings.error(geometry, fmt::format("its length is negative ({} m)", start.length_m), "give a length above 0");
       continue;
     }
     if (!road.plan.records.empty() && start.s_m < road.plan.records.back().s_m) {
-      findings.error(geometry,
-                     fmt::format("s={} lies before that of the record before it", start.s_m),
+      findings.error(geometry, fmt::format("s={} lies before that of the record before it", start.s_m),
                      "sort the records by s");
       continue;
     }
     if (std::abs(start.s_m - s_end) > break_m) {
-      findings.warning(
-          geometry,
-          fmt::format("s={} where the records before it end at {:.3f} m", start.s_m, s_end),
-          "let s be the sum of the lengths before it");
+      findings.warning(geometry, fmt::format("s={} where the records before it end at {:.3f} m", start.s_m, s_end),
+                       "let s be the sum of the lengths before it");
     }
     const bool first = road.plan.records.empty();
     const PlanPoint end = first ? PlanPoint{} : evaluate_plan(road.plan, start.s_m);
@@ -189,32 +175,27 @@ void read_plan(XmlFindings& findings, const pugi::xml_node& road_node, const Hea
   }
   if (std::abs(s_end - road.length_m) > break_m) {
     const bool shorter = s_end < road.length_m;
-    findings.warning(
-        road_node,
-        fmt::format("length={} but its geometry ends at {:.3f} m{}", road.length_m, s_end,
-                    shorter ? ", where the road is taken to end" : ""),
-        "let the length be the sum of its geometries");
+    findings.warning(road_node,
+                     fmt::format("length={} but its geometry ends at {:.3f} m{}", road.length_m, s_end,
+                                 shorter ? ", where the road is taken to end" : ""),
+                     "let the length be the sum of its geometries");
     if (shorter) road.length_m = s_end;
   }
 }
 
-void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node,
-                    const HeaderOffset& offset, Road& road) {
-  road.elevation =
-      read_profile(findings, road_node.child("elevationProfile"), "elevation", "s", 0.0);
+void read_elevation(XmlFindings& findings, const pugi::xml_node& road_node, const HeaderOffset& offset, Road& road) {
+  road.elevation = read_profile(findings, road_node.child("elevationProfile"), "elevation", "s", 0.0);
   for (CubicRecord& record : road.elevation) record.a += offset.z_m;
   const auto profile = road_node.child("elevationProfile");
   visit_records(road.elevation, road.length_m, [&](const CubicRecord& record, double end) {
     const double height = value_range(record, record.s_m, end).magnitude(),
                  grade = slope_range(record, record.s_m, end).magnitude();
     if (!(height <= highest_m)) {
-      findings.error(
-          profile, fmt::format("the elevation from s={} reaches {:.4g} m", record.s_m, height),
-          fmt::format("keep it within ±{} m; check its coefficients", highest_m));
+      findings.error(profile, fmt::format("the elevation from s={} reaches {:.4g} m", record.s_m, height),
+                     fmt::format("keep it within ±{} m; check its coefficients", highest_m));
     } else if (grade > steepest_grade) {
-      findings.warning(
-          profile, fmt::format("the road from s={} climbs {:.4g} m in a metre", record.s_m, grade),
-          "check the coefficients");
+      findings.warning(profile, fmt::format("the road from s={} climbs {:.4g} m in a metre", record.s_m, grade),
+                       "check the coefficients");
     }
   });
 }
@@ -232,22 +213,20 @@ void read_lateral(XmlFindings& findings, const pugi::xml_node& road_node, Road& 
     if (side != "left") road.crossfall_right.push_back(record);
   }
   for (const auto node : lateral.children("shape")) {
-    road.shapes.push_back({findings.number(node, "s"), findings.number(node, "t"),
-                           findings.number_or(node, "a", 0.0), findings.number_or(node, "b", 0.0),
-                           findings.number_or(node, "c", 0.0), findings.number_or(node, "d", 0.0)});
+    road.shapes.push_back({findings.number(node, "s"), findings.number(node, "t"), findings.number_or(node, "a", 0.0),
+                           findings.number_or(node, "b", 0.0), findings.number_or(node, "c", 0.0),
+                           findings.number_or(node, "d", 0.0)});
   }
   const auto by_station = [](const auto& a, const auto& b) { return a.s_m < b.s_m; };
   std::stable_sort(road.crossfall_left.begin(), road.crossfall_left.end(), by_station);
   std::stable_sort(road.crossfall_right.begin(), road.crossfall_right.end(), by_station);
-  std::stable_sort(road.shapes.begin(), road.shapes.end(),
-                   [](const LateralShape& a, const LateralShape& b) {
-                     return a.s_m != b.s_m ? a.s_m < b.s_m : a.t_m < b.t_m;
-                   });
+  std::stable_sort(road.shapes.begin(), road.shapes.end(), [](const LateralShape& a, const LateralShape& b) {
+    return a.s_m != b.s_m ? a.s_m < b.s_m : a.t_m < b.t_m;
+  });
   check_roll(findings, lateral, "crossfall", road.crossfall_left, road.length_m);
   check_roll(findings, lateral, "crossfall", road.crossfall_right, road.length_m);
   if (const auto surface = lateral.child("crossSectionSurface")) {
-    findings.warning(surface, "cross-section surfaces are not honoured",
-                     "use superelevation and shape");
+    findings.warning(surface, "cross-section surfaces are not honoured", "use superelevation and shape");
   }
 }
 

@@ -28,8 +28,7 @@ Offset offset_from(const PlanPoint& plan, const Vec2& world_m) {
   return {glm::dot(d, plan.direction), plan.direction.x * d.y - plan.direction.y * d.x};
 }
 
-Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s,
-                   double t_before) {
+Offset offset_from(const Road& road, const CrossSection& section, const Vec2& world_m, double s, double t_before) {
   const auto [along, across] = offset_from(section.plan, world_m);
   double h = 0.0, t = t_before;
   // The surface's height at t moves t: each round leaves its cross slope times the bank of the error.
@@ -109,18 +108,15 @@ bool better(const RoadNetwork& network, const Location& a, const Location& b) {
 }
 
 /// Tries the roads linked to the end of the hint's road that the point has passed.
-std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Location& at_end,
-                                          const Vec2& world_m) {
+std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Location& at_end, const Vec2& world_m) {
   const RoadIndex from = at_end.position.road;
   const Road& road = network.roads[from];
-  const RoadLink& link =
-      at_end.position.s_m > 0.5 * road.length_m ? road.successor : road.predecessor;
+  const RoadLink& link = at_end.position.s_m > 0.5 * road.length_m ? road.successor : road.predecessor;
   std::optional<Location> best;
   const auto consider = [&](RoadIndex index, double s) {
     const Location location = location_on(network, index, world_m, s);
     if (location.lanes.outside_m > 0.0) return;
-    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m))
-      best = location;
+    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m)) best = location;
   };
   const auto end_of = [&](RoadIndex index, ContactPoint contact) {
     return contact == ContactPoint::start ? 0.0 : network.roads[index].length_m;
@@ -128,8 +124,7 @@ std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Loca
   if (link.road != no_index) consider(link.road, end_of(link.road, link.contact));
   if (link.junction == no_index) return best;
   for (const JunctionConnection& connection : network.junctions[link.junction].connections) {
-    if (connection.incoming == from)
-      consider(connection.connecting, end_of(connection.connecting, connection.contact));
+    if (connection.incoming == from) consider(connection.connecting, end_of(connection.connecting, connection.contact));
   }
   return best;
 }
@@ -138,8 +133,7 @@ double distance_to(const StretchNode& box, const Vec2& world_m) {
   return glm::length(glm::max(glm::max(box.low_m - world_m, world_m - box.high_m), Vec2(0.0)));
 }
 
-std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m,
-                                        double reach_m) {
+std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& world_m, double reach_m) {
   std::optional<Location> best;
   double reach = reach_m;
   for (std::size_t i = 0; i < network.stretches.size();) {
@@ -166,12 +160,11 @@ std::optional<Location> locate_anywhere(const RoadNetwork& network, const Vec2& 
 
 }  // namespace
 
-std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m,
-                               const RoadPosition* hint, double reach_m) {
+std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
+                               double reach_m) {
   if (!std::isfinite(world_m.x) || !std::isfinite(world_m.y)) return std::nullopt;
   if (hint == nullptr) return locate_anywhere(network, world_m, reach_m);
-  SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road,
-               network.roads.size());
+  SEPTET_CHECK(hint->road < network.roads.size(), "hint names road {} of {}", hint->road, network.roads.size());
   const Location near = location_on(network, hint->road, world_m, hint->s_m);
   if (near.lanes.outside_m == 0.0) return near;
   const double length = network.roads[hint->road].length_m;
@@ -181,8 +174,8 @@ std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m,
   return locate_anywhere(network, world_m, reach_m);
 }
 
-std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m,
-                                       const RoadPosition* hint, double reach_m) {
+std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,
+                                       double reach_m) {
   const auto location = locate(network, world_m, hint, reach_m);
   if (!location) return std::nullopt;
   const Road& road = network.roads[location->position.road];
@@ -191,15 +184,13 @@ std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& w
   const Vec3 point = section.place(t, surface_offset_m(road, s, t));
   SurfacePoint surface{location->position, point.z};
   if (road.flat && road.superelevation.empty()) {
-    const Vec2 uphill =
-        section.grade / (1.0 - section.plan.curvature_per_m * t) * section.plan.direction;
+    const Vec2 uphill = section.grade / (1.0 - section.plan.curvature_per_m * t) * section.plan.direction;
     surface.normal = glm::normalize(Vec3(-uphill.x, -uphill.y, 1.0));
     return surface;
   }
   // Across the surface and along it, by differences over a centimetre that stay on the road.
   const double ds = s + 0.01 <= road.length_m ? 0.01 : -0.01;
-  const Vec3 along =
-      (cross_section_at(road, s + ds).place(t, surface_offset_m(road, s + ds, t)) - point) / ds;
+  const Vec3 along = (cross_section_at(road, s + ds).place(t, surface_offset_m(road, s + ds, t)) - point) / ds;
   const Vec3 across = section.place(t + 0.01, surface_offset_m(road, s, t + 0.01)) - point;
   surface.normal = glm::normalize(glm::cross(along, across));
   return surface;

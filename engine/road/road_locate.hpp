@@ -22,8 +22,8 @@ struct Location {
 /// The road that holds the point, else the nearest within `reach_m` of its lanes. A hint keeps the
 /// answer on the hint's road while that holds the point, which tells roads apart that cross or
 /// overlap.
-std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m,
-                               const RoadPosition* hint = nullptr, double reach_m = 20.0);
+std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint = nullptr,
+                               double reach_m = 20.0);
 
 /// The point of the surface above or below a world point.
 struct SurfacePoint {

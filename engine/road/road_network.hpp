@@ -72,9 +72,9 @@ struct Road {
   std::vector<LateralShape> shapes;   ///< Sorted by s_m, then t_m.
   CubicProfile lane_offset;           ///< t of the centre lane.
   std::vector<LaneSection> sections;  ///< At least one, the first at 0, sorted.
-  bool flat = false;  ///< Known to have no lane height, shape or crossfall, so that the surface is
-                      ///< the road's plane.
-  bool has_materials = false;  ///< Some lane has one.
+  bool flat = false;                  ///< Known to have no lane height, shape or crossfall, so that the surface is
+                                      ///< the road's plane.
+  bool has_materials = false;         ///< Some lane has one.
   std::vector<RoadObject> objects;
   std::vector<SurfacePatch> patches;  ///< Of the objects that are patches; the last one on top.
   std::vector<RoadStructure> structures;
@@ -108,8 +108,7 @@ struct Junction {
 struct StretchNode {
   Vec2 low_m, high_m;
   std::uint32_t skip = 0;
-  RoadIndex road =
-      no_index;  ///< Leaf: the stretch of this road from s_m on, step_m long. Inner node: no_index.
+  RoadIndex road = no_index;  ///< Leaf: the stretch of this road from s_m on, step_m long. Inner node: no_index.
   double s_m = 0.0, step_m = 0.0;
 };
 

@@ -43,19 +43,16 @@ LanePoint evaluate_lane(const RoadNetwork& network, const LanePosition& position
   point.lane_slope = borders.centre_slope();
   point.road = evaluate(network, {position.road, s, point.t_m});
   const double tangent = point.road.heading_rad + std::atan2(point.lane_slope, point.road.stretch);
-  point.driving_heading_rad =
-      wrap_angle(runs_along_s(road, section, lane) ? tangent : tangent + std::numbers::pi);
+  point.driving_heading_rad = wrap_angle(runs_along_s(road, section, lane) ? tangent : tangent + std::numbers::pi);
   return point;
 }
 
 RigidTransform world_from_road(const RoadPoint& point) {
-  return {point.position_m,
-          orientation_from_angles(point.heading_rad, point.pitch_rad, point.roll_rad)};
+  return {point.position_m, orientation_from_angles(point.heading_rad, point.pitch_rad, point.roll_rad)};
 }
 
 RigidTransform world_from_lane(const LanePoint& point) {
-  const Quat road =
-      orientation_from_angles(point.road.heading_rad, point.road.pitch_rad, point.road.roll_rad);
+  const Quat road = orientation_from_angles(point.road.heading_rad, point.road.pitch_rad, point.road.roll_rad);
   const double turn = point.driving_heading_rad - point.road.heading_rad;
   return {point.road.position_m, road * glm::angleAxis(turn, Vec3(0, 0, 1))};
 }

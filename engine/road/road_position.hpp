@@ -29,8 +29,7 @@ struct RoadPoint {
   double heading_rad = 0.0;        ///< Of the reference line towards increasing s, in (−π, π].
   double pitch_rad = 0.0;          ///< −atan(dz/ds): negative climbs.
   double roll_rad = 0.0;           ///< Positive lifts the left side.
-  double curvature_per_m =
-      0.0;  ///< Of the line of constant t through the point; positive turns left.
+  double curvature_per_m = 0.0;    ///< Of the line of constant t through the point; positive turns left.
   /// Metres along the line of constant t per metre of s: 1 − κt.
   double stretch = 1.0;
 };
@@ -39,9 +38,8 @@ struct LanePoint {
   RoadPoint road;
   double t_m = 0.0;
   double lane_width_m = 0.0;
-  double lane_slope = 0.0;  ///< dt/ds of the lane's centre.
-  double driving_heading_rad =
-      0.0;  ///< Tangent of the lane in its direction of travel, in (−π, π].
+  double lane_slope = 0.0;           ///< dt/ds of the lane's centre.
+  double driving_heading_rad = 0.0;  ///< Tangent of the lane in its direction of travel, in (−π, π].
 };
 
 RoadPoint evaluate(const RoadNetwork& network, const RoadPosition& position);

@@ -8,9 +8,7 @@
 namespace septet::road {
 namespace {
 
-std::uint32_t last_section(const Road& road) {
-  return static_cast<std::uint32_t>(road.sections.size() - 1);
-}
+std::uint32_t last_section(const Road& road) { return static_cast<std::uint32_t>(road.sections.size() - 1); }
 
 LaneEnd at_contact(const RoadNetwork& network, RoadIndex index, ContactPoint contact, int lane) {
   const bool at_end = contact == ContactPoint::end;
@@ -52,9 +50,7 @@ const LaneSection& section_of(const CheckedFile& file, const LaneEnd& end) {
   return file.network.roads[end.road].sections[end.section];
 }
 
-const Lane& lane_of(const CheckedFile& file, const LaneEnd& end) {
-  return section_of(file, end).lane(end.lane);
-}
+const Lane& lane_of(const CheckedFile& file, const LaneEnd& end) { return section_of(file, end).lane(end.lane); }
 
 double station_of(const CheckedFile& file, const LaneEnd& end) {
   const LaneSection& section = section_of(file, end);
@@ -77,20 +73,16 @@ pugi::xml_node node_of(const CheckedFile& file, const LaneEnd& end) {
 
 std::optional<ContactPoint> incoming_contact(const RoadNetwork& network, JunctionIndex junction,
                                              const JunctionConnection& connection) {
-  const Road &connecting = network.roads[connection.connecting],
-             &incoming = network.roads[connection.incoming];
-  const RoadLink& back = connection.contact == ContactPoint::start ? connecting.predecessor
-                                                                   : connecting.successor;
+  const Road &connecting = network.roads[connection.connecting], &incoming = network.roads[connection.incoming];
+  const RoadLink& back = connection.contact == ContactPoint::start ? connecting.predecessor : connecting.successor;
   if (back.road == connection.incoming) return back.contact;
-  const bool by_end = incoming.successor.junction == junction,
-             by_start = incoming.predecessor.junction == junction;
+  const bool by_end = incoming.successor.junction == junction, by_start = incoming.predecessor.junction == junction;
   if (by_end == by_start) return std::nullopt;
   return by_end ? ContactPoint::end : ContactPoint::start;
 }
 
-void visit_lane_links(
-    const CheckedFile& file,
-    const std::function<void(const LaneEnd& from, const LaneEnd& to, bool by_junction)>& visit) {
+void visit_lane_links(const CheckedFile& file,
+                      const std::function<void(const LaneEnd& from, const LaneEnd& to, bool by_junction)>& visit) {
   const RoadNetwork& network = file.network;
   const auto visit_side = [&](const LaneEnd& from) {
     const Road& road = network.roads[from.road];
@@ -100,8 +92,8 @@ void visit_lane_links(
     if (at_road_end && link.road == no_index) return;
     for (const int id : from.at_end ? lane.successors : lane.predecessors) {
       const std::uint32_t next = from.at_end ? from.section + 1 : from.section - 1;
-      const LaneEnd to = at_road_end ? at_contact(network, link.road, link.contact, id)
-                                     : LaneEnd{from.road, next, id, !from.at_end};
+      const LaneEnd to =
+          at_road_end ? at_contact(network, link.road, link.contact, id) : LaneEnd{from.road, next, id, !from.at_end};
       if (exists(file, to)) visit(from, to, false);
     }
   };

@@ -52,15 +52,14 @@ std::optional<ContactPoint> incoming_contact(const RoadNetwork& network, Junctio
 /// visit(from, to, by_junction) for every lane that is linked to a lane that is there: across
 /// sections, roads and connections of junctions. A pair that is linked both ways comes twice, a
 /// connection's once.
-void visit_lane_links(
-    const CheckedFile& file,
-    const std::function<void(const LaneEnd& from, const LaneEnd& to, bool by_junction)>& visit);
+void visit_lane_links(const CheckedFile& file,
+                      const std::function<void(const LaneEnd& from, const LaneEnd& to, bool by_junction)>& visit);
 
 void check_required_attributes(const CheckedFile& file);
 void check_curves(const CheckedFile& file);
 void check_road_links(const CheckedFile& file);
 void check_connections(const CheckedFile& file);
-void check_linked_lanes(const CheckedFile& file);  ///< Both ways, widths, levels, gaps.
+void check_linked_lanes(const CheckedFile& file);   ///< Both ways, widths, levels, gaps.
 void check_lane_sections(const CheckedFile& file);  ///< Levels, access, borders.
 void check_redundancy(const CheckedFile& file);
 

@@ -17,8 +17,7 @@ constexpr double box_margin_m = 2.0;
 double sharpest_curvature(const PlanCurve& plan) {
   double sharpest = 0.0;
   for (const PlanRecord& record : plan.records) {
-    const std::uint32_t samples =
-        record.kind == PlanKind::cubic ? std::min(record.knot_count, 64u) : 1u;
+    const std::uint32_t samples = record.kind == PlanKind::cubic ? std::min(record.knot_count, 64u) : 1u;
     for (std::uint32_t i = 0; i <= samples; ++i) {
       // Just before the end, where the next record does not hold yet.
       const double ds = record.length_m * (static_cast<double>(i) / samples) * (1.0 - 1e-9);
@@ -61,8 +60,8 @@ StretchNode join(const std::vector<StretchNode>& leaves, std::size_t first, std:
 }
 
 /// Appends the subtree of leaves [first, last), split in the middle of its longer side.
-void append_tree(std::vector<StretchNode>& tree, std::vector<StretchNode>& leaves,
-                 std::size_t first, std::size_t last) {
+void append_tree(std::vector<StretchNode>& tree, std::vector<StretchNode>& leaves, std::size_t first,
+                 std::size_t last) {
   if (last - first == 1) {
     tree.push_back(leaves[first]);
     tree.back().skip = static_cast<std::uint32_t>(tree.size());
@@ -74,14 +73,12 @@ void append_tree(std::vector<StretchNode>& tree, std::vector<StretchNode>& leave
   const int axis = box.high_m.x - box.low_m.x > box.high_m.y - box.low_m.y ? 0 : 1;
   const std::size_t middle = first + (last - first) / 2;
   const auto begin = leaves.begin();
-  std::nth_element(
-      begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
-      begin + static_cast<std::ptrdiff_t>(last),
-      [axis](const StretchNode& a, const StretchNode& b) {
-        const double left = a.low_m[axis] + a.high_m[axis], right = b.low_m[axis] + b.high_m[axis];
-        if (left != right) return left < right;
-        return a.road != b.road ? a.road < b.road : a.s_m < b.s_m;
-      });
+  std::nth_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
+                   begin + static_cast<std::ptrdiff_t>(last), [axis](const StretchNode& a, const StretchNode& b) {
+                     const double left = a.low_m[axis] + a.high_m[axis], right = b.low_m[axis] + b.high_m[axis];
+                     if (left != right) return left < right;
+                     return a.road != b.road ? a.road < b.road : a.s_m < b.s_m;
+                   });
   append_tree(tree, leaves, first, middle);
   append_tree(tree, leaves, middle, last);
   tree[node].skip = static_cast<std::uint32_t>(tree.size());
@@ -92,8 +89,8 @@ void append_tree(std::vector<StretchNode>& tree, std::vector<StretchNode>& leave
 void build_spatial_index(RoadNetwork& network) {
   network.stretches.clear();
   if (network.roads.empty()) return;
-  const double most = static_cast<double>(
-      std::clamp(most_stretches / network.roads.size(), std::size_t{1}, most_stretches_of_a_road));
+  const double most =
+      static_cast<double>(std::clamp(most_stretches / network.roads.size(), std::size_t{1}, most_stretches_of_a_road));
   std::vector<StretchNode> leaves;
   for (RoadIndex index = 0; index < network.roads.size(); ++index) {
     const Road& road = network.roads[index];
@@ -101,8 +98,7 @@ void build_spatial_index(RoadNetwork& network) {
     const double longest = std::min(longest_stretch_m, largest_turn_rad / std::max(sharpest, 1e-9));
     const double count = std::clamp(std::ceil(road.length_m / longest), 1.0, most);
     const double step = road.length_m / count;
-    for (double i = 0.0; i < count; i += 1.0)
-      leaves.push_back(stretch_of(road, index, i * step, step));
+    for (double i = 0.0; i < count; i += 1.0) leaves.push_back(stretch_of(road, index, i * step, step));
   }
   network.stretches.reserve(2 * leaves.size());
   append_tree(network.stretches, leaves, 0, leaves.size());

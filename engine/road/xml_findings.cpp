@@ -38,8 +38,7 @@ std::string shown(std::string_view text) {
 
 }  // namespace
 
-XmlFindings::XmlFindings(std::string_view text, std::string_view name)
-    : name_(name), line_starts_{0} {
+XmlFindings::XmlFindings(std::string_view text, std::string_view name) : name_(name), line_starts_{0} {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\n') line_starts_.push_back(i + 1);
   }
@@ -47,8 +46,7 @@ XmlFindings::XmlFindings(std::string_view text, std::string_view name)
 
 int XmlFindings::line_of(std::ptrdiff_t offset) const {
   if (offset < 0) return 0;
-  const auto after =
-      std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
   return static_cast<int>(after - line_starts_.begin());
 }
 
@@ -61,32 +59,26 @@ std::string XmlFindings::where(const pugi::xml_node& node) const {
   return where(line_of(node.offset_debug()), node.name());
 }
 
-void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what,
-                      std::string remedy, std::string_view rule) {
+void XmlFindings::add(Severity severity, int line, std::string_view element, std::string what, std::string remedy,
+                      std::string_view rule) {
   Error error{std::move(what), where(line, element), std::move(remedy)};
   if (severity == Severity::error && !first_error_) first_error_ = error;
   if (findings_.size() < most_findings - 1) {
     findings_.push_back({severity, line, std::move(error), std::string(rule)});
   } else if (findings_.size() == most_findings - 1) {
-    findings_.push_back(
-        {severity, line, {"there is more wrong than is listed here", name_, "repair these first"}});
+    findings_.push_back({severity, line, {"there is more wrong than is listed here", name_, "repair these first"}});
   }
 }
 
-void XmlFindings::error(const pugi::xml_node& node, std::string what, std::string remedy,
-                        std::string_view rule) {
-  add(Severity::error, line_of(node.offset_debug()), node.name(), std::move(what),
-      std::move(remedy), rule);
+void XmlFindings::error(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule) {
+  add(Severity::error, line_of(node.offset_debug()), node.name(), std::move(what), std::move(remedy), rule);
 }
 
-void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::string remedy,
-                          std::string_view rule) {
-  add(Severity::warning, line_of(node.offset_debug()), node.name(), std::move(what),
-      std::move(remedy), rule);
+void XmlFindings::warning(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule) {
+  add(Severity::warning, line_of(node.offset_debug()), node.name(), std::move(what), std::move(remedy), rule);
 }
 
-void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
-                           std::string_view rule) {
+void XmlFindings::error_at(std::ptrdiff_t offset, std::string what, std::string remedy, std::string_view rule) {
   add(Severity::error, line_of(offset), {}, std::move(what), std::move(remedy), rule);
 }
 
@@ -96,15 +88,13 @@ void XmlFindings::warning_at(std::ptrdiff_t offset, std::string what, std::strin
 
 std::vector<Finding> XmlFindings::findings() const {
   std::vector<Finding> sorted = findings_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Finding& a, const Finding& b) { return a.line < b.line; });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Finding& a, const Finding& b) { return a.line < b.line; });
   return sorted;
 }
 
 double XmlFindings::number(const pugi::xml_node& node, const char* attribute, double most) {
   if (!node.attribute(attribute)) {
-    error(node, fmt::format("attribute {} is missing", attribute),
-          fmt::format("add {}=\"…\", a number", attribute));
+    error(node, fmt::format("attribute {} is missing", attribute), fmt::format("add {}=\"…\", a number", attribute));
     return 0.0;
   }
   const std::string_view text = node.attribute(attribute).value();
@@ -117,18 +107,14 @@ double XmlFindings::number(const pugi::xml_node& node, const char* attribute, do
   return *value;
 }
 
-double XmlFindings::number_or(const pugi::xml_node& node, const char* attribute, double fallback,
-                              double most) {
-  return trimmed(node.attribute(attribute).value()).empty() ? fallback
-                                                            : number(node, attribute, most);
+double XmlFindings::number_or(const pugi::xml_node& node, const char* attribute, double fallback, double most) {
+  return trimmed(node.attribute(attribute).value()).empty() ? fallback : number(node, attribute, most);
 }
 
-double XmlFindings::amount_or(const pugi::xml_node& node, const char* attribute, double fallback,
-                              double most) {
+double XmlFindings::amount_or(const pugi::xml_node& node, const char* attribute, double fallback, double most) {
   const double value = number_or(node, attribute, fallback, most);
   if (value >= 0.0) return value;
-  warning(node, fmt::format("{}={} is below 0; it is taken as 0", attribute, value),
-          "give a number of at least 0");
+  warning(node, fmt::format("{}={} is below 0; it is taken as 0", attribute, value), "give a number of at least 0");
   return 0.0;
 }
 
@@ -144,8 +130,7 @@ std::optional<int> XmlFindings::integer(const pugi::xml_node& node, const char* 
 std::string XmlFindings::text(const pugi::xml_node& node, const char* attribute) {
   const std::string value = node.attribute(attribute).value();
   if (value.empty())
-    error(node, fmt::format("attribute {} is missing or empty", attribute),
-          fmt::format("add {}=\"…\"", attribute));
+    error(node, fmt::format("attribute {} is missing or empty", attribute), fmt::format("add {}=\"…\"", attribute));
   return value;
 }
 

@@ -25,13 +25,10 @@ class XmlFindings {
   XmlFindings(std::string_view text, std::string_view name);
 
   /// `rule`: the standard's checker rule that is broken, if there is one.
-  void error(const pugi::xml_node& node, std::string what, std::string remedy,
-             std::string_view rule = {});
-  void warning(const pugi::xml_node& node, std::string what, std::string remedy,
-               std::string_view rule = {});
+  void error(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule = {});
+  void warning(const pugi::xml_node& node, std::string what, std::string remedy, std::string_view rule = {});
   /// An error at a byte of the text, for what is no XML at all.
-  void error_at(std::ptrdiff_t offset, std::string what, std::string remedy,
-                std::string_view rule = {});
+  void error_at(std::ptrdiff_t offset, std::string what, std::string remedy, std::string_view rule = {});
   void warning_at(std::ptrdiff_t offset, std::string what, std::string remedy);
 
   /// "name:line, <element>", as errors say it.
@@ -46,19 +43,17 @@ class XmlFindings {
   /// A finite number within ±most (road_limits.hpp). Missing or beyond: an error and 0.
   double number(const pugi::xml_node& node, const char* attribute, double most = largest_number);
   /// The same; missing or empty: the fallback.
-  double number_or(const pugi::xml_node& node, const char* attribute, double fallback,
-                   double most = largest_number);
+  double number_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
   /// A number of at least 0; missing or empty: the fallback; below 0: a warning and 0.
-  double amount_or(const pugi::xml_node& node, const char* attribute, double fallback,
-                   double most = largest_number);
+  double amount_or(const pugi::xml_node& node, const char* attribute, double fallback, double most = largest_number);
   /// A whole number in ±10,000 (lane ids). Missing or wrong: an error and nothing.
   std::optional<int> integer(const pugi::xml_node& node, const char* attribute);
   /// A text that must be there. Missing or empty: an error.
   std::string text(const pugi::xml_node& node, const char* attribute);
 
  private:
-  void add(Severity severity, int line, std::string_view element, std::string what,
-           std::string remedy, std::string_view rule);
+  void add(Severity severity, int line, std::string_view element, std::string what, std::string remedy,
+           std::string_view rule);
   std::string where(int line, std::string_view element) const;
   int line_of(std::ptrdiff_t offset) const;
 

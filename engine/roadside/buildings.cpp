@@ -9,7 +9,8 @@
 namespace septet::roadside {
 
 std::span<const HouseBlock> house_blocks(BuildingKind kind) {
-  static constexpr std::array<HouseBlock, 3> farm{{{12.0, 8.0, 0.0, 0.0}, {26.0, 11.0, 26.0, 18.0}, {9.0, 6.0, -16.0, 14.0}}};
+  static constexpr std::array<HouseBlock, 3> farm{
+      {{12.0, 8.0, 0.0, 0.0}, {26.0, 11.0, 26.0, 18.0}, {9.0, 6.0, -16.0, 14.0}}};
   static constexpr std::array<HouseBlock, 2> church{{{22.0, 10.0, 0.0, 0.0}, {6.4, 6.4, -12.8, 0.0}}};
   if (kind == BuildingKind::church) return church;
   return farm;
@@ -28,7 +29,8 @@ std::vector<Building> placed_buildings(const RoadShape& roads, const Terrain& te
       if (!near.found || near.outside_m < 75.0 || terrain.woodland(p) > 0.02) continue;
       const double z = terrain.height_m(p, near);
       // Not on a slope.
-      if (std::abs(terrain.height_m(p + Vec2(25, 0)) - z) + std::abs(terrain.height_m(p + Vec2(0, 25)) - z) > 4.5) continue;
+      if (std::abs(terrain.height_m(p + Vec2(25, 0)) - z) + std::abs(terrain.height_m(p + Vec2(0, 25)) - z) > 4.5)
+        continue;
       const bool is_church = ++since_church > 8;
       if (is_church) since_church = 0;
       const auto kind = is_church ? BuildingKind::church : static_cast<BuildingKind>(random.below(2));

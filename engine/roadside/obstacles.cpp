@@ -26,17 +26,28 @@ struct Make {
 };
 Make make_of(ObstacleKind kind) {
   switch (kind) {
-    case ObstacleKind::guard_rail: return {0.08, 0.75, 0.30, 0.0};
-    case ObstacleKind::concrete_barrier: return {0.20, 0.90, 0.45, 0.0};
-    case ObstacleKind::parapet: return {0.16, 1.20, 0.35, 0.0};
-    case ObstacleKind::noise_wall: return {0.16, 3.60, 0.45, 0.0};
-    case ObstacleKind::tunnel_wall: return {0.05, tunnel_shape::haunch_m, 0.45, 0.0};
-    case ObstacleKind::portal: return {0.45, 9.0, 0.45, 0.0};
-    case ObstacleKind::gantry_leg: return {0.28, 8.0, 0.30, 0.0};
-    case ObstacleKind::marker_post: return {0.06, 1.05, 0.20, 3.0};  // A plastic tube.
-    case ObstacleKind::tree: return {0.20, endless_m, 0.45, 0.0};
-    case ObstacleKind::bush: return {0.80, endless_m, 0.20, 40.0};
-    case ObstacleKind::house: return {0.05, endless_m, 0.45, 0.0};
+    case ObstacleKind::guard_rail:
+      return {0.08, 0.75, 0.30, 0.0};
+    case ObstacleKind::concrete_barrier:
+      return {0.20, 0.90, 0.45, 0.0};
+    case ObstacleKind::parapet:
+      return {0.16, 1.20, 0.35, 0.0};
+    case ObstacleKind::noise_wall:
+      return {0.16, 3.60, 0.45, 0.0};
+    case ObstacleKind::tunnel_wall:
+      return {0.05, tunnel_shape::haunch_m, 0.45, 0.0};
+    case ObstacleKind::portal:
+      return {0.45, 9.0, 0.45, 0.0};
+    case ObstacleKind::gantry_leg:
+      return {0.28, 8.0, 0.30, 0.0};
+    case ObstacleKind::marker_post:
+      return {0.06, 1.05, 0.20, 3.0};  // A plastic tube.
+    case ObstacleKind::tree:
+      return {0.20, endless_m, 0.45, 0.0};
+    case ObstacleKind::bush:
+      return {0.80, endless_m, 0.20, 40.0};
+    case ObstacleKind::house:
+      return {0.05, endless_m, 0.45, 0.0};
   }
   return {0.1, 1.0, 0.4, 0.0};
 }
@@ -109,9 +120,12 @@ std::vector<Vec3> points(const RoadShape& roads, const RoadTile& tile, const Bes
 
 ObstacleKind kind_of(BarrierForm form) {
   switch (form) {
-    case BarrierForm::jersey: return ObstacleKind::concrete_barrier;
-    case BarrierForm::railing: return ObstacleKind::parapet;
-    case BarrierForm::rail: break;
+    case BarrierForm::jersey:
+      return ObstacleKind::concrete_barrier;
+    case BarrierForm::railing:
+      return ObstacleKind::parapet;
+    case BarrierForm::rail:
+      break;
   }
   return ObstacleKind::guard_rail;
 }
@@ -165,8 +179,9 @@ void add_tunnels(const RoadShape& roads, const std::vector<RoadTile>& tiles, Bui
       if (tunnel.kind != road::RoadStructure::Kind::tunnel) continue;
       for (const double mouth : {tunnel.s_m, tunnel.s_m + tunnel.length_m}) {
         const road::RoadExtent extent = road::road_extent(roads.road(index), mouth);
-        for (const auto& [inner, outer] : {std::pair(extent.left_t_m + wall_clear_m + half, extent.left_t_m + portal_out_m),
-                                           std::pair(extent.right_t_m - wall_clear_m - half, extent.right_t_m - portal_out_m)})
+        for (const auto& [inner, outer] :
+             {std::pair(extent.left_t_m + wall_clear_m + half, extent.left_t_m + portal_out_m),
+              std::pair(extent.right_t_m - wall_clear_m - half, extent.right_t_m - portal_out_m)})
           builder.line(ObstacleKind::portal, {roads.point(index, mouth, inner), roads.point(index, mouth, outer)});
       }
     }
@@ -179,7 +194,8 @@ void add_gantries(const RoadShape& roads, Builder& builder) {
       const road::RoadPoint middle = roads.at(index, object.s_m, object.t_m);
       const Vec3 left(-std::sin(middle.heading_rad), std::cos(middle.heading_rad), 0.0);
       for (const double y : gantry_legs_m(object.width_m))
-        builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left, make_of(ObstacleKind::gantry_leg).radius_m);
+        builder.point(ObstacleKind::gantry_leg, middle.position_m + y * left,
+                      make_of(ObstacleKind::gantry_leg).radius_m);
     }
 }
 
@@ -190,10 +206,12 @@ void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed
   for (const Building& building : placed_buildings(roads, terrain, seed))
     for (const HouseBlock& block : house_blocks(building.kind)) {
       const auto corner = [&](double x, double y) {
-        return building.world_from_building * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
+        return building.world_from_building *
+               Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
       };
       const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-      for (std::size_t i = 0; i < corners.size(); ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
+      for (std::size_t i = 0; i < corners.size();
+           ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
         builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
     }
 }
@@ -267,7 +285,8 @@ void Obstacles::close_ends() {
 void Obstacles::index() {
   for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
     const Obstacle& obstacle = obstacles_[i];
-    for_each_cell(glm::min(obstacle.from_m, obstacle.to_m) - obstacle.radius_m, glm::max(obstacle.from_m, obstacle.to_m) + obstacle.radius_m,
+    for_each_cell(glm::min(obstacle.from_m, obstacle.to_m) - obstacle.radius_m,
+                  glm::max(obstacle.from_m, obstacle.to_m) + obstacle.radius_m,
                   [&](std::uint64_t key) { cells_[key].push_back(i); });
   }
 }
@@ -284,13 +303,20 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double reach_m) const {
       if (distance_m(obstacles_[i], p) < reach_m + obstacles_[i].radius_m) numbers.push_back(i);
   });
   std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());  // Not std::ranges::unique: clang 14 cannot compile it.
+  numbers.erase(std::unique(numbers.begin(), numbers.end()),
+                numbers.end());  // Not std::ranges::unique: clang 14 cannot compile it.
   for (const std::uint32_t i : numbers) found.push_back(obstacles_[i]);
   if (may_be_wood)
     for (const Stem& stem : wood_stems(terrain_, seed_, p, reach_m)) {
       const Make make = make_of(ObstacleKind::tree);
-      found.push_back({.kind = ObstacleKind::tree, .run = stem_runs | stem.number, .from_m = stem.middle_m, .to_m = stem.middle_m,
-                       .radius_m = stem.radius_m, .low_m = -endless_m, .high_m = endless_m, .friction = make.friction});
+      found.push_back({.kind = ObstacleKind::tree,
+                       .run = stem_runs | stem.number,
+                       .from_m = stem.middle_m,
+                       .to_m = stem.middle_m,
+                       .radius_m = stem.radius_m,
+                       .low_m = -endless_m,
+                       .high_m = endless_m,
+                       .friction = make.friction});
     }
   return found;
 }

@@ -55,7 +55,8 @@ Vec2 corner_of(const Vec2& p, double side_m) {
 double cell_at(const Terrain& terrain, const Vec2& p) {
   const auto distance_m = [&](double side_m) { return terrain.distance_m(corner_of(p, side_m) + Vec2(side_m / 2)); };
   if (distance_m(far_land_tile_m) > far_land_from_m) return far_land_cell_m;
-  if (distance_m(middle_land_tile_m) > middle_land_within_m || distance_m(land_tile_m) > land_within_m) return middle_land_cell_m;
+  if (distance_m(middle_land_tile_m) > middle_land_within_m || distance_m(land_tile_m) > land_within_m)
+    return middle_land_cell_m;
   return land_cell_m;
 }
 
@@ -63,10 +64,14 @@ double cell_at(const Terrain& terrain, const Vec2& p) {
 
 double trunk_radius_m(TreeKind kind) {
   switch (kind) {
-    case TreeKind::oak: return 0.32;
-    case TreeKind::birch: return 0.16;
-    case TreeKind::spruce: return 0.22;
-    case TreeKind::bush: return 0.8;
+    case TreeKind::oak:
+      return 0.32;
+    case TreeKind::birch:
+      return 0.16;
+    case TreeKind::spruce:
+      return 0.22;
+    case TreeKind::bush:
+      return 0.8;
   }
   return 0.2;
 }
@@ -97,11 +102,13 @@ std::vector<Stem> wood_stems(const Terrain& terrain, std::uint64_t seed, const V
     for (std::int64_t i = index(p.x - reach_m); i <= index(p.x + reach_m); ++i) {
       const double a = geometry::lattice_random(i, j, seed + 13), b = geometry::lattice_random(i, j, seed + 14),
                    c = geometry::lattice_random(i, j, seed + 15);
-      const Vec2 middle = (Vec2(static_cast<double>(i), static_cast<double>(j)) + 0.2 + 0.6 * Vec2(a, b)) * stem_spacing_m;
+      const Vec2 middle =
+          (Vec2(static_cast<double>(i), static_cast<double>(j)) + 0.2 + 0.6 * Vec2(a, b)) * stem_spacing_m;
       if (glm::distance(middle, p) > reach_m) continue;
       const double cell = cell_at(terrain, middle);
       if (!is_wood(terrain, corner_of(middle, cell) + Vec2(cell / 2), cell)) continue;
-      const auto number = static_cast<std::uint32_t>((static_cast<std::uint64_t>(i) * 0x9e3779b1u) ^ (static_cast<std::uint64_t>(j) * 0x85ebca77u));
+      const auto number = static_cast<std::uint32_t>((static_cast<std::uint64_t>(i) * 0x9e3779b1u) ^
+                                                     (static_cast<std::uint64_t>(j) * 0x85ebca77u));
       stems.push_back({middle, 0.10 + 0.10 * c, number});
     }
   return stems;

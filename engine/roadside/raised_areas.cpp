@@ -93,7 +93,8 @@ class Builder {
     if (object.radius_m > 0.0) {
       for (int i = 0; i < 16; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / 16.0;
-        corners.push_back(local(stand, object.heading_rad, object.radius_m * std::cos(angle), object.radius_m * std::sin(angle), height_m));
+        corners.push_back(local(stand, object.heading_rad, object.radius_m * std::cos(angle),
+                                object.radius_m * std::sin(angle), height_m));
       }
     } else if (length_m > 0.0) {
       const double u = 0.5 * length_m, v = 0.5 * (width_m > 0.0 ? width_m : stone_m);
@@ -119,28 +120,36 @@ class Builder {
     const auto corner = [&](int i, double side) {
       const double share = static_cast<double>(i) / count;
       const double width_m = std::lerp(strip.width_start_m, strip.width_end_m, share);
-      const double t_m = std::lerp(strip.t_start_m, strip.t_end_m, share) + 0.5 * side * (width_m > 0.0 ? width_m : stone_m);
+      const double t_m =
+          std::lerp(strip.t_start_m, strip.t_end_m, share) + 0.5 * side * (width_m > 0.0 ? width_m : stone_m);
       return on_road({index, strip.s_m + share * strip.length_m, t_m},
-                     std::lerp(strip.z_offset_start_m, strip.z_offset_end_m, share) + std::lerp(strip.height_start_m, strip.height_end_m, share));
+                     std::lerp(strip.z_offset_start_m, strip.z_offset_end_m, share) +
+                         std::lerp(strip.height_start_m, strip.height_end_m, share));
     };
     for (int i = 0; i < count && areas_.size() < most_areas; ++i)
-      add_area({index, strip.s_m + strip.length_m * i / count, 0.0}, {corner(i, -1.0), corner(i + 1, -1.0), corner(i + 1, 1.0), corner(i, 1.0)});
+      add_area({index, strip.s_m + strip.length_m * i / count, 0.0},
+               {corner(i, -1.0), corner(i + 1, -1.0), corner(i + 1, 1.0), corner(i, 1.0)});
   }
 
   void add_outline(const Stand& here, const road::RoadObject& object, const road::Outline& outline) {
     std::vector<Corner> corners;
     for (const road::OutlineCorner& c : outline.corners) {
       const double height_m = c.height_m > 0.0 ? c.height_m : object.height_m;
-      corners.push_back(c.in_road_coordinates ? on_road({here.at.road, c.s_or_u_m, c.t_or_v_m}, c.z_m + height_m)
-                                              : local(here, object.heading_rad, c.s_or_u_m, c.t_or_v_m, c.z_m + height_m));
+      corners.push_back(c.in_road_coordinates
+                            ? on_road({here.at.road, c.s_or_u_m, c.t_or_v_m}, c.z_m + height_m)
+                            : local(here, object.heading_rad, c.s_or_u_m, c.t_or_v_m, c.z_m + height_m));
     }
     if (outline.closed) return add_area(here.at, corners);
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
       const Vec2 along = Vec2(corners[i + 1].top_m - corners[i].top_m);
       if (!(glm::length(along) > 1e-6)) continue;
-      const Vec3 aside = 0.5 * (object.width_m > 0.0 ? object.width_m : stone_m) / glm::length(along) * Vec3(-along.y, along.x, 0.0);
-      const auto moved = [&](const Corner& corner, double side) { return Corner{corner.top_m + side * aside, corner.over_m}; };
-      add_area(here.at, {moved(corners[i], -1.0), moved(corners[i + 1], -1.0), moved(corners[i + 1], 1.0), moved(corners[i], 1.0)});
+      const Vec3 aside =
+          0.5 * (object.width_m > 0.0 ? object.width_m : stone_m) / glm::length(along) * Vec3(-along.y, along.x, 0.0);
+      const auto moved = [&](const Corner& corner, double side) {
+        return Corner{corner.top_m + side * aside, corner.over_m};
+      };
+      add_area(here.at, {moved(corners[i], -1.0), moved(corners[i + 1], -1.0), moved(corners[i + 1], 1.0),
+                         moved(corners[i], 1.0)});
     }
   }
 
@@ -201,7 +210,8 @@ double RaisedAreas::ground_at(const Vec2& p, double road_z_m) const {
   if (const auto cell = cells_.find(cell_of(p)); cell != cells_.end())
     for (const std::uint32_t i : cell->second) {
       if (!holds(areas_[i], p)) continue;
-      if (const double top_m = height_of(areas_[i], p); top_m < road_z_m + storey_m) ground_m = std::max(ground_m, top_m);
+      if (const double top_m = height_of(areas_[i], p); top_m < road_z_m + storey_m)
+        ground_m = std::max(ground_m, top_m);
     }
   return ground_m;
 }

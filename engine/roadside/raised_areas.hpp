@@ -20,9 +20,9 @@ namespace septet::roadside {
 inline constexpr double highest_kerb_m = 0.3;
 
 struct RaisedArea {
-  road::RoadIndex road = 0;   ///< Of the object.
-  double s_m = 0.0;           ///< Where it begins.
-  std::vector<Vec3> top_m;    ///< Corners of its upper edge, world frame; the last one is joined to the first.
+  road::RoadIndex road = 0;  ///< Of the object.
+  double s_m = 0.0;          ///< Where it begins.
+  std::vector<Vec3> top_m;   ///< Corners of its upper edge, world frame; the last one is joined to the first.
   Vec2 low_m{0.0}, high_m{0.0};
 };
 

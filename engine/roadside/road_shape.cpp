@@ -5,8 +5,7 @@
 
 namespace septet::roadside {
 
-RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m)
-    : network_(network), overrun_m_(overrun_m) {}
+RoadShape::RoadShape(const road::RoadNetwork& network, double overrun_m) : network_(network), overrun_m_(overrun_m) {}
 
 double RoadShape::begin_m(road::RoadIndex index) const {
   const road::RoadLink& link = road(index).predecessor;
@@ -15,8 +14,7 @@ double RoadShape::begin_m(road::RoadIndex index) const {
 
 double RoadShape::end_m(road::RoadIndex index) const {
   const road::RoadLink& link = road(index).successor;
-  return road(index).length_m +
-         (link.road == road::no_index && link.junction == road::no_index ? overrun_m_ : 0.0);
+  return road(index).length_m + (link.road == road::no_index && link.junction == road::no_index ? overrun_m_ : 0.0);
 }
 
 road::RoadPoint RoadShape::at(road::RoadIndex index, double s_m, double t_m) const {
@@ -49,8 +47,7 @@ glm::vec3 RoadShape::local(const RoadTile& tile, const Vec3& world_m) const {
 const road::RoadStructure* RoadShape::structure_at(road::RoadIndex index, double s_m,
                                                    road::RoadStructure::Kind kind) const {
   for (const road::RoadStructure& structure : road(index).structures)
-    if (structure.kind == kind && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m)
-      return &structure;
+    if (structure.kind == kind && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m) return &structure;
   return nullptr;
 }
 
@@ -73,8 +70,7 @@ std::vector<RoadTile> RoadShape::tiles(double length_m) const {
         tile.s0_m = cuts[i] + length * k / count;
         tile.s1_m = cuts[i] + length * (k + 1) / count;
         const road::RoadPoint middle = at(index, tile.middle_m(), 0.0);
-        tile.world_from_tile = {middle.position_m,
-                                orientation_from_angles(middle.heading_rad, 0.0, 0.0)};
+        tile.world_from_tile = {middle.position_m, orientation_from_angles(middle.heading_rad, 0.0, 0.0)};
         tile.in_tunnel = structure_at(index, tile.middle_m(), Kind::tunnel) != nullptr;
         tile.on_bridge = structure_at(index, tile.middle_m(), Kind::bridge) != nullptr;
         result.push_back(tile);

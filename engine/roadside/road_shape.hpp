@@ -44,8 +44,7 @@ class RoadShape {
   glm::vec3 local(const RoadTile& tile, const Vec3& world_m) const;
 
   /// The structure of a kind at a station, or nullptr.
-  const road::RoadStructure* structure_at(road::RoadIndex index, double s_m,
-                                          road::RoadStructure::Kind kind) const;
+  const road::RoadStructure* structure_at(road::RoadIndex index, double s_m, road::RoadStructure::Kind kind) const;
 
   /// Tiles of at most `length_m`, in order of road and station.
   std::vector<RoadTile> tiles(double length_m) const;

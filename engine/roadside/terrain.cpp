@@ -17,8 +17,7 @@ constexpr double sample_step_m = 20.0, cell_m = 128.0;
 constexpr std::size_t coarse_stride = 12;
 
 std::pair<std::int64_t, std::int64_t> cell_of(const Vec2& p) {
-  return {static_cast<std::int64_t>(std::floor(p.x / cell_m)),
-          static_cast<std::int64_t>(std::floor(p.y / cell_m))};
+  return {static_cast<std::int64_t>(std::floor(p.x / cell_m)), static_cast<std::int64_t>(std::floor(p.y / cell_m))};
 }
 
 }  // namespace
@@ -32,13 +31,11 @@ double Terrain::meander_m(double across_m) {
   return 14.0 * std::sin(across_m / 85.0) * smooth_step(30.0, 160.0, std::abs(across_m));
 }
 
-std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m,
-                                       double reach_m) {
+std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m, double reach_m) {
   // By y first, then by x; neighbours in the list mostly name the same squares.
   std::set<std::pair<std::int64_t, std::int64_t>> found;
   for (const Vec2& place : places) {
-    const Vec2 first = glm::floor((place - reach_m) / side_m - 0.5),
-               last = glm::ceil((place + reach_m) / side_m - 0.5);
+    const Vec2 first = glm::floor((place - reach_m) / side_m - 0.5), last = glm::ceil((place + reach_m) / side_m - 0.5);
     for (auto y = static_cast<std::int64_t>(first.y); y <= static_cast<std::int64_t>(last.y); ++y)
       for (auto x = static_cast<std::int64_t>(first.x); x <= static_cast<std::int64_t>(last.x); ++x)
         found.emplace(y, x);
@@ -57,8 +54,7 @@ Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed) {
       const double s = begin + length * i / count;
       const road::RoadPoint p = roads.at(index, s, 0.0);
       const road::RoadExtent extent = road::road_extent(network.roads[index], s);
-      samples_.push_back({index, s, p.position_m,
-                          Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
+      samples_.push_back({index, s, p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), p.roll_rad,
                           extent.left_t_m, extent.right_t_m});
       low_m_ = glm::min(low_m_, Vec2(p.position_m));
       high_m_ = glm::max(high_m_, Vec2(p.position_m));
@@ -70,8 +66,7 @@ Terrain::Terrain(const RoadShape& roads, std::uint64_t seed) : seed_(seed) {
         continue;
       }
       const road::RoadPoint p = roads.at(index, structure.s_m + structure.length_m / 2, 0.0);
-      Valley valley{p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), 15.0,
-                    0.0};
+      Valley valley{p.position_m, Vec2(std::cos(p.heading_rad), std::sin(p.heading_rad)), 15.0, 0.0};
       valley.bottom_z_m = p.position_m.z - 1.0 - valley.depth_m;
       valleys_.push_back(valley);
     }
@@ -94,9 +89,8 @@ void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
     const double side = std::max({t - sample.left_m, sample.right_m - t, 0.0});
     const double outside = std::hypot(end, side);
     // Among samples that are all beside the point the one straight beside it counts.
-    const bool better =
-        !best.found || outside < best.outside_m - 1e-9 ||
-        (outside < best.outside_m + 1e-9 && std::abs(ahead) < std::abs(best.s_m - sample.s_m));
+    const bool better = !best.found || outside < best.outside_m - 1e-9 ||
+                        (outside < best.outside_m + 1e-9 && std::abs(ahead) < std::abs(best.s_m - sample.s_m));
     if (!better || outside > reach_m) continue;
     best.found = true;
     best.road = sample.road;
@@ -120,8 +114,7 @@ Nearest Terrain::nearest(const Vec2& p) const {
   for (std::int64_t ring = 0; ring <= last; ++ring) {
     for (std::int64_t y = -ring; y <= ring; ++y)
       for (std::int64_t x = -ring; x <= ring; ++x)
-        if (std::max(std::abs(x), std::abs(y)) == ring)
-          look_in({home.first + x, home.second + y}, p, best);
+        if (std::max(std::abs(x), std::abs(y)) == ring) look_in({home.first + x, home.second + y}, p, best);
     // A road found in this ring may still be beaten from the next one.
     if (best.found && last == rings) last = std::min(rings, ring + 1);
   }
@@ -130,8 +123,7 @@ Nearest Terrain::nearest(const Vec2& p) const {
 
 double Terrain::distance_m(const Vec2& p) const {
   double least = 1e9;
-  for (const Sample& sample : coarse_)
-    least = std::min(least, glm::distance(p, Vec2(sample.position_m)));
+  for (const Sample& sample : coarse_) least = std::min(least, glm::distance(p, Vec2(sample.position_m)));
   return least;
 }
 
@@ -152,8 +144,7 @@ double Terrain::height_m(const Vec2& p, const Nearest& near) const {
     least = std::min(least, square);
   }
   const double distance = std::sqrt(least);
-  double land =
-      level / weights + 11.0 * geometry::fractal_noise(p.x / 620.0, p.y / 620.0, 4, seed_);
+  double land = level / weights + 11.0 * geometry::fractal_noise(p.x / 620.0, p.y / 620.0, 4, seed_);
   land += smooth_step(500.0, 3600.0, distance) *
           (55.0 + 85.0 * geometry::fractal_noise(p.x / 1700.0, p.y / 1700.0, 4, seed_ + 1));
   if (!near.found) {
@@ -164,11 +155,10 @@ double Terrain::height_m(const Vec2& p, const Nearest& near) const {
     for (const Mouth& tunnel : tunnels_) {
       if (near.road != tunnel.road) continue;
       const double s = near.s_m;
-      const double rise =
-          std::min(10.0 * smooth_step(tunnel.s0_m - 120.0, tunnel.s0_m, s) +
-                       15.0 * smooth_step(tunnel.s0_m, tunnel.s0_m + 150.0, s),
-                   10.0 * (1.0 - smooth_step(tunnel.s1_m, tunnel.s1_m + 120.0, s)) +
-                       15.0 * (1.0 - smooth_step(tunnel.s1_m - 150.0, tunnel.s1_m, s)));
+      const double rise = std::min(10.0 * smooth_step(tunnel.s0_m - 120.0, tunnel.s0_m, s) +
+                                       15.0 * smooth_step(tunnel.s0_m, tunnel.s0_m + 150.0, s),
+                                   10.0 * (1.0 - smooth_step(tunnel.s1_m, tunnel.s1_m + 120.0, s)) +
+                                       15.0 * (1.0 - smooth_step(tunnel.s1_m - 150.0, tunnel.s1_m, s)));
       const bool over = s >= tunnel.s0_m && s <= tunnel.s1_m;
       const double cover = over ? 1.0 : smooth_step(4.0, 40.0, near.outside_m);
       const double share = cover * (1.0 - smooth_step(90.0, 420.0, near.outside_m));
@@ -196,8 +186,7 @@ bool Terrain::is_kept_clear(const Nearest& near) const {
 bool Terrain::is_at_portal(const Nearest& near) const {
   if (!near.found || near.outside_m > 54.0) return false;
   for (const Mouth& tunnel : tunnels_)
-    if (near.road == tunnel.road &&
-        std::min(std::abs(near.s_m - tunnel.s0_m), std::abs(near.s_m - tunnel.s1_m)) < 27.0)
+    if (near.road == tunnel.road && std::min(std::abs(near.s_m - tunnel.s0_m), std::abs(near.s_m - tunnel.s1_m)) < 27.0)
       return true;
   return false;
 }

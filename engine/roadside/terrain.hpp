@@ -88,8 +88,7 @@ class Terrain {
 /// The lower corners, in steps of `side_m`, of all squares whose middle lies within `reach_m` of one
 /// of the places along x and along y, and of some beyond; row by row. What lies between places far
 /// apart is not walked.
-std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m,
-                                       double reach_m);
+std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double side_m, double reach_m);
 
 /// 0 below `low`, 1 above `high`, smooth between.
 double smooth_step(double low, double high, double x);

@@ -33,7 +33,7 @@ struct TransitionDynamics {
 struct SpeedAction {
   TransitionDynamics dynamics;
   EntityIndex reference = no_entity;  ///< None: value is the speed.
-  double value = 0.0;  ///< m/s; added to the reference's speed, or multiplied with it if `factor`.
+  double value = 0.0;                 ///< m/s; added to the reference's speed, or multiplied with it if `factor`.
   bool factor = false;
   bool continuous = false;  ///< Follows the reference's speed for ever.
 };
@@ -68,7 +68,7 @@ struct KeepDistanceAction {
   std::optional<double> reference_side;
   CoordinateSystem system = CoordinateSystem::entity;
   bool freespace = false;
-  bool continuous = false;  ///< For ever, else until the distance is reached.
+  bool continuous = false;                   ///< For ever, else until the distance is reached.
   std::optional<DynamicConstraints> limits;  ///< None: at once and rigidly.
 };
 
@@ -79,16 +79,15 @@ struct SynchronizeAction {
   double tolerance_m = 0.0, master_tolerance_m = 0.0;
   enum class FinalSpeed : std::uint8_t { any, absolute, master_plus, master_times };
   FinalSpeed final_speed = FinalSpeed::any;
-  double final_value = 0.0;              ///< m/s, or the factor.
+  double final_value = 0.0;               ///< m/s, or the factor.
   double steady_m = 0.0, steady_s = 0.0;  ///< So far, or so long, before the target it is driven already.
 };
 
 struct LaneChangeAction {
   TransitionDynamics dynamics;
   EntityIndex reference = no_entity;  ///< None: `lane` is the lane's id.
-  int lane = 0;  ///< With a reference: lanes to the left of its lane, as it drives.
-  double target_offset_m =
-      0.0;  ///< From the centre of the target lane, positive to the left as the actor drives.
+  int lane = 0;                       ///< With a reference: lanes to the left of its lane, as it drives.
+  double target_offset_m = 0.0;       ///< From the centre of the target lane, positive to the left as the actor drives.
 };
 
 struct LaneOffsetAction {
@@ -116,8 +115,8 @@ struct AcquirePositionAction {
 struct EnvironmentAction {
   std::string name;
   std::optional<double> sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux;
-  std::optional<double> visibility_m, cloud_cover, rain_mm_per_h, snow_mm_per_h, road_wetness,
-      friction_scale, snow_cover;
+  std::optional<double> visibility_m, cloud_cover, rain_mm_per_h, snow_mm_per_h, road_wetness, friction_scale,
+      snow_cover;
   std::optional<double> temperature_k, wind_speed_mps, wind_direction_rad;
 };
 
@@ -184,11 +183,10 @@ struct TrafficStopAction {
 
 /// Nothing: the file used an action that is not supported yet, which was reported when it was read.
 /// It ends at once.
-using ActionVariant = std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction,
-                                   SynchronizeAction, LaneChangeAction, LaneOffsetAction,
-                                   TeleportAction, FollowTrajectoryAction, AssignRouteAction,
-                                   AcquirePositionAction, EnvironmentAction, LightStateAction,
-                                   SirenAction, EffectAction, ValueAction, TrafficSwarmAction,
-                                   TrafficStopAction>;
+using ActionVariant =
+    std::variant<std::monostate, SpeedAction, SpeedProfileAction, KeepDistanceAction, SynchronizeAction,
+                 LaneChangeAction, LaneOffsetAction, TeleportAction, FollowTrajectoryAction, AssignRouteAction,
+                 AcquirePositionAction, EnvironmentAction, LightStateAction, SirenAction, EffectAction, ValueAction,
+                 TrafficSwarmAction, TrafficStopAction>;
 
 }  // namespace septet::scenario

@@ -13,8 +13,8 @@ namespace {
 void check_named_places(const Reading& reading, const road::RoadNetwork& network) {
   const ScenarioState nobody_anywhere;
   for (const auto& [element, position] : reading.positions) {
-    const bool named = std::holds_alternative<LaneCoordinates>(position) ||
-                       std::holds_alternative<RoadCoordinates>(position);
+    const bool named =
+        std::holds_alternative<LaneCoordinates>(position) || std::holds_alternative<RoadCoordinates>(position);
     if (named && !resolve_position(network, nobody_anywhere, position)) {
       element.error(why_nowhere(reading.scenario, network, nobody_anywhere, position),
                     fmt::format("name a place that {} has", reading.scenario.road_file));
@@ -28,12 +28,11 @@ void check_start(const Reading& reading, const road::RoadNetwork& network) {
   StepResult result;
   const auto state = start_scenario(scenario, network, no_entity, result);
   if (!state) {
-    const auto at =
-        std::find_if(scenario.init.begin(), scenario.init.end(),
-                     [&](const InitAction& init) { return init.where == state.error().where; });
+    const auto at = std::find_if(scenario.init.begin(), scenario.init.end(),
+                                 [&](const InitAction& init) { return init.where == state.error().where; });
     if (at != scenario.init.end()) {
-      reading.init_elements[static_cast<std::size_t>(at - scenario.init.begin())].error(
-          state.error().what, state.error().remedy);
+      reading.init_elements[static_cast<std::size_t>(at - scenario.init.begin())].error(state.error().what,
+                                                                                        state.error().remedy);
     }
     return;
   }
@@ -41,11 +40,9 @@ void check_start(const Reading& reading, const road::RoadNetwork& network) {
     const InitAction& init = scenario.init[i];
     if (init.entity == no_entity || !std::holds_alternative<TeleportAction>(init.what)) continue;
     const EntityState& entity = state->entities[init.entity];
-    if (scenario.entities[init.entity].kind == EntityKind::vehicle && entity.active &&
-        !entity.on_road) {
-      reading.init_elements[i].warning(
-          fmt::format("{} begins beside every lane", scenario.entities[init.entity].name),
-          "expect it to drive straight on, or put it on a lane");
+    if (scenario.entities[init.entity].kind == EntityKind::vehicle && entity.active && !entity.on_road) {
+      reading.init_elements[i].warning(fmt::format("{} begins beside every lane", scenario.entities[init.entity].name),
+                                       "expect it to drive straight on, or put it on a lane");
     }
   }
 }
@@ -62,8 +59,7 @@ void check_on_road(Reading& reading, const Element& logic_file) {
   }
   const auto network = road::read_opendrive(*text, path);
   if (!network) {
-    logic_file.error(fmt::format("the road cannot be used: {}", describe(network.error())),
-                     "run septet check on it");
+    logic_file.error(fmt::format("the road cannot be used: {}", describe(network.error())), "run septet check on it");
     return;
   }
   check_named_places(reading, *network);

@@ -129,11 +129,11 @@ struct RelativeClearanceCondition {
 
 /// None: not supported yet, reported when the file was read; never true.
 using ConditionVariant =
-    std::variant<std::monostate, SimulationTimeCondition, ValueCondition,
-                 StoryboardElementStateCondition, EndOfRoadCondition, CollisionCondition,
-                 StandStillCondition, TraveledDistanceCondition, ReachPositionCondition, SpeedCondition, AccelerationCondition,
-                 RelativeSpeedCondition, DistanceCondition, RelativeDistanceCondition,
-                 TimeHeadwayCondition, TimeToCollisionCondition, RelativeClearanceCondition>;
+    std::variant<std::monostate, SimulationTimeCondition, ValueCondition, StoryboardElementStateCondition,
+                 EndOfRoadCondition, CollisionCondition, StandStillCondition, TraveledDistanceCondition,
+                 ReachPositionCondition, SpeedCondition, AccelerationCondition, RelativeSpeedCondition,
+                 DistanceCondition, RelativeDistanceCondition, TimeHeadwayCondition, TimeToCollisionCondition,
+                 RelativeClearanceCondition>;
 
 struct Condition {
   std::string name;

@@ -42,9 +42,7 @@ double component(const Vec3& world, const EntityState& entity, Direction directi
 
 bool in_phase(const ElementState& element, ElementPhase phase, std::uint64_t since) {
   const bool fresh = element.transition_sequence > since;
-  const auto passed = [&](ElementTransition transition) {
-    return fresh && element.last_transition == transition;
-  };
+  const auto passed = [&](ElementTransition transition) { return fresh && element.last_transition == transition; };
   switch (phase) {
     case ElementPhase::standby_state:
       return element.initialised && element.status == ElementStatus::standby;
@@ -92,8 +90,7 @@ struct Test {
   bool is_free_to_use(int lane, bool opposite_too) const {
     const auto& on = network.roads[at->lane.road];
     const auto& section = road::section_at(on, at->lane.s_m);
-    if (lane == 0 || !section.has_lane(lane) || !road::is_drivable(section.lane(lane).type))
-      return false;
+    if (lane == 0 || !section.has_lane(lane) || !road::is_drivable(section.lane(lane).type)) return false;
     return opposite_too || road::runs_along_s(on, section, lane) == at->along_s;
   }
 
@@ -113,15 +110,14 @@ struct Test {
       if (&state.entities[other] == at || (test.entity != no_entity && other != test.entity)) continue;
       if (test.kind && scenario.entities[other].kind != *test.kind) continue;
       const auto to = target(other);
-      if (to && measured(*to, gap) <= 0.0 && reach_as_high(scenario.entities[other].box, *to))
-        return true;
+      if (to && measured(*to, gap) <= 0.0 && reach_as_high(scenario.entities[other].box, *to)) return true;
     }
     return false;
   }
   /// Whether none of the two is wholly above the other, as on a bridge.
   bool reach_as_high(const BoundingBox& box, const Target& to) const {
-    const double apart = to.placement.pose.position_m.z + box.centre_m.z -
-                         at->world_from_entity.position_m.z - entity->box.centre_m.z;
+    const double apart =
+        to.placement.pose.position_m.z + box.centre_m.z - at->world_from_entity.position_m.z - entity->box.centre_m.z;
     return std::abs(apart) <= 0.5 * (box.height_m + entity->box.height_m);
   }
   bool operator()(const StoryboardElementStateCondition& test) const {
@@ -137,18 +133,14 @@ struct Test {
   bool operator()(const StandStillCondition& test) const {
     return at->standing_s > 0.0 && at->standing_s >= test.duration_s - time_slack_s;
   }
-  bool operator()(const TraveledDistanceCondition& test) const {
-    return at->travelled_m >= test.distance_m;
-  }
+  bool operator()(const TraveledDistanceCondition& test) const { return at->travelled_m >= test.distance_m; }
   bool operator()(const ReachPositionCondition& test) const {
     const auto to = target(test.position);
-    return to && glm::length(to->placement.pose.position_m - at->world_from_entity.position_m) <=
-                     test.tolerance_m;
+    return to && glm::length(to->placement.pose.position_m - at->world_from_entity.position_m) <= test.tolerance_m;
   }
   bool operator()(const SpeedCondition& test) const {
-    const double speed = test.direction == Direction::total
-                             ? at->speed_mps
-                             : component(at->velocity_mps, *at, test.direction);
+    const double speed =
+        test.direction == Direction::total ? at->speed_mps : component(at->velocity_mps, *at, test.direction);
     return compare(test.comparison, speed);
   }
   bool operator()(const AccelerationCondition& test) const {
@@ -177,8 +169,7 @@ struct Test {
     const int own_lane = lane_of(network, *at);
     const auto exists = [&](const RelativeLaneRange& range) {
       for (int count = range.from; count <= range.to; ++count) {
-        if (is_free_to_use(lane_beside(own_lane, at->along_s, count), test.opposite_lanes))
-          return true;
+        if (is_free_to_use(lane_beside(own_lane, at->along_s, count), test.opposite_lanes)) return true;
       }
       return false;
     };
@@ -186,8 +177,7 @@ struct Test {
     if (!std::all_of(test.lanes.begin(), test.lanes.end(), exists)) return false;
     for (EntityIndex other = 0; other < state.entities.size(); ++other) {
       const bool counts =
-          test.entities.empty() ||
-          std::find(test.entities.begin(), test.entities.end(), other) != test.entities.end();
+          test.entities.empty() || std::find(test.entities.begin(), test.entities.end(), other) != test.entities.end();
       const EntityState& found = state.entities[other];
       if (!counts || &found == at || !found.active || !found.on_road) continue;
       if (!test.opposite_lanes && found.along_s != at->along_s) continue;
@@ -198,11 +188,9 @@ struct Test {
         }
         return false;
       };
-      if (!test.lanes.empty() && std::none_of(test.lanes.begin(), test.lanes.end(), in_range))
-        continue;
+      if (!test.lanes.empty() && std::none_of(test.lanes.begin(), test.lanes.end(), in_range)) continue;
       const double ahead = road_distance_m(network, at->lane, at->along_s, found.lane);
-      const double own =
-          test.freespace ? (ahead > 0.0 ? entity->box.front_m() : -entity->box.rear_m()) : 0.0;
+      const double own = test.freespace ? (ahead > 0.0 ? entity->box.front_m() : -entity->box.rear_m()) : 0.0;
       const BoundingBox& box = scenario.entities[other].box;
       const double its = test.freespace ? (ahead > 0.0 ? -box.rear_m() : box.front_m()) : 0.0;
       const double gap = std::abs(ahead) - own - its;
@@ -213,8 +201,7 @@ struct Test {
   bool operator()(const TimeToCollisionCondition& test) const {
     const auto to = test.entity != no_entity ? target(test.entity) : target(test.position);
     if (!to) return false;
-    const Vec3 other =
-        test.entity != no_entity ? state.entities[test.entity].velocity_mps : Vec3(0.0);
+    const Vec3 other = test.entity != no_entity ? state.entities[test.entity].velocity_mps : Vec3(0.0);
     const double closing = closing_speed_mps(*at, to->placement, other, test.measure);
     // What does not come nearer never collides.
     return closing > 1e-6 && compare(test.comparison, measured(*to, test.measure) / closing);
@@ -222,13 +209,12 @@ struct Test {
 };
 
 bool is_by_value(const ConditionVariant& test) {
-  return std::holds_alternative<SimulationTimeCondition>(test) ||
-         std::holds_alternative<ValueCondition>(test) ||
+  return std::holds_alternative<SimulationTimeCondition>(test) || std::holds_alternative<ValueCondition>(test) ||
          std::holds_alternative<StoryboardElementStateCondition>(test);
 }
 
-bool holds_now(const Scenario& scenario, const road::RoadNetwork& network,
-               const Condition& condition, const ScenarioState& state) {
+bool holds_now(const Scenario& scenario, const road::RoadNetwork& network, const Condition& condition,
+               const ScenarioState& state) {
   Test test{scenario, network, state, state.conditions[condition.state]};
   if (is_by_value(condition.test)) return std::visit(test, condition.test);
   bool any = false, all = !condition.triggering_entities.empty();
@@ -255,8 +241,7 @@ bool delayed_value(const Condition& condition, double time_s, bool value, Condit
   const bool newest = state.delayed.empty() ? state.delayed_value : state.delayed.back().value;
   if (value != newest) state.delayed.push_back({time_s, value});
   bool pulse = false;
-  while (!state.delayed.empty() &&
-         state.delayed.front().time_s <= time_s - condition.delay_s + time_slack_s) {
+  while (!state.delayed.empty() && state.delayed.front().time_s <= time_s - condition.delay_s + time_slack_s) {
     state.delayed_value = state.delayed.front().value;
     pulse = pulse || state.delayed_value;
     state.delayed.erase(state.delayed.begin());
@@ -266,8 +251,8 @@ bool delayed_value(const Condition& condition, double time_s, bool value, Condit
 
 }  // namespace
 
-bool evaluate_trigger(const Scenario& scenario, const road::RoadNetwork& network,
-                      const Trigger& trigger, ScenarioState& state) {
+bool evaluate_trigger(const Scenario& scenario, const road::RoadNetwork& network, const Trigger& trigger,
+                      ScenarioState& state) {
   bool holds = false;
   for (const ConditionGroup& group : trigger.groups) {
     bool all = true;

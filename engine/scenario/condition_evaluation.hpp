@@ -8,8 +8,8 @@ namespace septet::scenario {
 
 /// Evaluates every condition, so that each sees its edges, and returns whether any group holds.
 /// Changes only the states of the conditions. A trigger without groups does not hold.
-bool evaluate_trigger(const Scenario& scenario, const road::RoadNetwork& network,
-                      const Trigger& trigger, ScenarioState& state);
+bool evaluate_trigger(const Scenario& scenario, const road::RoadNetwork& network, const Trigger& trigger,
+                      ScenarioState& state);
 
 /// Forgets what the conditions saw, as when an event goes back to standby in a new round of its
 /// maneuver group.

@@ -27,8 +27,7 @@ std::array<Vec2, 4> corners(const RigidTransform& pose, const BoundingBox& box) 
 double point_to_segment_m(const Vec2& point, const Vec2& a, const Vec2& b) {
   const Vec2 along = b - a;
   const double length2 = glm::dot(along, along);
-  const double part =
-      length2 > 0.0 ? std::clamp(glm::dot(point - a, along) / length2, 0.0, 1.0) : 0.0;
+  const double part = length2 > 0.0 ? std::clamp(glm::dot(point - a, along) / length2, 0.0, 1.0) : 0.0;
   return glm::length(point - a - part * along);
 }
 
@@ -57,8 +56,8 @@ double box_distance_m(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b
     if (contains(a, b[i]) || contains(b, a[i])) return 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
       if (cross(a[i], a[(i + 1) % 4], b[k], b[(k + 1) % 4])) return 0.0;
-      least = std::min({least, point_to_segment_m(a[i], b[k], b[(k + 1) % 4]),
-                        point_to_segment_m(b[i], a[k], a[(k + 1) % 4])});
+      least = std::min(
+          {least, point_to_segment_m(a[i], b[k], b[(k + 1) % 4]), point_to_segment_m(b[i], a[k], a[(k + 1) % 4])});
     }
   }
   return least;
@@ -70,8 +69,8 @@ double interval_gap_m(double low_a, double high_a, double low_b, double high_b) 
 }
 
 /// What something takes of an axis through `origin`; a thing without a box is a point.
-std::pair<double, double> extent_m(const RigidTransform& pose, const BoundingBox* box,
-                                   const Vec3& origin, const Vec3& axis) {
+std::pair<double, double> extent_m(const RigidTransform& pose, const BoundingBox* box, const Vec3& origin,
+                                   const Vec3& axis) {
   if (box == nullptr) {
     const double at = glm::dot(pose.position_m - origin, axis);
     return {at, at};
@@ -88,13 +87,11 @@ std::pair<double, double> extent_m(const RigidTransform& pose, const BoundingBox
   return {low, high};
 }
 
-double along_axis_m(const Entity& entity, const EntityState& from, const Target& target,
-                    const Vec3& axis, bool freespace) {
+double along_axis_m(const Entity& entity, const EntityState& from, const Target& target, const Vec3& axis,
+                    bool freespace) {
   const Vec3& origin = from.world_from_entity.position_m;
-  const auto own =
-      extent_m(from.world_from_entity, freespace ? &entity.box : nullptr, origin, axis);
-  const auto its =
-      extent_m(target.placement.pose, freespace ? target.box : nullptr, origin, axis);
+  const auto own = extent_m(from.world_from_entity, freespace ? &entity.box : nullptr, origin, axis);
+  const auto its = extent_m(target.placement.pose, freespace ? target.box : nullptr, origin, axis);
   return interval_gap_m(own.first, own.second, its.first, its.second);
 }
 
@@ -104,10 +101,9 @@ double along_road_m(const road::RoadNetwork& network, const Entity& entity, cons
   const auto& to = target.placement.lane;
   if (measure.type == DistanceType::lateral) {
     const bool lane = measure.system == CoordinateSystem::lane;
-    const double apart = lane ? to.offset_m - from.lane.offset_m
-                              : lateral_t_m(network, to) - lateral_t_m(network, from.lane);
-    const double widths =
-        0.5 * (entity.box.width_m + (target.box != nullptr ? target.box->width_m : 0.0));
+    const double apart =
+        lane ? to.offset_m - from.lane.offset_m : lateral_t_m(network, to) - lateral_t_m(network, from.lane);
+    const double widths = 0.5 * (entity.box.width_m + (target.box != nullptr ? target.box->width_m : 0.0));
     return measure.freespace ? std::max(0.0, std::abs(apart) - widths) : std::abs(apart);
   }
   const double ahead = road_distance_m(network, from.lane, from.along_s, to);
@@ -124,16 +120,15 @@ struct Reached {
 };
 
 /// The roads that begin where this one ends (or begins).
-void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving,
-                double way_m, std::vector<Reached>& found) {
+void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving, double way_m,
+                std::vector<Reached>& found) {
   const auto add = [&](road::RoadIndex to, road::ContactPoint contact) {
     const auto same = [&](const Reached& r) { return r.road == to; };
     if (found.size() < most_roads && std::none_of(found.begin(), found.end(), same))
       found.push_back({to, contact, way_m});
   };
-  const road::RoadLink& link = leaving == road::ContactPoint::end
-                                   ? network.roads[index].successor
-                                   : network.roads[index].predecessor;
+  const road::RoadLink& link =
+      leaving == road::ContactPoint::end ? network.roads[index].successor : network.roads[index].predecessor;
   if (link.road != road::no_index) add(link.road, link.contact);
   if (link.junction == road::no_index) return;
   for (const auto& connection : network.junctions[link.junction].connections) {
@@ -142,8 +137,8 @@ void add_linked(const road::RoadNetwork& network, road::RoadIndex index, road::C
 }
 
 /// Way from one end of a road to a position on another.
-double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index,
-                      road::ContactPoint leaving, double to_end_m, const road::LanePosition& to) {
+double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index, road::ContactPoint leaving,
+                      double to_end_m, const road::LanePosition& to) {
   std::vector<Reached> reached;
   add_linked(network, index, leaving, to_end_m, reached);
   double least = infinite;
@@ -155,16 +150,16 @@ double way_from_end_m(const road::RoadNetwork& network, road::RoadIndex index,
       least = std::min(least, at.way_m + (from_start ? to.s_m : length - to.s_m));
       continue;
     }
-    add_linked(network, at.road, from_start ? road::ContactPoint::end : road::ContactPoint::start,
-               at.way_m + length, reached);
+    add_linked(network, at.road, from_start ? road::ContactPoint::end : road::ContactPoint::start, at.way_m + length,
+               reached);
   }
   return least;
 }
 
 }  // namespace
 
-double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from,
-                       bool along_s, const road::LanePosition& to) {
+double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from, bool along_s,
+                       const road::LanePosition& to) {
   double ahead = infinite, behind = infinite;
   const double length = network.roads[from.road].length_m;
   if (from.road == to.road) {
@@ -173,24 +168,21 @@ double road_distance_m(const road::RoadNetwork& network, const road::LanePositio
   }
   // On the same road the way round a ring may be the shorter one.
   if (from.road != to.road || network.roads[from.road].successor.road == from.road) {
-    const double to_end =
-        way_from_end_m(network, from.road, road::ContactPoint::end, length - from.s_m, to);
-    const double to_start =
-        way_from_end_m(network, from.road, road::ContactPoint::start, from.s_m, to);
+    const double to_end = way_from_end_m(network, from.road, road::ContactPoint::end, length - from.s_m, to);
+    const double to_start = way_from_end_m(network, from.road, road::ContactPoint::start, from.s_m, to);
     ahead = std::min(ahead, along_s ? to_end : to_start);
     behind = std::min(behind, along_s ? to_start : to_end);
   }
   return ahead <= behind ? ahead : -behind;
 }
 
-double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from,
-                  const Target& target, const DistanceMeasure& measure) {
+double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from, const Target& target,
+                  const DistanceMeasure& measure) {
   const Vec3 apart = target.placement.pose.position_m - from.world_from_entity.position_m;
   if (measure.type == DistanceType::euclidean) {
     if (!measure.freespace) return glm::length(apart);
     const auto own = corners(from.world_from_entity, entity.box);
-    if (target.box != nullptr)
-      return box_distance_m(own, corners(target.placement.pose, *target.box));
+    if (target.box != nullptr) return box_distance_m(own, corners(target.placement.pose, *target.box));
     std::array<Vec2, 4> point;
     point.fill(Vec2(target.placement.pose.position_m));
     return box_distance_m(own, point);
@@ -199,8 +191,7 @@ double distance_m(const road::RoadNetwork& network, const Entity& entity, const 
   const Vec3 axis = lateral ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0);
   switch (measure.system) {
     case CoordinateSystem::entity:
-      return along_axis_m(entity, from, target, from.world_from_entity.orientation * axis,
-                          measure.freespace);
+      return along_axis_m(entity, from, target, from.world_from_entity.orientation * axis, measure.freespace);
     case CoordinateSystem::world:
       return along_axis_m(entity, from, target, axis, measure.freespace);
     case CoordinateSystem::lane:
@@ -210,8 +201,8 @@ double distance_m(const road::RoadNetwork& network, const Entity& entity, const 
   return infinite;
 }
 
-double closing_speed_mps(const EntityState& from, const Placement& target,
-                         const Vec3& target_velocity_mps, const DistanceMeasure& measure) {
+double closing_speed_mps(const EntityState& from, const Placement& target, const Vec3& target_velocity_mps,
+                         const DistanceMeasure& measure) {
   const Vec3 apart = target.pose.position_m - from.world_from_entity.position_m;
   Vec3 direction = apart;
   if (measure.type != DistanceType::euclidean) {

@@ -15,16 +15,16 @@ struct Target {
 
 /// Metres, never negative; infinite where the two are not on connected roads and the measure is
 /// along the road.
-double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from,
-                  const Target& target, const DistanceMeasure& measure);
+double distance_m(const road::RoadNetwork& network, const Entity& entity, const EntityState& from, const Target& target,
+                  const DistanceMeasure& measure);
 
 /// Along the roads' reference lines from one position to another, over any links; positive towards
 /// the end that `along_s` faces; infinite where there is no way within 100 roads.
-double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from,
-                       bool along_s, const road::LanePosition& to);
+double road_distance_m(const road::RoadNetwork& network, const road::LanePosition& from, bool along_s,
+                       const road::LanePosition& to);
 
 /// How fast the two come nearer by that measure, from their velocities.
-double closing_speed_mps(const EntityState& from, const Placement& target,
-                         const Vec3& target_velocity_mps, const DistanceMeasure& measure);
+double closing_speed_mps(const EntityState& from, const Placement& target, const Vec3& target_velocity_mps,
+                         const DistanceMeasure& measure);
 
 }  // namespace septet::scenario

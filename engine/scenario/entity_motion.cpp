@@ -26,22 +26,18 @@ double centre_t_m(const road::RoadNetwork& network, const road::LanePosition& la
 }
 
 /// How far an entity that minds a distance to another goes to its left.
-double distance_step_m(const road::RoadNetwork& network, const Scenario& scenario,
-                       const ScenarioState& state, double dt_s, EntityIndex who,
-                       EntityState& entity, std::vector<ElementIndex>& ended) {
+double distance_step_m(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                       double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   LateralControl& control = entity.lateral_control;
   const KeepDistanceAction& what = control.distance->what;
-  const auto way_m =
-      way_to_distance_m(network, scenario, state, what, control.distance->side, who);
+  const auto way_m = way_to_distance_m(network, scenario, state, what, control.distance->side, who);
   if (!way_m) return 0.0;
   double step_m = *way_m;
   bool there = true;
   if (what.limits) {
     const double before = control.left_mps;
-    const double goal_mps =
-        control.left_way_m ? (*way_m - *control.left_way_m) / dt_s + before : 0.0;
-    control.left_mps = next_approach_mps(*way_m, before, goal_mps, control.left_mps2, *what.limits,
-                                         true, dt_s);
+    const double goal_mps = control.left_way_m ? (*way_m - *control.left_way_m) / dt_s + before : 0.0;
+    control.left_mps = next_approach_mps(*way_m, before, goal_mps, control.left_mps2, *what.limits, true, dt_s);
     control.left_mps2 = (control.left_mps - before) / dt_s;
     // Where it is at the end of the step, so that the next one finds what this one left.
     step_m = control.left_mps * dt_s;
@@ -57,9 +53,9 @@ double distance_step_m(const road::RoadNetwork& network, const Scenario& scenari
 }
 
 /// Metres to the left of travel by which the offset changes in this step.
-double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario,
-                      const ScenarioState& state, double dt_s, double way_m, EntityIndex who,
-                      EntityState& entity, std::vector<ElementIndex>& ended) {
+double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                      double dt_s, double way_m, EntityIndex who, EntityState& entity,
+                      std::vector<ElementIndex>& ended) {
   LateralControl& control = entity.lateral_control;
   if (!control.active) return 0.0;
   if (control.distance) return distance_step_m(network, scenario, state, dt_s, who, entity, ended);
@@ -76,8 +72,7 @@ double lateral_step_m(const road::RoadNetwork& network, const Scenario& scenario
 
 /// Where the target lane ends but the road goes on, the entity keeps its t in the lane that is
 /// there.
-bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity,
-                           Progress& progress) {
+bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity, Progress& progress) {
   const auto& on = network.roads[progress.lane.road];
   const double t = lateral_t_m(network, progress.lane);
   const double s = progress.lane.s_m + (progress.along_s ? 0.01 : -0.01);
@@ -94,11 +89,9 @@ bool step_into_lane_beside(const road::RoadNetwork& network, EntityState& entity
   return true;
 }
 
-void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, double dt_s,
-             EntityState& entity) {
+void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, double dt_s, EntityState& entity) {
   const road::LanePoint point = road::evaluate_lane(network, entity.lane);
-  const double forward_m =
-      std::copysign(std::sqrt(std::max(0.0, way_m * way_m - lateral_m * lateral_m)), way_m);
+  const double forward_m = std::copysign(std::sqrt(std::max(0.0, way_m * way_m - lateral_m * lateral_m)), way_m);
   // Metres along the lane's centre per metre of s.
   const double stretch = std::max(0.05, std::hypot(point.road.stretch, point.lane_slope));
   std::span<const road::RoadIndex> route;
@@ -124,8 +117,7 @@ void roll_on(const road::RoadNetwork& network, double way_m, double lateral_m, d
     entity.at_road_end_s = 0.0;
   }
   const double slope = forward_m != 0.0 ? lateral_m / forward_m : 0.0;
-  entity.world_from_entity =
-      lane_pose(network, entity.lane, entity.along_s, slope, entity.heading_offset_rad);
+  entity.world_from_entity = lane_pose(network, entity.lane, entity.along_s, slope, entity.heading_offset_rad);
 }
 
 bool finite(const Vec3& v) { return std::isfinite(v.x + v.y + v.z); }
@@ -165,8 +157,8 @@ void place_entity(EntityState& entity, const Placement& placement) {
   entity.at_road_end_s = 0.0;
 }
 
-bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state,
-                       const LaneChangeAction& what, ElementIndex action, EntityState& entity) {
+bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& state, const LaneChangeAction& what,
+                       ElementIndex action, EntityState& entity) {
   if (!entity.on_road) return false;
   int lane = what.lane;
   if (what.reference != no_entity) {
@@ -191,8 +183,7 @@ bool start_lane_change(const road::RoadNetwork& network, const ScenarioState& st
   return true;
 }
 
-void start_lateral_distance(const DistanceControl& distance, ElementIndex action,
-                            EntityState& entity) {
+void start_lateral_distance(const DistanceControl& distance, ElementIndex action, EntityState& entity) {
   LateralControl control;
   control.active = true;
   control.action = action;
@@ -200,8 +191,8 @@ void start_lateral_distance(const DistanceControl& distance, ElementIndex action
   entity.lateral_control = control;
 }
 
-bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state,
-                       const LaneOffsetAction& what, ElementIndex action, EntityState& entity) {
+bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& state, const LaneOffsetAction& what,
+                       ElementIndex action, EntityState& entity) {
   if (!entity.on_road) return false;
   const double side = entity.along_s ? 1.0 : -1.0;
   double to = side * what.offset_m;
@@ -213,27 +204,23 @@ bool start_lane_offset(const road::RoadNetwork& network, const ScenarioState& st
   LateralControl control;
   control.active = true;
   control.action = action;
-  const bool bounded =
-      what.max_lateral_acceleration_mps2 && *what.max_lateral_acceleration_mps2 > 0.0;
+  const bool bounded = what.max_lateral_acceleration_mps2 && *what.max_lateral_acceleration_mps2 > 0.0;
   control.transition =
-      bounded ? bounded_offset_transition(what.shape, *what.max_lateral_acceleration_mps2,
-                                          entity.lane.offset_m, to)
+      bounded ? bounded_offset_transition(what.shape, *what.max_lateral_acceleration_mps2, entity.lane.offset_m, to)
               : Transition{DynamicsShape::step, false, 0.0, 0.0, entity.lane.offset_m, to};
   if (is_done(control.transition)) entity.lane.offset_m = to;
   entity.lateral_control = control;
   return true;
 }
 
-bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
-                 const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
-                 std::vector<ElementIndex>& ended) {
+bool move_entity(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state, double dt_s,
+                 EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   const EntityState at_start = entity;
   // Nothing below may see a number that is none: the road is not looked up there.
   const auto reset = [&] {
-    for (const ElementIndex action : {at_start.speed_control.action, at_start.lateral_control.action,
-                                      at_start.path_control.action})
-      if (action != no_element && std::find(ended.begin(), ended.end(), action) == ended.end())
-        ended.push_back(action);
+    for (const ElementIndex action :
+         {at_start.speed_control.action, at_start.lateral_control.action, at_start.path_control.action})
+      if (action != no_element && std::find(ended.begin(), ended.end(), action) == ended.end()) ended.push_back(action);
     entity = halted(at_start);
     return false;
   };
@@ -242,16 +229,14 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   const RigidTransform before = entity.world_from_entity;
   const bool on_path = entity.path_control.active;
   SpeedStep step{speed_before, 0.0};
-  if (!on_path || !entity.path_control.timed)
-    step = next_speed(network, scenario, state, dt_s, who, entity, ended);
+  if (!on_path || !entity.path_control.timed) step = next_speed(network, scenario, state, dt_s, who, entity, ended);
   if (!std::isfinite(step.speed_mps + step.jump_m)) return reset();
   entity.speed_mps = step.speed_mps;
   double way_m = 0.5 * (speed_before + entity.speed_mps) * dt_s + step.jump_m;
   if (on_path) {
     way_m = follow_path(network, way_m, dt_s, entity, ended);
   } else if (entity.on_road) {
-    const double lateral_m =
-        lateral_step_m(network, scenario, state, dt_s, way_m, who, entity, ended);
+    const double lateral_m = lateral_step_m(network, scenario, state, dt_s, way_m, who, entity, ended);
     if (!std::isfinite(lateral_m)) return reset();
     roll_on(network, way_m, lateral_m, dt_s, entity);
   } else {
@@ -270,14 +255,12 @@ bool move_entity(const road::RoadNetwork& network, const Scenario& scenario,
   entity.acceleration_vector_mps2 = orientation * Vec3(entity.acceleration_mps2, 0.0, 0.0) +
                                     glm::cross(entity.angular_velocity_radps, entity.velocity_mps);
   const double radius = std::max(0.1, 0.5 * scenario.entities[who].front_axle.wheel_diameter_m);
-  entity.wheel_angle_rad =
-      std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
+  entity.wheel_angle_rad = std::fmod(entity.wheel_angle_rad + way_m / radius, 2.0 * std::numbers::pi);
   if (entity.wheel_angle_rad < 0.0) entity.wheel_angle_rad += 2.0 * std::numbers::pi;
   return finite(entity) || reset();
 }
 
-void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, bool beside_is_taken,
-                  ScenarioState& state) {
+void mind_the_way(EntityIndex index, std::optional<InTheWay> in_the_way, bool beside_is_taken, ScenarioState& state) {
   SEPTET_CHECK(index < state.entities.size(), "entity {} of {}", index, state.entities.size());
   state.entities[index].in_the_way = in_the_way;
   state.entities[index].beside_is_taken = beside_is_taken;
@@ -290,16 +273,13 @@ bool has_yet_to_move_aside(const EntityState& entity) {
          std::abs(entity.lane.offset_m - control.transition.from) < begun_m;
 }
 
-void place_external(const road::RoadNetwork& network, EntityIndex index,
-                    const RigidTransform& world_from_entity, const Vec3& velocity_mps,
-                    const Vec3& acceleration_mps2, ScenarioState& state) {
+void place_external(const road::RoadNetwork& network, EntityIndex index, const RigidTransform& world_from_entity,
+                    const Vec3& velocity_mps, const Vec3& acceleration_mps2, ScenarioState& state) {
   SEPTET_CHECK(index < state.entities.size(), "entity {} of {}", index, state.entities.size());
   EntityState& entity = state.entities[index];
   const Vec3 forward = world_from_entity.orientation * Vec3(1.0, 0.0, 0.0);
   entity.travelled_m +=
-      entity.active
-          ? glm::length(world_from_entity.position_m - entity.world_from_entity.position_m)
-          : 0.0;
+      entity.active ? glm::length(world_from_entity.position_m - entity.world_from_entity.position_m) : 0.0;
   entity.active = true;
   entity.world_from_entity = world_from_entity;
   entity.velocity_mps = velocity_mps;
@@ -308,15 +288,13 @@ void place_external(const road::RoadNetwork& network, EntityIndex index,
   entity.acceleration_mps2 = glm::dot(acceleration_mps2, forward);
 
   const road::RoadPosition hint{entity.lane.road, entity.lane.s_m, 0.0};
-  const auto found =
-      road::locate(network, Vec2(world_from_entity.position_m), entity.on_road ? &hint : nullptr);
+  const auto found = road::locate(network, Vec2(world_from_entity.position_m), entity.on_road ? &hint : nullptr);
   entity.on_road = found && found->lanes.lane_any_type != 0;
   if (!entity.on_road) return;
   const int lane = found->lanes.lane_any_type;
   entity.lane = {found->position.road, lane, found->position.s_m, 0.0};
   entity.lane.offset_m = found->position.t_m - lateral_t_m(network, entity.lane);
-  const double turn = heading_rad(world_from_entity.orientation) -
-                      road::evaluate(network, found->position).heading_rad;
+  const double turn = heading_rad(world_from_entity.orientation) - road::evaluate(network, found->position).heading_rad;
   entity.along_s = std::cos(turn) >= 0.0;
 }
 

@@ -18,10 +18,8 @@ bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) ||
 bool goes_on_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
-    text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
-    text.remove_suffix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return text;
 }
 
@@ -53,18 +51,15 @@ constexpr Function functions[] = {
 /// Recursive descent; after the first error everything returns 0 and nothing is consumed.
 class Expression {
  public:
-  Expression(std::string_view text, const Parameters& parameters)
-      : text_(text), parameters_(parameters) {}
+  Expression(std::string_view text, const Parameters& parameters) : text_(text), parameters_(parameters) {}
 
   Expected<double> value() {
     const double result = disjunction();
     skip_space();
-    if (error_.empty() && !text_.empty())
-      fail(fmt::format("\"{}\" is left over", text_.substr(0, 20)));
+    if (error_.empty() && !text_.empty()) fail(fmt::format("\"{}\" is left over", text_.substr(0, 20)));
     if (error_.empty() && !std::isfinite(result)) fail("the value is not finite");
     if (!error_.empty())
-      return failure(error_, "",
-                     "write an expression of numbers, $parameters, operators, functions");
+      return failure(error_, "", "write an expression of numbers, $parameters, operators, functions");
     return result;
   }
   bool logical() const { return logical_; }
@@ -141,8 +136,7 @@ class Expression {
   double number() {
     double value = 0.0;
     const auto [end, status] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-    if (status != std::errc{})
-      return fail(fmt::format("\"{}\" is not a value", text_.substr(0, 20)));
+    if (status != std::errc{}) return fail(fmt::format("\"{}\" is not a value", text_.substr(0, 20)));
     text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
     return value;
   }
@@ -152,8 +146,7 @@ class Expression {
     if (found->second == "true") return truth(true);
     if (found->second == "false") return truth(false);
     const auto value = parse_number(found->second);
-    if (!value)
-      return fail(fmt::format("parameter {} is no number but \"{}\"", name, found->second));
+    if (!value) return fail(fmt::format("parameter {} is no number but \"{}\"", name, found->second));
     return *value;
   }
   double named(std::string_view name) {
@@ -185,8 +178,7 @@ class Expression {
     return value ? 1.0 : 0.0;
   }
   void skip_space() {
-    while (!text_.empty() && std::isspace(static_cast<unsigned char>(text_.front())))
-      text_.remove_prefix(1);
+    while (!text_.empty() && std::isspace(static_cast<unsigned char>(text_.front()))) text_.remove_prefix(1);
   }
   bool take(char c) {
     skip_space();
@@ -240,8 +232,7 @@ Expected<double> parse_number(std::string_view text) {
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc{} || end != text.data() + text.size() || !(std::abs(value) <= 1e12)) {
-    return failure(fmt::format("\"{}\" is not a number within ±1e12", shown), "",
-                   "write a finite number");
+    return failure(fmt::format("\"{}\" is not a number within ±1e12", shown), "", "write a finite number");
   }
   return value;
 }

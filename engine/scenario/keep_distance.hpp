@@ -13,12 +13,12 @@ namespace septet::scenario {
 /// the right (−1). Along the lane's direction, so that a heading that swings does not count; across, in the road's own
 /// coordinates where both are on one road and the action asks for "road" or "lane".
 std::optional<double> way_to_distance_m(const road::RoadNetwork& network, const Scenario& scenario,
-                                        const ScenarioState& state, const KeepDistanceAction& what,
-                                        double side, EntityIndex actor);
+                                        const ScenarioState& state, const KeepDistanceAction& what, double side,
+                                        EntityIndex actor);
 
 /// On which side the reference is to be: as the action says, else where it is.
-double side_of_reference(const road::RoadNetwork& network, const Scenario& scenario,
-                         const ScenarioState& state, const KeepDistanceAction& what, EntityIndex actor);
+double side_of_reference(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                         const KeepDistanceAction& what, EntityIndex actor);
 
 /// The actor's speed forwards (or to the left) at the end of the step, on its way over `way_m`, where the goal itself moves with
 /// `goal_mps`. `acceleration_mps2` is that of the step before.

@@ -51,8 +51,7 @@ bool is_of_type(std::string_view value, std::string_view type) {
   if (type == "integer" || type == "int")
     return is_whole(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
   if (type == "unsignedInt") return is_whole(value, 0.0, std::numeric_limits<unsigned>::max());
-  if (type == "unsignedShort")
-    return is_whole(value, 0.0, std::numeric_limits<unsigned short>::max());
+  if (type == "unsignedShort") return is_whole(value, 0.0, std::numeric_limits<unsigned short>::max());
   if (type == "boolean") return value == "true" || value == "false" || value == "1" || value == "0";
   return type != "dateTime" || is_date_time(value);
 }

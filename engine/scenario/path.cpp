@@ -26,9 +26,7 @@ bool has_own_heading(const Position& position) {
 }
 
 /// The same angle, at most half a turn from another.
-double near_angle(double angle_rad, double other_rad) {
-  return other_rad + road::wrap_angle(angle_rad - other_rad);
-}
+double near_angle(double angle_rad, double other_rad) { return other_rad + road::wrap_angle(angle_rad - other_rad); }
 
 struct Corner {
   Vec3 position_m{0.0};
@@ -60,8 +58,8 @@ Path join_corners(const std::vector<Corner>& corners) {
   double s = 0.0, before = 0.0;
   const auto add = [&](const Corner& a, const Corner& b, double part, double s_m, double heading) {
     before = path.points.empty() ? heading : near_angle(heading, before);
-    path.points.push_back({s_m, a.position_m + part * (b.position_m - a.position_m), before,
-                           a.time_s + part * (b.time_s - a.time_s)});
+    path.points.push_back(
+        {s_m, a.position_m + part * (b.position_m - a.position_m), before, a.time_s + part * (b.time_s - a.time_s)});
   };
   const std::vector<double> headings = line_headings(corners);
   const auto middle = [&](std::size_t left) {
@@ -169,8 +167,7 @@ struct Lay {
     const std::vector<Corner>& control = *placed;
     const auto degree = static_cast<std::size_t>(shape.order - 1);
     const std::size_t spans = control.size() - degree;
-    const std::size_t steps =
-        std::min(static_cast<std::size_t>(most_points) / spans, std::size_t{200}) * spans;
+    const std::size_t steps = std::min(static_cast<std::size_t>(most_points) / spans, std::size_t{200}) * spans;
     const double first = shape.knots[degree], last = shape.knots[control.size()];
     std::vector<Corner> corners;
     for (std::size_t i = 0; i <= steps; ++i) {
@@ -185,13 +182,12 @@ struct Lay {
  private:
   /// A segment from (at, heading) on, which it moves to its end; evenly in time. Each step is an arc of the segment's curvature
   /// at its middle: its chord points where the clothoid does there.
-  static void add_clothoid(const ClothoidSplineShape::Segment& segment, double end_s, double most_m,
-                           double& s, Vec3& at, double& heading, Path& path) {
+  static void add_clothoid(const ClothoidSplineShape::Segment& segment, double end_s, double most_m, double& s,
+                           Vec3& at, double& heading, Path& path) {
     const double length = segment.length_m;
     const auto steps = static_cast<std::size_t>(std::max(std::ceil(length / most_m), 1.0));
     const double step = length / static_cast<double>(steps);
-    const double growth =
-        length > 0.0 ? (segment.end_curvature_per_m - segment.start_curvature_per_m) / length : 0.0;
+    const double growth = length > 0.0 ? (segment.end_curvature_per_m - segment.start_curvature_per_m) / length : 0.0;
     const double start = heading;
     const auto curvature_at = [&](double way) { return segment.start_curvature_per_m + growth * way; };
     const auto heading_at = [&](double way) {
@@ -212,12 +208,10 @@ struct Lay {
   }
 
   /// de Boor's algorithm on weighted points; times are interpolated without the weights.
-  static Corner spline_at(const NurbsShape& shape, const std::vector<Corner>& control,
-                          std::size_t degree, double u) {
+  static Corner spline_at(const NurbsShape& shape, const std::vector<Corner>& control, std::size_t degree, double u) {
     const auto& knots = shape.knots;
     const auto inner = knots.begin() + static_cast<std::ptrdiff_t>(degree + 1);
-    const auto after =
-        std::upper_bound(inner, knots.begin() + static_cast<std::ptrdiff_t>(control.size()), u);
+    const auto after = std::upper_bound(inner, knots.begin() + static_cast<std::ptrdiff_t>(control.size()), u);
     const std::size_t span = degree + static_cast<std::size_t>(after - inner);
     struct Weighted {
       Vec3 position{0.0};
@@ -236,8 +230,7 @@ struct Lay {
         Weighted& point = points[i];
         const Weighted& before = points[i - 1];
         point = {(1.0 - part) * before.position + part * point.position,
-                 (1.0 - part) * before.weight + part * point.weight,
-                 (1.0 - part) * before.time + part * point.time};
+                 (1.0 - part) * before.weight + part * point.weight, (1.0 - part) * before.time + part * point.time};
       }
     }
     const Weighted& found = points[degree];
@@ -249,8 +242,8 @@ struct Lay {
     Path path;
     double s = 0.0, before = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec3 along = corners[std::min(i + 1, corners.size() - 1)].position_m -
-                         corners[i > 0 ? i - 1 : 0].position_m;
+      const Vec3 along =
+          corners[std::min(i + 1, corners.size() - 1)].position_m - corners[i > 0 ? i - 1 : 0].position_m;
       if (i > 0) s += length_m(corners[i - 1], corners[i]);
       if (glm::length(Vec2(along)) >= same_place_m) {
         const double heading = std::atan2(along.y, along.x);
@@ -265,21 +258,20 @@ struct Lay {
 template <class Value>
 PathPoint interpolated(const Path& path, double at, Value value) {
   const auto& points = path.points;
-  const auto after = std::upper_bound(points.begin(), points.end(), at,
-                                      [&](double x, const PathPoint& p) { return x < value(p); });
+  const auto after =
+      std::upper_bound(points.begin(), points.end(), at, [&](double x, const PathPoint& p) { return x < value(p); });
   if (after == points.begin()) return points.front();
   if (after == points.end()) return points.back();
   const PathPoint &a = *(after - 1), &b = *after;
   const double part = (at - value(a)) / (value(b) - value(a));
   return {a.s_m + part * (b.s_m - a.s_m), a.position_m + part * (b.position_m - a.position_m),
-          a.heading_rad + part * (b.heading_rad - a.heading_rad),
-          a.time_s + part * (b.time_s - a.time_s)};
+          a.heading_rad + part * (b.heading_rad - a.heading_rad), a.time_s + part * (b.time_s - a.time_s)};
 }
 
 }  // namespace
 
-std::optional<Path> lay_path(const road::RoadNetwork& network, const ScenarioState& state,
-                             const EntityState& actor, const Trajectory& trajectory) {
+std::optional<Path> lay_path(const road::RoadNetwork& network, const ScenarioState& state, const EntityState& actor,
+                             const Trajectory& trajectory) {
   return std::visit(Lay{network, state, actor, trajectory.closed}, trajectory.shape);
 }
 

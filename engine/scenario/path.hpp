@@ -28,8 +28,8 @@ struct Path {
 /// is relative to an entity hangs on where that is now. A polyline's heading is that of its lines, turned evenly within 2 m of a
 /// vertex, or goes evenly from vertex to vertex where these have orientations. A closed polyline goes round once. A curve has at
 /// most 20,000 points, 0.1 m apart where that suffices.
-std::optional<Path> lay_path(const road::RoadNetwork& network, const ScenarioState& state,
-                             const EntityState& actor, const Trajectory& trajectory);
+std::optional<Path> lay_path(const road::RoadNetwork& network, const ScenarioState& state, const EntityState& actor,
+                             const Trajectory& trajectory);
 
 /// The point at a station, taken into the path.
 PathPoint path_at_station(const Path& path, double s_m);

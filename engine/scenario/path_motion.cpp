@@ -22,20 +22,18 @@ RigidTransform pose_on_ground(const road::RoadNetwork& network, const PathPoint&
   pose.position_m.z = surface->height_m;
   const Vec3 ahead(std::cos(point.heading_rad), std::sin(point.heading_rad), 0.0);
   const Vec3 left = glm::normalize(glm::cross(surface->normal, ahead));
-  pose.orientation =
-      glm::quat_cast(glm::dmat3(glm::cross(left, surface->normal), left, surface->normal));
+  pose.orientation = glm::quat_cast(glm::dmat3(glm::cross(left, surface->normal), left, surface->normal));
   return pose;
 }
 
 }  // namespace
 
-bool start_path(const road::RoadNetwork& network, const ScenarioState& state,
-                const FollowTrajectoryAction& what, ElementIndex action, EntityState& entity) {
+bool start_path(const road::RoadNetwork& network, const ScenarioState& state, const FollowTrajectoryAction& what,
+                ElementIndex action, EntityState& entity) {
   if (!entity.active) return false;
   auto path = lay_path(network, state, entity, what.trajectory);
   if (!path) return false;
-  for (PathPoint& point : path->points)
-    point.time_s = what.time_scale * point.time_s + what.time_offset_s;
+  for (PathPoint& point : path->points) point.time_s = what.time_scale * point.time_s + what.time_offset_s;
   PathControl control;
   control.active = true;
   control.action = action;
@@ -44,8 +42,7 @@ bool start_path(const road::RoadNetwork& network, const ScenarioState& state,
   control.station_m = what.initial_distance_m;
   if (what.timed) {
     // What lies before the initial distance is cut off, and the time that it takes.
-    if (what.initial_distance_m > 0.0)
-      control.clock_s += path_at_station(*path, what.initial_distance_m).time_s;
+    if (what.initial_distance_m > 0.0) control.clock_s += path_at_station(*path, what.initial_distance_m).time_s;
     control.station_m = path_at_time(*path, control.clock_s).s_m;
   }
   control.path = std::make_shared<const Path>(std::move(*path));
@@ -58,8 +55,8 @@ double follow_path(const road::RoadNetwork& network, double way_m, double dt_s, 
   PathControl& control = entity.path_control;
   const Path& path = *control.path;
   control.clock_s += dt_s;
-  const PathPoint point = control.timed ? path_at_time(path, control.clock_s)
-                                        : path_at_station(path, control.station_m + way_m);
+  const PathPoint point =
+      control.timed ? path_at_time(path, control.clock_s) : path_at_station(path, control.station_m + way_m);
   const double gone_m = control.timed ? point.s_m - control.station_m : way_m;
   // A trajectory that asks for more jumps there.
   if (control.timed && std::abs(gone_m) <= fastest_mps * dt_s) entity.speed_mps = gone_m / dt_s;
@@ -77,8 +74,8 @@ double follow_path(const road::RoadNetwork& network, double way_m, double dt_s, 
   entity.along_s = placement.along_s;
   entity.heading_offset_rad = placement.heading_offset_rad;
 
-  const bool done = control.timed ? control.clock_s >= path.end_s() - 1e-9
-                                  : control.station_m >= path.length_m() - 1e-9;
+  const bool done =
+      control.timed ? control.clock_s >= path.end_s() - 1e-9 : control.station_m >= path.length_m() - 1e-9;
   if (!done) return gone_m;
   if (control.action != no_element) ended.push_back(control.action);
   control = {};

@@ -23,7 +23,7 @@ struct Orientation {
 struct WorldPosition {
   Vec3 position_m{0.0};
   std::optional<double> height_m;  ///< z where the file gives one, else the surface of the road.
-  bool heading_given = false;  ///< Else it is 0.
+  bool heading_given = false;      ///< Else it is 0.
   double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
 };
 
@@ -85,9 +85,8 @@ struct RoutePosition {
 /// No position: the file used a kind that is not supported yet, which was reported when it was
 /// read.
 using Position =
-    std::variant<std::monostate, WorldPosition, RelativeWorldPosition, RelativeObjectPosition,
-                 RoadCoordinates, RelativeRoadPosition, LaneCoordinates, RelativeLanePosition,
-                 RoutePosition>;
+    std::variant<std::monostate, WorldPosition, RelativeWorldPosition, RelativeObjectPosition, RoadCoordinates,
+                 RelativeRoadPosition, LaneCoordinates, RelativeLanePosition, RoutePosition>;
 
 /// Waypoints in the order in which they are passed, by the shortest way.
 struct Route {

@@ -13,11 +13,11 @@ constexpr double most_mps = 1000.0;
 
 DynamicsShape read_shape(const Element& element) {
   return element.required_word<DynamicsShape>("dynamicsShape",
-                                     {{"step", DynamicsShape::step},
-                                      {"linear", DynamicsShape::linear},
-                                      {"sinusoidal", DynamicsShape::sinusoidal},
-                                      {"cubic", DynamicsShape::cubic}},
-                                     DynamicsShape::step);
+                                              {{"step", DynamicsShape::step},
+                                               {"linear", DynamicsShape::linear},
+                                               {"sinusoidal", DynamicsShape::sinusoidal},
+                                               {"cubic", DynamicsShape::cubic}},
+                                              DynamicsShape::step);
 }
 
 ActionVariant read_speed(Reading& reading, const Element& element) {
@@ -29,8 +29,7 @@ ActionVariant read_speed(Reading& reading, const Element& element) {
   } else if (const Element relative = target.child("RelativeTargetSpeed")) {
     action.reference = read_entity_reference(reading, relative);
     action.value = relative.number("value", -most_mps, most_mps);
-    action.factor =
-        relative.required_word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
+    action.factor = relative.required_word<bool>("speedTargetValueType", {{"factor", true}, {"delta", false}}, false);
     action.continuous = relative.required_boolean("continuous", false);
   } else {
     target.error("it has no target speed", "add <AbsoluteTargetSpeed> or <RelativeTargetSpeed>");
@@ -67,8 +66,7 @@ ActionVariant read_lane_offset(Reading& reading, const Element& element) {
     action.reference = read_entity_reference(reading, relative);
     action.offset_m = relative.number("value");
   } else {
-    target.error("it has no target offset",
-                 "add <AbsoluteTargetLaneOffset> or <RelativeTargetLaneOffset>");
+    target.error("it has no target offset", "add <AbsoluteTargetLaneOffset> or <RelativeTargetLaneOffset>");
   }
   return action;
 }
@@ -84,27 +82,24 @@ ActionVariant read_light(const Element& element) {
   const Element light = element.required("LightType").child("VehicleLight");
   const Element state = element.required("LightState");
   action.mode = state.required_word<LightMode>(
-      "mode", {{"off", LightMode::off}, {"on", LightMode::on}, {"flashing", LightMode::flashing}},
-      LightMode::off);
+      "mode", {{"off", LightMode::off}, {"on", LightMode::on}, {"flashing", LightMode::flashing}}, LightMode::off);
   if (!light) return std::monostate{};
-  action.lamps =
-      light.word<Lamps>("vehicleLightType",
-                        {{"daytimeRunningLights", Lamps{}},
-                         {"lowBeam", lamps_of({Lamp::low_beam})},
-                         {"highBeam", lamps_of({Lamp::high_beam})},
-                         {"fogLights", lamps_of({Lamp::rear_fog})},
-                         {"fogLightsRear", lamps_of({Lamp::rear_fog})},
-                         {"brakeLights", lamps_of({Lamp::brake})},
-                         {"warningLights", lamps_of({Lamp::indicator_left, Lamp::indicator_right})},
-                         {"indicatorLeft", lamps_of({Lamp::indicator_left})},
-                         {"indicatorRight", lamps_of({Lamp::indicator_right})},
-                         {"reversingLights", lamps_of({Lamp::reverse})},
-                         {"specialPurposeLights", lamps_of({Lamp::beacon})},
-                         {"fogLightsFront", Lamps{}},
-                         {"licensePlateIllumination", Lamps{}}},
-                        Lamps{});
-  if (action.lamps == Lamps{})
-    light.warning("no vehicle of Septet has this lamp", "expect no effect");
+  action.lamps = light.word<Lamps>("vehicleLightType",
+                                   {{"daytimeRunningLights", Lamps{}},
+                                    {"lowBeam", lamps_of({Lamp::low_beam})},
+                                    {"highBeam", lamps_of({Lamp::high_beam})},
+                                    {"fogLights", lamps_of({Lamp::rear_fog})},
+                                    {"fogLightsRear", lamps_of({Lamp::rear_fog})},
+                                    {"brakeLights", lamps_of({Lamp::brake})},
+                                    {"warningLights", lamps_of({Lamp::indicator_left, Lamp::indicator_right})},
+                                    {"indicatorLeft", lamps_of({Lamp::indicator_left})},
+                                    {"indicatorRight", lamps_of({Lamp::indicator_right})},
+                                    {"reversingLights", lamps_of({Lamp::reverse})},
+                                    {"specialPurposeLights", lamps_of({Lamp::beacon})},
+                                    {"fogLightsFront", Lamps{}},
+                                    {"licensePlateIllumination", Lamps{}}},
+                                   Lamps{});
+  if (action.lamps == Lamps{}) light.warning("no vehicle of Septet has this lamp", "expect no effect");
   return action;
 }
 
@@ -113,11 +108,10 @@ ActionVariant read_light(const Element& element) {
 TransitionDynamics read_dynamics(const Element& element) {
   TransitionDynamics dynamics;
   dynamics.shape = read_shape(element);
-  dynamics.dimension = element.required_word<DynamicsDimension>("dynamicsDimension",
-                                                       {{"time", DynamicsDimension::time},
-                                                        {"distance", DynamicsDimension::distance},
-                                                        {"rate", DynamicsDimension::rate}},
-                                                       DynamicsDimension::time);
+  dynamics.dimension = element.required_word<DynamicsDimension>(
+      "dynamicsDimension",
+      {{"time", DynamicsDimension::time}, {"distance", DynamicsDimension::distance}, {"rate", DynamicsDimension::rate}},
+      DynamicsDimension::time);
   // Older files write a braking rate with its sign; the direction follows from the target.
   dynamics.value = std::abs(element.number("value"));
   constexpr double least = 1e-6;  // Of a second, a metre or either's rate: nobody means less.
@@ -135,28 +129,22 @@ TransitionDynamics read_dynamics(const Element& element) {
 ActionVariant read_private_action(Reading& reading, const Element& action) {
   if (const Element longitudinal = action.child("LongitudinalAction")) {
     if (const Element found = longitudinal.child("SpeedAction")) return read_speed(reading, found);
-    if (const Element found = longitudinal.child("SpeedProfileAction"))
-      return read_speed_profile(reading, found);
+    if (const Element found = longitudinal.child("SpeedProfileAction")) return read_speed_profile(reading, found);
     if (const Element found = longitudinal.child("LongitudinalDistanceAction"))
       return read_longitudinal_distance(reading, found);
     return {};
   }
   if (const Element lateral = action.child("LateralAction")) {
-    if (const Element found = lateral.child("LaneChangeAction"))
-      return read_lane_change(reading, found);
-    if (const Element found = lateral.child("LaneOffsetAction"))
-      return read_lane_offset(reading, found);
-    if (const Element found = lateral.child("LateralDistanceAction"))
-      return read_lateral_distance(reading, found);
+    if (const Element found = lateral.child("LaneChangeAction")) return read_lane_change(reading, found);
+    if (const Element found = lateral.child("LaneOffsetAction")) return read_lane_offset(reading, found);
+    if (const Element found = lateral.child("LateralDistanceAction")) return read_lateral_distance(reading, found);
     return {};
   }
-  if (const Element found = action.child("TeleportAction"))
-    return TeleportAction{read_position(reading, found)};
+  if (const Element found = action.child("TeleportAction")) return TeleportAction{read_position(reading, found)};
   if (const Element found = action.child("SynchronizeAction")) return read_synchronize(reading, found);
   // Seen, so that what is in them is named, not they.
   if (const Element routing = action.child("RoutingAction")) {
-    if (const Element found = routing.child("FollowTrajectoryAction"))
-      return read_follow_trajectory(reading, found);
+    if (const Element found = routing.child("FollowTrajectoryAction")) return read_follow_trajectory(reading, found);
     if (const Element found = routing.child("AssignRouteAction"))
       return AssignRouteAction{read_route_in(reading, found)};
     if (const Element found = routing.child("AcquirePositionAction"))
@@ -192,12 +180,9 @@ ActionVariant read_value_action(Reading& reading, const Element& element, const 
 }  // namespace
 
 ActionVariant read_global_action(Reading& reading, const Element& action) {
-  if (const Element found = action.child("ParameterAction"))
-    return read_value_action(reading, found, "parameterRef");
-  if (const Element found = action.child("VariableAction"))
-    return read_value_action(reading, found, "variableRef");
-  if (const Element found = action.child("EnvironmentAction"))
-    return read_environment_action(reading, found);
+  if (const Element found = action.child("ParameterAction")) return read_value_action(reading, found, "parameterRef");
+  if (const Element found = action.child("VariableAction")) return read_value_action(reading, found, "variableRef");
+  if (const Element found = action.child("EnvironmentAction")) return read_environment_action(reading, found);
   if (const Element traffic = action.child("TrafficAction")) {
     const std::string name = traffic.text_or("trafficName", "");
     if (const Element found = traffic.child("TrafficSwarmAction")) {
@@ -233,8 +218,7 @@ Command split_command(const Reading& reading, const std::string& content) {
   return command;
 }
 
-ActionVariant read_effect_command(Reading& reading, const Element& element,
-                                  EffectAction::Kind kind) {
+ActionVariant read_effect_command(Reading& reading, const Element& element, EffectAction::Kind kind) {
   const Command command = split_command(reading, element.content());
   EffectAction effect;
   effect.kind = kind;
@@ -267,10 +251,8 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (!command) return {};
   const std::string type = command.text("type");
   if (type == "septet:spill") return read_effect_command(reading, command, EffectAction::Kind::spill);
-  if (type == "septet:ignite")
-    return read_effect_command(reading, command, EffectAction::Kind::ignite);
-  if (type == "septet:extinguish")
-    return read_effect_command(reading, command, EffectAction::Kind::extinguish);
+  if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
+  if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
   if (type != "septet:siren") {
     command.warning("this command is not known and has no effect",
                     "Septet knows septet:siren, septet:spill, septet:ignite, septet:extinguish");
@@ -281,8 +263,7 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   const auto entity = find_entity(reading.scenario, content.substr(0, space));
   const std::string state = space == std::string::npos ? "" : content.substr(space + 1);
   if (!entity || (state != "on" && state != "off")) {
-    command.error("it does not say whose siren is on or off",
-                  "write an entity's name and on or off");
+    command.error("it does not say whose siren is on or off", "write an entity's name and on or off");
     return {};
   }
   return SirenAction{*entity, state == "on"};

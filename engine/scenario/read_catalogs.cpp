@@ -16,8 +16,7 @@ void load_catalogs(Reading& reading, const Element& where) {
   for (const auto& [kind, folder] : reading.catalog_locations) {
     const auto paths = reading.files.list(folder);
     if (!paths) {
-      where.warning(fmt::format("catalog folder {}: {}", folder, paths.error().what),
-                    paths.error().remedy);
+      where.warning(fmt::format("catalog folder {}: {}", folder, paths.error().what), paths.error().remedy);
       continue;
     }
     for (const std::string& path : *paths) {
@@ -67,11 +66,9 @@ Element resolve_catalog_reference(Reading& reading, const Element& parent,
   const Element reference = parent.child("CatalogReference");
   if (!reference) return {};
   load_catalogs(reading, reference);
-  const std::string catalog_name = reference.text("catalogName"),
-                    entry_name = reference.text("entryName");
+  const std::string catalog_name = reference.text("catalogName"), entry_name = reference.text("entryName");
   Parameters assigned;
-  for (const Element& assignment :
-       reference.child("ParameterAssignments").children("ParameterAssignment")) {
+  for (const Element& assignment : reference.child("ParameterAssignments").children("ParameterAssignment")) {
     assigned[assignment.parameter_name("parameterRef")] = assignment.text_or("value", "");
   }
   const auto found = reading.catalogs.find(catalog_name);
@@ -87,9 +84,8 @@ Element resolve_catalog_reference(Reading& reading, const Element& parent,
     if (std::find(used.begin(), used.end(), entry) == used.end()) used.push_back(entry);
     return with_declared_parameters(entry.mark(), assigned);
   }
-  reference.error(
-      fmt::format("catalog {} has no <{}> named \"{}\"", catalog_name, *kinds.begin(), entry_name),
-      "correct entryName, or add the entry to the catalog");
+  reference.error(fmt::format("catalog {} has no <{}> named \"{}\"", catalog_name, *kinds.begin(), entry_name),
+                  "correct entryName, or add the entry to the catalog");
   return {};
 }
 
@@ -104,8 +100,7 @@ ScenarioFiles files_in(const std::string& folder) {
     std::vector<std::string> found;
     for (fs::directory_iterator at(fs::path(folder) / path, problem), end; !problem && at != end;
          at.increment(problem)) {
-      if (at->path().extension() == ".xosc")
-        found.push_back((fs::path(path) / at->path().filename()).string());
+      if (at->path().extension() == ".xosc") found.push_back((fs::path(path) / at->path().filename()).string());
     }
     if (problem) return failure(problem.message(), path, "check the folder's name and rights");
     std::sort(found.begin(), found.end());

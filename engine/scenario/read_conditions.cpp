@@ -5,16 +5,13 @@
 namespace septet::scenario {
 namespace {
 
-Comparison read_comparison(const Element& element) {
-  return {read_rule(element), element.number("value")};
-}
+Comparison read_comparison(const Element& element) { return {read_rule(element), element.number("value")}; }
 
 Direction read_direction(const Element& element) {
-  return element.word<Direction>("direction",
-                                 {{"longitudinal", Direction::longitudinal},
-                                  {"lateral", Direction::lateral},
-                                  {"vertical", Direction::vertical}},
-                                 Direction::total);
+  return element.word<Direction>(
+      "direction",
+      {{"longitudinal", Direction::longitudinal}, {"lateral", Direction::lateral}, {"vertical", Direction::vertical}},
+      Direction::total);
 }
 
 DistanceMeasure read_measure(const Element& element) {
@@ -22,25 +19,23 @@ DistanceMeasure read_measure(const Element& element) {
   measure.freespace = element.required_boolean("freespace", false);
   // alongRoute is what 1.0 had instead of coordinateSystem and relativeDistanceType.
   const bool along_route = element.boolean_or("alongRoute", false);
-  measure.system = element.word<CoordinateSystem>(
-      "coordinateSystem",
-      {{"entity", CoordinateSystem::entity},
-       {"lane", CoordinateSystem::lane},
-       {"road", CoordinateSystem::road},
-       {"world", CoordinateSystem::world},
-       {"trajectory", CoordinateSystem::road}},
-      along_route ? CoordinateSystem::road : CoordinateSystem::entity);
+  measure.system = element.word<CoordinateSystem>("coordinateSystem",
+                                                  {{"entity", CoordinateSystem::entity},
+                                                   {"lane", CoordinateSystem::lane},
+                                                   {"road", CoordinateSystem::road},
+                                                   {"world", CoordinateSystem::world},
+                                                   {"trajectory", CoordinateSystem::road}},
+                                                  along_route ? CoordinateSystem::road : CoordinateSystem::entity);
   if (element.text_or("coordinateSystem", "") == "trajectory") {
     element.warning("coordinateSystem=\"trajectory\" is not supported; \"road\" is taken",
                     "measure along the road or the lane");
   }
-  measure.type = element.word<DistanceType>(
-      "relativeDistanceType",
-      {{"longitudinal", DistanceType::longitudinal},
-       {"lateral", DistanceType::lateral},
-       {"euclidianDistance", DistanceType::euclidean},
-       {"cartesianDistance", DistanceType::euclidean}},
-      along_route ? DistanceType::longitudinal : DistanceType::euclidean);
+  measure.type = element.word<DistanceType>("relativeDistanceType",
+                                            {{"longitudinal", DistanceType::longitudinal},
+                                             {"lateral", DistanceType::lateral},
+                                             {"euclidianDistance", DistanceType::euclidean},
+                                             {"cartesianDistance", DistanceType::euclidean}},
+                                            along_route ? DistanceType::longitudinal : DistanceType::euclidean);
   return measure;
 }
 
@@ -65,9 +60,8 @@ ConditionVariant read_clearance(Reading& reading, const Element& found) {
   condition.freespace = found.required_boolean("freeSpace", true);
   condition.opposite_lanes = found.required_boolean("oppositeLanes", false);
   for (const Element& range : found.children("RelativeLaneRange")) {
-    condition.lanes.push_back(
-        {range.has("from") ? range.integer("from", -most_lanes, most_lanes) : -most_lanes,
-         range.has("to") ? range.integer("to", -most_lanes, most_lanes) : most_lanes});
+    condition.lanes.push_back({range.has("from") ? range.integer("from", -most_lanes, most_lanes) : -most_lanes,
+                               range.has("to") ? range.integer("to", -most_lanes, most_lanes) : most_lanes});
   }
   for (const Element& reference : found.children("EntityRef")) {
     const EntityIndex entity = read_entity_reference(reading, reference);
@@ -93,8 +87,7 @@ ConditionVariant read_collision(Reading& reading, const Element& found) {
 ConditionVariant read_entity_condition(Reading& reading, const Element& element) {
   if (const Element found = element.child("EndOfRoadCondition"))
     return EndOfRoadCondition{found.number("duration", 0.0)};
-  if (const Element found = element.child("CollisionCondition"))
-    return read_collision(reading, found);
+  if (const Element found = element.child("CollisionCondition")) return read_collision(reading, found);
   if (const Element found = element.child("StandStillCondition"))
     return StandStillCondition{found.number("duration", 0.0)};
   if (const Element found = element.child("TraveledDistanceCondition")) {
@@ -109,29 +102,25 @@ ConditionVariant read_entity_condition(Reading& reading, const Element& element)
   if (const Element found = element.child("AccelerationCondition")) {
     // Before 1.2 an acceleration had no direction: it was that of the speed.
     const bool along = reading.scenario.header.revision_minor < 2;
-    return AccelerationCondition{read_comparison(found),
-                                 along ? Direction::longitudinal : read_direction(found)};
+    return AccelerationCondition{read_comparison(found), along ? Direction::longitudinal : read_direction(found)};
   }
   if (const Element found = element.child("RelativeSpeedCondition")) {
     return RelativeSpeedCondition{read_entity_reference(reading, found), read_comparison(found)};
   }
   if (const Element found = element.child("DistanceCondition")) {
-    return DistanceCondition{read_position(reading, found), read_measure(found),
-                             read_comparison(found)};
+    return DistanceCondition{read_position(reading, found), read_measure(found), read_comparison(found)};
   }
   if (const Element found = element.child("RelativeDistanceCondition")) {
     return RelativeDistanceCondition{read_entity_reference(reading, found), read_measure(found),
                                      read_comparison(found)};
   }
   if (const Element found = element.child("TimeHeadwayCondition")) {
-    return TimeHeadwayCondition{read_entity_reference(reading, found), read_measure(found),
-                                read_comparison(found)};
+    return TimeHeadwayCondition{read_entity_reference(reading, found), read_measure(found), read_comparison(found)};
   }
   if (const Element found = element.child("RelativeClearanceCondition")) {
     return read_clearance(reading, found);
   }
-  if (const Element found = element.child("TimeToCollisionCondition"))
-    return read_time_to_collision(reading, found);
+  if (const Element found = element.child("TimeToCollisionCondition")) return read_time_to_collision(reading, found);
   return {};
 }
 
@@ -150,14 +139,14 @@ ConditionVariant read_value_condition(Reading& reading, const Element& element) 
     StoryboardElementStateCondition condition;
     condition.element = read_element_reference(reading, found);
     condition.phase = found.required_word<ElementPhase>("state",
-                                               {{"standbyState", ElementPhase::standby_state},
-                                                {"runningState", ElementPhase::running_state},
-                                                {"completeState", ElementPhase::complete_state},
-                                                {"startTransition", ElementPhase::start_transition},
-                                                {"endTransition", ElementPhase::end_transition},
-                                                {"stopTransition", ElementPhase::stop_transition},
-                                                {"skipTransition", ElementPhase::skip_transition}},
-                                               ElementPhase::complete_state);
+                                                        {{"standbyState", ElementPhase::standby_state},
+                                                         {"runningState", ElementPhase::running_state},
+                                                         {"completeState", ElementPhase::complete_state},
+                                                         {"startTransition", ElementPhase::start_transition},
+                                                         {"endTransition", ElementPhase::end_transition},
+                                                         {"stopTransition", ElementPhase::stop_transition},
+                                                         {"skipTransition", ElementPhase::skip_transition}},
+                                                        ElementPhase::complete_state);
     return condition;
   }
   return {};
@@ -168,19 +157,18 @@ Condition read_condition(Reading& reading, const Element& element) {
   condition.name = element.label("name");
   condition.delay_s = element.number_or("delay", 0.0, 0.0);
   condition.edge = element.required_word<Edge>("conditionEdge",
-                                      {{"none", Edge::none},
-                                       {"rising", Edge::rising},
-                                       {"falling", Edge::falling},
-                                       {"risingOrFalling", Edge::rising_or_falling}},
-                                      Edge::none);
+                                               {{"none", Edge::none},
+                                                {"rising", Edge::rising},
+                                                {"falling", Edge::falling},
+                                                {"risingOrFalling", Edge::rising_or_falling}},
+                                               Edge::none);
   condition.state = reading.scenario.condition_count++;
   if (const Element by_value = element.child("ByValueCondition")) {
     condition.test = read_value_condition(reading, by_value);
   } else if (const Element by_entity = element.child("ByEntityCondition")) {
     const Element triggering = by_entity.required("TriggeringEntities");
     condition.all_entities =
-        triggering &&
-        triggering.required_word<bool>("triggeringEntitiesRule", {{"any", false}, {"all", true}}, false);
+        triggering && triggering.required_word<bool>("triggeringEntitiesRule", {{"any", false}, {"all", true}}, false);
     for (const Element& reference : triggering.children("EntityRef")) {
       const EntityIndex entity = read_entity_reference(reading, reference);
       if (entity != no_entity) condition.triggering_entities.push_back(entity);
@@ -217,17 +205,15 @@ ElementIndex read_element_reference(Reading& reading, const Element& condition) 
     const bool right_type = type.empty() || type == reading.element_types[i];
     if (!same || !right_type) continue;
     if (found != no_element) {
-      condition.warning(
-          fmt::format("\"{}\" may be {} or {}; the first is taken", name, names[found], names[i]),
-          "write the names of its parents before it, parted by ::");
+      condition.warning(fmt::format("\"{}\" may be {} or {}; the first is taken", name, names[found], names[i]),
+                        "write the names of its parents before it, parted by ::");
       break;
     }
     found = i;
   }
   if (found == no_element && !reading.names_are_elsewhere) {
-    condition.error(
-        fmt::format("no {} is named \"{}\"", type.empty() ? "storyboard element" : type, name),
-        "name an element of this storyboard");
+    condition.error(fmt::format("no {} is named \"{}\"", type.empty() ? "storyboard element" : type, name),
+                    "name an element of this storyboard");
   }
   return found;
 }

@@ -13,8 +13,7 @@ void check_range(const Element& parent) {
   const Element range = parent.child("Range");
   if (!range) return;
   const double low = range.number("lowerLimit");
-  if (range.number("upperLimit") < low)
-    range.error("its upper limit is below its lower limit", "exchange them");
+  if (range.number("upperLimit") < low) range.error("its upper limit is below its lower limit", "exchange them");
 }
 
 void check_single(const Element& distribution, Names& varied) {
@@ -22,8 +21,7 @@ void check_single(const Element& distribution, Names& varied) {
   if (const Element set = distribution.child("DistributionSet")) {
     for (const Element& element : set.children("Element")) element.text("value");
   } else if (const Element range = distribution.child("DistributionRange")) {
-    if (range.number("stepWidth") <= 0.0)
-      range.error("its steps lead nowhere", "give a stepWidth above 0");
+    if (range.number("stepWidth") <= 0.0) range.error("its steps lead nowhere", "give a stepWidth above 0");
     check_range(range);
   }
 }
@@ -53,8 +51,7 @@ void check_stochastic(const Element& distribution, Names& varied) {
     check_range(found);
   }
   if (const Element found = distribution.child("UniformDistribution")) check_range(found);
-  for (const Element& element :
-       distribution.child("ProbabilityDistributionSet").children("Element")) {
+  for (const Element& element : distribution.child("ProbabilityDistributionSet").children("Element")) {
     element.text("value");
     element.number("weight", 0.0);
   }
@@ -70,14 +67,12 @@ void check_names(Reading& reading, const Element& scenario_file, const Names& va
   if (path.empty()) return;
   const auto text = reading.files.read(path);
   if (!text) {
-    scenario_file.warning(fmt::format("scenario {}: {}", path, text.error().what),
-                          text.error().remedy);
+    scenario_file.warning(fmt::format("scenario {}: {}", path, text.error().what), text.error().remedy);
     return;
   }
   const auto file = parse_xml(*text, path);
   Names declared;
-  for (const Element& declaration :
-       root_of(*file).child("ParameterDeclarations").children("ParameterDeclaration"))
+  for (const Element& declaration : root_of(*file).child("ParameterDeclarations").children("ParameterDeclaration"))
     declared.push_back(declaration.parameter_name("name"));
   for (const std::string& name : varied) {
     if (std::find(declared.begin(), declared.end(), name) == declared.end()) {
@@ -93,8 +88,7 @@ void check_distribution(Reading& reading, const Element& distribution) {
   Names varied;
   const Element deterministic = distribution.child("Deterministic");
   const Element stochastic = distribution.child("Stochastic");
-  if (!deterministic && !stochastic)
-    distribution.error("it varies nothing", "add <Deterministic> or <Stochastic>");
+  if (!deterministic && !stochastic) distribution.error("it varies nothing", "add <Deterministic> or <Stochastic>");
   for (const Element& single : deterministic.children("DeterministicSingleParameterDistribution"))
     check_single(single, varied);
   for (const Element& several : deterministic.children("DeterministicMultiParameterDistribution"))
@@ -102,11 +96,9 @@ void check_distribution(Reading& reading, const Element& distribution) {
   if (stochastic) {
     stochastic.number("numberOfTestRuns", 0.0);
     stochastic.number_or("randomSeed", 0.0);
-    for (const Element& found : stochastic.children("StochasticDistribution"))
-      check_stochastic(found, varied);
+    for (const Element& found : stochastic.children("StochasticDistribution")) check_stochastic(found, varied);
   }
-  if (const Element file = distribution.required("ScenarioFile"))
-    check_names(reading, file, varied);
+  if (const Element file = distribution.required("ScenarioFile")) check_names(reading, file, varied);
 }
 
 }  // namespace septet::scenario

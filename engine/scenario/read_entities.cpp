@@ -10,8 +10,8 @@ namespace {
 
 Axle read_axle(const Element& axle) {
   if (!axle) return {};
-  return {axle.number("maxSteering"), axle.number("wheelDiameter", 0.0),
-          axle.number("trackWidth", 0.0), axle.number("positionX"), axle.number("positionZ")};
+  return {axle.number("maxSteering"), axle.number("wheelDiameter", 0.0), axle.number("trackWidth", 0.0),
+          axle.number("positionX"), axle.number("positionZ")};
 }
 
 void read_vehicle(const Element& vehicle, Entity& entity) {
@@ -20,8 +20,7 @@ void read_vehicle(const Element& vehicle, Entity& entity) {
   entity.role = vehicle.text_or("role", "none");
   const Element performance = vehicle.required("Performance");
   if (performance) {
-    entity.performance = {performance.number("maxSpeed", 0.0),
-                          performance.number("maxAcceleration", 0.0),
+    entity.performance = {performance.number("maxSpeed", 0.0), performance.number("maxAcceleration", 0.0),
                           performance.number("maxDeceleration", 0.0)};
   }
   const Element axles = vehicle.required("Axles");
@@ -89,7 +88,9 @@ void read_entities(Reading& reading, const Element& entities) {
   for (const Element& object : entities.children("ScenarioObject")) {
     if (reading.scenario.entities.size() == most_entities) {
       // That is one fault, not one for each of the others, nor for each that is named below.
-      if (!too_many) object.error(fmt::format("there are more than {} entities", most_entities), "leave the others to a traffic swarm");
+      if (!too_many)
+        object.error(fmt::format("there are more than {} entities", most_entities),
+                     "leave the others to a traffic swarm");
       too_many = reading.names_are_elsewhere = true;
       object.ignore();
       continue;
@@ -98,8 +99,7 @@ void read_entities(Reading& reading, const Element& entities) {
     entity.name = object.text("name");
     const auto index = static_cast<EntityIndex>(reading.scenario.entities.size());
     if (!reading.entities.try_emplace(entity.name, index).second) {
-      object.error(fmt::format("there are two entities named \"{}\"", entity.name),
-                   "give each its own name");
+      object.error(fmt::format("there are two entities named \"{}\"", entity.name), "give each its own name");
       continue;
     }
     if (const Element found = find_object(reading, object)) read_object(found, entity);
@@ -114,8 +114,7 @@ EntityIndex read_entity_reference(Reading& reading, const Element& element, cons
   const auto found = reading.entities.find(name);
   if (found != reading.entities.end()) return found->second;
   if (reading.names_are_elsewhere) return no_entity;
-  element.error(fmt::format("no entity is named \"{}\"", name),
-                "name a <ScenarioObject> of this file");
+  element.error(fmt::format("no entity is named \"{}\"", name), "name a <ScenarioObject> of this file");
   return no_entity;
 }
 

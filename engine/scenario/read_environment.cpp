@@ -26,8 +26,7 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
   } else if (weather.has("cloudState")) {
     // OpenSCENARIO 1.0 and 1.1.
     action.cloud_cover = weather.word<double>(
-        "cloudState",
-        {{"free", 0.0}, {"cloudy", 0.5}, {"overcast", 1.0}, {"rainy", 1.0}, {"skyOff", 0.0}}, 0.0);
+        "cloudState", {{"free", 0.0}, {"cloudy", 0.5}, {"overcast", 1.0}, {"rainy", 1.0}, {"skyOff", 0.0}}, 0.0);
   }
   action.temperature_k = weather.optional_number("temperature", 0.0, 1000.0);
   if (const Element sun = weather.child("Sun")) {
@@ -37,16 +36,13 @@ void read_weather(const Element& weather, EnvironmentAction& action) {
     // 1.0 and 1.1 said intensity and meant lux.
     if (!action.sun_illuminance_lux) action.sun_illuminance_lux = sun.optional_number("intensity", 0.0, 1e9);
   }
-  if (const Element fog = weather.child("Fog"))
-    action.visibility_m = fog.number("visualRange", 0.0);
+  if (const Element fog = weather.child("Fog")) action.visibility_m = fog.number("visualRange", 0.0);
   if (const Element precipitation = weather.child("Precipitation")) {
     const double mm_per_h = precipitation.number_or(
-        "precipitationIntensity", precipitation.number_or("intensity", 0.0, 0.0, most_mm_per_h), 0.0,
-        most_mm_per_h);
+        "precipitationIntensity", precipitation.number_or("intensity", 0.0, 0.0, most_mm_per_h), 0.0, most_mm_per_h);
     enum class Kind { dry, rain, snow };
     const Kind kind = precipitation.word<Kind>(
-        "precipitationType", {{"dry", Kind::dry}, {"rain", Kind::rain}, {"snow", Kind::snow}},
-        Kind::dry);
+        "precipitationType", {{"dry", Kind::dry}, {"rain", Kind::rain}, {"snow", Kind::snow}}, Kind::dry);
     action.rain_mm_per_h = kind == Kind::rain ? mm_per_h : 0.0;
     action.snow_mm_per_h = kind == Kind::snow ? mm_per_h : 0.0;
   }
@@ -63,8 +59,7 @@ EnvironmentAction read_environment_action(Reading& reading, const Element& eleme
   environment = environment ? with_declared_parameters(environment)
                             : resolve_catalog_reference(reading, element, {"Environment"});
   if (!environment) {
-    if (!element.child("CatalogReference"))
-      element.error("it has no environment", "add <Environment>");
+    if (!element.child("CatalogReference")) element.error("it has no environment", "add <Environment>");
     return {};
   }
   return read_environment(environment);
@@ -89,13 +84,9 @@ EnvironmentAction read_environment(const Element& environment) {
       if (property.text("name") == "septet:snowCover")
         action.snow_cover = std::clamp(property.number("value", 0.0), 0.0, 1.0);
     if (road.has("wetness")) {
-      action.road_wetness = road.word<double>("wetness",
-                                              {{"dry", 0.0},
-                                               {"moist", 0.25},
-                                               {"wetWithPuddles", 0.6},
-                                               {"lowFlooded", 0.9},
-                                               {"highFlooded", 1.0}},
-                                              0.0);
+      action.road_wetness = road.word<double>(
+          "wetness",
+          {{"dry", 0.0}, {"moist", 0.25}, {"wetWithPuddles", 0.6}, {"lowFlooded", 0.9}, {"highFlooded", 1.0}}, 0.0);
     }
   }
   return action;
@@ -122,13 +113,12 @@ TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& element) 
   }
   if (const Element definition = element.child("TrafficDefinition")) {
     definition.label("name");
-    for (const Element& entry : definition.child("VehicleCategoryDistribution")
-                                    .children("VehicleCategoryDistributionEntry")) {
+    for (const Element& entry :
+         definition.child("VehicleCategoryDistribution").children("VehicleCategoryDistributionEntry")) {
       action.categories.push_back({entry.text("category"), entry.number("weight", 0.0)});
     }
     // Septet's own traffic drives every vehicle of a swarm; other controllers are reported.
-    for (const Element& entry :
-         definition.child("ControllerDistribution").children("ControllerDistributionEntry")) {
+    for (const Element& entry : definition.child("ControllerDistribution").children("ControllerDistributionEntry")) {
       entry.number("weight", 0.0);
       const Element controller = entry.child("Controller");
       if (controller && controller.label("name") == "septet-traffic") controller.ignore();

@@ -33,8 +33,7 @@ Element with_declared_parameters(const Element& element, const Parameters& assig
   // One table for all declarations, which grows from one to the next: a value may hang on parameters that were declared before it.
   const auto parameters = std::make_shared<Parameters>(element.parameters());
   for (const auto& [name, value] : assigned) (*parameters)[name] = value;
-  for (const Element& found :
-       element.child("ParameterDeclarations").children("ParameterDeclaration")) {
+  for (const Element& found : element.child("ParameterDeclarations").children("ParameterDeclaration")) {
     const Element declaration = found.with(parameters);
     const std::string name = declaration.text("name");
     const std::string type = declaration.text_or("parameterType", "");
@@ -43,15 +42,14 @@ Element with_declared_parameters(const Element& element, const Parameters& assig
     if (given != assigned.end()) value = given->second;
     const char* whose = given != assigned.end() ? "given to" : "of";
     if (!is_of_type(value, type)) {
-      const std::string what = fmt::format("\"{}\" {} {} is no value of type {}", value.substr(0, 60),
-                                           whose, name, type);
+      const std::string what =
+          fmt::format("\"{}\" {} {} is no value of type {}", value.substr(0, 60), whose, name, type);
       if (given != assigned.end())
         declaration.error(what, fmt::format("give a value of type {}", type));
       else
         declaration.warning(what, "correct the value or its type");
     } else if (const std::string broken = broken_constraints(declaration, value); !broken.empty()) {
-      declaration.error(fmt::format("\"{}\" {} {} breaks its constraints", value.substr(0, 60), whose,
-                                    name),
+      declaration.error(fmt::format("\"{}\" {} {} breaks its constraints", value.substr(0, 60), whose, name),
                         "give a value that is " + broken.substr(0, 200));
     }
     (*parameters)[name] = std::move(value);
@@ -64,10 +62,8 @@ Element with_outside_parameters(const Element& root, const std::vector<Parameter
   for (const ParameterValue& parameter : values) assigned[parameter.name] = parameter.value;
   if (!root || assigned.empty()) return with_declared_parameters(root);
   std::string names;
-  const auto declarations =
-      root.child("ParameterDeclarations").children("ParameterDeclaration");
-  for (const Element& declaration : declarations)
-    names += (names.empty() ? "" : ", ") + declaration.text("name");
+  const auto declarations = root.child("ParameterDeclarations").children("ParameterDeclaration");
+  for (const Element& declaration : declarations) names += (names.empty() ? "" : ", ") + declaration.text("name");
   for (const auto& parameter : assigned) {
     const std::string& name = parameter.first;  // clang 14 cannot capture a structured binding.
     const auto is_it = [&](const Element& declaration) { return declaration.text("name") == name; };
@@ -86,8 +82,7 @@ void read_values(Reading& reading, const Element& root) {
     values.push_back(value);
   };
   for (const auto& [name, value] : root.parameters()) add(reading.parameters, name, value);
-  for (const Element& declaration :
-       root.child("VariableDeclarations").children("VariableDeclaration")) {
+  for (const Element& declaration : root.child("VariableDeclarations").children("VariableDeclaration")) {
     const std::string type = declaration.text("variableType");
     const std::string value = declaration.text_or("value", "");
     if (!is_of_type(value, type)) {
@@ -105,8 +100,7 @@ ValueIndex read_value_reference(Reading& reading, const Element& element, const 
   const auto found = names.find(name);
   if (found != names.end()) return found->second;
   if (!name.empty() && !reading.names_are_elsewhere) {
-    element.error(fmt::format("no {} is named \"{}\"", variable ? "variable" : "parameter",
-                              name.substr(0, 60)),
+    element.error(fmt::format("no {} is named \"{}\"", variable ? "variable" : "parameter", name.substr(0, 60)),
                   "declare it at the beginning of the file");
   }
   if (reading.scenario.values.empty()) reading.scenario.values.emplace_back();

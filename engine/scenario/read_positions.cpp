@@ -48,8 +48,7 @@ Relative read_offset(Reading& reading, const Element& element) {
 
 Position read_kind(Reading& reading, const Element& position) {
   if (const Element found = position.child("LanePosition")) return read_lane(reading, found);
-  if (const Element found = position.child("RelativeLanePosition"))
-    return read_relative_lane(reading, found);
+  if (const Element found = position.child("RelativeLanePosition")) return read_relative_lane(reading, found);
   if (const Element found = position.child("WorldPosition")) return read_world(found);
   if (const Element found = position.child("RelativeWorldPosition"))
     return read_offset<RelativeWorldPosition>(reading, found);
@@ -61,15 +60,12 @@ Position read_kind(Reading& reading, const Element& position) {
     return road;
   }
   if (const Element found = position.child("RelativeRoadPosition")) {
-    RelativeRoadPosition road{
-        read_entity_reference(reading, found), found.number("ds"), found.number("dt"), {}};
+    RelativeRoadPosition road{read_entity_reference(reading, found), found.number("ds"), found.number("dt"), {}};
     road.orientation = read_orientation(reading, found);
     return road;
   }
-  if (const Element found = position.child("RoutePosition"))
-    return read_route_position(reading, found);
-  if (position.all_children().empty())
-    position.error("it is empty", "add a position such as <LanePosition>");
+  if (const Element found = position.child("RoutePosition")) return read_route_position(reading, found);
+  if (position.all_children().empty()) position.error("it is empty", "add a position such as <LanePosition>");
   return {};
 }
 

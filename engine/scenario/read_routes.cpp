@@ -10,12 +10,9 @@ Route read_route(Reading& reading, const Element& element) {
                     "name its waypoints as often as they are to be passed");
   }
   for (const Element& waypoint : element.children("Waypoint")) {
-    const bool shortest = waypoint.word<bool>("routeStrategy",
-                                              {{"shortest", true},
-                                               {"fastest", false},
-                                               {"leastIntersections", false},
-                                               {"random", false}},
-                                              true);
+    const bool shortest = waypoint.word<bool>(
+        "routeStrategy", {{"shortest", true}, {"fastest", false}, {"leastIntersections", false}, {"random", false}},
+        true);
     if (!shortest)
       waypoint.warning("this routeStrategy is not supported; \"shortest\" is taken",
                        "write routeStrategy=\"shortest\"");
@@ -27,8 +24,7 @@ Route read_route(Reading& reading, const Element& element) {
 
 std::shared_ptr<const Route> read_route_in(Reading& reading, const Element& parent) {
   Element route = parent.child("Route");
-  route = route ? with_declared_parameters(route)
-                : resolve_catalog_reference(reading, parent, {"Route"});
+  route = route ? with_declared_parameters(route) : resolve_catalog_reference(reading, parent, {"Route"});
   if (!route && parent && !parent.child("CatalogReference"))
     parent.error("it has no route", "add <Route> or <CatalogReference>");
   Route found = route ? read_route(reading, route) : Route{};

@@ -9,21 +9,18 @@ namespace {
 
 /// The elements of a storyboard that have a state, from the outermost in; the order in which they
 /// are numbered.
-constexpr std::array<std::pair<const char*, const char*>, 6> levels{
-    {{"Story", "story"},
-     {"Act", "act"},
-     {"ManeuverGroup", "maneuverGroup"},
-     {"Maneuver", "maneuver"},
-     {"Event", "event"},
-     {"Action", "action"}}};
+constexpr std::array<std::pair<const char*, const char*>, 6> levels{{{"Story", "story"},
+                                                                     {"Act", "act"},
+                                                                     {"ManeuverGroup", "maneuverGroup"},
+                                                                     {"Maneuver", "maneuver"},
+                                                                     {"Event", "event"},
+                                                                     {"Action", "action"}}};
 
 /// Maneuvers of a group: one of a catalog, then its own.
 std::vector<Element> maneuvers_of(Reading& reading, const Element& group) {
   std::vector<Element> found;
-  if (const Element maneuver = resolve_catalog_reference(reading, group, {"Maneuver"}))
-    found.push_back(maneuver);
-  for (const Element& maneuver : group.children("Maneuver"))
-    found.push_back(with_declared_parameters(maneuver));
+  if (const Element maneuver = resolve_catalog_reference(reading, group, {"Maneuver"})) found.push_back(maneuver);
+  for (const Element& maneuver : group.children("Maneuver")) found.push_back(with_declared_parameters(maneuver));
   return found;
 }
 
@@ -37,8 +34,7 @@ std::vector<Element> children_of_level(Reading& reading, const Element& parent, 
 }
 
 /// Numbers all elements before any trigger is read, because a trigger may name a later one.
-void number_elements(Reading& reading, const Element& parent, const std::string& path,
-                     std::size_t level) {
+void number_elements(Reading& reading, const Element& parent, const std::string& path, std::size_t level) {
   for (const Element& element : children_of_level(reading, parent, level)) {
     const std::string name = (path.empty() ? "" : path + "::") + element.label("name");
     reading.scenario.element_names.push_back(name);
@@ -56,8 +52,7 @@ Action read_action(Reading& reading, const Element& element) {
   else if (const Element user = element.child("UserDefinedAction"))
     action.what = read_user_defined_action(reading, user);
   else
-    element.error("it holds no action",
-                  "add <PrivateAction>, <GlobalAction> or <UserDefinedAction>");
+    element.error("it holds no action", "add <PrivateAction>, <GlobalAction> or <UserDefinedAction>");
   return action;
 }
 
@@ -66,17 +61,15 @@ Event read_event(Reading& reading, const Element& element) {
   event.name = element.label("name");
   event.element = reading.next_element++;
   event.priority = element.required_word<EventPriority>("priority",
-                                               {{"overwrite", EventPriority::overwrite},
-                                                {"override", EventPriority::overwrite},
-                                                {"skip", EventPriority::skip},
-                                                {"parallel", EventPriority::parallel}},
-                                               EventPriority::overwrite);
+                                                        {{"overwrite", EventPriority::overwrite},
+                                                         {"override", EventPriority::overwrite},
+                                                         {"skip", EventPriority::skip},
+                                                         {"parallel", EventPriority::parallel}},
+                                                        EventPriority::overwrite);
   if (element.has("maximumExecutionCount")) {
-    event.maximum_executions =
-        static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
+    event.maximum_executions = static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
   }
-  for (const Element& action : element.children("Action"))
-    event.actions.push_back(read_action(reading, action));
+  for (const Element& action : element.children("Action")) event.actions.push_back(read_action(reading, action));
   if (event.actions.empty()) element.error("it holds no action", "add <Action>");
   event.start = read_trigger(reading, element.child("StartTrigger"));
   return event;
@@ -84,8 +77,7 @@ Event read_event(Reading& reading, const Element& element) {
 
 Maneuver read_maneuver(Reading& reading, const Element& element) {
   Maneuver maneuver{element.label("name"), reading.next_element++, {}};
-  for (const Element& event : element.children("Event"))
-    maneuver.events.push_back(read_event(reading, event));
+  for (const Element& event : element.children("Event")) maneuver.events.push_back(read_event(reading, event));
   return maneuver;
 }
 
@@ -97,18 +89,15 @@ ManeuverGroup read_group(Reading& reading, const Element& element) {
     element.warning("attribute maximumExecutionCount is missing; 1 is taken",
                     "add maximumExecutionCount=\"1\", or the number that is meant");
   } else {
-    group.maximum_executions =
-        static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
+    group.maximum_executions = static_cast<std::uint32_t>(element.integer("maximumExecutionCount", 0, 1'000'000));
   }
   const Element actors = element.required("Actors");
-  group.actors_are_triggering_entities =
-      actors && actors.required_boolean("selectTriggeringEntities", false);
+  group.actors_are_triggering_entities = actors && actors.required_boolean("selectTriggeringEntities", false);
   for (const Element& reference : actors.children("EntityRef")) {
     const EntityIndex entity = read_entity_reference(reading, reference);
     if (entity != no_entity) group.actors.push_back(entity);
   }
-  for (const Element& found : maneuvers_of(reading, element))
-    group.maneuvers.push_back(read_maneuver(reading, found));
+  for (const Element& found : maneuvers_of(reading, element)) group.maneuvers.push_back(read_maneuver(reading, found));
   return group;
 }
 
@@ -116,8 +105,7 @@ Act read_act(Reading& reading, const Element& element) {
   Act act;
   act.name = element.label("name");
   act.element = reading.next_element++;
-  for (const Element& group : element.children("ManeuverGroup"))
-    act.groups.push_back(read_group(reading, group));
+  for (const Element& group : element.children("ManeuverGroup")) act.groups.push_back(read_group(reading, group));
   act.start = read_trigger(reading, element.child("StartTrigger"));
   act.stop = read_trigger(reading, element.child("StopTrigger"));
   return act;

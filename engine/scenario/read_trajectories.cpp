@@ -14,8 +14,7 @@ constexpr double latest_s = 1e6;
 PolylineShape read_polyline(Reading& reading, const Element& element) {
   PolylineShape shape;
   for (const Element& vertex : element.children("Vertex")) {
-    shape.vertices.push_back(
-        {read_position(reading, vertex), vertex.number_or("time", 0.0, 0.0, latest_s)});
+    shape.vertices.push_back({read_position(reading, vertex), vertex.number_or("time", 0.0, 0.0, latest_s)});
   }
   if (shape.vertices.size() < 2) element.error("it has less than two vertices", "add <Vertex>");
   return shape;
@@ -28,8 +27,7 @@ ClothoidSplineShape read_clothoid(Reading& reading, const Element& element) {
   segment.start_curvature_per_m = element.number("curvature", -sharpest_per_m, sharpest_per_m);
   // 1.0 called the curvature's derivative curvatureDot.
   const char* growth = element.has("curvatureDot") ? "curvatureDot" : "curvaturePrime";
-  segment.end_curvature_per_m =
-      segment.start_curvature_per_m + segment.length_m * element.number(growth, -1.0, 1.0);
+  segment.end_curvature_per_m = segment.start_curvature_per_m + segment.length_m * element.number(growth, -1.0, 1.0);
   segment.start_time_s = element.number_or("startTime", 0.0, 0.0, latest_s);
   return {{segment}, element.number_or("stopTime", 0.0, segment.start_time_s, latest_s)};
 }
@@ -38,8 +36,7 @@ ClothoidSplineShape read_clothoid_spline(Reading& reading, const Element& elemen
   ClothoidSplineShape shape;
   for (const Element& found : element.children("ClothoidSplineSegment")) {
     ClothoidSplineShape::Segment segment;
-    if (found.child("PositionStart"))
-      segment.start = read_position_in(reading, found.child("PositionStart"));
+    if (found.child("PositionStart")) segment.start = read_position_in(reading, found.child("PositionStart"));
     segment.length_m = found.number("length", 0.0, longest_m);
     segment.start_curvature_per_m = found.number("curvatureStart", -sharpest_per_m, sharpest_per_m);
     segment.end_curvature_per_m = found.number("curvatureEnd", -sharpest_per_m, sharpest_per_m);
@@ -61,8 +58,7 @@ NurbsShape read_nurbs(Reading& reading, const Element& element) {
   NurbsShape shape;
   shape.order = element.integer("order", 2, 10);
   for (const Element& point : element.children("ControlPoint")) {
-    shape.points.push_back({read_position(reading, point),
-                            point.number_or("weight", 1.0, 1e-6, 1e6),
+    shape.points.push_back({read_position(reading, point), point.number_or("weight", 1.0, 1e-6, 1e6),
                             point.number_or("time", 0.0, 0.0, latest_s)});
   }
   for (const Element& knot : element.children("Knot")) shape.knots.push_back(knot.number("value"));
@@ -72,10 +68,9 @@ NurbsShape read_nurbs(Reading& reading, const Element& element) {
                     std::is_sorted(shape.knots.begin(), shape.knots.end()) &&
                     shape.knots[order - 1] < shape.knots[shape.points.size()];
   if (good) return shape;
-  element.error(
-      fmt::format("{} control points and {} knots make no curve of order {}", shape.points.size(),
-                  shape.knots.size(), shape.order),
-      "give as many rising knots as control points and order together, and at most 10000 points");
+  element.error(fmt::format("{} control points and {} knots make no curve of order {}", shape.points.size(),
+                            shape.knots.size(), shape.order),
+                "give as many rising knots as control points and order together, and at most 10000 points");
   return {2, {{}, {}}, {0.0, 0.0, 1.0, 1.0}};
 }
 
@@ -85,8 +80,7 @@ bool times_fall(const Trajectory& trajectory) {
     return !std::is_sorted(points.begin(), points.end(),
                            [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   };
-  if (const auto* polyline = std::get_if<PolylineShape>(&trajectory.shape))
-    return fall(polyline->vertices);
+  if (const auto* polyline = std::get_if<PolylineShape>(&trajectory.shape)) return fall(polyline->vertices);
   const auto* nurbs = std::get_if<NurbsShape>(&trajectory.shape);
   return nurbs != nullptr && fall(nurbs->points);
 }
@@ -96,8 +90,8 @@ void read_times(const Element& element, FollowTrajectoryAction& action) {
   element.child("TimeReference").child("None");
   if (!timing) return;
   action.timed = true;
-  action.from_simulation_start = timing.required_word<bool>(
-      "domainAbsoluteRelative", {{"absolute", true}, {"relative", false}}, false);
+  action.from_simulation_start =
+      timing.required_word<bool>("domainAbsoluteRelative", {{"absolute", true}, {"relative", false}}, false);
   action.time_scale = timing.number_or("scale", 1.0, 1e-6, 1e6);
   action.time_offset_s = timing.number_or("offset", 0.0, -latest_s, latest_s);
   if (times_fall(action.trajectory)) {
@@ -132,8 +126,8 @@ ActionVariant read_follow_trajectory(Reading& reading, const Element& element) {
   const Element reference = element.child("TrajectoryRef");
   const Element& parent = reference ? reference : element;
   Element trajectory = parent.child("Trajectory");
-  trajectory = trajectory ? with_declared_parameters(trajectory)
-                          : resolve_catalog_reference(reading, parent, {"Trajectory"});
+  trajectory =
+      trajectory ? with_declared_parameters(trajectory) : resolve_catalog_reference(reading, parent, {"Trajectory"});
   if (trajectory)
     action.trajectory = read_trajectory(reading, trajectory);
   else if (!parent.child("CatalogReference"))
@@ -141,8 +135,7 @@ ActionVariant read_follow_trajectory(Reading& reading, const Element& element) {
   action.initial_distance_m = element.number_or("initialDistanceOffset", 0.0, 0.0, longest_m);
   read_times(element, action);
   if (const Element mode = element.child("TrajectoryFollowingMode")) {
-    const bool follow = mode.required_word<bool>(
-        "followingMode", {{"position", false}, {"follow", true}}, false);
+    const bool follow = mode.required_word<bool>("followingMode", {{"position", false}, {"follow", true}}, false);
     if (follow) {
       mode.warning("followingMode=\"follow\" is not supported; \"position\" is taken",
                    "expect the trajectory to be met exactly");

@@ -16,16 +16,15 @@ namespace septet::scenario {
 struct Placement {
   bool on_road = false;
   road::LanePosition lane;
-  bool along_s = true;  ///< Faces increasing s.
-  double heading_offset_rad =
-      0.0;  ///< Against the direction of travel of the lane, in (−π/2, π/2].
+  bool along_s = true;              ///< Faces increasing s.
+  double heading_offset_rad = 0.0;  ///< Against the direction of travel of the lane, in (−π/2, π/2].
   RigidTransform pose;
 };
 
 /// Nothing where the position is not supported, names no road or lane of the network, or hangs on
 /// an entity that has no position. Stations beyond a road's end go on along its lanes.
-std::optional<Placement> resolve_position(const road::RoadNetwork& network,
-                                          const ScenarioState& state, const Position& position);
+std::optional<Placement> resolve_position(const road::RoadNetwork& network, const ScenarioState& state,
+                                          const Position& position);
 
 /// The place of a pose: in the nearest lane, if it stands no further beside the road than that.
 inline constexpr double beside_road_m = 20.0;
@@ -33,8 +32,8 @@ Placement place_at(const RigidTransform& pose, const road::RoadNetwork& network,
                    const road::RoadPosition* hint = nullptr, double most_beside_m = beside_road_m);
 
 /// Why resolve_position finds no place for a position, for messages: "road 7 has no lane -5 at s = 12".
-std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network,
-                        const ScenarioState& state, const Position& position);
+std::string why_nowhere(const Scenario& scenario, const road::RoadNetwork& network, const ScenarioState& state,
+                        const Position& position);
 
 /// t of an entity on its road.
 double lateral_t_m(const road::RoadNetwork& network, const road::LanePosition& lane);
@@ -45,8 +44,8 @@ int lane_beside(int lane, bool along_s, int count);
 
 /// The pose on a lane, facing along or against s, its path leaving the lane's centre line by
 /// `slope` metres per metre of travel to the left.
-RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosition& lane,
-                         bool along_s, double slope, double heading_offset_rad);
+RigidTransform lane_pose(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s, double slope,
+                         double heading_offset_rad);
 
 /// Goes on along the lane in the way one faces (backwards if negative), at junctions along the route,
 /// without one straight on.
@@ -56,8 +55,8 @@ struct Progress {
   bool along_s = true;
   double left_over_m = 0.0;
 };
-Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s,
-                  double distance_m, std::span<const road::RoadIndex> route = {});
+Progress go_along(const road::RoadNetwork& network, const road::LanePosition& lane, bool along_s, double distance_m,
+                  std::span<const road::RoadIndex> route = {});
 
 /// The routes of a scenario whose waypoints do not hang on where anybody is; none for the others.
 std::vector<std::shared_ptr<const PlannedRoute>> plan_routes(const road::RoadNetwork& network,
@@ -65,7 +64,6 @@ std::vector<std::shared_ptr<const PlannedRoute>> plan_routes(const road::RoadNet
 
 /// The roads over which a route leads from where the entity is, or on which it is already.
 std::vector<road::RoadIndex> plan_from(const road::RoadNetwork& network, const ScenarioState& state,
-                                       const EntityState& entity,
-                                       const std::vector<Position>& waypoints);
+                                       const EntityState& entity, const std::vector<Position>& waypoints);
 
 }  // namespace septet::scenario

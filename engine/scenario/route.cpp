@@ -29,8 +29,7 @@ struct Node {
 
 double length_m(const road::RoadNetwork& network, const Node& node) {
   const road::Road& on = network.roads[node.road];
-  const double end =
-      node.section + 1 < on.sections.size() ? on.sections[node.section + 1].s_m : on.length_m;
+  const double end = node.section + 1 < on.sections.size() ? on.sections[node.section + 1].s_m : on.length_m;
   return end - on.sections[node.section].s_m;
 }
 
@@ -45,14 +44,11 @@ std::vector<Node> find_way(const road::RoadNetwork& network, const Node& from, c
   struct Reached {
     double way_m;
     Node node, before;
-    bool operator<(const Reached& other) const {
-      return std::tie(other.way_m, other.node) < std::tie(way_m, node);
-    }
+    bool operator<(const Reached& other) const { return std::tie(other.way_m, other.node) < std::tie(way_m, node); }
   };
   std::priority_queue<Reached> open;
   const auto go_on = [&](const Node& node, double way_m) {
-    for (const auto& next :
-         road::continuations(network, node.road, node.section, node.lane, node.along_s)) {
+    for (const auto& next : road::continuations(network, node.road, node.section, node.lane, node.along_s)) {
       open.push({way_m, {next.road, next.section, next.lane, next.towards_increasing_s}, node});
     }
   };
@@ -85,15 +81,13 @@ std::vector<Node> find_way(const road::RoadNetwork& network, const Node& from, c
 
 }  // namespace
 
-std::vector<road::RoadIndex> plan_route(const road::RoadNetwork& network,
-                                        std::span<const Waypoint> waypoints,
+std::vector<road::RoadIndex> plan_route(const road::RoadNetwork& network, std::span<const Waypoint> waypoints,
                                         std::size_t& lanes_left) {
   std::vector<road::RoadIndex> roads;
   if (waypoints.empty()) return roads;
   const Waypoint& first = waypoints.front();
   const road::Road& on = network.roads[first.lane.road];
-  Node at{first.lane.road,
-          static_cast<std::uint32_t>(road::section_index_at(on, first.lane.s_m)), first.lane.lane,
+  Node at{first.lane.road, static_cast<std::uint32_t>(road::section_index_at(on, first.lane.s_m)), first.lane.lane,
           first.along_s};
   roads.push_back(at.road);
   double s_m = first.lane.s_m;
@@ -111,8 +105,7 @@ std::vector<road::RoadIndex> plan_route(const road::RoadNetwork& network,
   return roads;
 }
 
-road::ChooseContinuation choose_way(const road::RoadNetwork& network,
-                                    std::span<const road::RoadIndex> roads) {
+road::ChooseContinuation choose_way(const road::RoadNetwork& network, std::span<const road::RoadIndex> roads) {
   return [&network, roads](std::span<const road::LaneContinuation> ways) {
     std::size_t best = 0;
     auto soonest = roads.end();
@@ -126,8 +119,7 @@ road::ChooseContinuation choose_way(const road::RoadNetwork& network,
       }
       if (soonest != roads.end()) continue;
       const double from = road::evaluate(network, {index, 0.0, 0.0}).heading_rad;
-      const double to =
-          road::evaluate(network, {index, network.roads[index].length_m, 0.0}).heading_rad;
+      const double to = road::evaluate(network, {index, network.roads[index].length_m, 0.0}).heading_rad;
       const double turn = std::abs(road::wrap_angle(to - from));
       if (turn < least - 1e-6) {
         least = turn;

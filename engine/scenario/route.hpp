@@ -23,14 +23,12 @@ struct PlannedRoute {
 
 /// Roads in the order in which one drives on them, from the first waypoint's to the last's: the shortest way, on lanes that lead
 /// into each other. Where a waypoint cannot be reached, or `lanes_left` lanes have been looked at, it ends before.
-std::vector<road::RoadIndex> plan_route(const road::RoadNetwork& network,
-                                        std::span<const Waypoint> waypoints,
+std::vector<road::RoadIndex> plan_route(const road::RoadNetwork& network, std::span<const Waypoint> waypoints,
                                         std::size_t& lanes_left);
 /// So many lanes are looked at for one route, and for all routes of a scenario, at most.
 inline constexpr std::size_t most_lanes_of_route = 200'000, most_lanes_of_scenario = 1'000'000;
 
 /// Takes the way whose road comes next in `roads`, else the straightest. Must not outlive its arguments.
-road::ChooseContinuation choose_way(const road::RoadNetwork& network,
-                                    std::span<const road::RoadIndex> roads);
+road::ChooseContinuation choose_way(const road::RoadNetwork& network, std::span<const road::RoadIndex> roads);
 
 }  // namespace septet::scenario

@@ -12,15 +12,19 @@
 namespace septet::scenario {
 
 SEPTET_MEMBERS(Transition, shape, over_distance, extent, progress, from, to)
-SEPTET_MEMBERS(DynamicConstraints, max_speed_mps, max_acceleration_mps2, max_deceleration_mps2, max_acceleration_rate_mps3, max_deceleration_rate_mps3)
-SEPTET_MEMBERS(KeepDistanceAction, lateral, reference, distance_m, time_gap_s, reference_side, system, freespace, continuous, limits)
+SEPTET_MEMBERS(DynamicConstraints, max_speed_mps, max_acceleration_mps2, max_deceleration_mps2,
+               max_acceleration_rate_mps3, max_deceleration_rate_mps3)
+SEPTET_MEMBERS(KeepDistanceAction, lateral, reference, distance_m, time_gap_s, reference_side, system, freespace,
+               continuous, limits)
 SEPTET_MEMBERS(DistanceControl, what, side)
 SEPTET_MEMBERS(SpeedProfile::Part, start_s, speed_mps, acceleration_mps2, jerk_mps3)
 SEPTET_MEMBERS(SpeedProfile, parts, end_s, end_mps)
 SEPTET_MEMBERS(Placement, on_road, lane, along_s, heading_offset_rad, pose)
 SEPTET_MEMBERS(Meeting, target, master_target, what)
-SEPTET_MEMBERS(SpeedControl, active, action, transition, follow, follow_factor, follow_delta_mps, profile, profile_s, distance, meeting)
-SEPTET_MEMBERS(LateralControl, active, action, transition, lane_change, to_the_left, distance, left_mps, left_mps2, left_way_m)
+SEPTET_MEMBERS(SpeedControl, active, action, transition, follow, follow_factor, follow_delta_mps, profile, profile_s,
+               distance, meeting)
+SEPTET_MEMBERS(LateralControl, active, action, transition, lane_change, to_the_left, distance, left_mps, left_mps2,
+               left_way_m)
 SEPTET_MEMBERS(InTheWay, gap_m, speed_mps)
 SEPTET_MEMBERS(PathPoint, s_m, position_m, heading_rad, time_s)
 SEPTET_MEMBERS(Path, points)
@@ -28,18 +32,21 @@ SEPTET_MEMBERS(PathControl, active, action, path, timed, clock_s, station_m)
 SEPTET_MEMBERS(RouteState, roads, at)
 SEPTET_MEMBERS(Waypoint, lane, along_s)
 SEPTET_MEMBERS(PlannedRoute, waypoints, roads)
-SEPTET_MEMBERS(EntityState, active, external, on_road, lane, along_s, heading_offset_rad, world_from_entity, speed_mps, acceleration_mps2,
-               velocity_mps, acceleration_vector_mps2, angular_velocity_radps, in_the_way, beside_is_taken, held_back_mps, travelled_m,
-               at_road_end_s, standing_s, wheel_angle_rad, lamps, speed_control, lateral_control, path_control, route)
+SEPTET_MEMBERS(EntityState, active, external, on_road, lane, along_s, heading_offset_rad, world_from_entity, speed_mps,
+               acceleration_mps2, velocity_mps, acceleration_vector_mps2, angular_velocity_radps, in_the_way,
+               beside_is_taken, held_back_mps, travelled_m, at_road_end_s, standing_s, wheel_angle_rad, lamps,
+               speed_control, lateral_control, path_control, route)
 SEPTET_MEMBERS(ElementState, initialised, status, last_transition, transition_sequence, executions)
 SEPTET_MEMBERS(ConditionState::Change, time_s, value)
 SEPTET_MEMBERS(ConditionState, evaluated, last_value, sequence, delayed_value, delayed)
-SEPTET_MEMBERS(ScenarioState, time_s, sequence, step_sequence, finished, environment, friction_scale, entities, values, routes, elements, conditions)
+SEPTET_MEMBERS(ScenarioState, time_s, sequence, step_sequence, finished, environment, friction_scale, entities, values,
+               routes, elements, conditions)
 
 /// All but the positions that a meeting's placements were found from, which nobody asks again.
 template <SameButForConst<SynchronizeAction> S>
 auto members(S& action) {
-  auto& [master, target, master_target, tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s] = action;
+  auto& [master, target, master_target, tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s] =
+      action;
   return std::tie(master, tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s);
 }
 
@@ -53,7 +60,9 @@ struct Bounds {
   std::size_t entities, elements;
 };
 
-void require_entity(const Bounds& bounds, EntityIndex entity, StateReader& reader) { reader.require(entity < bounds.entities, wrong); }
+void require_entity(const Bounds& bounds, EntityIndex entity, StateReader& reader) {
+  reader.require(entity < bounds.entities, wrong);
+}
 
 void require_action(const Bounds& bounds, ElementIndex action, StateReader& reader) {
   reader.require(action == no_element || action < bounds.elements, wrong);
@@ -96,12 +105,15 @@ void require_whole(const Bounds& bounds, const EntityState& entity, StateReader&
 
 void save_scenario(const ScenarioState& state, StateWriter& writer) { transfer(writer, state); }
 
-void restore_scenario(const Scenario& scenario, const road::RoadNetwork& network, StateReader& reader, ScenarioState& state) {
-  const std::size_t conditions = state.conditions.size(), elements = state.elements.size(), routes = state.routes.size(), values = state.values.size();
+void restore_scenario(const Scenario& scenario, const road::RoadNetwork& network, StateReader& reader,
+                      ScenarioState& state) {
+  const std::size_t conditions = state.conditions.size(), elements = state.elements.size(),
+                    routes = state.routes.size(), values = state.values.size();
   transfer(reader, state);
   const Bounds bounds{network, scenario.entities.size(), elements};
-  reader.require(state.entities.size() == bounds.entities && state.elements.size() == elements && state.conditions.size() == conditions &&
-                     state.routes.size() == routes && state.values.size() == values,
+  reader.require(state.entities.size() == bounds.entities && state.elements.size() == elements &&
+                     state.conditions.size() == conditions && state.routes.size() == routes &&
+                     state.values.size() == values,
                  "its storyboard is that of another scenario");
   for (const EntityState& entity : state.entities) require_whole(bounds, entity, reader);
   for (const std::string& value : state.values) reader.require(value.size() <= longest_value, wrong);

@@ -13,8 +13,7 @@ Lamps lamps_now(const EntityState& entity, ParticipantId id, double time_s) {
   Lamps lamps = entity.lamps;
   const bool blink = indicator_is_lit(time_s, id);
   if (entity.lateral_control.active && entity.lateral_control.lane_change) {
-    lamps.set(entity.lateral_control.to_the_left ? Lamp::indicator_left : Lamp::indicator_right,
-              true);
+    lamps.set(entity.lateral_control.to_the_left ? Lamp::indicator_left : Lamp::indicator_right, true);
   }
   for (const Lamp indicator : {Lamp::indicator_left, Lamp::indicator_right}) {
     if (lamps.has(indicator)) lamps.set(indicator, blink);
@@ -25,8 +24,8 @@ Lamps lamps_now(const EntityState& entity, ParticipantId id, double time_s) {
 
 }  // namespace
 
-void append_participants(const Scenario& scenario, const ScenarioState& state,
-                         ParticipantId first_id, std::vector<Participant>& participants) {
+void append_participants(const Scenario& scenario, const ScenarioState& state, ParticipantId first_id,
+                         std::vector<Participant>& participants) {
   for (EntityIndex i = 0; i < state.entities.size(); ++i) {
     const EntityState& from = state.entities[i];
     const Entity& entity = scenario.entities[i];
@@ -48,8 +47,7 @@ void append_participants(const Scenario& scenario, const ScenarioState& state,
     const Vec3 up = from.world_from_entity.orientation * Vec3(0.0, 0.0, 1.0);
     const double speed = from.speed_mps;
     if (std::abs(speed) > 0.5) {
-      participant.front_steer_rad =
-          std::atan(model.wheelbase_m * glm::dot(from.angular_velocity_radps, up) / speed);
+      participant.front_steer_rad = std::atan(model.wheelbase_m * glm::dot(from.angular_velocity_radps, up) / speed);
     }
     participant.wheel_spin_rad = from.wheel_angle_rad;
     participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;

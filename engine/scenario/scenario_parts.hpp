@@ -17,10 +17,10 @@ namespace septet::scenario {
 struct Reading {
   const ScenarioFiles& files;
   Scenario scenario;
-  std::unordered_map<std::string, EntityIndex> entities;  ///< By name.
+  std::unordered_map<std::string, EntityIndex> entities;                 ///< By name.
   std::map<std::string, ValueIndex, std::less<>> parameters, variables;  ///< By name.
-  std::vector<std::shared_ptr<XmlFile>> xml_files;  ///< The scenario first, then catalogs.
-  std::vector<std::pair<std::string, std::string>> catalog_locations;  ///< Element name, folder.
+  std::vector<std::shared_ptr<XmlFile>> xml_files;                       ///< The scenario first, then catalogs.
+  std::vector<std::pair<std::string, std::string>> catalog_locations;    ///< Element name, folder.
   /// Catalogs by name: their <Catalog> elements. Filled on the first reference to a catalog.
   std::map<std::string, Element> catalogs;
   bool catalogs_loaded = false;
@@ -28,13 +28,12 @@ struct Reading {
   bool checking = false;
   /// A catalog is checked: what its entries name is elsewhere.
   bool names_are_elsewhere = false;
-  std::vector<Element> used_entries;  ///< Entries of catalogs that were referred to.
+  std::vector<Element> used_entries;   ///< Entries of catalogs that were referred to.
   std::vector<Element> init_elements;  ///< Of each action in Scenario::init.
   /// Every position of the file, for what can be said of it once the road is known.
   std::vector<std::pair<Element, Position>> positions;
-  ElementIndex next_element = 1;      ///< Of the storyboard element to be read next.
-  std::vector<std::string>
-      element_types;  ///< Of each storyboard element, in the words of the standard.
+  ElementIndex next_element = 1;           ///< Of the storyboard element to be read next.
+  std::vector<std::string> element_types;  ///< Of each storyboard element, in the words of the standard.
 };
 
 /// The parameters of `element`'s <ParameterDeclarations> over those of its surroundings. `assigned`
@@ -57,8 +56,7 @@ void read_entities(Reading& reading, const Element& entities);
 /// A vehicle, pedestrian or misc object, from the scenario or a catalog.
 void read_object(const Element& object, Entity& entity);
 /// An entity by name; an unknown one is an error and no_entity.
-EntityIndex read_entity_reference(Reading& reading, const Element& element,
-                                  const char* attribute = "entityRef");
+EntityIndex read_entity_reference(Reading& reading, const Element& element, const char* attribute = "entityRef");
 BoundingBox read_bounding_box(const Element& parent);
 
 /// The position inside `parent`, an element of the standard's type Position.

@@ -18,9 +18,8 @@ void read_header(const Element& root, FileHeader& header) {
   element.child("License").ignore();
   element.child("Properties").ignore();
   if (header.revision_major != 1) {
-    element.error(
-        fmt::format("revision {}.{} is not read", header.revision_major, header.revision_minor),
-        "give an OpenSCENARIO XML file of revision 1.0 to 1.3");
+    element.error(fmt::format("revision {}.{} is not read", header.revision_major, header.revision_minor),
+                  "give an OpenSCENARIO XML file of revision 1.0 to 1.3");
   } else if (header.revision_minor > 3) {
     element.warning(fmt::format("revision 1.{} is newer than 1.3", header.revision_minor),
                     "expect what is new in it to be ignored");
@@ -47,9 +46,9 @@ bool read_other_definition(Reading& reading, const Element& root) {
     if (reading.checking)
       check_distribution(reading, distribution);
     else
-      root.error("this varies the parameters of a scenario and is none itself",
-                 fmt::format("give the scenario {} and its parameters",
-                             distribution.child("ScenarioFile").text("filepath")));
+      root.error(
+          "this varies the parameters of a scenario and is none itself",
+          fmt::format("give the scenario {} and its parameters", distribution.child("ScenarioFile").text("filepath")));
     return true;
   }
   return false;
@@ -122,9 +121,8 @@ std::optional<EntityIndex> find_entity(const Scenario& scenario, std::string_vie
   return std::nullopt;
 }
 
-Expected<Scenario> read_scenario(std::string_view xml, std::string_view name,
-                                 const ScenarioFiles& files, std::vector<Finding>* warnings,
-                                 const std::vector<ParameterValue>& parameters) {
+Expected<Scenario> read_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files,
+                                 std::vector<Finding>* warnings, const std::vector<ParameterValue>& parameters) {
   Outcome outcome = read(xml, name, files, parameters, false);
   for (Finding& finding : outcome.findings) {
     if (finding.severity == Severity::error) return tl::unexpected(std::move(finding.error));
@@ -133,8 +131,7 @@ Expected<Scenario> read_scenario(std::string_view xml, std::string_view name,
   return std::move(outcome.scenario);
 }
 
-std::vector<Finding> check_scenario(std::string_view xml, std::string_view name,
-                                    const ScenarioFiles& files) {
+std::vector<Finding> check_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files) {
   return read(xml, name, files, {}, true).findings;
 }
 

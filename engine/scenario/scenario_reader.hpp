@@ -40,14 +40,12 @@ Expected<ParameterValue> parse_parameter(std::string_view text);
 /// The scenario, or the first error. `name` is the file's name in messages. Warnings are added to
 /// `warnings` if given. A parameter that the file does not declare, or a value that is not of its
 /// type or breaks its constraints, is an error that names what there is.
-Expected<Scenario> read_scenario(std::string_view xml, std::string_view name,
-                                 const ScenarioFiles& files,
+Expected<Scenario> read_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files,
                                  std::vector<Finding>* warnings = nullptr,
                                  const std::vector<ParameterValue>& parameters = {});
 
 /// Everything wrong with the text and all that is not supported, in the order of its lines; empty
 /// for a clean file. Besides scenarios it knows catalogs and ParameterValueDistributions.
-std::vector<Finding> check_scenario(std::string_view xml, std::string_view name,
-                                    const ScenarioFiles& files);
+std::vector<Finding> check_scenario(std::string_view xml, std::string_view name, const ScenarioFiles& files);
 
 }  // namespace septet::scenario

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +40,7 @@ struct SpeedControl {
   bool active = false;
   ElementIndex action = no_element;
   Transition transition;
-  EntityIndex follow =
-      no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta of this entity.
+  EntityIndex follow = no_entity;  ///< Continuous: the speed is follow_factor · v + follow_delta of this entity.
   double follow_factor = 1.0, follow_delta_mps = 0.0;
   std::shared_ptr<const SpeedProfile> profile;  ///< Added to the speed of `follow`, if there is one.
   double profile_s = 0.0;
@@ -93,9 +91,8 @@ struct EntityState {
   bool external = false;  ///< Somebody else moves it (the driver's car): see place_external.
   bool on_road = false;   ///< `lane` holds; else the entity stands where it was put.
   road::LanePosition lane;
-  bool along_s = true;  ///< It drives towards increasing s.
-  double heading_offset_rad =
-      0.0;  ///< Of the entity against its lane's direction, from the orientation it was given.
+  bool along_s = true;              ///< It drives towards increasing s.
+  double heading_offset_rad = 0.0;  ///< Of the entity against its lane's direction, from the orientation it was given.
   RigidTransform world_from_entity;
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
@@ -143,9 +140,9 @@ struct ScenarioState {
   std::uint64_t step_sequence = 0;  ///< `sequence` at the start of the current step.
   bool finished = false;            ///< The storyboard's stop trigger has fired.
   Environment environment;
-  double friction_scale = 1.0;         ///< RoadCondition's frictionScaleFactor: of every surface.
-  std::vector<EntityState> entities;   ///< As Scenario::entities.
-  std::vector<std::string> values;     ///< As Scenario::values.
+  double friction_scale = 1.0;        ///< RoadCondition's frictionScaleFactor: of every surface.
+  std::vector<EntityState> entities;  ///< As Scenario::entities.
+  std::vector<std::string> values;    ///< As Scenario::values.
   /// As Scenario::routes, which way they lead; none where a waypoint hangs on where an entity is.
   std::vector<std::shared_ptr<const PlannedRoute>> routes;
   std::vector<ElementState> elements;  ///< By ElementIndex.

@@ -16,8 +16,7 @@ struct XmlFile {
   road::XmlFindings findings;
   std::set<const void*> read;
 
-  XmlFile(std::string_view text, std::string file_name)
-      : name(std::move(file_name)), findings(text, name) {}
+  XmlFile(std::string_view text, std::string file_name) : name(std::move(file_name)), findings(text, name) {}
 };
 
 namespace {
@@ -33,7 +32,7 @@ std::string shown(std::string_view text) {
 std::optional<std::size_t> find_broken_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto lead = static_cast<unsigned char>(text[at]);
-    const std::size_t length = lead < 0x80                  ? 1
+    const std::size_t length = lead < 0x80                   ? 1
                                : lead >= 0xC2 && lead < 0xE0 ? 2
                                : (lead & 0xF0) == 0xE0       ? 3
                                : lead >= 0xF0 && lead < 0xF5 ? 4
@@ -52,12 +51,10 @@ std::optional<std::size_t> find_broken_utf8(std::string_view text) {
 std::shared_ptr<XmlFile> parse_xml(std::string_view text, std::string name) {
   auto file = std::make_shared<XmlFile>(text, std::move(name));
   // As a fragment, so that what stands beside the root is seen.
-  const auto result = file->document.load_buffer(text.data(), text.size(),
-                                                 pugi::parse_default | pugi::parse_fragment);
+  const auto result = file->document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
   const pugi::xml_node root = file->document.document_element();
   if (!result) {
-    file->findings.error_at(result.offset, fmt::format("this is not XML: {}", result.description()),
-                            "repair the file");
+    file->findings.error_at(result.offset, fmt::format("this is not XML: {}", result.description()), "repair the file");
   } else if (!root) {
     file->findings.error_at(0, "this is not XML: there is no element", "repair the file");
   }
@@ -80,9 +77,7 @@ road::XmlFindings& findings_of(XmlFile& file) { return file.findings; }
 Element root_of(XmlFile& file, Parameters parameters) {
   const pugi::xml_node root = file.document.document_element();
   if (!root) return {};
-  return Element(root.internal_object(), file,
-                 std::make_shared<const Parameters>(std::move(parameters)))
-      .mark();
+  return Element(root.internal_object(), file, std::make_shared<const Parameters>(std::move(parameters))).mark();
 }
 
 void Element::report_unread() const {
@@ -95,13 +90,11 @@ void Element::report_unread() const {
     const bool element = node.type() == pugi::node_element;
     const bool read = was_read(node.internal_object());
     if (element && !read) {
-      findings.warning(
-          node, fmt::format("{} is not supported and has no effect", shown(node.name())), remedy);
+      findings.warning(node, fmt::format("{} is not supported and has no effect", shown(node.name())), remedy);
     } else if (element) {
       for (const pugi::xml_attribute attribute : node.attributes()) {
         const std::string_view name = attribute.name();
-        if (was_read(attribute.internal_object()) || name.find(':') != name.npos || name == "xmlns")
-          continue;
+        if (was_read(attribute.internal_object()) || name.find(':') != name.npos || name == "xmlns") continue;
         findings.warning(node, fmt::format("attribute {} has no effect here", shown(name)), remedy);
       }
     }
@@ -130,14 +123,12 @@ const Element& Element::mark() const {
 void Element::ignore() const {
   mark();
   pugi::xml_node node(node_);
-  for (const pugi::xml_attribute attribute : node.attributes())
-    file_->read.insert(attribute.internal_object());
+  for (const pugi::xml_attribute attribute : node.attributes()) file_->read.insert(attribute.internal_object());
   struct Marker : pugi::xml_tree_walker {
     XmlFile* file = nullptr;
     bool for_each(pugi::xml_node& node) override {
       file->read.insert(node.internal_object());
-      for (const pugi::xml_attribute attribute : node.attributes())
-        file->read.insert(attribute.internal_object());
+      for (const pugi::xml_attribute attribute : node.attributes()) file->read.insert(attribute.internal_object());
       return true;
     }
   } marker;
@@ -156,8 +147,7 @@ Element Element::child(const char* name) const {
 
 Element Element::required(const char* name) const {
   const Element found = child(name);
-  if (!found && node_)
-    error(fmt::format("<{}> is missing", name), fmt::format("add <{}> inside", name));
+  if (!found && node_) error(fmt::format("<{}> is missing", name), fmt::format("add <{}> inside", name));
   return found;
 }
 
@@ -173,8 +163,7 @@ std::vector<Element> Element::all_children() const {
   std::vector<Element> found;
   if (!node_) return found;
   for (const pugi::xml_node node : pugi::xml_node(node_).children()) {
-    if (node.type() == pugi::node_element)
-      found.emplace_back(node.internal_object(), *file_, parameters_);
+    if (node.type() == pugi::node_element) found.emplace_back(node.internal_object(), *file_, parameters_);
   }
   return found;
 }
@@ -185,21 +174,17 @@ std::optional<std::string> Element::value(const char* attribute) const {
   file_->read.insert(found.internal_object());
   const auto text = substitute(found.value(), *parameters_);
   if (text) return *text;
-  error(fmt::format("{}=\"{}\": {}", attribute, shown(found.value()), text.error().what),
-        text.error().remedy);
+  error(fmt::format("{}=\"{}\": {}", attribute, shown(found.value()), text.error().what), text.error().remedy);
   return std::nullopt;
 }
 
-bool Element::has(const char* attribute) const {
-  return static_cast<bool>(pugi::xml_node(node_).attribute(attribute));
-}
+bool Element::has(const char* attribute) const { return static_cast<bool>(pugi::xml_node(node_).attribute(attribute)); }
 
 std::string Element::text(const char* attribute) const {
   const auto found = value(attribute);
   if (found && !found->empty()) return *found;
   if (node_ && (!has(attribute) || found)) {
-    error(fmt::format("attribute {} is missing or empty", attribute),
-          fmt::format("add {}=\"…\"", attribute));
+    error(fmt::format("attribute {} is missing or empty", attribute), fmt::format("add {}=\"…\"", attribute));
   }
   return {};
 }
@@ -222,8 +207,7 @@ std::string Element::parameter_name(const char* attribute) const {
   std::string name = found.value();
   if (name.starts_with('$')) name.erase(0, 1);
   if (name.empty()) {
-    error(fmt::format("attribute {} is missing or empty", attribute),
-          "write the name of a parameter");
+    error(fmt::format("attribute {} is missing or empty", attribute), "write the name of a parameter");
   }
   return name;
 }
@@ -248,8 +232,7 @@ double Element::number_or(const char* attribute, double fallback, double low, do
   return value(attribute).value_or("").empty() ? fallback : number(attribute, low, high);
 }
 
-std::optional<double> Element::optional_number(const char* attribute, double low,
-                                               double high) const {
+std::optional<double> Element::optional_number(const char* attribute, double low, double high) const {
   if (!has(attribute)) return std::nullopt;
   return number(attribute, low, high);
 }
@@ -257,14 +240,12 @@ std::optional<double> Element::optional_number(const char* attribute, double low
 int Element::integer(const char* attribute, int low, int high) const {
   const double found = number(attribute, low, high);
   if (found == std::floor(found)) return static_cast<int>(found);
-  error(fmt::format("{}=\"{}\" is not a whole number", attribute, found),
-        "write it without a fraction");
+  error(fmt::format("{}=\"{}\" is not a whole number", attribute, found), "write it without a fraction");
   return low;
 }
 
 bool Element::boolean_or(const char* attribute, bool fallback) const {
-  return word<bool>(attribute, {{"true", true}, {"false", false}, {"1", true}, {"0", false}},
-                    fallback);
+  return word<bool>(attribute, {{"true", true}, {"false", false}, {"1", true}, {"0", false}}, fallback);
 }
 
 bool Element::required_boolean(const char* attribute, bool fallback) const {
@@ -279,13 +260,11 @@ std::string Element::where() const {
 }
 
 void Element::error(std::string what, std::string remedy) const {
-  if (file_ != nullptr)
-    file_->findings.error(pugi::xml_node(node_), std::move(what), std::move(remedy));
+  if (file_ != nullptr) file_->findings.error(pugi::xml_node(node_), std::move(what), std::move(remedy));
 }
 
 void Element::warning(std::string what, std::string remedy) const {
-  if (file_ != nullptr)
-    file_->findings.warning(pugi::xml_node(node_), std::move(what), std::move(remedy));
+  if (file_ != nullptr) file_->findings.warning(pugi::xml_node(node_), std::move(what), std::move(remedy));
 }
 
 void Element::missing_word(const char* attribute, std::string_view taken) const {
@@ -293,8 +272,7 @@ void Element::missing_word(const char* attribute, std::string_view taken) const 
           fmt::format("add {}=\"{}\", or the word that is meant", attribute, taken));
 }
 
-void Element::unknown_word(const char* attribute, const std::string& value,
-                           const std::string& known) const {
+void Element::unknown_word(const char* attribute, const std::string& value, const std::string& known) const {
   error(fmt::format("{}=\"{}\" is none of the words that are supported", attribute, shown(value)),
         "write one of: " + known);
 }

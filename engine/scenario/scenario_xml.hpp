@@ -65,10 +65,8 @@ class Element {
   /// The name of a parameter, with or without its `$`; never replaced by a value. Must be there.
   std::string parameter_name(const char* attribute) const;
   double number(const char* attribute, double low = -unbounded, double high = unbounded) const;
-  double number_or(const char* attribute, double fallback, double low = -unbounded,
-                   double high = unbounded) const;
-  std::optional<double> optional_number(const char* attribute, double low = -unbounded,
-                                        double high = unbounded) const;
+  double number_or(const char* attribute, double fallback, double low = -unbounded, double high = unbounded) const;
+  std::optional<double> optional_number(const char* attribute, double low = -unbounded, double high = unbounded) const;
   int integer(const char* attribute, int low, int high) const;
   bool boolean_or(const char* attribute, bool fallback) const;
   /// The same where the standard demands the attribute: without it, a warning names the fallback.
@@ -84,15 +82,13 @@ class Element {
     }
     if (!has(attribute)) return fallback;
     std::string known;
-    for (const auto& [word, value] : words)
-      known += (known.empty() ? "" : ", ") + std::string(word);
+    for (const auto& [word, value] : words) known += (known.empty() ? "" : ", ") + std::string(word);
     unknown_word(attribute, text_value, known);
     return fallback;
   }
   /// The same where the standard demands the attribute: without it, a warning names the fallback.
   template <class Value>
-  Value required_word(const char* attribute,
-                      std::initializer_list<std::pair<std::string_view, Value>> words,
+  Value required_word(const char* attribute, std::initializer_list<std::pair<std::string_view, Value>> words,
                       Value fallback) const {
     if (has(attribute) || node_ == nullptr) return word(attribute, words, fallback);
     for (const auto& [word, value] : words) {
@@ -117,8 +113,7 @@ class Element {
 
  private:
   void missing_word(const char* attribute, std::string_view taken) const;
-  void unknown_word(const char* attribute, const std::string& value,
-                    const std::string& known) const;
+  void unknown_word(const char* attribute, const std::string& value, const std::string& known) const;
   std::optional<std::string> value(const char* attribute) const;
 
   pugi::xml_node_struct* node_ = nullptr;

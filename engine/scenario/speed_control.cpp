@@ -42,8 +42,7 @@ DynamicConstraints bounds(const std::optional<DynamicConstraints>& limits, const
   return result;
 }
 
-SpeedStep profile_step(const ScenarioState& state, double dt_s, EntityState& entity,
-                       std::vector<ElementIndex>& ended) {
+SpeedStep profile_step(const ScenarioState& state, double dt_s, EntityState& entity, std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   control.profile_s += dt_s;
   const double base = control.follow != no_entity ? state.entities[control.follow].speed_mps : 0.0;
@@ -52,17 +51,16 @@ SpeedStep profile_step(const ScenarioState& state, double dt_s, EntityState& ent
   return {speed, 0.0};
 }
 
-SpeedStep distance_step(const road::RoadNetwork& network, const Scenario& scenario,
-                        const ScenarioState& state, double dt_s, EntityIndex who,
-                        EntityState& entity, std::vector<ElementIndex>& ended) {
+SpeedStep distance_step(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                        double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   const KeepDistanceAction& what = control.distance->what;
   auto way_m = way_to_distance_m(network, scenario, state, what, control.distance->side, who);
   if (!way_m) return {entity.speed_mps, 0.0};
   const EntityState& reference = state.entities[what.reference];
   const Vec3 ahead(1.0, 0.0, 0.0);
-  const bool same_way = glm::dot(reference.world_from_entity.orientation * ahead,
-                                 entity.world_from_entity.orientation * ahead) >= 0.0;
+  const bool same_way =
+      glm::dot(reference.world_from_entity.orientation * ahead, entity.world_from_entity.orientation * ahead) >= 0.0;
   const double goal_mps = same_way ? reference.speed_mps : -reference.speed_mps;
   // Those before it in the list are at the end of this step already.
   if (what.reference < who && !reference.external) *way_m -= goal_mps * dt_s;
@@ -72,15 +70,13 @@ SpeedStep distance_step(const road::RoadNetwork& network, const Scenario& scenar
     return {speed, *way_m + goal_mps * dt_s - 0.5 * (entity.speed_mps + speed) * dt_s};
   }
   const double speed = next_approach_mps(*way_m, entity.speed_mps, goal_mps, entity.acceleration_mps2,
-                                         bounds(what.limits, scenario.entities[who].performance),
-                                         false, dt_s);
+                                         bounds(what.limits, scenario.entities[who].performance), false, dt_s);
   if (!what.continuous && is_at_distance(*way_m, speed - goal_mps, dt_s)) end(control, ended);
   return {speed, 0.0};
 }
 
-SpeedStep meeting_step(const road::RoadNetwork& network, const ScenarioState& state,
-                       const Performance& vehicle, double dt_s, EntityState& entity,
-                       std::vector<ElementIndex>& ended) {
+SpeedStep meeting_step(const road::RoadNetwork& network, const ScenarioState& state, const Performance& vehicle,
+                       double dt_s, EntityState& entity, std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   const auto left = left_of(network, state, *control.meeting, entity, dt_s);
   // Who is there has its final speed, so that a condition can ask whether they are equal.
@@ -93,20 +89,18 @@ SpeedStep meeting_step(const road::RoadNetwork& network, const ScenarioState& st
 }
 
 double followed_speed_mps(const SpeedControl& control, const ScenarioState& state) {
-  return control.follow_factor * state.entities[control.follow].speed_mps +
-         control.follow_delta_mps;
+  return control.follow_factor * state.entities[control.follow].speed_mps + control.follow_delta_mps;
 }
 
-double transition_step(const ScenarioState& state, const Performance& limits, double dt_s,
-                       EntityState& entity, std::vector<ElementIndex>& ended) {
+double transition_step(const ScenarioState& state, const Performance& limits, double dt_s, EntityState& entity,
+                       std::vector<ElementIndex>& ended) {
   SpeedControl& control = entity.speed_control;
   double speed = entity.speed_mps + entity.held_back_mps;
   if (control.follow != no_entity && state.entities[control.follow].active) {
     speed = followed_speed_mps(control, state);
     if (control.transition.shape != DynamicsShape::step) {
       const double most =
-          (speed > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2) *
-          dt_s;
+          (speed > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2) * dt_s;
       speed = std::clamp(speed, entity.speed_mps - most, entity.speed_mps + most);
     }
   } else {
@@ -126,9 +120,8 @@ double fastest_behind_mps(const InTheWay& other) {
 }
 
 /// As the script says.
-SpeedStep scripted_step(const road::RoadNetwork& network, const Scenario& scenario,
-                        const ScenarioState& state, double dt_s, EntityIndex who,
-                        EntityState& entity, std::vector<ElementIndex>& ended) {
+SpeedStep scripted_step(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                        double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   const SpeedControl& control = entity.speed_control;
   if (!control.active) return {entity.speed_mps + entity.held_back_mps, 0.0};
   if (control.profile) return profile_step(state, dt_s, entity, ended);
@@ -140,8 +133,8 @@ SpeedStep scripted_step(const road::RoadNetwork& network, const Scenario& scenar
 
 }  // namespace
 
-void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what,
-                 ElementIndex action, EntityIndex who, EntityState& entity) {
+void start_speed(const Scenario& scenario, const ScenarioState& state, const SpeedAction& what, ElementIndex action,
+                 EntityIndex who, EntityState& entity) {
   SpeedControl control = begun(action);
   double target = what.value;
   if (what.reference != no_entity) {
@@ -153,19 +146,17 @@ void start_speed(const Scenario& scenario, const ScenarioState& state, const Spe
   }
   const Performance& limits = scenario.entities[who].performance;
   target = std::clamp(target, -limits.max_speed_mps, limits.max_speed_mps);
-  const double strongest =
-      target > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
+  const double strongest = target > entity.speed_mps ? limits.max_acceleration_mps2 : limits.max_deceleration_mps2;
   control.transition = speed_transition(what.dynamics, entity.speed_mps, target, strongest);
   if (control.transition.shape == DynamicsShape::step) entity.speed_mps = target;
   take_over(std::move(control), entity);
 }
 
-bool start_speed_profile(const Scenario& scenario, const ScenarioState& state,
-                         const SpeedProfileAction& what, ElementIndex action, EntityIndex who,
-                         EntityState& entity) {
+bool start_speed_profile(const Scenario& scenario, const ScenarioState& state, const SpeedProfileAction& what,
+                         ElementIndex action, EntityIndex who, EntityState& entity) {
   const double base = what.reference != no_entity ? state.entities[what.reference].speed_mps : 0.0;
-  SpeedProfile profile = lay_speed_profile(what, entity.speed_mps - base,
-                                           bounds(what.limits, scenario.entities[who].performance));
+  SpeedProfile profile =
+      lay_speed_profile(what, entity.speed_mps - base, bounds(what.limits, scenario.entities[who].performance));
   SpeedControl control = begun(action);
   control.active = profile.end_s > 0.0;
   control.follow = what.reference;
@@ -181,9 +172,8 @@ void start_distance(const DistanceControl& distance, ElementIndex action, Entity
   take_over(std::move(control), entity);
 }
 
-bool start_synchronization(const road::RoadNetwork& network, const ScenarioState& state,
-                           const SynchronizeAction& what, ElementIndex action,
-                           EntityState& entity) {
+bool start_synchronization(const road::RoadNetwork& network, const ScenarioState& state, const SynchronizeAction& what,
+                           ElementIndex action, EntityState& entity) {
   if (what.master == no_entity) return false;
   auto meeting = plan_meeting(network, state, what);
   if (!meeting) return false;
@@ -193,20 +183,17 @@ bool start_synchronization(const road::RoadNetwork& network, const ScenarioState
   return true;
 }
 
-SpeedStep next_speed(const road::RoadNetwork& network, const Scenario& scenario,
-                     const ScenarioState& state, double dt_s, EntityIndex who, EntityState& entity,
-                     std::vector<ElementIndex>& ended) {
+SpeedStep next_speed(const road::RoadNetwork& network, const Scenario& scenario, const ScenarioState& state,
+                     double dt_s, EntityIndex who, EntityState& entity, std::vector<ElementIndex>& ended) {
   constexpr double regained_mps2 = 1.5, hardest_braking_mps2 = 9.0;
   const double before = entity.speed_mps;
-  const double strongest =
-      std::min(scenario.entities[who].performance.max_deceleration_mps2, hardest_braking_mps2);
-  const SpeedStep scripted =
-      scripted_step(network, scenario, state, dt_s, who, entity, ended);
+  const double strongest = std::min(scenario.entities[who].performance.max_deceleration_mps2, hardest_braking_mps2);
+  const SpeedStep scripted = scripted_step(network, scenario, state, dt_s, who, entity, ended);
   SpeedStep step = scripted;
   if (entity.held_back_mps > 0.0) step.speed_mps = std::min(step.speed_mps, before + regained_mps2 * dt_s);
   if (entity.in_the_way) {
-    step.speed_mps = std::min(step.speed_mps, std::max(fastest_behind_mps(*entity.in_the_way),
-                                                       before - strongest * dt_s));
+    step.speed_mps =
+        std::min(step.speed_mps, std::max(fastest_behind_mps(*entity.in_the_way), before - strongest * dt_s));
   }
   entity.held_back_mps = std::max(0.0, scripted.speed_mps - step.speed_mps);
   return step;

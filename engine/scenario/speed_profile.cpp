@@ -49,8 +49,7 @@ struct Lay {
 
 }  // namespace
 
-SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps,
-                               const DynamicConstraints& limits) {
+SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps, const DynamicConstraints& limits) {
   Lay lay{{}, from_mps};
   for (const SpeedProfileAction::Entry& entry : action.entries) {
     const double target = std::clamp(entry.speed_mps, -limits.max_speed_mps, limits.max_speed_mps);
@@ -62,9 +61,8 @@ SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps
 
 double speed_at(const SpeedProfile& profile, double time_s) {
   if (time_s >= profile.end_s || profile.parts.empty()) return profile.end_mps;
-  const auto after =
-      std::upper_bound(profile.parts.begin(), profile.parts.end(), time_s,
-                       [](double time, const SpeedProfile::Part& part) { return time < part.start_s; });
+  const auto after = std::upper_bound(profile.parts.begin(), profile.parts.end(), time_s,
+                                      [](double time, const SpeedProfile::Part& part) { return time < part.start_s; });
   const SpeedProfile::Part& part = after == profile.parts.begin() ? *after : *(after - 1);
   const double t = std::max(0.0, time_s - part.start_s);
   return part.speed_mps + t * (part.acceleration_mps2 + 0.5 * part.jerk_mps3 * t);

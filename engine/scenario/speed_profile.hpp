@@ -21,8 +21,7 @@ struct SpeedProfile {
 };
 
 /// From a speed through the entries of the action, all against the reference's speed if it has one.
-SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps,
-                               const DynamicConstraints& limits);
+SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps, const DynamicConstraints& limits);
 double speed_at(const SpeedProfile& profile, double time_s);
 
 }  // namespace septet::scenario

@@ -35,8 +35,8 @@ void change_value(const ValueAction& action, ScenarioState& state) {
   if (action.kind == ValueAction::Kind::set)
     value = action.text;
   else if (number)
-    value = fmt::format("{}", action.kind == ValueAction::Kind::add ? *number + action.number
-                                                                    : *number * action.number);
+    value =
+        fmt::format("{}", action.kind == ValueAction::Kind::add ? *number + action.number : *number * action.number);
 }
 
 /// Starts an action of one entity; returns whether it goes on.
@@ -138,9 +138,8 @@ struct StartPrivate {
     if (entity().path_control.timed) take_over(entity().path_control);
   }
   void take_route(const std::vector<Position>& waypoints) const {
-    entity().route = {std::make_shared<const std::vector<road::RoadIndex>>(
-                          plan_from(network, state, entity(), waypoints)),
-                      0};
+    entity().route = {
+        std::make_shared<const std::vector<road::RoadIndex>>(plan_from(network, state, entity(), waypoints)), 0};
   }
   bool keep_lateral() const {
     LateralControl& control = entity().lateral_control;
@@ -151,9 +150,8 @@ struct StartPrivate {
 
 }  // namespace
 
-StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network,
-                           const ActionVariant& what, ElementIndex action,
-                           const std::vector<EntityIndex>& actors, ScenarioState& state,
+StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network, const ActionVariant& what,
+                           ElementIndex action, const std::vector<EntityIndex>& actors, ScenarioState& state,
                            StepResult& result) {
   StartedAction started;
   if (const auto* environment = std::get_if<EnvironmentAction>(&what)) {

@@ -16,9 +16,8 @@ struct StartedAction {
 
 /// `action` is the action's storyboard element (no_element: Init). What it asks of others is added
 /// to `result`.
-StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network,
-                           const ActionVariant& what, ElementIndex action,
-                           const std::vector<EntityIndex>& actors, ScenarioState& state,
+StartedAction start_action(const Scenario& scenario, const road::RoadNetwork& network, const ActionVariant& what,
+                           ElementIndex action, const std::vector<EntityIndex>& actors, ScenarioState& state,
                            StepResult& result);
 
 }  // namespace septet::scenario

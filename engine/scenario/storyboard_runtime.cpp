@@ -25,8 +25,7 @@ void each_control(EntityState& entity, const Use& use) {
 /// One step of a scenario: everything it reads and writes.
 class Step {
  public:
-  Step(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state,
-       StepResult& result)
+  Step(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state, StepResult& result)
       : scenario_(scenario), network_(network), state_(state), result_(result) {}
 
   void run_storyboard() {
@@ -65,9 +64,7 @@ class Step {
 
  private:
   ElementState& element(ElementIndex index) { return state_.elements[index]; }
-  bool evaluate(const Trigger& trigger) {
-    return evaluate_trigger(scenario_, network_, trigger, state_);
-  }
+  bool evaluate(const Trigger& trigger) { return evaluate_trigger(scenario_, network_, trigger, state_); }
   /// A start trigger that is missing or empty holds at once.
   bool may_start(const Trigger& trigger) { return trigger.groups.empty() || evaluate(trigger); }
 
@@ -122,8 +119,7 @@ class Step {
         ElementState& at = element(event.element);
         at.initialised = true;
         at.executions = 0;
-        at.status =
-            event.maximum_executions == 0 ? ElementStatus::complete : ElementStatus::standby;
+        at.status = event.maximum_executions == 0 ? ElementStatus::complete : ElementStatus::standby;
         forget_trigger(event.start, state_);
       }
     }
@@ -131,13 +127,11 @@ class Step {
 
   void run_maneuver(const ManeuverGroup& group, const Maneuver& maneuver) {
     for (const Event& event : maneuver.events) {
-      if (element(event.element).status != ElementStatus::standby || !may_start(event.start))
-        continue;
+      if (element(event.element).status != ElementStatus::standby || !may_start(event.start)) continue;
       const auto runs = [&](const Event& other) {
         return &other != &event && element(other.element).status == ElementStatus::running;
       };
-      if (event.priority == EventPriority::skip &&
-          std::any_of(maneuver.events.begin(), maneuver.events.end(), runs)) {
+      if (event.priority == EventPriority::skip && std::any_of(maneuver.events.begin(), maneuver.events.end(), runs)) {
         transit(event.element, ElementTransition::skip, ElementStatus::standby);
         continue;
       }
@@ -165,8 +159,8 @@ class Step {
     for (const PendingAction& pending : pending_) {
       const Action& action = *pending.action;
       if (element(action.element).status != ElementStatus::running) continue;
-      const StartedAction started = start_action(scenario_, network_, action.what, action.element,
-                                                 pending.actors, state_, result_);
+      const StartedAction started =
+          start_action(scenario_, network_, action.what, action.element, pending.actors, state_, result_);
       for (const ElementIndex replaced : started.replaced) {
         finish(replaced, ElementTransition::stop, ElementStatus::complete);
       }
@@ -193,9 +187,8 @@ class Step {
     // An action of several actors ends with the last of them.
     bool goes_on = false;
     for (EntityState& entity : state_.entities) {
-      each_control(entity, [&](const auto& control) {
-        goes_on = goes_on || (control.active && control.action == action);
-      });
+      each_control(entity,
+                   [&](const auto& control) { goes_on = goes_on || (control.active && control.action == action); });
     }
     if (goes_on) return;
     finish(action, ElementTransition::end, ElementStatus::complete);
@@ -245,8 +238,7 @@ class Step {
   bool complete(ElementIndex index) { return element(index).status == ElementStatus::complete; }
   template <class Children>
   bool all_complete(const Children& children) {
-    return std::all_of(children.begin(), children.end(),
-                       [&](const auto& child) { return complete(child.element); });
+    return std::all_of(children.begin(), children.end(), [&](const auto& child) { return complete(child.element); });
   }
 
   /// Ends what has nothing left to do, from the inside out.
@@ -255,11 +247,9 @@ class Step {
       for (const Act& act : story.acts) {
         if (element(act.element).status != ElementStatus::running) continue;
         for (const ManeuverGroup& group : act.groups) settle_group(group);
-        if (all_complete(act.groups))
-          finish(act.element, ElementTransition::end, ElementStatus::complete);
+        if (all_complete(act.groups)) finish(act.element, ElementTransition::end, ElementStatus::complete);
       }
-      if (all_complete(story.acts))
-        finish(story.element, ElementTransition::end, ElementStatus::complete);
+      if (all_complete(story.acts)) finish(story.element, ElementTransition::end, ElementStatus::complete);
     }
   }
 
@@ -267,18 +257,15 @@ class Step {
     if (element(group.element).status != ElementStatus::running) return;
     for (const Maneuver& maneuver : group.maneuvers) {
       for (const Event& event : maneuver.events) {
-        if (element(event.element).status == ElementStatus::running &&
-            all_complete(event.actions)) {
+        if (element(event.element).status == ElementStatus::running && all_complete(event.actions)) {
           finish(event.element, ElementTransition::end, after_execution(event));
         }
       }
-      if (all_complete(maneuver.events))
-        finish(maneuver.element, ElementTransition::end, ElementStatus::complete);
+      if (all_complete(maneuver.events)) finish(maneuver.element, ElementTransition::end, ElementStatus::complete);
     }
     if (!all_complete(group.maneuvers)) return;
     finish(group.element, ElementTransition::end, ElementStatus::complete);
-    if (!group.maneuvers.empty() && element(group.element).executions < group.maximum_executions)
-      begin_group(group);
+    if (!group.maneuvers.empty() && element(group.element).executions < group.maximum_executions) begin_group(group);
   }
 
   const Scenario& scenario_;
@@ -293,8 +280,8 @@ class Step {
 };
 
 /// Init's teleports. Where one entity's position hangs on another's, theirs may stand in any order.
-Expected<void> place_at_start(const Scenario& scenario, const road::RoadNetwork& network,
-                              ScenarioState& state, StepResult& result) {
+Expected<void> place_at_start(const Scenario& scenario, const road::RoadNetwork& network, ScenarioState& state,
+                              StepResult& result) {
   std::vector<const InitAction*> waiting;
   for (const InitAction& action : scenario.init) {
     const auto* teleport = std::get_if<TeleportAction>(&action.what);
@@ -312,17 +299,15 @@ Expected<void> place_at_start(const Scenario& scenario, const road::RoadNetwork&
   }
   if (waiting.empty()) return {};
   const InitAction& action = *waiting.front();
-  return failure(
-      fmt::format("{} cannot be put on the road: {}", scenario.entities[action.entity].name,
-                  why_nowhere(scenario, network, state,
-                              std::get<TeleportAction>(action.what).position)),
-      action.where, "name a place that the OpenDRIVE file has");
+  return failure(fmt::format("{} cannot be put on the road: {}", scenario.entities[action.entity].name,
+                             why_nowhere(scenario, network, state, std::get<TeleportAction>(action.what).position)),
+                 action.where, "name a place that the OpenDRIVE file has");
 }
 
 }  // namespace
 
-Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network,
-                                       EntityIndex external, StepResult& result) {
+Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex external,
+                                       StepResult& result) {
   ScenarioState state;
   state.entities.resize(scenario.entities.size());
   state.values = scenario.values;
@@ -331,8 +316,7 @@ Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::Roa
   state.conditions.resize(scenario.condition_count);
   if (external != no_entity) state.entities[external].external = true;
   // Positions first: a speed or a lane may hang on where another entity is.
-  if (auto placed = place_at_start(scenario, network, state, result); !placed)
-    return tl::unexpected(placed.error());
+  if (auto placed = place_at_start(scenario, network, state, result); !placed) return tl::unexpected(placed.error());
   for (const InitAction& action : scenario.init) {
     if (std::holds_alternative<TeleportAction>(action.what)) continue;
     std::vector<EntityIndex> actors;
@@ -349,11 +333,10 @@ Error why_without_place(const Scenario& scenario, EntityIndex entity) {
   const std::string& name = scenario.entities[entity].name;
   for (const InitAction& action : scenario.init) {
     if (action.entity != entity || !std::holds_alternative<TeleportAction>(action.what)) continue;
-    return {fmt::format("{} is put at a position of a kind that is not supported", name),
-            action.where, "put it at a LanePosition, RoadPosition or WorldPosition"};
+    return {fmt::format("{} is put at a position of a kind that is not supported", name), action.where,
+            "put it at a LanePosition, RoadPosition or WorldPosition"};
   }
-  return {fmt::format("nothing puts {} anywhere", name), "Init",
-          "give it a TeleportAction in <Init>"};
+  return {fmt::format("nothing puts {} anywhere", name), "Init", "give it a TeleportAction in <Init>"};
 }
 
 StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,

@@ -35,25 +35,24 @@ struct StepResult {
   std::vector<TrafficSwarmAction> swarms;    ///< To be started.
   std::vector<EffectAction> effects;         ///< To be spilled, ignited, extinguished.
   std::vector<std::string> stopped_traffic;  ///< Names of swarms to be ended.
-  std::vector<EntityIndex> left;        ///< Came to the end of their road, and are no participants any more.
-  std::vector<EntityIndex> reset;       ///< Whose numbers went bad: they stand.
-  std::vector<EntityIndex> teleported;  ///< Entities that did not get where they are by driving.
+  std::vector<EntityIndex> left;             ///< Came to the end of their road, and are no participants any more.
+  std::vector<EntityIndex> reset;            ///< Whose numbers went bad: they stand.
+  std::vector<EntityIndex> teleported;       ///< Entities that did not get where they are by driving.
 };
 
 /// The state after the Init actions at time 0; what they ask of others is added to `result`.
 /// `external` names the entity that somebody else moves (no_entity: none); its Init position and
 /// speed are in the state for that somebody to take. Error: a position that is not on the road.
-Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network,
-                                       EntityIndex external, StepResult& result);
+Expected<ScenarioState> start_scenario(const Scenario& scenario, const road::RoadNetwork& network, EntityIndex external,
+                                       StepResult& result);
 
 /// Why Init leaves an entity without a place: it has no TeleportAction, or one to a position that is
 /// not supported.
 Error why_without_place(const Scenario& scenario, EntityIndex entity);
 
 /// Tells the scenario where an external entity is now.
-void place_external(const road::RoadNetwork& network, EntityIndex entity,
-                    const RigidTransform& world_from_entity, const Vec3& velocity_mps,
-                    const Vec3& acceleration_mps2, ScenarioState& state);
+void place_external(const road::RoadNetwork& network, EntityIndex entity, const RigidTransform& world_from_entity,
+                    const Vec3& velocity_mps, const Vec3& acceleration_mps2, ScenarioState& state);
 
 /// Tells what a scripted entity would drive into, each step anew; nothing: its way is clear. It brakes for that and
 /// gains the speed of its script again afterwards. `beside_is_taken`: somebody is where its lateral action takes it, which
@@ -69,8 +68,8 @@ StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& n
 
 /// The scripted entities as participants, entity i with id first_id + i; external and inactive ones,
 /// misc objects and who has come to the end of the road are left out.
-void append_participants(const Scenario& scenario, const ScenarioState& state,
-                         ParticipantId first_id, std::vector<Participant>& participants);
+void append_participants(const Scenario& scenario, const ScenarioState& state, ParticipantId first_id,
+                         std::vector<Participant>& participants);
 
 void add_to_hash(const ScenarioState& state, StateHash& hash);
 

@@ -42,8 +42,7 @@ double next_meeting_mps(const Rendezvous& left, double v, double dt_s) {
   if (!left.final_mps) return std::max(0.0, v + 2.0 * (s / t - v) / t * dt_s);
   const double end = *left.final_mps;
   // Both changes with the acceleration ±a: 2 t w² − 4 s w + 2 s (v + end) − t (v² + end²) = 0 for the speed w between them.
-  const double root = std::sqrt(std::max(
-      0.0, s * s - 0.5 * t * (2.0 * s * (v + end) - t * (v * v + end * end))));
+  const double root = std::sqrt(std::max(0.0, s * s - 0.5 * t * (2.0 * s * (v + end) - t * (v * v + end * end))));
   const double sign = s >= 0.5 * t * (v + end) ? 1.0 : -1.0;
   const double w = (s + sign * root) / t;
   // Who would have to go back stops and waits instead: one braking and one acceleration of the same strength fill the way.
@@ -62,8 +61,8 @@ std::optional<Meeting> plan_meeting(const road::RoadNetwork& network, const Scen
   return Meeting{*own, *master, what};
 }
 
-std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const ScenarioState& state,
-                                  const Meeting& meeting, const EntityState& actor, double dt_s) {
+std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const ScenarioState& state, const Meeting& meeting,
+                                  const EntityState& actor, double dt_s) {
   const SynchronizeAction& what = meeting.what;
   const EntityState& master = state.entities[what.master];
   double master_way = way_m(network, master, meeting.master_target);
@@ -71,8 +70,7 @@ std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const Scenar
   // Who is within the tolerance is there.
   left.way_m -= what.tolerance_m;
   master_way -= what.master_tolerance_m;
-  if (left.way_m <= 0.5 * actor.speed_mps * dt_s || master_way <= 0.5 * master.speed_mps * dt_s)
-    return std::nullopt;
+  if (left.way_m <= 0.5 * actor.speed_mps * dt_s || master_way <= 0.5 * master.speed_mps * dt_s) return std::nullopt;
   left.time_s = master_way / std::max(master.speed_mps, standing_mps);
   if (!left.final_mps) return left;
   // What is driven at the final speed already.

@@ -33,7 +33,7 @@ std::optional<Meeting> plan_meeting(const road::RoadNetwork& network, const Scen
 std::optional<double> final_mps(const Meeting& meeting, const ScenarioState& state);
 
 /// What is left at this moment; nothing when one of the two is there (or past it), which ends the action.
-std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const ScenarioState& state,
-                                  const Meeting& meeting, const EntityState& actor, double dt_s);
+std::optional<Rendezvous> left_of(const road::RoadNetwork& network, const ScenarioState& state, const Meeting& meeting,
+                                  const EntityState& actor, double dt_s);
 
 }  // namespace septet::scenario

@@ -51,8 +51,7 @@ void advance_transition(Transition& transition, double dt_s, double distance_m) 
   transition.progress += transition.over_distance ? distance_m : dt_s;
 }
 
-Transition speed_transition(const TransitionDynamics& dynamics, double from_mps, double to_mps,
-                            double strongest_mps2) {
+Transition speed_transition(const TransitionDynamics& dynamics, double from_mps, double to_mps, double strongest_mps2) {
   Transition transition{dynamics.shape, false, 0.0, 0.0, from_mps, to_mps};
   if (dynamics.shape == DynamicsShape::step) return transition;
   const double change = std::abs(to_mps - from_mps);
@@ -64,8 +63,7 @@ Transition speed_transition(const TransitionDynamics& dynamics, double from_mps,
   } else {
     transition.extent = change_time_s(dynamics.shape, change, dynamics.value);
   }
-  transition.extent =
-      std::max(transition.extent, change_time_s(dynamics.shape, change, strongest_mps2));
+  transition.extent = std::max(transition.extent, change_time_s(dynamics.shape, change, strongest_mps2));
   return transition;
 }
 
@@ -78,15 +76,11 @@ Transition offset_transition(const TransitionDynamics& dynamics, double from_m, 
   return transition;
 }
 
-Transition bounded_offset_transition(DynamicsShape shape, double max_lateral_acceleration_mps2,
-                                     double from_m, double to_m) {
+Transition bounded_offset_transition(DynamicsShape shape, double max_lateral_acceleration_mps2, double from_m,
+                                     double to_m) {
   const double change = std::abs(to_m - from_m);
-  return {shape,
-          false,
-          std::sqrt(change * shape_peak_acceleration(shape) / max_lateral_acceleration_mps2),
-          0.0,
-          from_m,
-          to_m};
+  return {shape, false,  std::sqrt(change * shape_peak_acceleration(shape) / max_lateral_acceleration_mps2),
+          0.0,   from_m, to_m};
 }
 
 }  // namespace septet::scenario

@@ -26,12 +26,11 @@ void advance_transition(Transition& transition, double dt_s, double distance_m);
 /// A speed's transition. A distance is turned into the time it takes: all shapes are symmetric, so
 /// the mean speed is that of both ends. `strongest` bounds the rate: the transition is stretched to
 /// keep it.
-Transition speed_transition(const TransitionDynamics& dynamics, double from_mps, double to_mps,
-                            double strongest_mps2);
+Transition speed_transition(const TransitionDynamics& dynamics, double from_mps, double to_mps, double strongest_mps2);
 /// An offset's transition, in time, over a distance or at a rate.
 Transition offset_transition(const TransitionDynamics& dynamics, double from_m, double to_m);
 /// The same with a bound on the lateral acceleration instead.
-Transition bounded_offset_transition(DynamicsShape shape, double max_lateral_acceleration_mps2,
-                                     double from_m, double to_m);
+Transition bounded_offset_transition(DynamicsShape shape, double max_lateral_acceleration_mps2, double from_m,
+                                     double to_m);
 
 }  // namespace septet::scenario

@@ -37,8 +37,7 @@ ModelIndex match_vehicle_model(const Entity& entity) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < models.size(); ++i) {
     // Another kind is only taken where there is none of the right one.
-    const double difference =
-        difference_m(models[i], entity.box) + (models[i].kind == kind ? 0.0 : 1e6);
+    const double difference = difference_m(models[i], entity.box) + (models[i].kind == kind ? 0.0 : 1e6);
     if (difference < least) {
       least = difference;
       best = static_cast<ModelIndex>(i);

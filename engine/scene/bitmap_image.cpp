@@ -11,8 +11,7 @@ namespace {
 template <class Unsigned>
 Unsigned little_endian(const std::uint8_t* bytes) {
   Unsigned value = 0;
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
-    value |= static_cast<Unsigned>(Unsigned{bytes[i]} << (8 * i));
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) value |= static_cast<Unsigned>(Unsigned{bytes[i]} << (8 * i));
   return value;
 }
 
@@ -59,9 +58,8 @@ TextureImage image_of_bitmap(const Node& node) {
   if (!bitmap) return image;
   if (const TagValue* srgb = find_tag(node, "image", "srgb"))
     if (const bool* value = std::get_if<bool>(srgb)) image.srgb = *value;
-  const std::array<const BitmapLayer*, 4> channels = {
-      find_layer(*bitmap, "color_r"), find_layer(*bitmap, "color_g"),
-      find_layer(*bitmap, "color_b"), find_layer(*bitmap, "alpha")};
+  const std::array<const BitmapLayer*, 4> channels = {find_layer(*bitmap, "color_r"), find_layer(*bitmap, "color_g"),
+                                                      find_layer(*bitmap, "color_b"), find_layer(*bitmap, "alpha")};
   if ((!channels[0] && !channels[1] && !channels[2]) || bitmap->depth == 0) return image;
   image.width = bitmap->width;
   image.height = bitmap->height;

@@ -29,8 +29,7 @@ template <class T, class Piece>
 void in_runs(const std::vector<T>& values, std::size_t width, Piece piece) {
   for (std::size_t first = 0; first < values.size(); first += run_length * width) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto count =
-        static_cast<std::ptrdiff_t>(std::min(run_length * width, values.size() - first));
+    const auto count = static_cast<std::ptrdiff_t>(std::min(run_length * width, values.size() - first));
     piece(static_cast<std::uint32_t>(first / width), std::vector<T>(begin, begin + count));
   }
 }
@@ -61,18 +60,15 @@ NodeId SceneBuilder::create(NodeType type, std::string_view name) {
   return id;
 }
 
-NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh& mesh,
-                              const MeshOptions& options) {
-  const auto optional = [](std::size_t size, std::size_t full) {
-    return size == 0 || size == full;
-  };
+NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options) {
+  const auto optional = [](std::size_t size, std::size_t full) { return size == 0 || size == full; };
   SEPTET_CHECK(optional(mesh.corner_uvs.size(), mesh.polygons.size()) &&
                    optional(mesh.polygon_materials.size(), mesh.polygons.size()) &&
                    optional(mesh.edge_creases.size(), mesh.polygons.size()) &&
                    optional(mesh.vertex_creases.size(), mesh.vertices_m.size()),
                "mesh {}: {} vertices, {} polygons, {} uvs, {} materials, {} and {} creases", name,
-               mesh.vertices_m.size(), mesh.polygons.size(), mesh.corner_uvs.size(),
-               mesh.polygon_materials.size(), mesh.edge_creases.size(), mesh.vertex_creases.size());
+               mesh.vertices_m.size(), mesh.polygons.size(), mesh.corner_uvs.size(), mesh.polygon_materials.size(),
+               mesh.edge_creases.size(), mesh.vertex_creases.size());
   const NodeId id = create(NodeType::geometry, name);
   if (options.subdivision_level > 0) {
     apply(TagGroupSet{id, draw_group, "draw"});
@@ -83,16 +79,15 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
 
   const float step_m = position_step(mesh, options.position_step_m);
   std::vector<glm::vec3> positions_m = mesh.vertices_m;
-  for (glm::vec3& p : positions_m)
-    p = {rounded(p.x, step_m), rounded(p.y, step_m), rounded(p.z, step_m)};
+  for (glm::vec3& p : positions_m) p = {rounded(p.x, step_m), rounded(p.y, step_m), rounded(p.z, step_m)};
   in_runs(positions_m, 1, [&](std::uint32_t first, std::vector<glm::vec3> run) {
     apply(VerticesSet{id, first, std::move(run)});
   });
   in_runs(mesh.polygons, 1, [&](std::uint32_t first, std::vector<PolygonCorners> run) {
     for (const PolygonCorners& corners : run)
       for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
-        SEPTET_CHECK(corners[k] < positions_m.size(), "mesh {}: corner {} of {} vertices", name,
-                     corners[k], positions_m.size());
+        SEPTET_CHECK(corners[k] < positions_m.size(), "mesh {}: corner {} of {} vertices", name, corners[k],
+                     positions_m.size());
     apply(PolygonsSet{id, first, std::move(run)});
   });
 
@@ -108,8 +103,7 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
   if (!mesh.corner_uvs.empty()) {
     for (const int axis : {0, 1}) {
       const PartId layer = next_layer++;
-      apply(GeometryLayerSet{id, layer, axis == 0 ? "map_u" : "map_v", LayerType::corner_real, 0,
-                             0.0f});
+      apply(GeometryLayerSet{id, layer, axis == 0 ? "map_u" : "map_v", LayerType::corner_real, 0, 0.0f});
       std::vector<float> values;
       values.reserve(mesh.corner_uvs.size() * 4);
       for (const auto& corners : mesh.corner_uvs)
@@ -119,19 +113,16 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
       });
     }
   }
-  if (std::any_of(mesh.polygon_materials.begin(), mesh.polygon_materials.end(),
-                  [](auto m) { return m != 0; }))
+  if (std::any_of(mesh.polygon_materials.begin(), mesh.polygon_materials.end(), [](auto m) { return m != 0; }))
     add_integers("material", LayerType::face_integer, 0, mesh.polygon_materials);
   Crease vertex_crease{"", mesh.default_vertex_crease}, edge_crease{"", mesh.default_edge_crease};
   if (!mesh.vertex_creases.empty()) {
     vertex_crease.layer = "vertex_crease";
-    add_integers("vertex_crease", LayerType::vertex_integer, mesh.default_vertex_crease,
-                 mesh.vertex_creases);
+    add_integers("vertex_crease", LayerType::vertex_integer, mesh.default_vertex_crease, mesh.vertex_creases);
   }
   if (!mesh.edge_creases.empty()) {
     edge_crease.layer = "edge_crease";
-    add_integers("edge_crease", LayerType::corner_integer, mesh.default_edge_crease,
-                 flat(mesh.edge_creases));
+    add_integers("edge_crease", LayerType::corner_integer, mesh.default_edge_crease, flat(mesh.edge_creases));
   }
   if (vertex_crease != Crease{}) apply(CreaseSet{id, CreaseKind::vertex, vertex_crease});
   if (edge_crease != Crease{}) apply(CreaseSet{id, CreaseKind::edge, edge_crease});
@@ -140,8 +131,8 @@ NodeId SceneBuilder::add_mesh(std::string_view name, const geometry::PolygonMesh
 
 NodeId SceneBuilder::add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,
                                 std::span<const std::uint8_t> rgba, bool srgb) {
-  SEPTET_CHECK(rgba.size() == std::size_t{width} * height * 4, "bitmap {}: {} bytes for {} x {}",
-               name, rgba.size(), width, height);
+  SEPTET_CHECK(rgba.size() == std::size_t{width} * height * 4, "bitmap {}: {} bytes for {} x {}", name, rgba.size(),
+               width, height);
   const NodeId id = create(NodeType::bitmap, name);
   if (!srgb) {
     apply(TagGroupSet{id, image_group, "image"});
@@ -186,8 +177,8 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   FragmentId surface = add(ColorFragment{parameters.base_color});
   if (parameters.base_color_bitmap != no_node) {
     const FragmentId mapping = add(GeometryFragment{"map_u", "map_v", ""});
-    const FragmentId image = add(TextureFragment{parameters.base_color_bitmap, "color_r", "color_g",
-                                                 "color_b", true, mapping});
+    const FragmentId image =
+        add(TextureFragment{parameters.base_color_bitmap, "color_r", "color_g", "color_b", true, mapping});
     surface = blend(BlendKind::multiply, surface, image);
   }
   surface = blend(BlendKind::multiply, surface, add(LightFragment{}));
@@ -213,28 +204,21 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
 
 NodeId SceneBuilder::add_object(std::string_view name, const ObjectParameters& parameters) {
   const NodeId id = create(NodeType::object, name);
-  apply(TransformSet{id,
-                     {parameters.parent_from_object.position_m,
-                      parameters.parent_from_object.orientation, parameters.scale}});
+  apply(TransformSet{
+      id, {parameters.parent_from_object.position_m, parameters.parent_from_object.orientation, parameters.scale}});
   PartId link = 0;
-  if (parameters.geometry != no_node)
-    apply(LinkSet{id, link++, {"geometry", parameters.geometry, 0}});
+  if (parameters.geometry != no_node) apply(LinkSet{id, link++, {"geometry", parameters.geometry, 0}});
   for (std::size_t i = 0; i < parameters.materials.size(); ++i)
-    apply(
-        LinkSet{id, link++, {"material", parameters.materials[i], static_cast<std::uint32_t>(i)}});
+    apply(LinkSet{id, link++, {"material", parameters.materials[i], static_cast<std::uint32_t>(i)}});
 
   const ObjectParameters usual;
   std::vector<Tag> tags;
-  if (parameters.visible_from_m != usual.visible_from_m)
-    tags.push_back({"from_m", double{parameters.visible_from_m}});
-  if (parameters.visible_to_m != usual.visible_to_m)
-    tags.push_back({"to_m", double{parameters.visible_to_m}});
-  if (parameters.role != usual.role)
-    tags.push_back({"role", std::string(name_of(parameters.role))});
+  if (parameters.visible_from_m != usual.visible_from_m) tags.push_back({"from_m", double{parameters.visible_from_m}});
+  if (parameters.visible_to_m != usual.visible_to_m) tags.push_back({"to_m", double{parameters.visible_to_m}});
+  if (parameters.role != usual.role) tags.push_back({"role", std::string(name_of(parameters.role))});
   if (!parameters.casts_shadow) tags.push_back({"casts_shadow", false});
   if (!tags.empty()) apply(TagGroupSet{id, draw_group, "draw"});
-  for (std::size_t i = 0; i < tags.size(); ++i)
-    apply(TagSet{id, draw_group, static_cast<PartId>(i), tags[i]});
+  for (std::size_t i = 0; i < tags.size(); ++i) apply(TagSet{id, draw_group, static_cast<PartId>(i), tags[i]});
   return id;
 }
 
@@ -246,8 +230,7 @@ void SceneBuilder::add_child(NodeId parent, NodeId child) {
   const Node* node = store_.find(parent);
   const auto* object = node ? std::get_if<ObjectData>(&node->data) : nullptr;
   SEPTET_CHECK(object, "node {} is no object", parent);
-  const std::size_t free =
-      object->links.empty() ? 0 : object->links.rbegin()->first + std::size_t{1};
+  const std::size_t free = object->links.empty() ? 0 : object->links.rbegin()->first + std::size_t{1};
   SEPTET_CHECK(free <= 0xFFFF, "object {} has too many links", parent);
   apply(LinkSet{parent, static_cast<PartId>(free), {"child", child, 0}});
 }

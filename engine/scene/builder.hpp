@@ -58,8 +58,7 @@ class SceneBuilder {
   /// ear.
   explicit SceneBuilder(Store& store, std::function<void(const Command&)> applied = {});
 
-  NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh,
-                  const MeshOptions& options = {});
+  NodeId add_mesh(std::string_view name, const geometry::PolygonMesh& mesh, const MeshOptions& options = {});
   /// `rgba`: width × height × 4 bytes, rows from the top. Alpha is sent only where it is not opaque
   /// throughout.
   NodeId add_bitmap(std::string_view name, std::uint32_t width, std::uint32_t height,

@@ -26,11 +26,10 @@ std::uint64_t kind_of() {
               std::is_same_v<T, TagDestroy>, TagSet,
               std::conditional_t<
                   std::is_same_v<T, LinkDestroy>, LinkSet,
-                  std::conditional_t<
-                      std::is_same_v<T, GeometryLayerDestroy>, GeometryLayerSet,
-                      std::conditional_t<std::is_same_v<T, FragmentDestroy>, FragmentSet,
-                                         std::conditional_t<std::is_same_v<T, BitmapLayerDestroy>,
-                                                            BitmapLayerSet, T>>>>>>>;
+                  std::conditional_t<std::is_same_v<T, GeometryLayerDestroy>, GeometryLayerSet,
+                                     std::conditional_t<std::is_same_v<T, FragmentDestroy>, FragmentSet,
+                                                        std::conditional_t<std::is_same_v<T, BitmapLayerDestroy>,
+                                                                           BitmapLayerSet, T>>>>>>>;
   return Command(Kind{}).index();
 }
 
@@ -53,16 +52,12 @@ CommandAddress address_of(const Command& command) {
           address.high |= c.part;
           address.low = static_cast<std::uint64_t>(c.kind);
         }
-        if constexpr (std::is_same_v<T, CreaseSet>)
-          address.low = static_cast<std::uint64_t>(c.kind);
-        if constexpr (std::is_same_v<T, VerticesSet>)
-          address.low = range(c.first, c.positions_m.size());
-        if constexpr (std::is_same_v<T, PolygonsSet>)
-          address.low = range(c.first, c.polygons.size());
+        if constexpr (std::is_same_v<T, CreaseSet>) address.low = static_cast<std::uint64_t>(c.kind);
+        if constexpr (std::is_same_v<T, VerticesSet>) address.low = range(c.first, c.positions_m.size());
+        if constexpr (std::is_same_v<T, PolygonsSet>) address.low = range(c.first, c.polygons.size());
         if constexpr (std::is_same_v<T, LayerIntegersSet> || std::is_same_v<T, LayerRealsSet>)
           address.low = range(c.first, c.values.size());
-        if constexpr (std::is_same_v<T, BitmapTilesSet>)
-          address.low = range(c.first_tile, c.tiles.size());
+        if constexpr (std::is_same_v<T, BitmapTilesSet>) address.low = range(c.first_tile, c.tiles.size());
         return address;
       },
       command);

@@ -227,13 +227,11 @@ struct BitmapTilesSet {
 };
 
 /// The order is the wire's opcode: new commands go at the end.
-using Command =
-    std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, NodeCreate, NodeDestroy,
-                 NodeNameSet, TagGroupSet, TagGroupDestroy, TagSet, TagDestroy, TransformSet,
-                 LinkSet, LinkDestroy, LightSet, HideSet, GeometrySizeSet, GeometryLayerSet,
-                 GeometryLayerDestroy, VerticesSet, PolygonsSet, LayerIntegersSet, LayerRealsSet,
-                 CreaseSet, FragmentSet, FragmentDestroy, BitmapSizeSet, BitmapLayerSet,
-                 BitmapLayerDestroy, BitmapTilesSet>;
+using Command = std::variant<NodeIndexSubscribe, NodeSubscribe, PartSubscribe, NodeCreate, NodeDestroy, NodeNameSet,
+                             TagGroupSet, TagGroupDestroy, TagSet, TagDestroy, TransformSet, LinkSet, LinkDestroy,
+                             LightSet, HideSet, GeometrySizeSet, GeometryLayerSet, GeometryLayerDestroy, VerticesSet,
+                             PolygonsSet, LayerIntegersSet, LayerRealsSet, CreaseSet, FragmentSet, FragmentDestroy,
+                             BitmapSizeSet, BitmapLayerSet, BitmapLayerDestroy, BitmapTilesSet>;
 
 /// What a command overwrites: of two commands with equal addresses the later makes the earlier
 /// superfluous.

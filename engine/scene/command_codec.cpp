@@ -175,8 +175,7 @@ void fields(C& c, Ref<C, TransformSet> v) {
     if (flags > 3) c.in.fail();
     turned = flags & 1, scaled = flags & 2;
   }
-  if (turned)
-    c.real(t.rotation.w), c.real(t.rotation.x), c.real(t.rotation.y), c.real(t.rotation.z);
+  if (turned) c.real(t.rotation.w), c.real(t.rotation.x), c.real(t.rotation.y), c.real(t.rotation.z);
   if (scaled) vec3(c, t.scale);
 }
 template <class C>
@@ -249,8 +248,7 @@ void fields(C& c, Ref<C, BitmapSizeSet> v) {
 }
 template <class C>
 void fields(C& c, Ref<C, BitmapLayerSet> v) {
-  c.node(v.node), c.part(v.layer), c.text(v.name, max_name_bytes),
-      c.kind(v.type, PixelType::real64);
+  c.node(v.node), c.part(v.layer), c.text(v.name, max_name_bytes), c.kind(v.type, PixelType::real64);
 }
 template <class C>
 void fields(C& c, Ref<C, BitmapLayerDestroy> v) {

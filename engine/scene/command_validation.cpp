@@ -15,8 +15,7 @@ bool finite(double value) { return std::isfinite(value); }
 bool finite(const glm::vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
 bool finite(const Vec3& v) { return finite(v.x) && finite(v.y) && finite(v.z); }
 bool finite(std::span<const float> values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](float value) { return std::isfinite(value); });
+  return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 template <class Enumeration>
 bool in_range(Enumeration value, Enumeration last) {
@@ -30,9 +29,7 @@ constexpr Problem long_name = "a name is longer than 255 bytes";
 constexpr Problem bad_kind = "a kind is out of range";
 constexpr Problem bad_run = "a run is empty or too long";
 
-Problem check_name(std::string_view name) {
-  return name.size() > max_name_bytes ? long_name : none;
-}
+Problem check_name(std::string_view name) { return name.size() > max_name_bytes ? long_name : none; }
 Problem first_of(std::initializer_list<Problem> problems) {
   for (const Problem problem : problems)
     if (problem) return problem;
@@ -43,12 +40,10 @@ struct FragmentCheck {
   Problem operator()(const ColorFragment& f) const { return finite(f.color) ? none : not_finite; }
   Problem operator()(const LightFragment& f) const {
     return first_of({in_range(f.kind, LightKind::back_direct_and_ambient) ? none : bad_kind,
-                     finite(f.normal_falloff) ? none : not_finite, check_name(f.brdf_red),
-                     check_name(f.brdf_green), check_name(f.brdf_blue)});
+                     finite(f.normal_falloff) ? none : not_finite, check_name(f.brdf_red), check_name(f.brdf_green),
+                     check_name(f.brdf_blue)});
   }
-  Problem operator()(const ReflectionFragment& f) const {
-    return finite(f.normal_falloff) ? none : not_finite;
-  }
+  Problem operator()(const ReflectionFragment& f) const { return finite(f.normal_falloff) ? none : not_finite; }
   Problem operator()(const TransparencyFragment& f) const {
     return finite(f.normal_falloff) && finite(f.refraction_index) ? none : not_finite;
   }
@@ -65,20 +60,15 @@ struct FragmentCheck {
   Problem operator()(const NoiseFragment& f) const {
     return in_range(f.kind, NoiseKind::point_minus_one_to_one) ? none : bad_kind;
   }
-  Problem operator()(const BlenderFragment& f) const {
-    return in_range(f.kind, BlendKind::divide) ? none : bad_kind;
-  }
+  Problem operator()(const BlenderFragment& f) const { return in_range(f.kind, BlendKind::divide) ? none : bad_kind; }
   Problem operator()(const ClampFragment& f) const { return finite(f.limit) ? none : not_finite; }
   Problem operator()(const MatrixFragment& f) const { return finite(f.matrix) ? none : not_finite; }
   Problem operator()(const RampFragment& f) const {
-    if (!in_range(f.kind, RampKind::smooth) || !in_range(f.channel, RampChannel::blue))
-      return bad_kind;
-    if (f.points.empty() || f.points.size() > RampFragment::max_points)
-      return "a ramp has 1 to 48 points";
+    if (!in_range(f.kind, RampKind::smooth) || !in_range(f.channel, RampChannel::blue)) return bad_kind;
+    if (f.points.empty() || f.points.size() > RampFragment::max_points) return "a ramp has 1 to 48 points";
     for (std::size_t i = 0; i < f.points.size(); ++i) {
       if (!finite(f.points[i].position) || !finite(f.points[i].color)) return not_finite;
-      if (i > 0 && f.points[i].position < f.points[i - 1].position)
-        return "a ramp's positions fall";
+      if (i > 0 && f.points[i].position < f.points[i - 1].position) return "a ramp's positions fall";
     }
     return none;
   }
@@ -102,12 +92,8 @@ struct TagValueCheck {
 };
 
 struct CommandCheck {
-  Problem operator()(const NodeCreate& c) const {
-    return in_range(c.type, NodeType::audio) ? none : bad_kind;
-  }
-  Problem operator()(const PartSubscribe& c) const {
-    return in_range(c.kind, PartKind::layer) ? none : bad_kind;
-  }
+  Problem operator()(const NodeCreate& c) const { return in_range(c.type, NodeType::audio) ? none : bad_kind; }
+  Problem operator()(const PartSubscribe& c) const { return in_range(c.kind, PartKind::layer) ? none : bad_kind; }
   Problem operator()(const NodeNameSet& c) const { return check_name(c.name); }
   Problem operator()(const TagGroupSet& c) const { return check_name(c.name); }
   Problem operator()(const TagSet& c) const {
@@ -141,8 +127,7 @@ struct CommandCheck {
     return finite(c.values) ? none : not_finite;
   }
   Problem operator()(const CreaseSet& c) const {
-    return first_of(
-        {check_name(c.crease.layer), in_range(c.kind, CreaseKind::edge) ? none : bad_kind});
+    return first_of({check_name(c.crease.layer), in_range(c.kind, CreaseKind::edge) ? none : bad_kind});
   }
   Problem operator()(const FragmentSet& c) const { return std::visit(FragmentCheck{}, c.value); }
   Problem operator()(const BitmapLayerSet& c) const {
@@ -168,8 +153,7 @@ tl::unexpected<Error> refuse(const Command& command, std::string what, std::stri
           return std::string();
       },
       command);
-  return failure(std::move(what), fmt::format("command \"{}\"{}", name_of(command), node),
-                 std::move(remedy));
+  return failure(std::move(what), fmt::format("command \"{}\"{}", name_of(command), node), std::move(remedy));
 }
 
 Expected<void> validate(const Command& command) {

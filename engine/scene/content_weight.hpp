@@ -42,12 +42,9 @@ inline std::uint64_t weight(const Node& node) {
   std::uint64_t sum = 4 * container_bytes + node.name.size() + weight_of_all(node.tag_groups);
   if (const auto* object = std::get_if<ObjectData>(&node.data)) sum += weight_of_all(object->links);
   if (const auto* geometry = std::get_if<GeometryData>(&node.data))
-    sum += shape_weight(geometry->vertices_m.size(), geometry->polygons.size()) +
-           weight_of_all(geometry->layers);
-  if (const auto* material = std::get_if<MaterialData>(&node.data))
-    sum += weight_of_all(material->fragments);
-  if (const auto* bitmap = std::get_if<BitmapData>(&node.data))
-    sum += weight_of_all(bitmap->layers);
+    sum += shape_weight(geometry->vertices_m.size(), geometry->polygons.size()) + weight_of_all(geometry->layers);
+  if (const auto* material = std::get_if<MaterialData>(&node.data)) sum += weight_of_all(material->fragments);
+  if (const auto* bitmap = std::get_if<BitmapData>(&node.data)) sum += weight_of_all(bitmap->layers);
   return sum;
 }
 

@@ -26,8 +26,7 @@ struct Lobes {
   float refraction_index = 1.5f;
 
   bool is_plain() const {
-    return lit.color == glm::vec3(0.0f) && mirror.color == glm::vec3(0.0f) &&
-           through.color == glm::vec3(0.0f);
+    return lit.color == glm::vec3(0.0f) && mirror.color == glm::vec3(0.0f) && through.color == glm::vec3(0.0f);
   }
 };
 
@@ -43,10 +42,8 @@ Lobes combined(const Lobes& a, const Lobes& b, Combine combine) {
   const auto one = [&](const Lobe& x, const Lobe& y) {
     return Lobe{combine(x.color, y.color), x.image != no_node ? x.image : y.image};
   };
-  Lobes result{one(a.plain, b.plain), one(a.lit, b.lit), one(a.mirror, b.mirror),
-               one(a.through, b.through)};
-  result.refraction_index =
-      a.through.color != glm::vec3(0.0f) ? a.refraction_index : b.refraction_index;
+  Lobes result{one(a.plain, b.plain), one(a.lit, b.lit), one(a.mirror, b.mirror), one(a.through, b.through)};
+  result.refraction_index = a.through.color != glm::vec3(0.0f) ? a.refraction_index : b.refraction_index;
   return result;
 }
 
@@ -61,15 +58,12 @@ Lobes scaled(const Lobes& lobes, const Lobe& by) {
   return result;
 }
 
-float ramp_parameter(const RampFragment& ramp, const glm::vec3& color) {
-  return color[static_cast<int>(ramp.channel)];
-}
+float ramp_parameter(const RampFragment& ramp, const glm::vec3& color) { return color[static_cast<int>(ramp.channel)]; }
 
 glm::vec3 ramp_color(const RampFragment& ramp, float at) {
   const auto& points = ramp.points;
   if (points.empty()) return glm::vec3(0.0f);
-  const auto next = std::find_if(points.begin(), points.end(),
-                                 [&](const RampPoint& p) { return p.position > at; });
+  const auto next = std::find_if(points.begin(), points.end(), [&](const RampPoint& p) { return p.position > at; });
   if (next == points.begin()) return points.front().color;
   if (next == points.end()) return points.back().color;
   const RampPoint& before = *(next - 1);
@@ -97,8 +91,7 @@ class Evaluation {
   Lobes operator()(const ColorFragment& f) { return plain(f.color); }
   Lobes operator()(const LightFragment& f) {
     Lobes lobes;
-    if (f.kind == LightKind::direct || f.kind == LightKind::direct_and_ambient)
-      lobes.lit.color = glm::vec3(1.0f);
+    if (f.kind == LightKind::direct || f.kind == LightKind::direct_and_ambient) lobes.lit.color = glm::vec3(1.0f);
     return lobes;
   }
   Lobes operator()(const ReflectionFragment&) {
@@ -117,8 +110,7 @@ class Evaluation {
   Lobes operator()(const GeometryFragment&) { return plain(glm::vec3(0.5f)); }
   Lobes operator()(const TextureFragment& f) { return plain(glm::vec3(1.0f), f.bitmap); }
   Lobes operator()(const NoiseFragment& f) {
-    const bool positive =
-        f.kind == NoiseKind::perlin_zero_to_one || f.kind == NoiseKind::point_zero_to_one;
+    const bool positive = f.kind == NoiseKind::perlin_zero_to_one || f.kind == NoiseKind::point_zero_to_one;
     return plain(glm::vec3(positive ? 0.5f : 0.0f));
   }
   Lobes operator()(const BlenderFragment& f) {
@@ -131,8 +123,7 @@ class Evaluation {
       case BlendKind::add:
         return combined(a, b, [](glm::vec3 x, glm::vec3 y) { return x + y; });
       case BlendKind::subtract:
-        return combined(a, b,
-                        [](glm::vec3 x, glm::vec3 y) { return glm::max(x - y, glm::vec3(0.0f)); });
+        return combined(a, b, [](glm::vec3 x, glm::vec3 y) { return glm::max(x - y, glm::vec3(0.0f)); });
       case BlendKind::multiply:
         return b.is_plain() ? scaled(a, b.plain) : scaled(b, a.plain);
       case BlendKind::divide: {
@@ -145,8 +136,7 @@ class Evaluation {
   }
   Lobes operator()(const ClampFragment& f) {
     Lobes lobes = at(f.data);
-    lobes.plain.color =
-        f.minimum ? glm::max(lobes.plain.color, f.limit) : glm::min(lobes.plain.color, f.limit);
+    lobes.plain.color = f.minimum ? glm::max(lobes.plain.color, f.limit) : glm::min(lobes.plain.color, f.limit);
     return lobes;
   }
   Lobes operator()(const MatrixFragment& f) {
@@ -165,9 +155,7 @@ class Evaluation {
     return lobes;
   }
   Lobes operator()(const AnimationFragment&) { return plain(glm::vec3(0.5f)); }
-  Lobes operator()(const AlternativeFragment& f) {
-    return at(material_.fragments.contains(f.a) ? f.a : f.b);
-  }
+  Lobes operator()(const AlternativeFragment& f) { return at(material_.fragments.contains(f.a) ? f.a : f.b); }
   Lobes operator()(const OutputFragment& f) { return at(f.front); }
 
  private:
@@ -178,8 +166,7 @@ class Evaluation {
 
 Lobes evaluate_output(const MaterialData& material) {
   for (const auto& [id, fragment] : material.fragments)
-    if (const auto* output = std::get_if<OutputFragment>(&fragment);
-        output && output->label == "color")
+    if (const auto* output = std::get_if<OutputFragment>(&fragment); output && output->label == "color")
       return Evaluation(material).at(output->front);
   Lobes grey;
   grey.lit.color = SurfaceMaterial{}.base_color;
@@ -201,8 +188,7 @@ glm::vec3 moderate(const glm::vec3& color, float most) {
 
 }  // namespace
 
-SurfaceMaterial evaluate_material(const Node& node,
-                                  const std::function<std::int32_t(NodeId)>& image_of) {
+SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int32_t(NodeId)>& image_of) {
   const auto* data = std::get_if<MaterialData>(&node.data);
   SurfaceMaterial material;
   if (!data) return material;
@@ -218,16 +204,13 @@ SurfaceMaterial evaluate_material(const Node& node,
   material.refraction_index = std::clamp(lobes.refraction_index, 1.0f, 4.0f);
   material.emission = moderate(lobes.plain.color, 1e6f);
   const bool polished = mirror > 0.0f;
-  const double metallic =
-      polished ? std::clamp(mirror / (mirror + std::max(lit, 0.0f)), 0.0f, 1.0f) : 0.0;
+  const double metallic = polished ? std::clamp(mirror / (mirror + std::max(lit, 0.0f)), 0.0f, 1.0f) : 0.0;
   const double roughness = polished ? 0.1 : material.roughness;
   material.metallic = static_cast<float>(std::clamp(tag_or(node, "metallic", metallic), 0.0, 1.0));
-  material.roughness =
-      static_cast<float>(std::clamp(tag_or(node, "roughness", roughness), 0.0, 1.0));
+  material.roughness = static_cast<float>(std::clamp(tag_or(node, "roughness", roughness), 0.0, 1.0));
   material.takes_paint = tag_or(node, "takes_paint", false);
   material.wettable = tag_or(node, "wettable", false);
-  material.share_of_sky =
-      static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
+  material.share_of_sky = static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
   return material;
 }
 

@@ -10,7 +10,6 @@
 namespace septet::scene {
 
 /// `image_of` returns the index of a bitmap's image, or -1. The revision is left at zero.
-SurfaceMaterial evaluate_material(const Node& node,
-                                  const std::function<std::int32_t(NodeId)>& image_of);
+SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int32_t(NodeId)>& image_of);
 
 }  // namespace septet::scene

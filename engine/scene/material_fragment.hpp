@@ -146,9 +146,8 @@ struct OutputFragment {
 };
 
 using Fragment =
-    std::variant<ColorFragment, LightFragment, ReflectionFragment, TransparencyFragment,
-                 VolumeFragment, ViewFragment, GeometryFragment, TextureFragment, NoiseFragment,
-                 BlenderFragment, ClampFragment, MatrixFragment, RampFragment, AnimationFragment,
-                 AlternativeFragment, OutputFragment>;
+    std::variant<ColorFragment, LightFragment, ReflectionFragment, TransparencyFragment, VolumeFragment, ViewFragment,
+                 GeometryFragment, TextureFragment, NoiseFragment, BlenderFragment, ClampFragment, MatrixFragment,
+                 RampFragment, AnimationFragment, AlternativeFragment, OutputFragment>;
 
 }  // namespace septet::scene

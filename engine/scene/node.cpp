@@ -4,8 +4,7 @@ namespace septet::scene {
 namespace {
 
 template <class Layers>
-auto find_by_name(const Layers& layers, std::string_view name) -> const
-    typename Layers::mapped_type* {
+auto find_by_name(const Layers& layers, std::string_view name) -> const typename Layers::mapped_type* {
   for (const auto& [id, layer] : layers)
     if (layer.name == name) return &layer;
   return nullptr;

@@ -94,8 +94,8 @@ inline constexpr int layer_type_count = 8;
 
 constexpr bool is_vertex_layer(LayerType type) { return type <= LayerType::vertex_real; }
 constexpr bool is_real_layer(LayerType type) {
-  return type == LayerType::vertex_xyz || type == LayerType::vertex_real ||
-         type == LayerType::corner_real || type == LayerType::face_real;
+  return type == LayerType::vertex_xyz || type == LayerType::vertex_real || type == LayerType::corner_real ||
+         type == LayerType::face_real;
 }
 /// Values for one vertex or polygon.
 constexpr std::uint32_t layer_width(LayerType type) {
@@ -169,9 +169,7 @@ struct BitmapData {
   std::map<PartId, BitmapLayer> layers;
 };
 
-constexpr std::uint64_t tile_columns(std::uint32_t width) {
-  return (std::uint64_t{width} + tile_side - 1) / tile_side;
-}
+constexpr std::uint64_t tile_columns(std::uint32_t width) { return (std::uint64_t{width} + tile_side - 1) / tile_side; }
 constexpr std::uint64_t tile_count(std::uint32_t width, std::uint32_t height, std::uint32_t depth) {
   return tile_columns(width) * tile_columns(height) * depth;
 }

@@ -6,11 +6,9 @@ namespace septet::scene {
 namespace {
 
 constexpr std::array<std::string_view, 13> names = {
-    "fixed",           "wheel_front_left",    "wheel_front_right",
-    "wheel_rear_left", "wheel_rear_right",    "lamp_brake",
-    "lamp_reverse",    "lamp_indicator_left", "lamp_indicator_right",
-    "lamp_head",       "lamp_tail",           "beacon",
-    "steering_wheel"};
+    "fixed",      "wheel_front_left", "wheel_front_right",   "wheel_rear_left",      "wheel_rear_right",
+    "lamp_brake", "lamp_reverse",     "lamp_indicator_left", "lamp_indicator_right", "lamp_head",
+    "lamp_tail",  "beacon",           "steering_wheel"};
 static_assert(names.size() == static_cast<std::size_t>(PartRole::steering_wheel) + 1);
 
 }  // namespace

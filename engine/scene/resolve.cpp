@@ -15,8 +15,7 @@ namespace septet::scene {
 namespace {
 
 constexpr int deepest_child = 32;
-constexpr std::size_t most_visits =
-    1u << 20;  ///< Of objects in one update: children shared again and again multiply.
+constexpr std::size_t most_visits = 1u << 20;  ///< Of objects in one update: children shared again and again multiply.
 constexpr std::string_view prototype_prefix = "model/";
 
 /// What an object node says, read once per change of it.
@@ -163,8 +162,7 @@ struct Resolver::State {
 
   std::uint32_t mesh_slot(DrawnObject& object) {
     const auto is_of = [&](const MeshSlot& slot) {
-      return slot.last_used != 0 && slot.key.first == object.geometry &&
-             slot.key.second == object.materials;
+      return slot.last_used != 0 && slot.key.first == object.geometry && slot.key.second == object.materials;
     };
     if (object.mesh >= meshes.size() || !is_of(meshes[object.mesh])) {
       const MeshKey key{object.geometry, object.materials};
@@ -183,23 +181,21 @@ struct Resolver::State {
 
   static Placement child_of(const Placement& parent, const Transform& t) {
     Placement placed;
-    placed.world_from_object.position_m =
-        parent.world_from_object * (glm::dvec3(parent.scale) * t.position_m);
+    placed.world_from_object.position_m = parent.world_from_object * (glm::dvec3(parent.scale) * t.position_m);
     placed.world_from_object.orientation = parent.world_from_object.orientation * t.rotation;
     placed.scale = parent.scale * t.scale;
     return placed;
   }
 
   /// Appends an object and everything below it. `path` holds the objects above.
-  void place(DrawnObject& object, NodeId id, const Placement& parent, std::vector<NodeId>& path,
-             std::size_t& visits, std::vector<Instance>& into) {
+  void place(DrawnObject& object, NodeId id, const Placement& parent, std::vector<NodeId>& path, std::size_t& visits,
+             std::vector<Instance>& into) {
     if (object.hidden || path.size() >= deepest_child || ++visits > most_visits) return;
     if (std::find(path.begin(), path.end(), id) != path.end()) return;
     const Placement placed = child_of(parent, object.transform);
     if (object.geometry != no_node)
-      into.push_back({mesh_slot(object), placed.world_from_object, placed.scale,
-                      object.visible_from_m, object.visible_to_m, object.casts_shadow,
-                      object.role});
+      into.push_back({mesh_slot(object), placed.world_from_object, placed.scale, object.visible_from_m,
+                      object.visible_to_m, object.casts_shadow, object.role});
     path.push_back(id);
     for (const NodeId child : object.children)
       if (const auto found = objects.find(child); found != objects.end())
@@ -245,7 +241,7 @@ struct Resolver::State {
   void make_meshes(const Store& store, std::size_t budget) {
     struct Task {
       std::uint32_t index;
-      const Node* node;  ///< Null: its geometry is not there.
+      const Node* node;                                                ///< Null: its geometry is not there.
       std::vector<std::pair<std::uint32_t, std::uint32_t>> materials;  ///< Slots by face material index.
     };
     pending = 0;
@@ -294,10 +290,9 @@ struct Resolver::State {
   }
 
   static bool same(const SurfaceMaterial& a, const SurfaceMaterial& b) {
-    return a.base_color == b.base_color && a.base_color_image == b.base_color_image &&
-           a.roughness == b.roughness && a.metallic == b.metallic && a.opacity == b.opacity &&
-           a.refraction_index == b.refraction_index && a.emission == b.emission &&
-           a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
+    return a.base_color == b.base_color && a.base_color_image == b.base_color_image && a.roughness == b.roughness &&
+           a.metallic == b.metallic && a.opacity == b.opacity && a.refraction_index == b.refraction_index &&
+           a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
            a.share_of_sky == b.share_of_sky;
   }
 
@@ -338,9 +333,7 @@ Resolver::~Resolver() = default;
 Resolver::Resolver(Resolver&&) noexcept = default;
 Resolver& Resolver::operator=(Resolver&&) noexcept = default;
 
-bool Resolver::update(const Store& store, std::size_t mesh_budget) {
-  return state_->update(store, mesh_budget);
-}
+bool Resolver::update(const Store& store, std::size_t mesh_budget) { return state_->update(store, mesh_budget); }
 
 void Resolver::forget() {
   // Everything made so far stays in its slot until the next update frees or makes it again.

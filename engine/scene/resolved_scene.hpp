@@ -49,12 +49,14 @@ struct TextureImage {
 struct SurfaceMaterial {
   std::uint64_t revision = 0;
   glm::vec3 base_color{0.8f};
-  std::int32_t base_color_image = -1;  ///< Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
+  std::int32_t base_color_image =
+      -1;  ///< Indexes ResolvedScene::images; multiplies base_color; alpha cuts out below ½.
   float roughness = 0.7f;
   float metallic = 0.0f;
   float opacity = 1.0f;
   float refraction_index = 1.5f;
-  glm::vec3 emission{0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
+  glm::vec3 emission{
+      0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
   bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
   bool wettable = false;     ///< Darkens and mirrors with the road's wetness.
   /// Of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it. The
@@ -65,8 +67,17 @@ struct SurfaceMaterial {
 /// What moves or lights a part of a vehicle.
 enum class PartRole : std::uint8_t {
   fixed,
-  wheel_front_left, wheel_front_right, wheel_rear_left, wheel_rear_right,
-  lamp_brake, lamp_reverse, lamp_indicator_left, lamp_indicator_right, lamp_head, lamp_tail, beacon,
+  wheel_front_left,
+  wheel_front_right,
+  wheel_rear_left,
+  wheel_rear_right,
+  lamp_brake,
+  lamp_reverse,
+  lamp_indicator_left,
+  lamp_indicator_right,
+  lamp_head,
+  lamp_tail,
+  beacon,
   steering_wheel,
 };
 

@@ -32,9 +32,7 @@ std::uint8_t grid_of(std::span<const float> values) {
     if (k > finest_grid) return plain_form;
     largest = std::max(largest, std::abs(value));
   }
-  return std::ldexp(largest, k) <= static_cast<float>(largest_multiple)
-             ? static_cast<std::uint8_t>(k)
-             : plain_form;
+  return std::ldexp(largest, k) <= static_cast<float>(largest_multiple) ? static_cast<std::uint8_t>(k) : plain_form;
 }
 
 }  // namespace
@@ -66,8 +64,7 @@ void get_reals(ByteReader& in, std::span<float> values, std::size_t stride) {
   std::array<std::int64_t, 3> previous{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::int64_t difference = in.get_signed_varint();
-    if (!in.ok() || difference > 2 * largest_multiple || difference < -2 * largest_multiple)
-      return in.fail();
+    if (!in.ok() || difference > 2 * largest_multiple || difference < -2 * largest_multiple) return in.fail();
     std::int64_t& multiple = previous[i % stride];
     multiple += difference;
     if (multiple > largest_multiple || multiple < -largest_multiple) return in.fail();
@@ -112,8 +109,8 @@ void put_corners(ByteWriter& out, std::span<const PolygonCorners> polygons) {
       }
       const std::int64_t difference = std::int64_t{corner} - previous;
       previous = corner;
-      out.put_varint(1 + ((static_cast<std::uint64_t>(difference) << 1) ^
-                          static_cast<std::uint64_t>(difference >> 63)));
+      out.put_varint(1 +
+                     ((static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63)));
     }
 }
 

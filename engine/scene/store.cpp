@@ -31,33 +31,26 @@ void describe(NodeId id, const GeometryData& geometry, const Emit& emit, std::si
   if (!geometry.vertices_m.empty() || !geometry.polygons.empty())
     emit(GeometrySizeSet{id, static_cast<std::uint32_t>(geometry.vertices_m.size()),
                          static_cast<std::uint32_t>(geometry.polygons.size())});
-  if (geometry.vertex_crease != Crease{})
-    emit(CreaseSet{id, CreaseKind::vertex, geometry.vertex_crease});
+  if (geometry.vertex_crease != Crease{}) emit(CreaseSet{id, CreaseKind::vertex, geometry.vertex_crease});
   if (geometry.edge_crease != Crease{}) emit(CreaseSet{id, CreaseKind::edge, geometry.edge_crease});
-  in_runs(geometry.vertices_m.size(), std::max<std::size_t>(1, run / 3),
-          [&](std::uint32_t first, std::size_t count) {
-            emit(VerticesSet{id, first, slice(geometry.vertices_m, first, count)});
-          });
-  in_runs(geometry.polygons.size(), std::max<std::size_t>(1, run / 4),
-          [&](std::uint32_t first, std::size_t count) {
-            emit(PolygonsSet{id, first, slice(geometry.polygons, first, count)});
-          });
+  in_runs(geometry.vertices_m.size(), std::max<std::size_t>(1, run / 3), [&](std::uint32_t first, std::size_t count) {
+    emit(VerticesSet{id, first, slice(geometry.vertices_m, first, count)});
+  });
+  in_runs(geometry.polygons.size(), std::max<std::size_t>(1, run / 4), [&](std::uint32_t first, std::size_t count) {
+    emit(PolygonsSet{id, first, slice(geometry.polygons, first, count)});
+  });
   for (const auto& entry : geometry.layers) {
     const PartId layer_id = entry.first;
     const GeometryLayer& layer = entry.second;
-    emit(GeometryLayerSet{id, layer_id, layer.name, layer.type, layer.default_integer,
-                          layer.default_real});
+    emit(GeometryLayerSet{id, layer_id, layer.name, layer.type, layer.default_integer, layer.default_real});
     const std::size_t width = layer_width(layer.type);
     const std::size_t elements = (layer.integers.size() + layer.reals.size()) / width;
-    in_runs(elements, std::max<std::size_t>(1, run / width),
-            [&](std::uint32_t first, std::size_t count) {
-              if (is_real_layer(layer.type))
-                emit(LayerRealsSet{id, layer_id, first,
-                                   slice(layer.reals, first * width, count * width)});
-              else
-                emit(LayerIntegersSet{id, layer_id, first,
-                                      slice(layer.integers, first * width, count * width)});
-            });
+    in_runs(elements, std::max<std::size_t>(1, run / width), [&](std::uint32_t first, std::size_t count) {
+      if (is_real_layer(layer.type))
+        emit(LayerRealsSet{id, layer_id, first, slice(layer.reals, first * width, count * width)});
+      else
+        emit(LayerIntegersSet{id, layer_id, first, slice(layer.integers, first * width, count * width)});
+    });
   }
 }
 
@@ -73,11 +66,10 @@ void describe(NodeId id, const BitmapData& bitmap, const Emit& emit, std::size_t
     const BitmapLayer& layer = entry.second;
     emit(BitmapLayerSet{id, layer_id, layer.name, layer.type});
     const std::size_t size = tile_bytes(layer.type);
-    in_runs(
-        layer.tiles.size() / size, std::max<std::size_t>(1, run / size),
-        [&](std::uint32_t first, std::size_t count) {
-          emit(BitmapTilesSet{id, layer_id, first, slice(layer.tiles, first * size, count * size)});
-        });
+    in_runs(layer.tiles.size() / size, std::max<std::size_t>(1, run / size),
+            [&](std::uint32_t first, std::size_t count) {
+              emit(BitmapTilesSet{id, layer_id, first, slice(layer.tiles, first * size, count * size)});
+            });
   }
 }
 
@@ -93,23 +85,19 @@ bool same(const BitmapLayer& a, const BitmapLayer& b) {
 }
 template <class Parts>
 bool same_parts(const Parts& a, const Parts& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.first == y.first && same(x.second, y.second);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
 }
 bool same(const ObjectData& a, const ObjectData& b) {
-  return a.transform == b.transform && a.links == b.links && a.light == b.light &&
-         a.hidden == b.hidden;
+  return a.transform == b.transform && a.links == b.links && a.light == b.light && a.hidden == b.hidden;
 }
 bool same(const GeometryData& a, const GeometryData& b) {
-  return a.vertices_m == b.vertices_m && a.polygons == b.polygons &&
-         same_parts(a.layers, b.layers) && a.vertex_crease == b.vertex_crease &&
-         a.edge_crease == b.edge_crease;
+  return a.vertices_m == b.vertices_m && a.polygons == b.polygons && same_parts(a.layers, b.layers) &&
+         a.vertex_crease == b.vertex_crease && a.edge_crease == b.edge_crease;
 }
 bool same(const MaterialData& a, const MaterialData& b) { return a.fragments == b.fragments; }
 bool same(const BitmapData& a, const BitmapData& b) {
-  return a.width == b.width && a.height == b.height && a.depth == b.depth &&
-         same_parts(a.layers, b.layers);
+  return a.width == b.width && a.height == b.height && a.depth == b.depth && same_parts(a.layers, b.layers);
 }
 
 }  // namespace
@@ -142,11 +130,8 @@ void describe_store(const Store& store, const Emit& emit, std::size_t run_values
 bool same_content(const Node& a, const Node& b) {
   return a.id == b.id && a.name == b.name && same_parts(a.tag_groups, b.tag_groups) &&
          a.data.index() == b.data.index() &&
-         std::visit(
-             [&](const auto& data) {
-               return same(data, std::get<std::decay_t<decltype(data)>>(b.data));
-             },
-             a.data);
+         std::visit([&](const auto& data) { return same(data, std::get<std::decay_t<decltype(data)>>(b.data)); },
+                    a.data);
 }
 
 bool same_content(const Store& a, const Store& b) {

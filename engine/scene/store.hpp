@@ -57,10 +57,8 @@ class Store {
 
 /// The commands that build this node, or the whole store, in an empty store, in runs of at most
 /// `run_values` numbers.
-void describe_node(const Node& node, const std::function<void(Command)>& emit,
-                   std::size_t run_values = 65536);
-void describe_store(const Store& store, const std::function<void(Command)>& emit,
-                    std::size_t run_values = 65536);
+void describe_node(const Node& node, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
+void describe_store(const Store& store, const std::function<void(Command)>& emit, std::size_t run_values = 65536);
 
 /// Whether both hold the same content; revisions do not count.
 bool same_content(const Node& a, const Node& b);

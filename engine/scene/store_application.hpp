@@ -47,11 +47,9 @@ struct Store::Application {
 
   /// Sets one entry of a map of parts.
   template <class Key, class Part>
-  Expected<void> set_part(Node& owner, std::map<Key, Part>& parts, Key id,
-                          const Part& value) const {
+  Expected<void> set_part(Node& owner, std::map<Key, Part>& parts, Key id, const Part& value) const {
     const auto found = parts.find(id);
-    if (auto ok = charge(found == parts.end() ? 0 : weight(found->second), weight(value)); !ok)
-      return ok;
+    if (auto ok = charge(found == parts.end() ? 0 : weight(found->second), weight(value)); !ok) return ok;
     if (found == parts.end())
       parts.emplace(id, value);
     else
@@ -81,8 +79,7 @@ struct Store::Application {
   }
   /// Copies a run into an array that it must lie within; `first` and the run count single values.
   template <class T>
-  Expected<void> copy_run(const std::vector<T>& run, std::uint64_t first,
-                          std::vector<T>& into) const {
+  Expected<void> copy_run(const std::vector<T>& run, std::uint64_t first, std::vector<T>& into) const {
     if (first > into.size() || run.size() > into.size() - first)
       return no(fmt::format("values {} to {} of {}", first, first + run.size(), into.size()),
                 "set the size first and stay within it");
@@ -90,25 +87,22 @@ struct Store::Application {
     return {};
   }
   template <class Run, class T>
-  Expected<void> set_layer_run(const Run& c, std::vector<T> GeometryLayer::*values,
-                               bool real) const {
+  Expected<void> set_layer_run(const Run& c, std::vector<T> GeometryLayer::*values, bool real) const {
     const auto found = node_with<GeometryData>(c.node);
     if (!found) return tl::unexpected(found.error());
     const auto layer = found->second->layers.find(c.layer);
     if (layer == found->second->layers.end() || is_real_layer(layer->second.type) != real)
       return no("there is no such layer of this kind", "create the layer first");
     const std::uint32_t width = layer_width(layer->second.type);
-    if (c.values.size() % width != 0)
-      return no("a vertex or polygon is incomplete", "send all values of each");
-    if (auto ok = copy_run(c.values, std::uint64_t{c.first} * width, layer->second.*values); !ok)
-      return ok;
+    if (c.values.size() % width != 0) return no("a vertex or polygon is incomplete", "send all values of each");
+    if (auto ok = copy_run(c.values, std::uint64_t{c.first} * width, layer->second.*values); !ok) return ok;
     layer->second.revision = touch(*found->first);
     return {};
   }
 
   template <class Subscription>
-  requires std::is_same_v<Subscription, NodeIndexSubscribe> ||
-      std::is_same_v<Subscription, NodeSubscribe> || std::is_same_v<Subscription, PartSubscribe>
+  requires std::is_same_v<Subscription, NodeIndexSubscribe> || std::is_same_v<Subscription, NodeSubscribe> ||
+      std::is_same_v<Subscription, PartSubscribe>
           Expected<void>
   operator()(const Subscription&) const {
     return no("a subscription does not change a store", "hand it to the replication server");

@@ -12,8 +12,7 @@ constexpr NodeId first_reserved_id = 0xF0000000u;
 }  // namespace
 
 Expected<void> Store::Application::operator()(const NodeCreate& c) const {
-  if (c.node == 0 || c.node >= first_reserved_id)
-    return no("the id is out of range", "let the server assign it");
+  if (c.node == 0 || c.node >= first_reserved_id) return no("the id is out of range", "let the server assign it");
   if (store.nodes_.contains(c.node)) return no("the node exists already", "use a new id");
   if (store.nodes_.size() >= store.limits_.nodes)
     return no(fmt::format("the store holds its {} nodes", store.limits_.nodes),
@@ -67,9 +66,7 @@ Expected<void> Store::Application::operator()(const TagGroupSet& c) const {
   auto& groups = (*owner)->tag_groups;
   const auto found = groups.find(c.group);
   const bool exists = found != groups.end();
-  if (auto ok = charge(exists ? found->second.name.size() : 0,
-                       c.name.size() + (exists ? 0 : container_bytes));
-      !ok)
+  if (auto ok = charge(exists ? found->second.name.size() : 0, c.name.size() + (exists ? 0 : container_bytes)); !ok)
     return ok;
   TagGroup& group = groups[c.group];
   group.name = c.name;
@@ -88,8 +85,7 @@ Expected<void> Store::Application::operator()(const TagSet& c) const {
   const auto owner = node(c.node);
   if (!owner) return tl::unexpected(owner.error());
   const auto group = (*owner)->tag_groups.find(c.group);
-  if (group == (*owner)->tag_groups.end())
-    return no("there is no such tag group", "set the group's name first");
+  if (group == (*owner)->tag_groups.end()) return no("there is no such tag group", "set the group's name first");
   if (auto ok = set_part(**owner, group->second.tags, c.tag, c.value); !ok) return ok;
   group->second.revision = store.revision_;
   return {};

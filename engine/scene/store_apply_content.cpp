@@ -6,8 +6,7 @@ namespace septet::scene {
 namespace {
 
 std::uint64_t layer_values(const GeometryData& geometry, LayerType type) {
-  const std::size_t elements =
-      is_vertex_layer(type) ? geometry.vertices_m.size() : geometry.polygons.size();
+  const std::size_t elements = is_vertex_layer(type) ? geometry.vertices_m.size() : geometry.polygons.size();
   return std::uint64_t{elements} * layer_width(type);
 }
 
@@ -31,8 +30,7 @@ Expected<void> Store::Application::operator()(const GeometrySizeSet& c) const {
   std::uint64_t after = shape_weight(c.vertices, c.polygons);
   for (const auto& [id, layer] : geometry.layers) {
     before += 4 * layer_values(geometry, layer.type);
-    after += std::uint64_t{4} * layer_width(layer.type) *
-             (is_vertex_layer(layer.type) ? c.vertices : c.polygons);
+    after += std::uint64_t{4} * layer_width(layer.type) * (is_vertex_layer(layer.type) ? c.vertices : c.polygons);
   }
   if (auto ok = charge(before, after); !ok) return ok;
   geometry.vertices_m.resize(c.vertices, glm::vec3(0.0f));
@@ -46,16 +44,13 @@ Expected<void> Store::Application::operator()(const GeometrySizeSet& c) const {
 Expected<void> Store::Application::operator()(const GeometryLayerSet& c) const {
   const auto found = node_with<GeometryData>(c.node);
   if (!found) return tl::unexpected(found.error());
-  if (c.layer >= base_polygon_layer)
-    return no("the id is that of a base layer", "use an id below 65534");
+  if (c.layer >= base_polygon_layer) return no("the id is that of a base layer", "use an id below 65534");
   GeometryData& geometry = *found->second;
   const auto existing = geometry.layers.find(c.layer);
   const bool keeps_values = existing != geometry.layers.end() && existing->second.type == c.type;
   GeometryLayer layer;
   const std::uint64_t after = container_bytes + c.name.size() + 4 * layer_values(geometry, c.type);
-  if (auto ok = charge(existing == geometry.layers.end() ? 0 : weight(existing->second), after);
-      !ok)
-    return ok;
+  if (auto ok = charge(existing == geometry.layers.end() ? 0 : weight(existing->second), after); !ok) return ok;
   if (keeps_values) layer = std::move(existing->second);
   layer.name = c.name;
   layer.type = c.type;
@@ -93,10 +88,8 @@ Expected<void> Store::Application::operator()(const PolygonsSet& c) const {
 Expected<void> Store::Application::operator()(const LayerIntegersSet& c) const {
   const Node* owner = store.find(c.node);
   const auto* geometry = owner ? std::get_if<GeometryData>(&owner->data) : nullptr;
-  if (geometry && geometry->layers.contains(c.layer) &&
-      geometry->layers.at(c.layer).type == LayerType::face_byte &&
-      std::any_of(c.values.begin(), c.values.end(),
-                  [](std::uint32_t value) { return value > 255; }))
+  if (geometry && geometry->layers.contains(c.layer) && geometry->layers.at(c.layer).type == LayerType::face_byte &&
+      std::any_of(c.values.begin(), c.values.end(), [](std::uint32_t value) { return value > 255; }))
     return no("a face_byte value is over 255", "use a face_integer layer");
   return set_layer_run(c, &GeometryLayer::integers, false);
 }
@@ -108,8 +101,7 @@ Expected<void> Store::Application::operator()(const LayerRealsSet& c) const {
 Expected<void> Store::Application::operator()(const CreaseSet& c) const {
   const auto found = node_with<GeometryData>(c.node);
   if (!found) return tl::unexpected(found.error());
-  Crease& crease =
-      c.kind == CreaseKind::vertex ? found->second->vertex_crease : found->second->edge_crease;
+  Crease& crease = c.kind == CreaseKind::vertex ? found->second->vertex_crease : found->second->edge_crease;
   crease = c.crease;
   touch(*found->first);
   return {};
@@ -158,8 +150,7 @@ Expected<void> Store::Application::operator()(const BitmapLayerSet& c) const {
   BitmapData& bitmap = *found->second;
   const auto existing = bitmap.layers.find(c.layer);
   const bool keeps_values = existing != bitmap.layers.end() && existing->second.type == c.type;
-  const std::uint64_t bytes =
-      tile_count(bitmap.width, bitmap.height, bitmap.depth) * tile_bytes(c.type);
+  const std::uint64_t bytes = tile_count(bitmap.width, bitmap.height, bitmap.depth) * tile_bytes(c.type);
   if (auto ok = charge(existing == bitmap.layers.end() ? 0 : weight(existing->second),
                        container_bytes + c.name.size() + bytes);
       !ok)
@@ -183,12 +174,10 @@ Expected<void> Store::Application::operator()(const BitmapTilesSet& c) const {
   const auto found = node_with<BitmapData>(c.node);
   if (!found) return tl::unexpected(found.error());
   const auto layer = found->second->layers.find(c.layer);
-  if (layer == found->second->layers.end())
-    return no("there is no such layer", "create the layer first");
+  if (layer == found->second->layers.end()) return no("there is no such layer", "create the layer first");
   const std::uint32_t size = tile_bytes(layer->second.type);
   if (c.tiles.size() % size != 0) return no("a tile is incomplete", "send whole tiles");
-  if (auto ok = copy_run(c.tiles, std::uint64_t{c.first_tile} * size, layer->second.tiles); !ok)
-    return ok;
+  if (auto ok = copy_run(c.tiles, std::uint64_t{c.first_tile} * size, layer->second.tiles); !ok) return ok;
   layer->second.revision = touch(*found->first);
   return {};
 }

@@ -32,16 +32,14 @@ bool makes_sense(const PolygonCorners& corners, std::size_t vertices) {
   return true;
 }
 
-const GeometryLayer* layer_of_type(const GeometryData& geometry, std::string_view name,
-                                   LayerType type) {
+const GeometryLayer* layer_of_type(const GeometryData& geometry, std::string_view name, LayerType type) {
   const GeometryLayer* layer = name.empty() ? nullptr : find_layer(geometry, name);
   return layer && layer->type == type ? layer : nullptr;
 }
 
 template <class T>
 std::array<T, 4> four(const std::vector<T>& values, std::size_t polygon) {
-  return {values[polygon * 4], values[polygon * 4 + 1], values[polygon * 4 + 2],
-          values[polygon * 4 + 3]};
+  return {values[polygon * 4], values[polygon * 4 + 1], values[polygon * 4 + 2], values[polygon * 4 + 3]};
 }
 
 /// Corners that share one normal: a corner is number polygon · 4 + k, a group is named by one of
@@ -72,13 +70,11 @@ class SmoothGroups {
     group_[std::max(a, b)] = std::min(a, b);
   }
 
-  static std::uint32_t edge_crease(const PolygonMesh& mesh, std::uint32_t polygon,
-                                   std::uint32_t k) {
+  static std::uint32_t edge_crease(const PolygonMesh& mesh, std::uint32_t polygon, std::uint32_t k) {
     return mesh.edge_creases.empty() ? mesh.default_edge_crease : mesh.edge_creases[polygon][k];
   }
   static bool vertex_splits(const PolygonMesh& mesh, std::uint32_t vertex) {
-    return (mesh.vertex_creases.empty() ? mesh.default_vertex_crease
-                                        : mesh.vertex_creases[vertex]) >= split_from;
+    return (mesh.vertex_creases.empty() ? mesh.default_vertex_crease : mesh.vertex_creases[vertex]) >= split_from;
   }
 
   void join_over_smooth_edges(const PolygonMesh& mesh) {
@@ -114,11 +110,8 @@ class SmoothGroups {
   }
 
   void join_sides(const PolygonMesh& mesh, std::uint32_t lower, const Side& a, const Side& b) {
-    if (a.rises == b.rises)
-      return;  // Turned against each other: their normals point to opposite sides.
-    if (std::max(edge_crease(mesh, a.polygon, a.k), edge_crease(mesh, b.polygon, b.k)) >=
-        split_from)
-      return;
+    if (a.rises == b.rises) return;  // Turned against each other: their normals point to opposite sides.
+    if (std::max(edge_crease(mesh, a.polygon, a.k), edge_crease(mesh, b.polygon, b.k)) >= split_from) return;
     const auto corner = [&](const Side& side, bool at_lower) {
       const std::uint32_t count = corner_count(mesh.polygons[side.polygon]);
       return side.polygon * 4 + (side.rises == at_lower ? side.k : (side.k + 1) % count);
@@ -141,8 +134,7 @@ glm::vec3 polygon_normal(const PolygonMesh& mesh, const PolygonCorners& corners)
   const glm::vec3 origin = mesh.vertices_m[corners[0]];
   glm::vec3 sum(0.0f);
   for (std::uint32_t k = 0; k < count; ++k)
-    sum += glm::cross(mesh.vertices_m[corners[k]] - origin,
-                      mesh.vertices_m[corners[(k + 1) % count]] - origin);
+    sum += glm::cross(mesh.vertices_m[corners[k]] - origin, mesh.vertices_m[corners[(k + 1) % count]] - origin);
   return unit_or(sum, {0.0f, 0.0f, 1.0f});
 }
 
@@ -168,8 +160,7 @@ std::vector<glm::vec3> group_normals(const PolygonMesh& mesh, const SmoothGroups
 /// The vertices of the triangles: one for every group and texture coordinate.
 class VertexPool {
  public:
-  VertexPool(SurfaceMesh& surface, std::size_t corners)
-      : surface_(surface), first_(corners, none) {}
+  VertexPool(SurfaceMesh& surface, std::size_t corners) : surface_(surface), first_(corners, none) {}
 
   std::uint32_t index(std::uint32_t group, const SurfaceVertex& vertex) {
     for (std::uint32_t i = first_[group]; i != none; i = next_[i]) {
@@ -195,11 +186,9 @@ geometry::PolygonMesh polygons_of(const GeometryData& geometry) {
   mesh.vertices_m = geometry.vertices_m;
   mesh.default_vertex_crease = geometry.vertex_crease.default_value;
   mesh.default_edge_crease = geometry.edge_crease.default_value;
-  if (const auto* layer =
-          layer_of_type(geometry, geometry.vertex_crease.layer, LayerType::vertex_integer))
+  if (const auto* layer = layer_of_type(geometry, geometry.vertex_crease.layer, LayerType::vertex_integer))
     mesh.vertex_creases = layer->integers;
-  const auto* edges =
-      layer_of_type(geometry, geometry.edge_crease.layer, LayerType::corner_integer);
+  const auto* edges = layer_of_type(geometry, geometry.edge_crease.layer, LayerType::corner_integer);
   const auto* map_u = layer_of_type(geometry, "map_u", LayerType::corner_real);
   const auto* map_v = layer_of_type(geometry, "map_v", LayerType::corner_real);
   const auto* material = layer_of_type(geometry, "material", LayerType::face_integer);
@@ -216,8 +205,7 @@ geometry::PolygonMesh polygons_of(const GeometryData& geometry) {
   return mesh;
 }
 
-SurfaceMesh triangulate(const PolygonMesh& mesh,
-                        const std::function<std::uint32_t(std::uint32_t)>& material_of) {
+SurfaceMesh triangulate(const PolygonMesh& mesh, const std::function<std::uint32_t(std::uint32_t)>& material_of) {
   SurfaceMesh surface;
   if (mesh.polygons.empty()) return surface;
   const SmoothGroups groups(mesh);
@@ -267,8 +255,7 @@ SurfaceMesh triangulate(const PolygonMesh& mesh,
   return surface;
 }
 
-SurfaceMesh surface_of_geometry(const Node& node,
-                                const std::function<std::uint32_t(std::uint32_t)>& material_of) {
+SurfaceMesh surface_of_geometry(const Node& node, const std::function<std::uint32_t(std::uint32_t)>& material_of) {
   const auto* data = std::get_if<GeometryData>(&node.data);
   if (!data) return {};
   PolygonMesh mesh = polygons_of(*data);

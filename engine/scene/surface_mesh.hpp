@@ -18,7 +18,6 @@ SurfaceMesh triangulate(const geometry::PolygonMesh& mesh,
                         const std::function<std::uint32_t(std::uint32_t)>& material_of);
 
 /// Both, with the subdivision that the node asks for.
-SurfaceMesh surface_of_geometry(const Node& node,
-                                const std::function<std::uint32_t(std::uint32_t)>& material_of);
+SurfaceMesh surface_of_geometry(const Node& node, const std::function<std::uint32_t(std::uint32_t)>& material_of);
 
 }  // namespace septet::scene

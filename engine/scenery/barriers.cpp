@@ -19,8 +19,7 @@ using roadside::BesideLine;
 
 /// Frames along a line within a tile; right is −t, up is off the surface, the origin on the
 /// surface.
-std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile,
-                              const BesideLine& line, double step_m) {
+std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const BesideLine& line, double step_m) {
   std::vector<PathFrame> path;
   for (const double s : roadside::stations(tile, line, step_m)) {
     const double t = line.t_at(s);
@@ -60,8 +59,7 @@ constexpr std::array<glm::vec2, 7> rail_left{{{-0.05f, 0.44f},
                                               {0.0f, 0.60f},
                                               {-0.08f, 0.66f},
                                               {-0.05f, 0.75f}}};
-constexpr std::array<glm::vec2, 4> rail_simple{
-    {{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, 0.75f}, {-0.04f, 0.75f}}};
+constexpr std::array<glm::vec2, 4> rail_simple{{{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, 0.75f}, {-0.04f, 0.75f}}};
 
 /// A profile for the other side of the road, still counter-clockwise.
 template <std::size_t N>
@@ -71,8 +69,8 @@ std::array<glm::vec2, N> mirrored(const std::array<glm::vec2, N>& profile) {
   return result;
 }
 
-void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground ground,
-               const glm::vec3& low, const glm::vec3& high) {
+void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground ground, const glm::vec3& low,
+               const glm::vec3& high) {
   builder.material = index_of(ground);
   geometry::PolygonMesh post = geometry::box(low, high);
   post.corner_uvs.clear();  // Plain materials need none.
@@ -131,12 +129,10 @@ struct BarrierPen {
   }
 
   void draw_parapet(const std::vector<PathFrame>& path) {
-    constexpr std::array<glm::vec2, 4> kerb{
-        {{-0.16f, -0.1f}, {0.16f, -0.1f}, {0.16f, 0.35f}, {-0.16f, 0.35f}}};
+    constexpr std::array<glm::vec2, 4> kerb{{{-0.16f, -0.1f}, {0.16f, -0.1f}, {0.16f, 0.35f}, {-0.16f, 0.35f}}};
     extrude_into(near, Ground::concrete, kerb, path, true);
     for (const float z : {0.62f, 0.90f, 1.16f}) {
-      const std::array<glm::vec2, 4> bar{
-          {{-0.03f, z}, {0.03f, z}, {0.03f, z + 0.06f}, {-0.03f, z + 0.06f}}};
+      const std::array<glm::vec2, 4> bar{{{-0.03f, z}, {0.03f, z}, {0.03f, z + 0.06f}, {-0.03f, z + 0.06f}}};
       extrude_into(near, Ground::metal, bar, path, true);
     }
     add_posts(posts, path, Ground::metal, {-0.04f, -0.04f, 0.3f}, {0.04f, 0.04f, 1.2f});
@@ -158,8 +154,7 @@ void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const Roa
 void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
   for (const BesideLine& line : roadside::noise_walls(world.roads, tile)) {
     const auto path = frames(world, tile, line, roadside::noise_wall_step_m);
-    constexpr std::array<glm::vec2, 4> panel{
-        {{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, 3.6f}, {-0.09f, 3.6f}}};
+    constexpr std::array<glm::vec2, 4> panel{{{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, 3.6f}, {-0.09f, 3.6f}}};
     extrude_into(builder, Ground::noise_wall, panel, path, true);
     add_posts(builder, path, Ground::metal_dark, {-0.1f, -0.16f, -0.9f}, {0.1f, 0.16f, 3.75f});
   }
@@ -167,13 +162,10 @@ void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadT
 
 }  // namespace
 
-void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
-                       double step_m) {
+void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) {
-    constexpr std::array<glm::vec2, 4> wall{
-        {{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
-    extrude_into(builder, Ground::far_concrete,
-                 barrier.form == BarrierForm::rail ? rail_simple : wall,
+    constexpr std::array<glm::vec2, 4> wall{{{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
+    extrude_into(builder, Ground::far_concrete, barrier.form == BarrierForm::rail ? rail_simple : wall,
                  frames(world, tile, barrier.line, step_m), true);
   }
 }

@@ -37,8 +37,7 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
                                                              {right, -0.45},
                                                              {right, 0.12}}};
     auto& row = rows.emplace_back();
-    for (const auto& [t, up] : section)
-      row.push_back(builder.vertex(world.roads.local(tile, s, t, up)));
+    for (const auto& [t, up] : section) row.push_back(builder.vertex(world.roads.local(tile, s, t, up)));
     row.push_back(builder.vertex(world.roads.local(tile, s, extent.right_t_m, 0.12)));
     row.push_back(builder.vertex(world.roads.local(tile, s, extent.right_t_m, 0.0)));
   }
@@ -52,15 +51,14 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
     }
 }
 
-void add_column(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double s,
-                double t, double half_along, double half_across) {
+void add_column(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double s, double t,
+                double half_along, double half_across) {
   const Vec3 head = world.roads.point(tile.road, s, t, -2.4);
   const double foot = world.terrain.height_m(Vec2(head)) - 2.0;
   if (foot > head.z - 0.5) return;
   const glm::vec3 p = world.roads.local(tile, head);
-  geometry::PolygonMesh pier =
-      geometry::box({p.x - half_along, p.y - half_across, p.z - (head.z - foot)},
-                    {p.x + half_along, p.y + half_across, p.z}, 0.12f);
+  geometry::PolygonMesh pier = geometry::box({p.x - half_along, p.y - half_across, p.z - (head.z - foot)},
+                                             {p.x + half_along, p.y + half_across, p.z}, 0.12f);
   geometry::project_box_uvs(pier, 0.25f);
   builder.append(pier, glm::mat4(1.0f), true);
 }
@@ -68,14 +66,11 @@ void add_column(MeshBuilder& builder, const WorldContext& world, const RoadTile&
 /// Walls at both ends that hold the road's bank.
 void add_abutment(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double s) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), s);
-  const double left = extent.left_t_m + overhang_m + 0.6,
-               right = extent.right_t_m - overhang_m - 0.6;
-  const glm::vec3 a = world.roads.local(tile, s, left, -0.2),
-                  b = world.roads.local(tile, s, right, -0.2);
+  const double left = extent.left_t_m + overhang_m + 0.6, right = extent.right_t_m - overhang_m - 0.6;
+  const glm::vec3 a = world.roads.local(tile, s, left, -0.2), b = world.roads.local(tile, s, right, -0.2);
   const float depth = 9.0f;
-  geometry::PolygonMesh wall =
-      geometry::box({std::min(a.x, b.x) - 1.5f, b.y, std::min(a.z, b.z) - depth},
-                    {std::max(a.x, b.x) + 1.5f, a.y, std::min(a.z, b.z)});
+  geometry::PolygonMesh wall = geometry::box({std::min(a.x, b.x) - 1.5f, b.y, std::min(a.z, b.z) - depth},
+                                             {std::max(a.x, b.x) + 1.5f, a.y, std::min(a.z, b.z)});
   geometry::project_box_uvs(wall, 0.25f);
   builder.append(wall, glm::mat4(1.0f), true);
 }

@@ -25,13 +25,12 @@ void add_house(MeshBuilder& builder, const roadside::HouseBlock& block, const Ho
              x0 = static_cast<float>(block.x_m), y0 = static_cast<float>(block.y_m);
   const float l = length / 2, w = width / 2, foot = -1.5f;
   const auto at = [&](float x, float y, float z) { return glm::vec3(x0 + x, y0 + y, z); };
-  const float nu = std::round(length / 4), nw = std::round(width / 4),
-              nv = std::round(s.eaves / 2.8f), low = 1.5f / 2.8f;
+  const float nu = std::round(length / 4), nw = std::round(width / 4), nv = std::round(s.eaves / 2.8f),
+              low = 1.5f / 2.8f;
   builder.material = index_of(s.wall);
   const auto wall = [&](const glm::vec3& a, const glm::vec3& b, float windows) {
-    builder.patch(a + glm::vec3(0, 0, foot), b + glm::vec3(0, 0, foot),
-                  b + glm::vec3(0, 0, s.eaves), a + glm::vec3(0, 0, s.eaves),
-                  {{{0, nv + low}, {windows, nv + low}, {windows, 0}, {0, 0}}});
+    builder.patch(a + glm::vec3(0, 0, foot), b + glm::vec3(0, 0, foot), b + glm::vec3(0, 0, s.eaves),
+                  a + glm::vec3(0, 0, s.eaves), {{{0, nv + low}, {windows, nv + low}, {windows, 0}, {0, 0}}});
   };
   wall(at(-l, -w, 0), at(l, -w, 0), nu);
   wall(at(l, -w, 0), at(l, w, 0), nw);
@@ -49,8 +48,7 @@ void add_house(MeshBuilder& builder, const roadside::HouseBlock& block, const Ho
                 at(l + over, 0, s.ridge + 0.08f), at(-l - over, 0, s.ridge + 0.08f));
   builder.patch(at(l + over, w + over, s.eaves - drop), at(-l - over, w + over, s.eaves - drop),
                 at(-l - over, 0, s.ridge + 0.08f), at(l + over, 0, s.ridge + 0.08f));
-  builder.append(geometry::box(at(-0.4f + l * 0.3f, -0.4f, s.ridge - 0.6f),
-                               at(0.4f + l * 0.3f, 0.4f, s.ridge + 0.9f)),
+  builder.append(geometry::box(at(-0.4f + l * 0.3f, -0.4f, s.ridge - 0.6f), at(0.4f + l * 0.3f, 0.4f, s.ridge + 0.9f)),
                  glm::mat4(1.0f), true);
 }
 
@@ -72,8 +70,8 @@ geometry::PolygonMesh church() {
   const auto& tower = blocks[1];
   const glm::vec2 middle(tower.x_m, tower.y_m), half(tower.length_m / 2, tower.width_m / 2);
   builder.material = index_of(Ground::facade_white);
-  builder.append(geometry::box(glm::vec3(middle - half, -1.5f), glm::vec3(middle + half, 19.0f)),
-                 glm::mat4(1.0f), true);
+  builder.append(geometry::box(glm::vec3(middle - half, -1.5f), glm::vec3(middle + half, 19.0f)), glm::mat4(1.0f),
+                 true);
   builder.material = index_of(Ground::roof_dark);
   const std::array<geometry::LathePoint, 3> spire{{{5.0f, 19.0f}, {1.6f, 24.0f}, {0.0f, 36.0f}}};
   glm::mat4 to(1.0f);
@@ -91,8 +89,7 @@ void build_buildings(const WorldContext& world) {
     meshes[i].default_edge_crease = geometry::crease_sharp;
     shapes[i] = add_shape(world.builder, i < 2 ? "farm" : "church", meshes[i], world.palette);
   }
-  for (const roadside::Building& building :
-       roadside::placed_buildings(world.roads, world.terrain, world.seed)) {
+  for (const roadside::Building& building : roadside::placed_buildings(world.roads, world.terrain, world.seed)) {
     Placement placement;
     placement.parent_from_object = building.world_from_building;
     placement.visible_to_m = 3500.0f;

@@ -9,17 +9,14 @@ namespace septet::scenery {
 
 /// 0 is smooth, 1 is sharp.
 constexpr std::uint32_t crease_share(float share) {
-  return share >= 1.0f
-             ? geometry::crease_sharp
-             : static_cast<std::uint32_t>(static_cast<double>(share) * geometry::crease_sharp);
+  return share >= 1.0f ? geometry::crease_sharp
+                       : static_cast<std::uint32_t>(static_cast<double>(share) * geometry::crease_sharp);
 }
 
 /// The polygons that a screen draws for this cage: subdivided as engine/scene's resolver does it.
-geometry::PolygonMesh shown_surface(const geometry::PolygonMesh& cage,
-                                    std::uint32_t subdivision_level);
+geometry::PolygonMesh shown_surface(const geometry::PolygonMesh& cage, std::uint32_t subdivision_level);
 
 /// Stretches the cage so that its shown surface has these bounds: subdivision pulls corners in.
-void fit_bounds(geometry::PolygonMesh& cage, std::uint32_t subdivision_level,
-                const geometry::Bounds& bounds);
+void fit_bounds(geometry::PolygonMesh& cage, std::uint32_t subdivision_level, const geometry::Bounds& bounds);
 
 }  // namespace septet::scenery

@@ -54,9 +54,7 @@ std::array<float, station_count> station_x(const Lines& l) {
 /// Height of the wheel arch over the ground at a station; 0 away from the wheels.
 float arch_m(int station, float radius) {
   constexpr std::array<float, 5> rise{0.0f, 0.80f, 1.16f, 0.80f, 0.0f};
-  const int at = station >= 2 && station <= 6    ? station - 2
-                 : station >= 8 && station <= 12 ? station - 8
-                                                 : 0;
+  const int at = station >= 2 && station <= 6 ? station - 2 : station >= 8 && station <= 12 ? station - 8 : 0;
   return rise[at] > 0.0f ? radius * (1.0f + rise[at]) : 0.0f;
 }
 
@@ -91,8 +89,7 @@ std::array<UpperPoint, station_count> upper_points(const Lines& l, const CarShap
   const float roof_rear = l.rear + s.roof_rear_m, backlight = l.rear + s.backlight_m;
   const float roof_w = s.roof_half_width, hood_w = 0.66f;
   const float roof = l.height;
-  u[0] = {l.rear + 0.01f, s.tail_m,        s.tail_m - 0.01f, 0.62f * s.tail_half_width,
-          l.rear + 0.01f, s.tail_m - 0.05f};
+  u[0] = {l.rear + 0.01f, s.tail_m, s.tail_m - 0.01f, 0.62f * s.tail_half_width, l.rear + 0.01f, s.tail_m - 0.05f};
   u[1] = {(l.rear + backlight) / 2,
           (s.deck_m * 2 + s.tail_m) / 3,
           (s.deck_m * 2 + s.tail_m) / 3 - 0.01f,
@@ -105,22 +102,15 @@ std::array<UpperPoint, station_count> upper_points(const Lines& l, const CarShap
     const float at = std::lerp(roof_rear, roof_front, t);
     // A roof is highest a little before its middle and falls to both ends.
     const float fall = 0.075f * (t - 0.55f) * (t - 0.55f) * 4.0f;
-    const float belt_x =
-        std::lerp(std::lerp(backlight, roof_rear, 0.45f), std::lerp(cowl, roof_front, 0.22f), t);
-    u[i] = {at,     roof - fall, roof - fall - s.roof_arch_m,
-            roof_w, belt_x,      std::lerp(s.belt_rear_m, s.belt_front_m, t)};
+    const float belt_x = std::lerp(std::lerp(backlight, roof_rear, 0.45f), std::lerp(cowl, roof_front, 0.22f), t);
+    u[i] = {at, roof - fall, roof - fall - s.roof_arch_m, roof_w, belt_x, std::lerp(s.belt_rear_m, s.belt_front_m, t)};
   }
   u[9] = {cowl, s.hood_rear_m, s.hood_rear_m - 0.02f, 0.80f, cowl - 0.06f, s.belt_front_m - 0.02f};
   for (int i = 10; i <= 13; ++i) {
     const float t = static_cast<float>(i - 9) / 4.0f;
     const float at = i == 13 ? l.front - 0.16f : std::lerp(cowl, l.front - 0.16f, t);
     const float top = std::lerp(s.hood_rear_m, s.hood_front_m, t * t);
-    u[i] = {at,
-            top,
-            top - 0.015f,
-            std::lerp(0.74f, hood_w, t),
-            std::max(at, x[i] - 0.1f),
-            top - 0.05f - 0.03f * t};
+    u[i] = {at, top, top - 0.015f, std::lerp(0.74f, hood_w, t), std::max(at, x[i] - 0.1f), top - 0.05f - 0.03f * t};
   }
   u[14] = {l.front - 0.03f,          s.hood_front_m - 0.10f, s.hood_front_m - 0.11f,
            0.6f * s.nose_half_width, l.front - 0.02f,        s.hood_front_m - 0.14f};
@@ -134,17 +124,14 @@ std::array<glm::vec3, side_points + 1> left_half(int i, const Lines& l, const Ca
   const float arch = arch_m(i, l.radius);
   const bool end = i == 0 || i == 14;
   const float bottom = std::max(arch, end ? s.ground_m + 0.06f : s.ground_m);
-  const float low =
-      std::max(arch > 0 ? arch + 0.05f : 0.0f, std::lerp(s.ground_m, upper.belt, 0.30f));
+  const float low = std::max(arch > 0 ? arch + 0.05f : 0.0f, std::lerp(s.ground_m, upper.belt, 0.30f));
   const float middle = std::max(low + 0.07f, std::lerp(s.ground_m, upper.belt, 0.66f));
   const float sill = arch > 0 ? 0.985f : 0.93f;
   return {{{x[i], width * sill, bottom},
            {x[i], width * 0.995f, low},
            {x[i], width, std::min(middle, upper.belt - 0.06f)},
            {upper.belt_x, width * (i >= 3 && i <= 8 ? 0.945f : 0.955f), upper.belt},
-           {upper.x,
-            l.half_width * upper.rail_half_width * (end ? 1.0f : std::min(1.0f, narrow + 0.04f)),
-            upper.rail},
+           {upper.x, l.half_width * upper.rail_half_width * (end ? 1.0f : std::min(1.0f, narrow + 0.04f)), upper.rail},
            {upper.x, 0.0f, upper.top}}};
 }
 
@@ -161,24 +148,20 @@ CarShape car_shape(const VehicleModel& model) {
     s.backlight_m = 0.50f;
     s.nose_half_width = 0.78f;
   } else if (model.name == "estate") {
-    s = {0.17f, 0.93f, 0.96f, 0.96f, 0.78f, 1.00f, 0.90f, 0.58f,
-         1.42f, 0.34f, 0.12f, 0.69f, 0.76f, 0.88f, 0.04f, true};
+    s = {0.17f, 0.93f, 0.96f, 0.96f, 0.78f, 1.00f, 0.90f, 0.58f, 1.42f, 0.34f, 0.12f, 0.69f, 0.76f, 0.88f, 0.04f, true};
   } else if (model.name == "suv") {
-    s = {0.26f, 1.08f, 1.12f, 1.12f, 0.98f, 1.14f, 1.02f, 0.42f,
-         1.22f, 0.40f, 0.14f, 0.70f, 0.82f, 0.90f, 0.04f, true};
+    s = {0.26f, 1.08f, 1.12f, 1.12f, 0.98f, 1.14f, 1.02f, 0.42f, 1.22f, 0.40f, 0.14f, 0.70f, 0.82f, 0.90f, 0.04f, true};
   } else if (model.kind == ParticipantKind::van || model.kind == ParticipantKind::ambulance) {
     s = {0.24f, 1.28f, 1.30f, 1.22f, 0.98f, 1.34f, 1.20f, 0.22f,
          1.02f, 0.10f, 0.05f, 0.86f, 0.82f, 0.98f, 0.05f, false};
     if (model.kind == ParticipantKind::ambulance) s.roof_half_width = 0.88f;
   } else {
-    SEPTET_CHECK(model.kind == ParticipantKind::car, "{} is not built from a car's lines",
-                 model.name);
+    SEPTET_CHECK(model.kind == ParticipantKind::car, "{} is not built from a car's lines", model.name);
   }
   return s;
 }
 
-PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape,
-                          std::uint32_t subdivision_level) {
+PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std::uint32_t subdivision_level) {
   const Lines l = lines_of(model);
   MeshBuilder builder;
   builder.material = index_of(Finish::paint);
@@ -212,22 +195,18 @@ PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape,
   for (int i = 0; i + 1 < station_count; ++i) {
     // Sharp along the sills and the wheel arches, firm along the shoulders, half firm at both ends.
     for (const int k : {0, ring_points - 1}) geometry::crease_edge(cage, at(i, k), at(i + 1, k));
-    for (const int k : {3, 7})
-      geometry::crease_edge(cage, at(i, k), at(i + 1, k), crease_share(0.45f));
+    for (const int k : {3, 7}) geometry::crease_edge(cage, at(i, k), at(i + 1, k), crease_share(0.45f));
   }
   for (int k = 0; k < ring_points; ++k)
-    for (const int i : {0, last})
-      geometry::crease_edge(cage, at(i, k), at(i, k + 1), crease_share(0.3f));
+    for (const int i : {0, last}) geometry::crease_edge(cage, at(i, k), at(i, k + 1), crease_share(0.3f));
   for (const int k : {4, 5}) {
-    for (const int i : {2, 9})
-      geometry::crease_edge(cage, at(i, k), at(i, k + 1), crease_share(0.5f));
+    for (const int i : {2, 9}) geometry::crease_edge(cage, at(i, k), at(i, k + 1), crease_share(0.5f));
     for (const int i : {2, 9})
       geometry::crease_edge(cage, at(i, k + 1), at(i, k + 2 > 6 ? 6 : k + 2), crease_share(0.5f));
   }
   fit_bounds(cage, subdivision_level,
              {{l.rear, -l.half_width, shape.ground_m},
-              {l.front, l.half_width,
-               l.height - (model.kind == ParticipantKind::ambulance ? 0.16f : 0.0f)}});
+              {l.front, l.half_width, l.height - (model.kind == ParticipantKind::ambulance ? 0.16f : 0.0f)}});
   return cage;
 }
 
@@ -254,9 +233,7 @@ PolygonMesh car_body_far(const VehicleModel& model, const CarShape& s) {
       // Windows: the sides between belt and roof, the slopes before and behind.
       const bool window = cabin && ((k == 1 || k == 3) || (k == 2 && i != 2));
       const bool panel_van = model.kind != ParticipantKind::car && i != 3;
-      builder.material = index_of(k == 5                 ? Finish::underbody
-                                  : window && !panel_van ? Finish::glass
-                                                         : Finish::paint);
+      builder.material = index_of(k == 5 ? Finish::underbody : window && !panel_van ? Finish::glass : Finish::paint);
       builder.quad(at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
     }
   builder.material = index_of(Finish::paint);

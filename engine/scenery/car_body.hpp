@@ -34,8 +34,7 @@ struct CarShape {
 CarShape car_shape(const VehicleModel& model);
 
 /// The cage. After `subdivision_level` steps its bounds are those of the model.
-geometry::PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape,
-                                    std::uint32_t subdivision_level);
+geometry::PolygonMesh car_body_cage(const VehicleModel& model, const CarShape& shape, std::uint32_t subdivision_level);
 
 /// A body of a few dozen polygons with its windows, for far away; materials are Finish indices.
 geometry::PolygonMesh car_body_far(const VehicleModel& model, const CarShape& shape);

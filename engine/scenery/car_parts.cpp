@@ -23,12 +23,10 @@ VehiclePart part(std::string name, PolygonMesh mesh, std::uint32_t subdivision_l
 /// Dark discs on the flanks stand in for the wheels of a far car.
 void add_far_wheels(geometry::MeshBuilder& builder, const VehicleModel& model) {
   builder.material = index_of(Finish::tyre);
-  const auto r = static_cast<float>(model.wheel_radius_m),
-             y = static_cast<float>(model.width_m / 2) + 0.01f;
+  const auto r = static_cast<float>(model.wheel_radius_m), y = static_cast<float>(model.width_m / 2) + 0.01f;
   for (const float x : {0.0f, static_cast<float>(model.wheelbase_m)}) {
     builder.patch({x + r, y, 0}, {x - r, y, 0}, {x - 0.8f * r, y, 2 * r}, {x + 0.8f * r, y, 2 * r});
-    builder.patch({x - r, -y, 0}, {x + r, -y, 0}, {x + 0.8f * r, -y, 2 * r},
-                  {x - 0.8f * r, -y, 2 * r});
+    builder.patch({x - r, -y, 0}, {x + r, -y, 0}, {x + 0.8f * r, -y, 2 * r}, {x - 0.8f * r, -y, 2 * r});
   }
 }
 
@@ -41,11 +39,10 @@ VehicleParts car_parts(const VehicleModel& model) {
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
     const std::string suffix = std::string(" ") + name_of(level);
     const std::uint32_t steps = level == DetailLevel::near ? 1 : 0;
-    PolygonMesh cage =
-        level == DetailLevel::far ? car_body_far(model, shape) : car_body_cage(model, shape, steps);
+    PolygonMesh cage = level == DetailLevel::far ? car_body_far(model, shape) : car_body_cage(model, shape, steps);
     if (ambulance)
-      std::replace(cage.polygon_materials.begin(), cage.polygon_materials.end(),
-                   index_of(Finish::paint), index_of(Finish::livery_yellow));
+      std::replace(cage.polygon_materials.begin(), cage.polygon_materials.end(), index_of(Finish::paint),
+                   index_of(Finish::livery_yellow));
     const PolygonMesh body = shown_surface(cage, steps);
     const CarSurface surface{model, shape, body, level};
     VehicleParts of_level;

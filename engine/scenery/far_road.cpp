@@ -11,8 +11,7 @@ namespace {
 constexpr double short_tile_m = 160.0, long_tile_m = 640.0;
 constexpr float short_until_m = 1500.0f, long_from_m = 1100.0f;
 
-void add_far(const WorldContext& world, const RoadTile& tile, double step_m, float from_m,
-             float to_m) {
+void add_far(const WorldContext& world, const RoadTile& tile, double step_m, float from_m, float to_m) {
   geometry::MeshBuilder builder;
   draw_far_pavement(builder, world, tile, step_m);
   draw_far_marks(builder, world, tile, step_m);
@@ -27,10 +26,8 @@ void add_far(const WorldContext& world, const RoadTile& tile, double step_m, flo
 }  // namespace
 
 void build_far_road(const WorldContext& world) {
-  for (const RoadTile& tile : world.roads.tiles(short_tile_m))
-    add_far(world, tile, 40.0, road_near_m, short_until_m);
-  for (const RoadTile& tile : world.roads.tiles(long_tile_m))
-    add_far(world, tile, 80.0, long_from_m, 7000.0f);
+  for (const RoadTile& tile : world.roads.tiles(short_tile_m)) add_far(world, tile, 40.0, road_near_m, short_until_m);
+  for (const RoadTile& tile : world.roads.tiles(long_tile_m)) add_far(world, tile, 80.0, long_from_m, 7000.0f);
 }
 
 }  // namespace septet::scenery

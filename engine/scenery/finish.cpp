@@ -93,8 +93,7 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     material.takes_paint = i == index_of(Finish::paint);
     const std::string name = std::string("vehicle/") + look.name;
     const auto with_image = [&](const Image& picture) {
-      material.base_color_bitmap =
-          builder.add_bitmap(name, picture.width, picture.height, picture.rgba);
+      material.base_color_bitmap = builder.add_bitmap(name, picture.width, picture.height, picture.rgba);
     };
     if (i == index_of(Finish::plate)) with_image(plate_image());
     if (i == index_of(Finish::chequers)) with_image(chequer_image());

@@ -32,23 +32,17 @@ geometry::PolygonMesh frame_mesh(double width_m) {
   }
   for (const float x : {-0.45f, 0.45f})
     for (const float z : {beam_low_m, beam_high_m - 0.14f})
-      add_bar(builder, Ground::metal, {x - 0.07f, -half_width, z},
-              {x + 0.07f, half_width, z + 0.14f});
+      add_bar(builder, Ground::metal, {x - 0.07f, -half_width, z}, {x + 0.07f, half_width, z + 0.14f});
   const int bays = static_cast<int>(half_width * 2 / 2.4f);
   builder.material = index_of(Ground::metal);
   for (int i = 0; i < bays; ++i) {
-    const float y0 =
-                    -half_width + 2 * half_width * static_cast<float>(i) / static_cast<float>(bays),
-                y1 = -half_width +
-                     2 * half_width * static_cast<float>(i + 1) / static_cast<float>(bays);
-    const float low = i % 2 == 0 ? beam_low_m : beam_high_m,
-                high = i % 2 == 0 ? beam_high_m : beam_low_m;
+    const float y0 = -half_width + 2 * half_width * static_cast<float>(i) / static_cast<float>(bays),
+                y1 = -half_width + 2 * half_width * static_cast<float>(i + 1) / static_cast<float>(bays);
+    const float low = i % 2 == 0 ? beam_low_m : beam_high_m, high = i % 2 == 0 ? beam_high_m : beam_low_m;
     for (const float x : {-0.45f, 0.45f}) {
       // Flat diagonals, seen from both sides.
-      builder.patch({x, y0, low - 0.05f}, {x, y1, high - 0.05f}, {x, y1, high + 0.05f},
-                    {x, y0, low + 0.05f});
-      builder.patch({x, y1, high - 0.05f}, {x, y0, low - 0.05f}, {x, y0, low + 0.05f},
-                    {x, y1, high + 0.05f});
+      builder.patch({x, y0, low - 0.05f}, {x, y1, high - 0.05f}, {x, y1, high + 0.05f}, {x, y0, low + 0.05f});
+      builder.patch({x, y1, high - 0.05f}, {x, y0, low - 0.05f}, {x, y0, low + 0.05f}, {x, y1, high + 0.05f});
     }
   }
   return builder.take();
@@ -77,14 +71,13 @@ class SignMaker {
   explicit SignMaker(const WorldContext& world) : world_(world) {}
 
   /// Places a board with this face; equal boards share their mesh, equal names their face.
-  void place_board(const std::string& name, const image::Image& face, bool shines, float width,
-                   float height, const RigidTransform& world_from_board, float until_m) {
+  void place_board(const std::string& name, const image::Image& face, bool shines, float width, float height,
+                   const RigidTransform& world_from_board, float until_m) {
     auto& shape = boards_[name];
     if (shape.geometry == scene::no_node) {
       scene::MaterialParameters material;
       material.base_color = shines ? glm::vec3(0.08f) : glm::vec3(0.85f);
-      material.base_color_bitmap =
-          world_.builder.add_bitmap("sign/" + name, face.width, face.height, face.rgba);
+      material.base_color_bitmap = world_.builder.add_bitmap("sign/" + name, face.width, face.height, face.rgba);
       material.roughness = 0.7f;
       if (shines) material.emission = glm::vec3(1.6f);
       const scene::NodeId painted = world_.builder.add_material("sign/" + name, material);
@@ -111,14 +104,12 @@ RigidTransform turned_round(const RigidTransform& pose) {
 image::Image face_for(double station_km, bool against, std::size_t number) {
   const auto rounded = [](double km) { return std::max(1, static_cast<int>(std::lround(km))); };
   if (against)
-    return direction_sign(
-        "E7", {{"Malmö", rounded(96.0 + station_km)}, {"Hässleby", rounded(21.0 + station_km)}});
+    return direction_sign("E7", {{"Malmö", rounded(96.0 + station_km)}, {"Hässleby", rounded(21.0 + station_km)}});
   if (number % 2 == 0)
     return direction_sign("E7", {{"Lindköping", rounded(24.0 - station_km)},
                                  {"Norrbro", rounded(63.0 - station_km)},
                                  {"Stockholm", rounded(218.0 - station_km)}});
-  return direction_sign(
-      "E7", {{"Lindköping", rounded(24.0 - station_km)}, {"Norrbro", rounded(63.0 - station_km)}});
+  return direction_sign("E7", {{"Lindköping", rounded(24.0 - station_km)}, {"Norrbro", rounded(63.0 - station_km)}});
 }
 
 }  // namespace
@@ -150,26 +141,23 @@ void build_gantries(const WorldContext& world) {
       const double km = road_start_km + object.s_m / 1000.0;
       const bool rest_area_ahead = km > 5.0 && km < 6.1;
       const std::string name = "direction " + std::to_string(number);
-      const image::Image ahead =
-          rest_area_ahead ? rest_area_sign(static_cast<int>(std::lround((6.3 - km) * 10.0)) * 100)
-                          : face_for(km, false, number);
+      const image::Image ahead = rest_area_ahead
+                                     ? rest_area_sign(static_cast<int>(std::lround((6.3 - km) * 10.0)) * 100)
+                                     : face_for(km, false, number);
       const double board_up = beam_low_m + 1.05;
-      signs.place_board(
-          name, ahead, false, 7.4f, 3.0f,
-          pose(object.s_m, -11.4, board_up) * RigidTransform{Vec3(-0.62, 0, 0), Quat(1, 0, 0, 0)},
-          900.0f);
-      signs.place_board(name + " back", face_for(km, true, number), false, 7.4f, 3.0f,
-                        turned_round(pose(object.s_m, 11.4, board_up)) *
-                            RigidTransform{Vec3(-0.62, 0, 0), Quat(1, 0, 0, 0)},
+      signs.place_board(name, ahead, false, 7.4f, 3.0f,
+                        pose(object.s_m, -11.4, board_up) * RigidTransform{Vec3(-0.62, 0, 0), Quat(1, 0, 0, 0)},
                         900.0f);
+      signs.place_board(
+          name + " back", face_for(km, true, number), false, 7.4f, 3.0f,
+          turned_round(pose(object.s_m, 11.4, board_up)) * RigidTransform{Vec3(-0.62, 0, 0), Quat(1, 0, 0, 0)}, 900.0f);
       ++number;
     }
     for (const road::Signal& signal : road.signals) {
       if (signal.name != "speed_display" && signal.type != "274") continue;
       const auto limit = static_cast<int>(std::lround(signal.value));
       const RigidTransform at = pose(signal.s_m, signal.t_m, signal.z_offset_m);
-      const RigidTransform facing =
-          signal.orientation == road::Orientation::against ? turned_round(at) : at;
+      const RigidTransform facing = signal.orientation == road::Orientation::against ? turned_round(at) : at;
       const auto size = static_cast<float>(signal.width_m > 0 ? signal.width_m : 1.2);
       signs.place_board("limit " + std::to_string(limit), speed_display(limit), true, size, size,
                         facing * RigidTransform{Vec3(-0.55, 0, 0), Quat(1, 0, 0, 0)}, 700.0f);

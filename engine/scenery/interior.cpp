@@ -29,8 +29,8 @@ geometry::PolygonMesh bonnet(const VehicleModel& model) {
     const glm::vec3 middle = (body.vertices_m[corners[0]] + body.vertices_m[corners[2]]) * 0.5f;
     const glm::vec3 area = glm::cross(body.vertices_m[corners[2]] - body.vertices_m[corners[0]],
                                       body.vertices_m[corners[3]] - body.vertices_m[corners[1]]);
-    const bool ahead = middle.x > cowl - 0.08f && middle.z > 0.5f &&
-                       middle.z < shape.hood_rear_m + 0.02f && area.z > 0.35f * glm::length(area);
+    const bool ahead = middle.x > cowl - 0.08f && middle.z > 0.5f && middle.z < shape.hood_rear_m + 0.02f &&
+                       area.z > 0.35f * glm::length(area);
     if (ahead) builder.quad(corners[0], corners[1], corners[2], corners[3]);
   }
   return builder.take();
@@ -55,8 +55,7 @@ geometry::PolygonMesh dashboard() {
     const float hood = std::exp(-std::pow((y - 0.37f) / 0.19f, 4.0f));
     for (std::size_t k = 0; k < profile.size(); ++k) {
       const float raise = k == 3 ? 0.040f : k == 4 ? 0.055f : k == 2 ? 0.015f : 0.0f;
-      builder.vertex(
-          {profile[k].x - (k == 4 ? 0.05f : 0.0f) * hood, y, profile[k].y + raise * hood});
+      builder.vertex({profile[k].x - (k == 4 ? 0.05f : 0.0f) * hood, y, profile[k].y + raise * hood});
     }
   }
   const auto count = static_cast<std::uint32_t>(profile.size());
@@ -79,8 +78,7 @@ geometry::PolygonMesh steering_wheel() {
   std::array<glm::vec2, 7> section{};
   std::vector<geometry::PathFrame> path;
   for (std::size_t k = 0; k < section.size(); ++k) {
-    const float a =
-        2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(section.size());
+    const float a = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(section.size());
     section[k] = {0.016f * std::cos(a), 0.016f * std::sin(a)};
   }
   for (int i = 0; i <= around; ++i) {
@@ -89,10 +87,8 @@ geometry::PolygonMesh steering_wheel() {
   }
   builder.append(geometry::extrude(section, path, true), glm::mat4(1.0f), true);
   builder.material = index_of(Finish::cabin);
-  for (const float angle :
-       {0.12f, std::numbers::pi_v<float> - 0.12f, 1.5f * std::numbers::pi_v<float>})
-    add_limb(builder, {0.03f, 0, 0},
-             {0, 0.97f * radius * std::cos(angle), 0.97f * radius * std::sin(angle)}, 0.026f,
+  for (const float angle : {0.12f, std::numbers::pi_v<float> - 0.12f, 1.5f * std::numbers::pi_v<float>})
+    add_limb(builder, {0.03f, 0, 0}, {0, 0.97f * radius * std::cos(angle), 0.97f * radius * std::sin(angle)}, 0.026f,
              0.016f, 6);
   add_blob(builder, {0.035f, 0, -0.005f}, {0.03f, 0.075f, 0.062f}, 2);
   return builder.take();

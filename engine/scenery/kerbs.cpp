@@ -35,7 +35,8 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
     std::size_t tried = 0;
     for (k %= n; tried < n && !is_ear(k); ++tried) k = (k + 1) % n;
     if (tried == n) return;
-    builder.triangle(builder.vertex(top[left[(k + n - 1) % n]]), builder.vertex(top[left[k]]), builder.vertex(top[left[(k + 1) % n]]));
+    builder.triangle(builder.vertex(top[left[(k + n - 1) % n]]), builder.vertex(top[left[k]]),
+                     builder.vertex(top[left[(k + 1) % n]]));
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }

@@ -33,9 +33,8 @@ Ground field_at(const WorldContext& world, const Vec2& p) {
   double best = 1e18, kind = 0.0;
   for (std::int64_t y = cy - 1; y <= cy + 1; ++y)
     for (std::int64_t x = cx - 1; x <= cx + 1; ++x) {
-      const Vec2 seed_point(
-          (static_cast<double>(x) + lattice_random(x, y, world.seed + 5)) * spacing,
-          (static_cast<double>(y) + lattice_random(x, y, world.seed + 6)) * spacing);
+      const Vec2 seed_point((static_cast<double>(x) + lattice_random(x, y, world.seed + 5)) * spacing,
+                            (static_cast<double>(y) + lattice_random(x, y, world.seed + 6)) * spacing);
       const double distance = glm::dot(q - seed_point, q - seed_point);
       if (distance < best) {
         best = distance;
@@ -55,10 +54,7 @@ Ground field_at(const WorldContext& world, const Vec2& p) {
 class LandGrid {
  public:
   LandGrid(const WorldContext& world, const Vec2& corner, double side_m, double cell)
-      : world_(world),
-        corner_(corner),
-        cell_(cell),
-        count_(static_cast<int>(std::lround(side_m / cell))) {
+      : world_(world), corner_(corner), cell_(cell), count_(static_cast<int>(std::lround(side_m / cell))) {
     const Vec2 middle = corner + Vec2(side_m / 2);
     origin_ = Vec3(middle, world.terrain.height_m(middle));
     for (int y = -1; y <= count_ + 1; ++y)
@@ -76,9 +72,7 @@ class LandGrid {
     double z;
   };
   const Vec3& origin() const { return origin_; }
-  const Point& at(int x, int y) const {
-    return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)];
-  }
+  const Point& at(int x, int y) const { return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)]; }
   glm::vec3 local(int x, int y, double up = 0.0) const {
     const Point& point = at(x, y);
     return glm::vec3(Vec3(point.p, point.z + up) - origin_);
@@ -105,14 +99,12 @@ class LandGrid {
         }
         const Ground kind = kind_at(middle, near);
         builder.material = index_of(plain ? far_of(kind) : kind);
-        const std::uint32_t a =
-            first + static_cast<std::uint32_t>(y + 1) * stride + static_cast<std::uint32_t>(x + 1);
+        const std::uint32_t a = first + static_cast<std::uint32_t>(y + 1) * stride + static_cast<std::uint32_t>(x + 1);
         // A whole number of repeats per cell: neighbours meet, and the numbers are small on the
         // wire.
         const auto d = static_cast<float>(std::round(cell_ / texture_m));
-        builder.quad(
-            a, a + 1, a + stride + 1, a + stride,
-            plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
+        builder.quad(a, a + 1, a + stride + 1, a + stride,
+                     plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
       }
     return has_hole;
   }
@@ -128,36 +120,30 @@ class LandGrid {
     std::map<std::pair<int, int>, std::uint32_t> tops;
     const auto top_point = [&](int x, int y) {
       const Vec2& p = at(x, y).p;
-      return local(
-          x, y, 10.5 + 5.5 * lattice_random(std::llround(p.x), std::llround(p.y), world_.seed + 8));
+      return local(x, y, 10.5 + 5.5 * lattice_random(std::llround(p.x), std::llround(p.y), world_.seed + 8));
     };
     const auto top = [&](int x, int y) {
       const auto [place, fresh] = tops.try_emplace({x, y}, 0u);
       if (fresh) place->second = builder.vertex(top_point(x, y));
       return place->second;
     };
-    const auto length = static_cast<float>(cell_ / 55.0),
-               d = static_cast<float>(std::round(cell_ / texture_m));
+    const auto length = static_cast<float>(cell_ / 55.0), d = static_cast<float>(std::round(cell_ / texture_m));
     for (int y = 0; y < count_; ++y)
       for (int x = 0; x < count_; ++x) {
         if (!is_wood(x, y)) continue;
         builder.material = index_of(plain ? Ground::far_canopy : Ground::canopy);
-        builder.quad(
-            top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1),
-            plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
+        builder.quad(top(x, y), top(x + 1, y), top(x + 1, y + 1), top(x, y + 1),
+                     plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
         const auto side = [&](int nx, int ny, int ax, int ay, int bx, int by) {
           if (is_wood(nx, ny)) return;
           // The trees' tips stand out over the roof; from afar the side is part of it.
           const glm::vec3 tips(0, 0, plain_sides ? 0.0f : 2.5f);
           const auto start = static_cast<float>(lattice_random(x, y, 3));
           builder.material = index_of(plain_sides ? Ground::far_canopy : Ground::wood_edge);
-          builder.patch(local(ax, ay, -0.5), local(bx, by, -0.5), top_point(bx, by) + tips,
-                        top_point(ax, ay) + tips,
+          builder.patch(local(ax, ay, -0.5), local(bx, by, -0.5), top_point(bx, by) + tips, top_point(ax, ay) + tips,
                         plain_sides ? geometry::CornerUvs{}
-                                    : geometry::CornerUvs{{{start, 1},
-                                                           {start + length, 1},
-                                                           {start + length, 0.02f},
-                                                           {start, 0.02f}}});
+                                    : geometry::CornerUvs{
+                                          {{start, 1}, {start + length, 1}, {start + length, 0.02f}, {start, 0.02f}}});
         };
         side(x, y - 1, x, y, x + 1, y);
         side(x + 1, y, x + 1, y, x + 1, y + 1);
@@ -181,8 +167,8 @@ class LandGrid {
   std::vector<Point> points_;
 };
 
-void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* name,
-                   const geometry::PolygonMesh& mesh, float from, float to) {
+void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* name, const geometry::PolygonMesh& mesh,
+                   float from, float to) {
   if (mesh.polygons.empty()) return;
   scene::MeshOptions options;
   options.position_step_m = 1.0 / 64.0;
@@ -191,13 +177,11 @@ void add_land_mesh(const WorldContext& world, const Vec3& origin, const char* na
   placement.visible_from_m = from;
   placement.visible_to_m = to;
   placement.casts_shadow = false;
-  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options),
-        placement);
+  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options), placement);
 }
 
 /// Land and woods of a grid in plain colours as one mesh.
-void build_plain(const WorldContext& world, const LandGrid& grid, const Vec3& origin, float from_m,
-                 float to_m) {
+void build_plain(const WorldContext& world, const LandGrid& grid, const Vec3& origin, float from_m, float to_m) {
   MeshBuilder builder;
   grid.draw_ground(builder, true);
   grid.draw_canopy(builder, true);
@@ -224,8 +208,7 @@ void build_tile(const WorldContext& world, const Vec2& corner) {
   if (has_hole)
     build_plain(world, near, near.origin(), land_near_m, middle_until_m);
   else
-    build_plain(world, LandGrid(world, corner, tile_m, middle_cell_m), near.origin(), land_near_m,
-                middle_until_m);
+    build_plain(world, LandGrid(world, corner, tile_m, middle_cell_m), near.origin(), land_near_m, middle_until_m);
 }
 
 void build_middle_tile(const WorldContext& world, const Vec2& corner) {
@@ -245,8 +228,7 @@ void build_water(const WorldContext& world, const Terrain::Valley& valley) {
   const Vec2 across(-valley.along.y, valley.along.x);
   std::uint32_t last = 0;
   for (double distance = -330.0; distance <= 330.0; distance += 15.0) {
-    const Vec2 middle =
-        Vec2(valley.middle_m) + across * distance + valley.along * Terrain::meander_m(distance);
+    const Vec2 middle = Vec2(valley.middle_m) + across * distance + valley.along * Terrain::meander_m(distance);
     const double z = world.terrain.height_m(middle) + 1.1;
     const glm::vec3 left(Vec3(middle - valley.along * 11.0, z) - valley.middle_m),
         right(Vec3(middle + valley.along * 11.0, z) - valley.middle_m);

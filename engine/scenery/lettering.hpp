@@ -14,17 +14,15 @@ class Lettering {
   explicit Lettering(image::FontStyle style) {
     if (auto found = image::Font::find(style)) font_.emplace(std::move(*found));
   }
-  void left(image::Image& target, double x, double baseline_y, std::string_view text,
-            double size_px, image::Color color) const {
+  void left(image::Image& target, double x, double baseline_y, std::string_view text, double size_px,
+            image::Color color) const {
     if (font_) font_->draw(target, x, baseline_y, text, size_px, color);
   }
-  void centred(image::Image& target, double x, double baseline_y, std::string_view text,
-               double size_px, image::Color color) const {
+  void centred(image::Image& target, double x, double baseline_y, std::string_view text, double size_px,
+               image::Color color) const {
     if (font_) font_->draw_centred(target, x, baseline_y, text, size_px, color);
   }
-  double width_px(std::string_view text, double size_px) const {
-    return font_ ? font_->width_px(text, size_px) : 0.0;
-  }
+  double width_px(std::string_view text, double size_px) const { return font_ ? font_->width_px(text, size_px) : 0.0; }
 
  private:
   std::optional<image::Font> font_;

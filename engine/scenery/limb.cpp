@@ -10,8 +10,8 @@
 
 namespace septet::scenery {
 
-void add_limb(geometry::MeshBuilder& builder, const glm::vec3& a, const glm::vec3& b, float ra,
-              float rb, std::uint32_t sides) {
+void add_limb(geometry::MeshBuilder& builder, const glm::vec3& a, const glm::vec3& b, float ra, float rb,
+              std::uint32_t sides) {
   const float length = glm::distance(a, b);
   const glm::vec3 along = (b - a) / length;
   const glm::vec3 helper = std::abs(along.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
@@ -22,10 +22,8 @@ void add_limb(geometry::MeshBuilder& builder, const glm::vec3& a, const glm::vec
   builder.append(geometry::lathe(profile, sides), frame, true);
 }
 
-void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm::vec3& radii,
-              std::uint32_t splits) {
-  builder.append(geometry::icosphere(splits),
-                 glm::scale(glm::translate(glm::mat4(1.0f), centre), radii), true);
+void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm::vec3& radii, std::uint32_t splits) {
+  builder.append(geometry::icosphere(splits), glm::scale(glm::translate(glm::mat4(1.0f), centre), radii), true);
 }
 
 }  // namespace septet::scenery

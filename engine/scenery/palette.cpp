@@ -6,36 +6,31 @@
 
 namespace septet::scenery {
 
-Shape add_shape(scene::SceneBuilder& builder, std::string_view name,
-                const geometry::PolygonMesh& mesh, const Palette& palette,
-                const scene::MeshOptions& options) {
+Shape add_shape(scene::SceneBuilder& builder, std::string_view name, const geometry::PolygonMesh& mesh,
+                const Palette& palette, const scene::MeshOptions& options) {
   Shape shape;
   geometry::PolygonMesh renumbered = mesh;
-  if (renumbered.polygon_materials.empty())
-    renumbered.polygon_materials.assign(mesh.polygons.size(), 0);
+  if (renumbered.polygon_materials.empty()) renumbered.polygon_materials.assign(mesh.polygons.size(), 0);
   std::vector<std::uint32_t> used = renumbered.polygon_materials;
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   for (std::uint32_t& index : renumbered.polygon_materials)
-    index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), index) -
-                                       used.begin());
+    index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
   if (used.size() <= 1) renumbered.polygon_materials.clear();
   for (const std::uint32_t index : used) {
     SEPTET_CHECK(index < palette.size(), "material {} of {} in {}", index, palette.size(), name);
     shape.materials.push_back(palette[index]);
   }
-  const bool has_uvs =
-      std::any_of(mesh.corner_uvs.begin(), mesh.corner_uvs.end(), [](const auto& uvs) {
-        return std::any_of(uvs.begin(), uvs.end(),
-                           [](glm::vec2 uv) { return uv != glm::vec2(0.0f); });
-      });
+  const bool has_uvs = std::any_of(mesh.corner_uvs.begin(), mesh.corner_uvs.end(), [](const auto& uvs) {
+    return std::any_of(uvs.begin(), uvs.end(), [](glm::vec2 uv) { return uv != glm::vec2(0.0f); });
+  });
   if (!has_uvs) renumbered.corner_uvs.clear();
   shape.geometry = builder.add_mesh(name, renumbered, options);
   return shape;
 }
 
-scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const Shape& shape,
-                    const Placement& placement, scene::NodeId parent) {
+scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const Shape& shape, const Placement& placement,
+                    scene::NodeId parent) {
   scene::ObjectParameters parameters;
   parameters.parent_from_object = placement.parent_from_object;
   parameters.scale = placement.scale;

@@ -29,12 +29,11 @@ struct Shape {
 };
 
 /// Adds the mesh; its material indices are renumbered so that only used materials are linked.
-Shape add_shape(scene::SceneBuilder& builder, std::string_view name,
-                const geometry::PolygonMesh& mesh, const Palette& palette,
-                const scene::MeshOptions& options = {});
+Shape add_shape(scene::SceneBuilder& builder, std::string_view name, const geometry::PolygonMesh& mesh,
+                const Palette& palette, const scene::MeshOptions& options = {});
 
 /// Places a shape; as a child of `parent` unless that is no_node.
-scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const Shape& shape,
-                    const Placement& placement, scene::NodeId parent = scene::no_node);
+scene::NodeId place(scene::SceneBuilder& builder, std::string_view name, const Shape& shape, const Placement& placement,
+                    scene::NodeId parent = scene::no_node);
 
 }  // namespace septet::scenery

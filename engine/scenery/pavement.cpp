@@ -42,10 +42,8 @@ class TileSurface {
 Ground asphalt_of(const RoadTile& tile) {
   if (tile.in_tunnel) return Ground::asphalt_tunnel;
   // Stretches were laid in different years.
-  const auto stretch =
-      static_cast<std::int64_t>(std::floor(tile.middle_m() / 900.0)) + tile.road * 3;
-  constexpr Ground laid[]{Ground::asphalt, Ground::asphalt_old, Ground::asphalt,
-                          Ground::asphalt_fresh};
+  const auto stretch = static_cast<std::int64_t>(std::floor(tile.middle_m() / 900.0)) + tile.road * 3;
+  constexpr Ground laid[]{Ground::asphalt, Ground::asphalt_old, Ground::asphalt, Ground::asphalt_fresh};
   return laid[((stretch % 4) + 4) % 4];
 }
 
@@ -68,8 +66,7 @@ geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& t
   }
   for (std::size_t k = 0; k + 1 < borders.size(); ++k)
     for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-      const double width0 = border_t[k][i] - border_t[k + 1][i],
-                   width1 = border_t[k][i + 1] - border_t[k + 1][i + 1];
+      const double width0 = border_t[k][i] - border_t[k + 1][i], width1 = border_t[k][i + 1] - border_t[k + 1][i + 1];
       if (width0 < 1e-3 && width1 < 1e-3) continue;
       const bool lane = std::max(width0, width1) > 3.0;
       const auto u0 = static_cast<float>(lane ? 1.0 : width0 / texture_width_m),
@@ -84,8 +81,8 @@ geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& t
 
 /// A stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
 template <class T>
-void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1,
-                 double width_m, double lift_m, const T& t_of, bool textured = false) {
+void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1, double width_m, double lift_m,
+                 const T& t_of, bool textured = false) {
   std::vector<double> cuts{s0};
   for (const double s : surface.at())
     if (s > s0 + 0.05 && s < s1 - 0.05) cuts.push_back(s);
@@ -100,8 +97,7 @@ void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, do
                  v0 = static_cast<float>((cuts[i - 1] - s0) / texture_length_m),
                  v1 = static_cast<float>((cuts[i] - s0) / texture_length_m);
       builder.quad(left, right, new_right, new_left,
-                   textured ? geometry::CornerUvs{{{0, v0}, {u, v0}, {u, v1}, {0, v1}}}
-                            : geometry::CornerUvs{});
+                   textured ? geometry::CornerUvs{{{0, v0}, {u, v0}, {u, v1}, {0, v1}}} : geometry::CornerUvs{});
     }
     left = new_left;
     right = new_right;
@@ -110,15 +106,14 @@ void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, do
 
 /// Lines that are seen as less than a pixel are drawn wider and as much darker.
 Ground mark_of(const RoadTile& tile, bool broken, bool near, double widening) {
-  if (near)
-    return tile.in_tunnel ? Ground::mark_tunnel : widening > 1.0 ? Ground::mark_far : Ground::mark;
+  if (near) return tile.in_tunnel ? Ground::mark_tunnel : widening > 1.0 ? Ground::mark_far : Ground::mark;
   return broken ? Ground::far_mark_broken : Ground::far_mark;
 }
 
 /// All lines of a tile; far away broken ones become continuous in their mean grey, which keeps
 /// still.
-void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near,
-                double step_m, double widening) {
+void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near, double step_m,
+                double widening) {
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
   const TileSurface surface(world.roads, tile, step_m);
@@ -127,25 +122,22 @@ void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile&
     for (const road::RoadMark& mark : lane.marks)
       for (const road::RoadMarkLine& line : mark.lines) {
         const double begin = std::max(tile.s0_m, mark.s_m > 1e-6 ? mark.s_m : tile.s0_m);
-        const double end =
-            std::min(tile.s1_m, mark.s_end_m < road.length_m - 1e-6 ? mark.s_end_m : tile.s1_m);
+        const double end = std::min(tile.s1_m, mark.s_end_m < road.length_m - 1e-6 ? mark.s_end_m : tile.s1_m);
         if (end - begin < 0.05 || line.width_m <= 0.0) continue;
         const auto t_of = [&](double s) { return border(s) + line.t_offset_m; };
         const bool broken = line.space_m > 0.0;
         if (broken && step_m > 60.0) continue;  // Too far to be told from the asphalt.
         builder.material = index_of(mark_of(tile, broken, near, widening));
         if (!broken || !near) {
-          draw_stripe(builder, surface, begin, end, line.width_m * widening,
-                      near ? mark_lift_m : far_mark_lift_m, t_of);
+          draw_stripe(builder, surface, begin, end, line.width_m * widening, near ? mark_lift_m : far_mark_lift_m,
+                      t_of);
           continue;
         }
         const double period = line.length_m + line.space_m;
         const double origin = mark.s_m + line.s_offset_m;
-        for (double s = origin + std::floor((begin - origin) / period) * period; s < end;
-             s += period) {
+        for (double s = origin + std::floor((begin - origin) / period) * period; s < end; s += period) {
           const double s0 = std::max(s, begin), s1 = std::min(s + line.length_m, end);
-          if (s1 - s0 > 0.05)
-            draw_stripe(builder, surface, s0, s1, line.width_m * widening, mark_lift_m, t_of);
+          if (s1 - s0 > 0.05) draw_stripe(builder, surface, s0, s1, line.width_m * widening, mark_lift_m, t_of);
         }
       }
   }
@@ -166,15 +158,13 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
   const double length = tile.s1_m - tile.s0_m;
   if (random.uniform() < 0.55 && length > 40.0) {
     const int lane = any_lane();
-    const double s0 = tile.s0_m + random.uniform(2.0, length - 25.0),
-                 s1 = s0 + random.uniform(4.0, 22.0);
+    const double s0 = tile.s0_m + random.uniform(2.0, length - 25.0), s1 = s0 + random.uniform(4.0, 22.0);
     const road::LaneBorders borders = road::lane_borders(road, section, lane, s0);
     const double width = borders.width_m() * random.uniform(0.45, 0.92),
                  shift = random.uniform(-0.5, 0.5) * (borders.width_m() - width - 0.3);
     draw_stripe(
         builder, surface, s0, s1, width, repair_lift_m,
-        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; },
-        true);
+        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; }, true);
   }
   for (int crack = 0; crack < 2; ++crack) {
     const int lane = any_lane();
@@ -200,26 +190,22 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
 
 }  // namespace
 
-void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
-                       double step_m) {
+void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   builder.material = index_of(tile.in_tunnel ? Ground::asphalt_tunnel : Ground::far_asphalt);
   std::uint32_t last = 0;
   const std::vector<double> along = stations(tile, step_m);
   for (std::size_t i = 0; i < along.size(); ++i) {
     const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
     const std::uint32_t row = builder.vertex(world.roads.local(tile, along[i], extent.left_t_m));
-    builder.vertex(
-        world.roads.local(tile, along[i], std::clamp(0.0, extent.right_t_m, extent.left_t_m)));
+    builder.vertex(world.roads.local(tile, along[i], std::clamp(0.0, extent.right_t_m, extent.left_t_m)));
     builder.vertex(world.roads.local(tile, along[i], extent.right_t_m));
     if (i > 0)
-      for (std::uint32_t k = 0; k < 2; ++k)
-        builder.quad(last + k, last + k + 1, row + k + 1, row + k);
+      for (std::uint32_t k = 0; k < 2; ++k) builder.quad(last + k, last + k + 1, row + k + 1, row + k);
     last = row;
   }
 }
 
-void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
-                    double step_m) {
+void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   draw_marks(builder, world, tile, false, step_m, 3.0);
 }
 

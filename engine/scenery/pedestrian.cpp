@@ -14,23 +14,20 @@ geometry::PolygonMesh walking_person(float height, std::uint32_t sides, std::uin
   b.material = index_of(Finish::cloth_dark);
   for (const float side : {1.0f, -1.0f}) {
     const float stride = side * 0.16f;
-    add_limb(b, p(0, side * 0.09f, 0.90f), p(stride * 0.55f, side * 0.09f, 0.50f), 0.085f * h,
-             0.062f * h, sides);
-    add_limb(b, p(stride * 0.55f, side * 0.09f, 0.50f), p(stride - 0.04f, side * 0.085f, 0.10f),
-             0.062f * h, 0.045f * h, sides);
+    add_limb(b, p(0, side * 0.09f, 0.90f), p(stride * 0.55f, side * 0.09f, 0.50f), 0.085f * h, 0.062f * h, sides);
+    add_limb(b, p(stride * 0.55f, side * 0.09f, 0.50f), p(stride - 0.04f, side * 0.085f, 0.10f), 0.062f * h, 0.045f * h,
+             sides);
   }
   b.material = index_of(Finish::leather);
   for (const float side : {1.0f, -1.0f})
-    add_blob(b, p(side * 0.16f + 0.03f, side * 0.085f, 0.045f), glm::vec3(0.13f, 0.05f, 0.05f) * h,
-             0);
+    add_blob(b, p(side * 0.16f + 0.03f, side * 0.085f, 0.045f), glm::vec3(0.13f, 0.05f, 0.05f) * h, 0);
   b.material = index_of(Finish::cloth_bright);
   add_blob(b, p(0, 0, 1.18f), glm::vec3(0.13f, 0.20f, 0.33f) * h, splits);
   for (const float side : {1.0f, -1.0f}) {
     const float swing = -side * 0.13f;
-    add_limb(b, p(0, side * 0.20f, 1.40f), p(swing * 0.5f, side * 0.26f, 1.13f), 0.058f * h,
-             0.048f * h, sides);
-    add_limb(b, p(swing * 0.5f, side * 0.26f, 1.13f), p(swing + 0.06f, side * 0.25f, 0.90f),
-             0.048f * h, 0.036f * h, sides);
+    add_limb(b, p(0, side * 0.20f, 1.40f), p(swing * 0.5f, side * 0.26f, 1.13f), 0.058f * h, 0.048f * h, sides);
+    add_limb(b, p(swing * 0.5f, side * 0.26f, 1.13f), p(swing + 0.06f, side * 0.25f, 0.90f), 0.048f * h, 0.036f * h,
+             sides);
   }
   b.material = index_of(Finish::skin);
   add_limb(b, p(0, 0, 1.44f), p(0.01f, 0, 1.54f), 0.055f * h, 0.05f * h, sides);

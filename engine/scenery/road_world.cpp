@@ -5,8 +5,8 @@
 
 namespace septet::scenery {
 
-void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network,
-                      std::uint64_t seed, const RoadWorldOptions& options) {
+void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network, std::uint64_t seed,
+                      const RoadWorldOptions& options) {
   const RoadShape roads(network, options.overrun_m);
   const Terrain terrain(roads, seed);
   const Palette palette = add_world_finishes(builder, seed);

@@ -22,11 +22,10 @@ struct RoadWorldOptions {
 
 /// Whether the world around the roads can be built in reasonable time and memory: as much land,
 /// road, paint and structures as a region holds. Error: what there is too much of.
-Expected<void> check_world_size(const road::RoadNetwork& network,
-                                const RoadWorldOptions& options = {});
+Expected<void> check_world_size(const road::RoadNetwork& network, const RoadWorldOptions& options = {});
 
 /// For a network that check_world_size lets pass.
-void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network,
-                      std::uint64_t seed, const RoadWorldOptions& options = {});
+void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network, std::uint64_t seed,
+                      const RoadWorldOptions& options = {});
 
 }  // namespace septet::scenery

@@ -29,8 +29,7 @@ Image blue_board() {
 Image direction_sign(std::string_view route, const std::vector<SignLine>& lines) {
   Image board = blue_board();
   const Lettering bold(image::FontStyle::bold);
-  const double size = lines.size() > 2 ? 46.0 : 56.0,
-               step = (height - 30.0) / static_cast<double>(lines.size());
+  const double size = lines.size() > 2 ? 46.0 : 56.0, step = (height - 30.0) / static_cast<double>(lines.size());
   double baseline = 15.0 + step / 2 + size * 0.36;
   for (const SignLine& line : lines) {
     bold.left(board, 106, baseline, line.place, size, white);
@@ -64,13 +63,12 @@ Image speed_display(int limit_kmh) {
   for (int i = 0; i < 36; ++i) {
     const double angle = i * 10.0 * 3.14159265358979 / 180.0;
     for (const double radius : {27.0, 23.5})
-      image::line(display, 32 + radius * std::cos(angle), 32 + radius * std::sin(angle),
-                  32 + radius * std::cos(angle), 32 + radius * std::sin(angle), 3.2, {255, 40, 30});
+      image::line(display, 32 + radius * std::cos(angle), 32 + radius * std::sin(angle), 32 + radius * std::cos(angle),
+                  32 + radius * std::sin(angle), 3.2, {255, 40, 30});
   }
   const std::string text = std::to_string(limit_kmh);
   Lettering(image::FontStyle::condensed_bold)
-      .centred(display, 32, 32 + (text.size() > 2 ? 8.0 : 10.0), text, text.size() > 2 ? 21 : 27,
-               white);
+      .centred(display, 32, 32 + (text.size() > 2 ? 8.0 : 10.0), text, text.size() > 2 ? 21 : 27, white);
   return display;
 }
 

@@ -51,11 +51,9 @@ std::vector<glm::vec3> vertex_normals(const PolygonMesh& mesh) {
     const std::uint32_t last = corners[geometry::corner_count(corners) - 1];
     const glm::vec3 normal = glm::cross(mesh.vertices_m[corners[2]] - mesh.vertices_m[corners[0]],
                                         mesh.vertices_m[last] - mesh.vertices_m[corners[1]]);
-    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
-      normals[corners[k]] += normal;
+    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) normals[corners[k]] += normal;
   }
-  for (glm::vec3& normal : normals)
-    normal = glm::length(normal) > 0.0f ? glm::normalize(normal) : glm::vec3(0, 0, 1);
+  for (glm::vec3& normal : normals) normal = glm::length(normal) > 0.0f ? glm::normalize(normal) : glm::vec3(0, 0, 1);
   return normals;
 }
 
@@ -70,8 +68,7 @@ std::vector<glm::vec2> rounded(const PatchOutline& outline, float cut) {
       continue;
     }
     // As long on both sides, so that the rounding is one of a circle.
-    const float reach =
-        cut * std::min(glm::distance(corner, before), glm::distance(corner, after)) * 2.0f;
+    const float reach = cut * std::min(glm::distance(corner, before), glm::distance(corner, after)) * 2.0f;
     const glm::vec2 from = corner + glm::normalize(before - corner) * reach,
                     to = corner + glm::normalize(after - corner) * reach;
     points.insert(points.end(), {from, (from + to + corner * 2.0f) * 0.25f, to});
@@ -81,19 +78,16 @@ std::vector<glm::vec2> rounded(const PatchOutline& outline, float cut) {
 
 float twice_area(const std::vector<glm::vec2>& polygon) {
   float area = 0.0f;
-  for (std::size_t k = 0; k < polygon.size(); ++k)
-    area += cross2(polygon[k], polygon[(k + 1) % polygon.size()]);
+  for (std::size_t k = 0; k < polygon.size(); ++k) area += cross2(polygon[k], polygon[(k + 1) % polygon.size()]);
   return area;
 }
 
 /// Sutherland and Hodgman 1974: what of `piece` lies left of every edge of the border.
-std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece,
-                                   const std::vector<glm::vec2>& border, const FaceAxes& axes) {
+std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece, const std::vector<glm::vec2>& border,
+                                   const FaceAxes& axes) {
   for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e) {
     const glm::vec2 from = border[e], along = border[(e + 1) % border.size()] - from;
-    const auto side = [&](const SurfaceVertex& v) {
-      return cross2(along, flat(axes, v.position_m) - from);
-    };
+    const auto side = [&](const SurfaceVertex& v) { return cross2(along, flat(axes, v.position_m) - from); };
     std::vector<SurfaceVertex> kept;
     for (std::size_t k = 0; k < piece.size(); ++k) {
       const SurfaceVertex &a = piece[k], &b = piece[(k + 1) % piece.size()];
@@ -115,8 +109,7 @@ PatchOutline rectangle(Face face, glm::vec2 low, glm::vec2 high) {
   // Seen from the front the car's left (greater y) is on the right; seen from its left side the
   // front (greater x) is on the left.
   if (face == Face::rear || face == Face::left) std::swap(low.x, high.x);
-  if (face == Face::top)
-    return {{{{low.x, high.y}, {low.x, low.y}, {high.x, low.y}, {high.x, high.y}}}};
+  if (face == Face::top) return {{{{low.x, high.y}, {low.x, low.y}, {high.x, low.y}, {high.x, high.y}}}};
   return {{{{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}}};
 }
 
@@ -128,8 +121,7 @@ std::optional<glm::vec3> surface_point(const PolygonMesh& body, Face face, glm::
       const glm::vec3& p = body.vertices_m[corners[0]];
       const glm::vec3& q = body.vertices_m[corners[k]];
       const glm::vec3& r = body.vertices_m[corners[k + 1]];
-      const glm::vec2 a = flat(axes, p), ab = flat(axes, q) - a, ac = flat(axes, r) - a,
-                      offset = point - a;
+      const glm::vec2 a = flat(axes, p), ab = flat(axes, q) - a, ac = flat(axes, r) - a, offset = point - a;
       const float area = cross2(ab, ac);
       if (std::abs(area) < 1e-9f) continue;
       const float wb = cross2(offset, ac) / area, wc = cross2(ab, offset) / area;
@@ -140,8 +132,8 @@ std::optional<glm::vec3> surface_point(const PolygonMesh& body, Face face, glm::
   return best;
 }
 
-void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face face,
-                const PatchOutline& outline, const PatchOptions& options) {
+void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face face, const PatchOutline& outline,
+                const PatchOptions& options) {
   const FaceAxes axes = axes_of(face);
   std::vector<glm::vec2> border = rounded(outline, options.corner_cut);
   // The clipping below wants the border counter-clockwise in the picture's own axes.
@@ -156,8 +148,7 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
     if (fresh) place->second = builder.vertex(p);
     return place->second;
   };
-  const glm::vec2 across = outline.corners[1] - outline.corners[0],
-                  up = outline.corners[3] - outline.corners[0];
+  const glm::vec2 across = outline.corners[1] - outline.corners[0], up = outline.corners[3] - outline.corners[0];
   const auto uv = [&](const SurfaceVertex& v) {
     const glm::vec2 offset = flat(axes, v.position_m) - outline.corners[0];
     const float area = cross2(across, up);
@@ -167,28 +158,24 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
     std::vector<SurfaceVertex> piece;
     for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
       piece.push_back({body.vertices_m[corners[k]], normals[corners[k]]});
-    const glm::vec3 facing = glm::cross(piece[2].position_m - piece[0].position_m,
-                                        piece.back().position_m - piece[1].position_m);
-    if (facing[axes.depth] * axes.towards_viewer <= options.min_facing * glm::length(facing))
-      continue;
+    const glm::vec3 facing =
+        glm::cross(piece[2].position_m - piece[0].position_m, piece.back().position_m - piece[1].position_m);
+    if (facing[axes.depth] * axes.towards_viewer <= options.min_facing * glm::length(facing)) continue;
     piece = clipped(std::move(piece), border, axes);
     if (piece.size() < 3) continue;
     // A polygon that another part of the body hides from the viewer keeps clear of the patch.
     glm::vec3 middle(0.0f);
     for (const SurfaceVertex& v : piece) middle += v.position_m / static_cast<float>(piece.size());
     const auto front = surface_point(body, face, flat(axes, middle));
-    if (front && ((*front)[axes.depth] - middle[axes.depth]) * axes.towards_viewer > 0.15f)
-      continue;
+    if (front && ((*front)[axes.depth] - middle[axes.depth]) * axes.towards_viewer > 0.15f) continue;
     for (std::size_t k = 1; k + 1 < piece.size(); k += 2) {
       const std::uint32_t a = vertex(piece[0]), b = vertex(piece[k]), c = vertex(piece[k + 1]);
       const bool has_fourth = k + 2 < piece.size();
       const std::uint32_t d = has_fourth ? vertex(piece[k + 2]) : a;
       if (has_fourth && a != b && b != c && c != d && d != a)
-        builder.quad(a, b, c, d,
-                     {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), uv(piece[k + 2])}});
+        builder.quad(a, b, c, d, {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), uv(piece[k + 2])}});
       else {
-        if (a != b && b != c && c != a)
-          builder.triangle(a, b, c, {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), {}}});
+        if (a != b && b != c && c != a) builder.triangle(a, b, c, {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), {}}});
         if (has_fourth && a != c && c != d && d != a)
           builder.triangle(a, c, d, {{uv(piece[0]), uv(piece[k + 1]), uv(piece[k + 2]), {}}});
       }

@@ -32,8 +32,7 @@ struct PatchOptions {
 };
 
 /// The outermost point of `body` seen from `face` at `point`.
-std::optional<glm::vec3> surface_point(const geometry::PolygonMesh& body, Face face,
-                                       glm::vec2 point);
+std::optional<glm::vec3> surface_point(const geometry::PolygonMesh& body, Face face, glm::vec2 point);
 
 /// Draws the patch with the builder's current material: the body's own polygons, cut to the outline
 /// (which must be convex). Where the body is missed, the patch is too.

@@ -18,9 +18,7 @@ using geometry::lattice_random;
 using image::Color;
 using image::Image;
 
-std::uint8_t byte_of(double value) {
-  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
-}
+std::uint8_t byte_of(double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); }
 
 Color grey(double value, double warmth = 0.0) {
   return {byte_of(value + warmth), byte_of(value), byte_of(value - warmth)};
@@ -37,8 +35,7 @@ template <class Paint>
 Image painted(std::uint32_t size, Paint paint) {
   Image image(size, size);
   for (std::uint32_t y = 0; y < size; ++y)
-    for (std::uint32_t x = 0; x < size; ++x)
-      image.set(x, y, paint(x, y, (x + 0.5) / size, (y + 0.5) / size));
+    for (std::uint32_t x = 0; x < size; ++x) image.set(x, y, paint(x, y, (x + 0.5) / size, (y + 0.5) / size));
   return image;
 }
 
@@ -83,8 +80,8 @@ Image ground_texture(std::uint64_t seed) {
 
 Image concrete_texture(std::uint64_t seed) {
   return painted(256, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
-    double value = 198.0 + 14.0 * fractal_noise(u * 8, v * 8, 4, seed, 8) +
-                   10.0 * (lattice_random(x, y, seed + 1) - 0.5);
+    double value =
+        198.0 + 14.0 * fractal_noise(u * 8, v * 8, 4, seed, 8) + 10.0 * (lattice_random(x, y, seed + 1) - 0.5);
     // Rain streaks run down; panels meet at the texture's edge.
     value -= 16.0 * std::max(0.0, fractal_noise(u * 32, v * 2, 2, seed + 2, 2)) * (0.4 + 0.6 * v);
     if (x < 2 || y < 2) value -= 42.0;
@@ -100,15 +97,13 @@ Image leaf_texture(std::uint64_t seed) {
   // Layer on layer of dabs; early ones are dark and deep, late ones bright and outside.
   constexpr int dabs = 900;
   for (int i = 0; i < dabs; ++i) {
-    const double x = random.uniform(0, size), y = random.uniform(0, size),
-                 turn = random.uniform(0, std::numbers::pi);
+    const double x = random.uniform(0, size), y = random.uniform(0, size), turn = random.uniform(0, std::numbers::pi);
     const double depth = static_cast<double>(i) / dabs, length = random.uniform(5, 9);
     const double light = 0.50 + 0.50 * depth + random.uniform(-0.10, 0.10);
     const Color color{byte_of(118 * light), byte_of(148 * light), byte_of(62 * light)};
     for (const double px : copies(x, size, 12.0))
       for (const double py : copies(y, size, 12.0))
-        image::line(image, px, py, px + length * std::cos(turn), py + length * std::sin(turn), 4.6,
-                    color);
+        image::line(image, px, py, px + length * std::cos(turn), py + length * std::sin(turn), 4.6, color);
   }
   return image;
 }
@@ -143,8 +138,7 @@ void paint_crown(Image& image, const Crown& crown, Random& random, int dabs, boo
   for (int i = 0; i < dabs; ++i) {
     const double depth = static_cast<double>(i) / dabs;
     const double angle = random.uniform(0, 2 * std::numbers::pi),
-                 reach =
-                     std::sqrt(random.uniform()) * (0.80 + 0.20 * std::sin(angle * 5 + depth * 3));
+                 reach = std::sqrt(random.uniform()) * (0.80 + 0.20 * std::sin(angle * 5 + depth * 3));
     double dx = reach * std::cos(angle), dy = reach * std::sin(angle);
     if (pointed) {
       // A cone, evenly filled: as wide as it is far from the tip.
@@ -157,8 +151,8 @@ void paint_crown(Image& image, const Crown& crown, Random& random, int dabs, boo
     const Color color{byte_of(crown.color.red * light), byte_of(crown.color.green * light),
                       byte_of(crown.color.blue * light)};
     const double turn = random.uniform(0, std::numbers::pi), length = pointed ? 7.0 : 5.0;
-    image::line(image, x, y, x + length * std::cos(turn),
-                y + length * std::sin(turn) * (pointed ? 0.5 : 1.0), 4.4, color);
+    image::line(image, x, y, x + length * std::cos(turn), y + length * std::sin(turn) * (pointed ? 0.5 : 1.0), 4.4,
+                color);
   }
 }
 
@@ -188,13 +182,11 @@ Image wood_edge_texture(std::uint64_t seed) {
     const bool spruce = random.uniform() < 0.45;
     const double x = random.uniform(0, width), top = random.uniform(4, 46);
     const double light = random.uniform(0.75, 1.1);
-    const Color color =
-        spruce ? Color{byte_of(74 * light), byte_of(98 * light), byte_of(62 * light)}
-               : Color{byte_of(124 * light), byte_of(144 * light), byte_of(72 * light)};
+    const Color color = spruce ? Color{byte_of(74 * light), byte_of(98 * light), byte_of(62 * light)}
+                               : Color{byte_of(124 * light), byte_of(144 * light), byte_of(72 * light)};
     for (const double px : copies(x, width, 40.0)) {
       Random own(seed + static_cast<std::uint64_t>(i));
-      paint_crown(image, {px, (top + 118) / 2, spruce ? 13.0 : 22.0, (118 - top) / 2, color}, own,
-                  190, spruce);
+      paint_crown(image, {px, (top + 118) / 2, spruce ? 13.0 : 22.0, (118 - top) / 2, color}, own, 190, spruce);
     }
   }
   return image;

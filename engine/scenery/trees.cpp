@@ -25,8 +25,7 @@ constexpr float tree_near_m = 100.0f;
 
 void add_trunk(MeshBuilder& builder, Ground bark, float radius, float height) {
   builder.material = index_of(bark);
-  const std::array<LathePoint, 3> profile{
-      {{radius * 1.5f, -0.4f}, {radius, 0.8f}, {radius * 0.55f, height}}};
+  const std::array<LathePoint, 3> profile{{{radius * 1.5f, -0.4f}, {radius, 0.8f}, {radius * 0.55f, height}}};
   builder.append(geometry::lathe(profile, 6), glm::mat4(1.0f), true);
 }
 
@@ -35,9 +34,8 @@ void add_crown(MeshBuilder& builder, Ground leaves, const glm::vec3& centre, con
                std::uint64_t seed) {
   geometry::PolygonMesh hull = geometry::icosphere(1);
   for (std::size_t i = 0; i < hull.vertices_m.size(); ++i) {
-    const float swell = 1.0f + 0.42f * (static_cast<float>(geometry::lattice_random(
-                                            static_cast<std::int64_t>(i), 0, seed)) -
-                                        0.45f);
+    const float swell =
+        1.0f + 0.42f * (static_cast<float>(geometry::lattice_random(static_cast<std::int64_t>(i), 0, seed)) - 0.45f);
     hull.vertices_m[i] = centre + hull.vertices_m[i] * radii * swell;
   }
   for (auto& uvs : hull.corner_uvs)
@@ -85,15 +83,13 @@ geometry::PolygonMesh near_tree(Kind kind, std::uint64_t seed) {
       for (int i = 0; i < tiers; ++i) {
         const float share = static_cast<float>(i) / tiers;
         const float low = 1.2f + 14.0f * share, radius = 3.3f * (1.0f - share) + 0.35f;
-        const std::array<LathePoint, 2> skirt{
-            {{radius, low}, {0.12f * radius, low + 3.9f - 1.3f * share}}};
+        const std::array<LathePoint, 2> skirt{{{radius, low}, {0.12f * radius, low + 3.9f - 1.3f * share}}};
         geometry::PolygonMesh tier = geometry::lathe(skirt, sides);
         for (std::size_t k = 0; k < tier.vertices_m.size(); ++k)
           if (k < sides)
-            tier.vertices_m[k] *=
-                glm::vec3(glm::vec2(0.84f + 0.32f * static_cast<float>(geometry::lattice_random(
-                                                        static_cast<std::int64_t>(k), i, seed))),
-                          1.0f);
+            tier.vertices_m[k] *= glm::vec3(glm::vec2(0.84f + 0.32f * static_cast<float>(geometry::lattice_random(
+                                                                          static_cast<std::int64_t>(k), i, seed))),
+                                            1.0f);
         for (auto& uvs : tier.corner_uvs)
           for (int c = 0; c < 4; ++c) uvs[c] = {uvs[c].x * 3.0f + share, c < 2 ? 0.98f : 0.05f};
         builder.append(tier, glm::rotate(glm::mat4(1.0f), share * 5.0f, glm::vec3(0, 0, 1)), true);
@@ -115,10 +111,7 @@ geometry::PolygonMesh far_tree(Kind kind) {
   MeshBuilder builder;
   builder.material = index_of(Ground::tree_pictures);
   const float height = height_of(kind) * (kind == Kind::bush ? 1.0f : 1.06f);
-  const float half = kind == Kind::oak      ? 4.9f
-                     : kind == Kind::birch  ? 3.4f
-                     : kind == Kind::spruce ? 4.0f
-                                            : 2.0f;
+  const float half = kind == Kind::oak ? 4.9f : kind == Kind::birch ? 3.4f : kind == Kind::spruce ? 4.0f : 2.0f;
   const float u0 = static_cast<float>(kind) / kind_count, u1 = u0 + 1.0f / kind_count;
   // The bush's picture fills two thirds of its height.
   const float top = kind == Kind::bush ? 0.33f : 0.0f;
@@ -135,10 +128,9 @@ class TreePen {
     for (int k = 0; k < kind_count; ++k) {
       const auto kind = static_cast<Kind>(k);
       for (int variant = 0; variant < roadside::tree_variant_count; ++variant)
-        near_[k][variant] = add_shape(
-            world.builder, "tree near",
-            near_tree(kind, world.seed + 100 + static_cast<std::uint64_t>(k * 10 + variant)),
-            world.palette);
+        near_[k][variant] =
+            add_shape(world.builder, "tree near",
+                      near_tree(kind, world.seed + 100 + static_cast<std::uint64_t>(k * 10 + variant)), world.palette);
       far_[k] = add_shape(world.builder, "tree far", far_tree(kind), world.palette);
     }
   }

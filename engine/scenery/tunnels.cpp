@@ -51,8 +51,7 @@ void add_tube(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
       const auto u0 = static_cast<float>((along[i] - tile.s0_m) / 4.0),
                  u1 = static_cast<float>((along[i + 1] - tile.s0_m) / 4.0);
       const auto v1 = static_cast<float>(
-          std::hypot(section[k + 1].t_m - section[k].t_m, section[k + 1].up_m - section[k].up_m) /
-          4.0);
+          std::hypot(section[k + 1].t_m - section[k].t_m, section[k + 1].up_m - section[k].up_m) / 4.0);
       if (!left)
         builder.quad(rows[i][k], rows[i][k + 1], rows[i + 1][k + 1], rows[i + 1][k],
                      {{{u0, v1}, {u0, 0}, {u1, 0}, {u1, v1}}});
@@ -66,10 +65,8 @@ void add_tube(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
 void add_fittings(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), tile.middle_m());
   const auto quad = [&](double s0, double s1, double t0, double t1, double up, bool down) {
-    const glm::vec3 a = world.roads.local(tile, s0, t1, up),
-                    b = world.roads.local(tile, s0, t0, up),
-                    c = world.roads.local(tile, s1, t0, up),
-                    d = world.roads.local(tile, s1, t1, up);
+    const glm::vec3 a = world.roads.local(tile, s0, t1, up), b = world.roads.local(tile, s0, t0, up),
+                    c = world.roads.local(tile, s1, t0, up), d = world.roads.local(tile, s1, t1, up);
     if (down) builder.patch(a, d, c, b);
   };
   for (double s = std::ceil(tile.s0_m / 8.0) * 8.0; s + 2.4 < tile.s1_m; s += 8.0)
@@ -86,32 +83,27 @@ void add_fittings(MeshBuilder& builder, const WorldContext& world, const RoadTil
       // Seen from the carriageway, so its left is towards +s on the left-hand wall.
       const double first = side > 0 ? s + 1.2 : s, second = side > 0 ? s : s + 1.2;
       builder.patch(world.roads.local(tile, second, t, 1.0), world.roads.local(tile, first, t, 1.0),
-                    world.roads.local(tile, first, t, 1.6),
-                    world.roads.local(tile, second, t, 1.6));
+                    world.roads.local(tile, first, t, 1.6), world.roads.local(tile, second, t, 1.6));
     }
 }
 
 /// The wall across the hill's face: openings for both tubes, wings along the cutting.
-void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile,
-                double mouth_s, double outwards) {
+void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double mouth_s,
+                double outwards) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), mouth_s);
-  const double left_wall = extent.left_t_m + wall_clear_m,
-               right_wall = extent.right_t_m - wall_clear_m;
+  const double left_wall = extent.left_t_m + wall_clear_m, right_wall = extent.right_t_m - wall_clear_m;
   std::vector<double> columns;
-  for (double t = extent.left_t_m + portal_out_m; t > left_wall + 4.0; t -= 6.0)
-    columns.push_back(t);
+  for (double t = extent.left_t_m + portal_out_m; t > left_wall + 4.0; t -= 6.0) columns.push_back(t);
   columns.insert(columns.end(), {left_wall, left_wall - haunch_width_m, middle_wall_m, -middle_wall_m,
                                  right_wall + haunch_width_m, right_wall});
-  for (double t = right_wall - 6.0; t > extent.right_t_m - portal_out_m; t -= 6.0)
-    columns.push_back(t);
+  for (double t = right_wall - 6.0; t > extent.right_t_m - portal_out_m; t -= 6.0) columns.push_back(t);
   const auto ground = [&](double s, double t) {
     const Vec3 p = world.roads.point(tile.road, s, t);
     return world.terrain.height_m(Vec2(p)) - p.z;
   };
   // Height of the opening's edge just outside (left of) and inside each column.
   const auto lintel = [&](double t) -> double {
-    if (t > left_wall + 0.01 || t < right_wall - 0.01 || std::abs(t) < middle_wall_m - 0.01)
-      return -1.0;
+    if (t > left_wall + 0.01 || t < right_wall - 0.01 || std::abs(t) < middle_wall_m - 0.01) return -1.0;
     const double edge = t > 0 ? left_wall - t : t - right_wall;
     return edge < 0.01 ? haunch_m : ceiling_m;
   };
@@ -120,24 +112,20 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
     const double t0 = columns[k], t1 = columns[k + 1], middle = 0.5 * (t0 + t1);
     const bool open = lintel(middle) > 0.0;
     const auto low = [&](double t) {
-      return open ? (std::abs(t - left_wall) < 0.01 || std::abs(t - right_wall) < 0.01 ? haunch_m
-                                                                                       : ceiling_m)
+      return open ? (std::abs(t - left_wall) < 0.01 || std::abs(t - right_wall) < 0.01 ? haunch_m : ceiling_m)
                   : std::min(ground(mouth_s + outwards * 1.5, t), 0.0) - 2.0;
     };
     const auto high = [&](double t) {
-      return std::max(ground(mouth_s - outwards * 1.5, t),
-                      t < left_wall + 1.0 && t > right_wall - 1.0 ? 8.6 : 0.0) +
+      return std::max(ground(mouth_s - outwards * 1.5, t), t < left_wall + 1.0 && t > right_wall - 1.0 ? 8.6 : 0.0) +
              0.9;
     };
     const auto at = [&](double t, double up) {
       return world.roads.local(tile, world.roads.point(tile.road, face, t) + Vec3(0, 0, up));
     };
     const auto back = [&](double t, double up) {
-      return world.roads.local(
-          tile, world.roads.point(tile.road, face - outwards * 0.9, t) + Vec3(0, 0, up));
+      return world.roads.local(tile, world.roads.point(tile.road, face - outwards * 0.9, t) + Vec3(0, 0, up));
     };
-    const glm::vec3 a = at(t0, low(t0)), b = at(t1, low(t1)), c = at(t1, high(t1)),
-                    d = at(t0, high(t0));
+    const glm::vec3 a = at(t0, low(t0)), b = at(t1, low(t1)), c = at(t1, high(t1)), d = at(t0, high(t0));
     const auto u0 = static_cast<float>(t0 / 4), u1 = static_cast<float>(t1 / 4);
     const geometry::CornerUvs uvs{{{u0, static_cast<float>(-low(t0) / 4)},
                                    {u1, static_cast<float>(-low(t1) / 4)},
@@ -156,8 +144,7 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
 }
 
 /// The land behind a portal, where the coarse grid is left out.
-void add_cap(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double mouth_s,
-             double outwards) {
+void add_cap(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double mouth_s, double outwards) {
   const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), mouth_s);
   constexpr int rows = 7, columns = 17;
   const double left = extent.left_t_m + 72.0, right = extent.right_t_m - 72.0;
@@ -169,8 +156,8 @@ void add_cap(MeshBuilder& builder, const WorldContext& world, const RoadTile& ti
                    t = std::lerp(left, right, static_cast<double>(k) / columns);
       const Vec2 p(world.roads.point(tile.road, s, t));
       const bool hem = i == rows || k == 0 || k == columns;
-      const std::uint32_t v = builder.vertex(
-          world.roads.local(tile, Vec3(p, world.terrain.height_m(p) + (hem ? -1.5 : 0.3))));
+      const std::uint32_t v =
+          builder.vertex(world.roads.local(tile, Vec3(p, world.terrain.height_m(p) + (hem ? -1.5 : 0.3))));
       if (i == 0 && k == 0) first = v;
     }
   for (std::uint32_t i = 0; i < rows; ++i)

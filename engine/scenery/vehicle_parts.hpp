@@ -22,8 +22,7 @@ struct VehiclePart {
   std::string name;
   geometry::PolygonMesh mesh;  ///< Materials are Finish indices.
   std::uint32_t subdivision_level = 0;
-  std::vector<Placement>
-      places;  ///< One instance each; visibility ranges are filled in by set_detail.
+  std::vector<Placement> places;  ///< One instance each; visibility ranges are filled in by set_detail.
 };
 
 using VehicleParts = std::vector<VehiclePart>;

@@ -22,8 +22,7 @@ void add_prototype(scene::SceneBuilder& builder, const Palette& palette, std::st
 
 void build_vehicles(scene::SceneBuilder& builder) {
   const Palette palette = add_finishes(builder);
-  for (const VehicleModel& model : vehicle_models())
-    add_prototype(builder, palette, model.name, vehicle_parts(model));
+  for (const VehicleModel& model : vehicle_models()) add_prototype(builder, palette, model.name, vehicle_parts(model));
   add_prototype(builder, palette, "interior/volvo-s80", interior_parts());
 }
 

@@ -19,15 +19,12 @@ using geometry::PolygonMesh;
 using scene::PartRole;
 
 /// The lathe's axis z becomes −y turned so that high is outside (+y).
-glm::mat4 axis_to_y() {
-  return glm::rotate(glm::mat4(1.0f), -std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0));
-}
+glm::mat4 axis_to_y() { return glm::rotate(glm::mat4(1.0f), -std::numbers::pi_v<float> / 2, glm::vec3(1, 0, 0)); }
 
 void add_spokes(MeshBuilder& builder, const WheelSize& size, float hub, float rim, float depth) {
   for (int i = 0; i < size.spokes; ++i) {
     const glm::mat4 turn = glm::rotate(
-        glm::mat4(1.0f),
-        2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(size.spokes),
+        glm::mat4(1.0f), 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(size.spokes),
         glm::vec3(0, 1, 0));
     const float wide = 0.17f * size.radius_m, narrow = 0.10f * size.radius_m, low = depth - 0.05f;
     const auto at = [&](float x, float y, float z) {
@@ -56,8 +53,7 @@ PolygonMesh near_wheel(const WheelSize& size) {
                                         {rim, 0.86f * half}}};
   builder.append(geometry::lathe(tyre, 20), axis_to_y(), true);
   builder.material = index_of(Finish::rim);
-  const std::array<LathePoint, 3> flange{
-      {{rim, 0.86f * half}, {0.615f * r, 0.80f * half}, {0.585f * r, 0.45f * half}}};
+  const std::array<LathePoint, 3> flange{{{rim, 0.86f * half}, {0.615f * r, 0.80f * half}, {0.585f * r, 0.45f * half}}};
   builder.append(geometry::lathe(flange, 20), axis_to_y(), true);
   builder.material = index_of(Finish::underbody);
   const std::array<LathePoint, 2> drum{{{0.60f * r, 0.42f * half}, {0.0f, 0.42f * half}}};
@@ -66,8 +62,7 @@ PolygonMesh near_wheel(const WheelSize& size) {
   builder.append(geometry::lathe(inside, 10), axis_to_y(), true);
   builder.material = index_of(Finish::rim);
   add_spokes(builder, size, 0.12f * r, 0.61f * r, 0.74f * half);
-  const std::array<LathePoint, 3> hub{
-      {{0.20f * r, 0.5f * half}, {0.18f * r, 0.86f * half}, {0.0f, 0.9f * half}}};
+  const std::array<LathePoint, 3> hub{{{0.20f * r, 0.5f * half}, {0.18f * r, 0.86f * half}, {0.0f, 0.9f * half}}};
   builder.append(geometry::lathe(hub, 8), axis_to_y(), true);
   PolygonMesh mesh = builder.take();
   geometry::crease_by_angle(mesh, 0.6f);
@@ -101,18 +96,16 @@ PolygonMesh wheel_mesh(const WheelSize& size, DetailLevel level) {
   return level == DetailLevel::near ? near_wheel(size) : middle_wheel(size);
 }
 
-void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m,
-              bool front) {
+void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m, bool front) {
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle}) {
     const PolygonMesh left = wheel_mesh(size, level);
     const std::string suffix = level == DetailLevel::near ? "near" : "middle";
     VehiclePart left_part{"wheel left " + suffix, left, 0, {}},
         right_part{"wheel right " + suffix, geometry::mirrored_y(left), 0, {}};
-    left_part.places.push_back(at(x_m, half_track_m, size.radius_m,
-                                  front ? PartRole::wheel_front_left : PartRole::wheel_rear_left));
+    left_part.places.push_back(
+        at(x_m, half_track_m, size.radius_m, front ? PartRole::wheel_front_left : PartRole::wheel_rear_left));
     right_part.places.push_back(
-        at(x_m, -half_track_m, size.radius_m,
-           front ? PartRole::wheel_front_right : PartRole::wheel_rear_right));
+        at(x_m, -half_track_m, size.radius_m, front ? PartRole::wheel_front_right : PartRole::wheel_rear_right));
     for (VehiclePart* part : {&left_part, &right_part}) {
       set_detail(*part, level);
       // One mesh carries all equal wheels.

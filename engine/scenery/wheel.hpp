@@ -17,7 +17,6 @@ geometry::PolygonMesh wheel_mesh(const WheelSize& size, DetailLevel level);
 void add_wheels(VehicleParts& parts, const VehicleModel& model, const WheelSize& size);
 
 /// Adds one pair of wheels, both levels, that turns with the rear (or steers with the front) axle.
-void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m,
-              bool front);
+void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m, bool front);
 
 }  // namespace septet::scenery

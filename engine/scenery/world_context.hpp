@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "engine/roadside/road_shape.hpp"
 #include "engine/roadside/plants.hpp"
+#include "engine/roadside/road_shape.hpp"
 #include "engine/roadside/terrain.hpp"
 #include "engine/scenery/palette.hpp"
 
@@ -27,8 +27,7 @@ struct WorldContext {
 
 /// Adds a mesh in a tile's frame, seen within a range, on a grid of 1 mm so that layers keep apart.
 inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::string_view name,
-                          const geometry::PolygonMesh& mesh, float from_m, float to_m,
-                          bool casts_shadow = false) {
+                          const geometry::PolygonMesh& mesh, float from_m, float to_m, bool casts_shadow = false) {
   if (mesh.polygons.empty()) return;
   scene::MeshOptions options;
   options.position_step_m = 1.0 / 1024.0;
@@ -37,8 +36,7 @@ inline void add_tile_mesh(const WorldContext& world, const RoadTile& tile, std::
   placement.visible_from_m = from_m;
   placement.visible_to_m = to_m;
   placement.casts_shadow = casts_shadow;
-  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options),
-        placement);
+  place(world.builder, name, add_shape(world.builder, name, mesh, world.palette, options), placement);
 }
 
 /// How far the precise tiles of the road are seen from their middle, and how far anything is.
@@ -50,9 +48,8 @@ void build_pavement(const WorldContext& world);  ///< Asphalt, repairs, markings
 void build_far_road(const WorldContext& world);  ///< All of the road's parts, simplified.
 void build_verges(const WorldContext& world);    ///< From the asphalt's edge into the land.
 void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
-void build_barriers(
-    const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
-void build_kerbs(const WorldContext& world);  ///< Kerbs and islands that are objects.
+void build_barriers(const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
+void build_kerbs(const WorldContext& world);     ///< Kerbs and islands that are objects.
 void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);  ///< With signs and speed displays.

@@ -11,19 +11,7 @@
 namespace septet::scenery {
 namespace {
 
-enum class Texture {
-  none,
-  asphalt,
-  ground,
-  concrete,
-  leaf,
-  needle,
-  tree,
-  edge,
-  facade,
-  exit,
-  palette
-};
+enum class Texture { none, asphalt, ground, concrete, leaf, needle, tree, edge, facade, exit, palette };
 
 struct Look {
   const char* name;
@@ -98,16 +86,15 @@ constexpr std::array<Look, 57> looks{{
 
 bool is_in_tunnel(Ground ground) {
   using enum Ground;
-  return ground == asphalt_tunnel || ground == mark_tunnel || ground == concrete_tunnel ||
-         ground == tiles_tunnel || ground == lamp_tunnel || ground == exit_sign;
+  return ground == asphalt_tunnel || ground == mark_tunnel || ground == concrete_tunnel || ground == tiles_tunnel ||
+         ground == lamp_tunnel || ground == exit_sign;
 }
 
 constexpr std::uint32_t first_color = index_of(Ground::palette) + 1;
 constexpr std::uint32_t palette_side = 4, block_px = 16;
 
 std::uint8_t srgb_byte(float linear) {
-  const float encoded =
-      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  const float encoded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
   return static_cast<std::uint8_t>(std::lround(255.0f * encoded));
 }
 
@@ -116,8 +103,8 @@ image::Image palette_texture() {
   for (std::uint32_t i = first_color; i < looks.size(); ++i) {
     const std::uint32_t block = i - first_color;
     const glm::vec3 c = looks[i].color;
-    image::fill(palette, block % palette_side * block_px, block / palette_side * block_px, block_px,
-                block_px, {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b)});
+    image::fill(palette, block % palette_side * block_px, block / palette_side * block_px, block_px, block_px,
+                {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b)});
   }
   return palette;
 }
@@ -172,8 +159,7 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
   std::array<scene::NodeId, 11> bitmaps;
   bitmaps.fill(scene::no_node);
   const auto add = [&](Texture texture, const char* name, const image::Image& image) {
-    bitmaps[static_cast<std::size_t>(texture)] =
-        builder.add_bitmap(name, image.width, image.height, image.rgba);
+    bitmaps[static_cast<std::size_t>(texture)] = builder.add_bitmap(name, image.width, image.height, image.rgba);
   };
   add(Texture::asphalt, "asphalt", asphalt_texture(seed));
   add(Texture::ground, "ground", ground_texture(seed + 10));

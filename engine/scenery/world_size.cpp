@@ -56,8 +56,7 @@ Expected<void> check_world_size(const road::RoadNetwork& network, const RoadWorl
     }
   }
   if (lane_m > most_lane_m)
-    return too_large(fmt::format("its lanes are {:.0f} km long, more than {:.0f} km", lane_m / 1e3,
-                                 most_lane_m / 1e3));
+    return too_large(fmt::format("its lanes are {:.0f} km long, more than {:.0f} km", lane_m / 1e3, most_lane_m / 1e3));
   if (dashes > most_dashes)
     return too_large(fmt::format("its lines have {:.0f} dashes, more than {:.0f}", dashes, most_dashes));
   if (structures > most_structures)

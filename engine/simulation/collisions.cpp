@@ -15,7 +15,8 @@ double reach_m(const VehicleModel& model) { return model.length_m + model.width_
 
 }  // namespace
 
-void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state, std::vector<Event>& events) {
+void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state,
+                     std::vector<Event>& events) {
   std::vector<ParticipantId> touching;
   double apart_m = 0.0;  // From here on nobody can touch the car: nearly everybody is, and needs no more than that.
   for (const VehicleModel& model : vehicle_models()) apart_m = std::max(apart_m, 2.0 * reach_m(model));
@@ -27,7 +28,8 @@ void find_collisions(const Participant& car, const std::vector<Participant>& par
     if (std::ranges::binary_search(state.touching, other.id)) continue;
     ++state.diagnostics.collisions;
     state.effects.crashes.struck_by_driver.push_back(other.id);
-    events.push_back({"collision", other.id, fmt::format("closing_speed_mps={:.2f}", glm::length(car.velocity_mps - other.velocity_mps))});
+    events.push_back({"collision", other.id,
+                      fmt::format("closing_speed_mps={:.2f}", glm::length(car.velocity_mps - other.velocity_mps))});
   }
   state.touching = std::move(touching);
 }

@@ -9,6 +9,7 @@ namespace septet::simulation {
 
 /// Finds who of `participants` overlaps `car`, as boxes. A touch that begins is counted, told of, and met by the effects' next step
 /// (advance_crashes). Call it when everybody has moved, before the snapshot is taken: its hash holds what was found.
-void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state, std::vector<Event>& events);
+void find_collisions(const Participant& car, const std::vector<Participant>& participants, State& state,
+                     std::vector<Event>& events);
 
 }  // namespace septet::simulation

@@ -17,33 +17,40 @@ namespace {
 
 constexpr int car_steps = 8;  // About 1 kHz: what the wheels' spin and hop want.
 
-constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left", "rear_right"};
+constexpr std::array<const char*, vehicle::wheel_count> wheel_names{"front_left", "front_right", "rear_left",
+                                                                    "rear_right"};
 
 /// A wheel that begins to touch a kerb's edge, for the log: on the way up or down.
-void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model, State& state,
-               std::vector<Event>& events) {
+void note_kerb(std::size_t wheel, const Vec3& centre_m, const vehicle::WheelGround& ground, const Model& model,
+               State& state, std::vector<Event>& events) {
   std::optional<KerbTouch>& kerb = state.kerbs[wheel];
   if (!ground.edge_m || glm::distance(centre_m, *ground.edge_m) > model.car.tyre.radius_m) return kerb.reset();
   if (kerb) return;
   const Vec3 to_edge = *ground.edge_m - centre_m;
-  kerb = {ground.edge_m->z - ground.point_m.z, glm::dot(state.car.velocity_mps, to_edge) / std::max(glm::length(to_edge), 0.01)};
-  events.push_back({"kerb", std::nullopt,
-                    fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f} closing_speed_mps={:.2f}", wheel_names[wheel], kerb->height_m,
-                                glm::length(state.car.velocity_mps), kerb->closing_speed_mps)});
+  kerb = {ground.edge_m->z - ground.point_m.z,
+          glm::dot(state.car.velocity_mps, to_edge) / std::max(glm::length(to_edge), 0.01)};
+  events.push_back(
+      {"kerb", std::nullopt,
+       fmt::format("wheel={} height_m={:.3f} speed_mps={:.2f} closing_speed_mps={:.2f}", wheel_names[wheel],
+                   kerb->height_m, glm::length(state.car.velocity_mps), kerb->closing_speed_mps)});
 }
 
 /// A wheel whose damage has grown in this tick is being struck; one whose damage grows no longer has been.
-void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double squeeze_m, State& state, std::vector<Event>& events) {
+void note_damage(std::size_t wheel, const vehicle::WheelDamage& before, double squeeze_m, State& state,
+                 std::vector<Event>& events) {
   const vehicle::WheelDamage& damage = state.car.wheels[wheel].damage;
   std::optional<WheelStrike>& strike = state.strikes[wheel];
   if (damage.any() != before.any() || damage.rim_bend_m > before.rim_bend_m) {
     if (!strike) strike = {state.kerbs[wheel]};
     strike->squeeze_m = std::max(strike->squeeze_m, squeeze_m);
   } else if (strike) {
-    const std::string kerb = strike->kerb ? fmt::format(" height_m={:.3f} closing_speed_mps={:.2f}", strike->kerb->height_m, strike->kerb->closing_speed_mps) : "";
-    events.push_back({"wheel_damage", std::nullopt,
-                      fmt::format("wheel={}{} squeeze_m={:.3f} rim_bend_m={:.4f} toe_out_rad={:.4f} tyre=cut", wheel_names[wheel], kerb,
-                                  strike->squeeze_m, damage.rim_bend_m, damage.toe_out_rad())});
+    const std::string kerb = strike->kerb ? fmt::format(" height_m={:.3f} closing_speed_mps={:.2f}",
+                                                        strike->kerb->height_m, strike->kerb->closing_speed_mps)
+                                          : "";
+    events.push_back(
+        {"wheel_damage", std::nullopt,
+         fmt::format("wheel={}{} squeeze_m={:.3f} rim_bend_m={:.4f} toe_out_rad={:.4f} tyre=cut", wheel_names[wheel],
+                     kerb, strike->squeeze_m, damage.rim_bend_m, damage.toe_out_rad())});
     strike.reset();
   }
 }
@@ -58,8 +65,10 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
   vehicle::Ground ground;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     vehicle::WheelGround& wheel = ground[i];
-    if (find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], state.car_road.has_value(), state.wheel_roads[i], wheel)) {
-      find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i], wheel);
+    if (find_wheel_ground(model.roads, model.raised.get(), weather, centres[i], state.car_road.has_value(),
+                          state.wheel_roads[i], wheel)) {
+      find_kerb(model.roads, model.raised.get(), centres[i], ahead, model.car.tyre.radius_m, state.wheel_roads[i],
+                wheel);
       note_kerb(i, centres[i], wheel, model, state, events);
       const double debris_m = obstacle_height_m(state.effects, wheel.point_m);
       wheel.point_m.z += debris_m;
@@ -67,7 +76,8 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
       continue;
     }
     // Far off every road the ground goes on level at the height of the wheel's last contact.
-    wheel.point_m = {centres[i].x, centres[i].y, state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
+    wheel.point_m = {centres[i].x, centres[i].y,
+                     state.car.world_from_body.position_m.z - model.car.body.mass_centre_z_m};
     wheel.friction = std::min(surface_friction(nullptr, weather), 0.5);
     wheel.rolling_resistance = 4.0;
   }
@@ -77,13 +87,15 @@ vehicle::Ground ground_below(const Model& model, State& state, std::vector<Event
 /// What the hull met, for the log and for the debris.
 void note_hull(const vehicle::HullReport& report, State& state, std::vector<Event>& events) {
   constexpr double least_mps = 0.5;  // Less is leaning on it.
-  state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(), report.begun.end());
+  state.effects.crashes.struck_standing.insert(state.effects.crashes.struck_standing.end(), report.begun.begin(),
+                                               report.begun.end());
   for (const vehicle::HullTouch& touch : report.over) {
     const double delta_v_mps = glm::length(touch.delta_v_mps);
     if (touch.closing_speed_mps < least_mps && delta_v_mps < least_mps) continue;
     ++state.diagnostics.collisions;
     events.push_back({"collision", std::nullopt,
-                      fmt::format("{} closing_speed_mps={:.2f} delta_v_mps={:.2f}", name_of(touch.kind), touch.closing_speed_mps, delta_v_mps)});
+                      fmt::format("{} closing_speed_mps={:.2f} delta_v_mps={:.2f}", name_of(touch.kind),
+                                  touch.closing_speed_mps, delta_v_mps)});
   }
 }
 
@@ -123,7 +135,8 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   const auto ground = ground_below(model, state, events);
   const std::uint32_t bad_before = state.car.bad_numbers;
   const double on_the_way_m = glm::length(state.car.velocity_mps) * tick_s;
-  const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m), vehicle::hull_reach_m(model.car) + on_the_way_m)
+  const auto obstacles = model.obstacles ? model.obstacles->near(Vec2(state.car.world_from_body.position_m),
+                                                                 vehicle::hull_reach_m(model.car) + on_the_way_m)
                                          : std::vector<Obstacle>{};
   vehicle::HullReport met;
   const auto wheels_before = state.car.wheels;
@@ -131,14 +144,17 @@ DrivenCar advance_car(const Model& model, State& state, std::vector<Event>& even
   for (int i = 0; i < car_steps; ++i) {
     vehicle::advance_vehicle(model.car, state.input, ground, tick_s / car_steps, state.car);
     vehicle::advance_hull(model.car, obstacles, tick_s / car_steps, state.car, state.hull, met);
-    for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel) squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);
+    for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
+      squeeze_m[wheel] = std::max(squeeze_m[wheel], state.car.wheels[wheel].squeeze_m);
   }
-  for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel) note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
+  for (std::size_t wheel = 0; wheel < squeeze_m.size(); ++wheel)
+    note_damage(wheel, wheels_before[wheel].damage, squeeze_m[wheel], state, events);
   note_hull(met, state, events);
   note_bad_numbers(state.car.bad_numbers - bad_before, driver_participant, "car", state, events);
   const DrivenCar car = driven_car(model, state);
   const Vec3 origin = car.outputs.world_from_vehicle.position_m;
-  if (const auto place = road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
+  if (const auto place =
+          road::locate(model.roads, {origin.x, origin.y}, state.car_road ? &*state.car_road : nullptr, 60.0))
     state.car_road = place->position;
   return car;
 }

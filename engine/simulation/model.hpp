@@ -16,11 +16,12 @@ namespace septet::simulation {
 inline constexpr double tick_rate_hz = 120.0;
 inline constexpr double tick_s = 1.0 / tick_rate_hz;
 inline constexpr ParticipantId driver_participant = 1;
-inline constexpr ParticipantId first_scripted_participant = 2;   ///< The scenario's entities, in its order.
+inline constexpr ParticipantId first_scripted_participant = 2;  ///< The scenario's entities, in its order.
 inline constexpr ParticipantId first_traffic_participant = 1000;
 
 static_assert(first_scripted_participant + scenario::most_entities <= first_traffic_participant);
-static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <= max_wire_participants);
+static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <=
+              max_wire_participants);
 
 struct Model {
   road::RoadNetwork roads;
@@ -30,7 +31,8 @@ struct Model {
   std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
   std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; nothing where empty.
   std::uint64_t seed = 1;
-  std::uint64_t sources_hash = 0;  ///< Of the texts that it was read from: models with equal ones are equal. 0: it was read from none.
+  std::uint64_t sources_hash =
+      0;  ///< Of the texts that it was read from: models with equal ones are equal. 0: it was read from none.
 };
 
 }  // namespace septet::simulation

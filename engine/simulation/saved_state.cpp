@@ -44,7 +44,8 @@ auto members(S& state) {
 /// All but storyboard, traffic and effects.
 template <SameButForConst<State> S>
 auto members(S& state) {
-  auto& [tick, car, hull, wheel_roads, kerbs, strikes, car_road, scenario, traffic, effects, input, diagnostics, touching] = state;
+  auto& [tick, car, hull, wheel_roads, kerbs, strikes, car_road, scenario, traffic, effects, input, diagnostics,
+         touching] = state;
   return std::tie(tick, car, hull, wheel_roads, kerbs, strikes, car_road, input, diagnostics, touching);
 }
 
@@ -114,28 +115,35 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
   for (const Fire& fire : state.fires.fires) reader.require(fire.flames < emitters && fire.smoke < emitters, wrong);
   require_keyframes(state.fires.keyframes, reader);
   require_keyframes(state.published.keyframes, reader);
-  reader.require(std::ranges::equal(state.published.keyframes, state.published.channels, {}, &EffectKeyframe::id, &PublishedEffect::id), wrong);
+  reader.require(std::ranges::equal(state.published.keyframes, state.published.channels, {}, &EffectKeyframe::id,
+                                    &PublishedEffect::id),
+                 wrong);
   if (state.surface_hint) road::require_on_roads(reader, model.roads, *state.surface_hint);
   for (const auto& [vehicle, parts] : state.crashes.parts)
-    for (const debris::MountedPart& part : parts) reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
+    for (const debris::MountedPart& part : parts)
+      reader.require(static_cast<int>(part.part) < debris::part_count, wrong);
 }
 
 void restore_car(const Model& model, StateReader& reader, State& state) {
   transfer(reader, state);
   const auto gears = static_cast<int>(model.car.powertrain.gear_ratio.size());
-  for (const int gear : {state.car.powertrain.gear, state.car.powertrain.next_gear}) reader.require(gear >= -1 && gear <= gears, wrong);
+  for (const int gear : {state.car.powertrain.gear, state.car.powertrain.next_gear})
+    reader.require(gear >= -1 && gear <= gears, wrong);
   for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
 }
 
-Expected<State> refused(const std::string& what, std::string_view where, const char* remedy) { return failure(what, std::string(where), remedy); }
+Expected<State> refused(const std::string& what, std::string_view where, const char* remedy) {
+  return failure(what, std::string(where), remedy);
+}
 
 }  // namespace
 
 Expected<Bytes> save_state(const Model& model, const State& state) {
   if (!state.traffic->can_be_saved())
-    return failure("the state cannot be saved: another program moves the traffic, and keeps it", "traffic", "drive with Septet's own traffic");
+    return failure("the state cannot be saved: another program moves the traffic, and keeps it", "traffic",
+                   "drive with Septet's own traffic");
   Bytes bytes;
   StateWriter writer(bytes);
   const Heading heading{.build = version_text(), .drive = drive_of(model)};
@@ -153,29 +161,37 @@ Expected<Bytes> save_state(const Model& model, const State& state) {
   return bytes;
 }
 
-Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic, std::span<const std::byte> bytes,
-                              std::string_view where) {
+Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                              std::span<const std::byte> bytes, std::string_view where) {
   constexpr auto use_whole = "use an unaltered copy";
-  const auto damaged = [&](const std::string& how) { return refused("the saved state is damaged: " + how, where, use_whole); };
-  if (!traffic->can_be_saved()) return refused("the state cannot be restored: another program moves the traffic", where, "drive with Septet's own traffic");
+  const auto damaged = [&](const std::string& how) {
+    return refused("the saved state is damaged: " + how, where, use_whole);
+  };
+  if (!traffic->can_be_saved())
+    return refused("the state cannot be restored: another program moves the traffic", where,
+                   "drive with Septet's own traffic");
   if (bytes.size() > most_saved_bytes) return damaged("it is too long");
   StateReader reader(bytes);
   Heading heading;
   transfer(reader, heading.word);
-  if (!reader.ok() || heading.word != magic) return refused("this is no saved state", where, "give one that Septet saved");
+  if (!reader.ok() || heading.word != magic)
+    return refused("this is no saved state", where, "give one that Septet saved");
   transfer(reader, heading.format);
   transfer(reader, heading.build);
   transfer(reader, heading.drive);
   if (!reader.ok() || heading.build.size() > longest_name) return damaged("it ends too early");
   if (heading.format != saved_state_version || heading.build != version_text())
-    return refused(fmt::format("the state was saved by another build, Septet {}; this is {}", printable(heading.build), version_text()), where,
-                   "restore it with that one");
+    return refused(fmt::format("the state was saved by another build, Septet {}; this is {}", printable(heading.build),
+                               version_text()),
+                   where, "restore it with that one");
   if (heading.drive != drive_of(model))
-    return refused("the state was saved in another drive: scenario, roads, car or seed are not the same", where, "give the files of that drive");
+    return refused("the state was saved in another drive: scenario, roads, car or seed are not the same", where,
+                   "give the files of that drive");
   std::uint64_t bytes_hash = 0;
   if (reader.remaining() < sizeof bytes_hash) return damaged("it ends too early");
   StateReader(bytes.last(sizeof bytes_hash)).get(&bytes_hash, sizeof bytes_hash);
-  if (bytes_hash != hash_of(bytes.first(bytes.size() - sizeof bytes_hash))) return damaged("its bytes are not those that were saved");
+  if (bytes_hash != hash_of(bytes.first(bytes.size() - sizeof bytes_hash)))
+    return damaged("its bytes are not those that were saved");
 
   State state;
   state.traffic = std::move(traffic);

@@ -23,7 +23,7 @@ inline constexpr std::size_t most_saved_bytes = std::size_t{64} << 20;
 Expected<Bytes> save_state(const Model& model, const State& state);
 
 /// `traffic` is an engine as it was made for the drive, and becomes part of the state. `where` names the bytes in errors.
-Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic, std::span<const std::byte> bytes,
-                              std::string_view where);
+Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                              std::span<const std::byte> bytes, std::string_view where);
 
 }  // namespace septet::simulation

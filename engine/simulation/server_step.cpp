@@ -20,7 +20,8 @@ namespace {
 /// What came as no number counts as 0: nobody touches that control.
 std::uint32_t reset_bad_numbers(DriverInput& input) {
   std::uint32_t count = 0;
-  for (double* value : {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch, &input.gaze_heading_rad})
+  for (double* value :
+       {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch, &input.gaze_heading_rad})
     if (!std::isfinite(*value)) {
       *value = 0.0;
       ++count;
@@ -36,28 +37,36 @@ std::vector<Participant> participants_now(const Model& model, const State& state
   participants.push_back(car);
   scenario::append_participants(model.scenario, state.scenario, first_scripted_participant, participants);
   state.traffic->append_participants(participants);
-  if (!std::ranges::is_sorted(participants, {}, &Participant::id)) std::ranges::sort(participants, {}, &Participant::id);
+  if (!std::ranges::is_sorted(participants, {}, &Participant::id))
+    std::ranges::sort(participants, {}, &Participant::id);
   return participants;
 }
 
 /// Once a second, where there is smoke around the driver: how far he sees.
 void note_visibility(const State& state, std::vector<Event>& events) {
   if (!state.effects.fires.smoke || state.tick % static_cast<Tick>(tick_rate_hz) != 0) return;
-  const double extinction = smoke::extinction_per_m(*state.effects.fires.smoke, state.car.world_from_body.position_m + Vec3(0.0, 0.0, 0.6));
+  const double extinction =
+      smoke::extinction_per_m(*state.effects.fires.smoke, state.car.world_from_body.position_m + Vec3(0.0, 0.0, 0.6));
   const auto dull = smoke::visibility_m(extinction, false), shining = smoke::visibility_m(extinction, true);
-  if (dull && *dull < 200.0) events.push_back({"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
+  if (dull && *dull < 200.0)
+    events.push_back(
+        {"visibility", driver_participant, fmt::format("reflecting_m={:.1f} shining_m={:.1f}", *dull, *shining)});
 }
 
-void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car, std::vector<Event>& events) {
+void run_effects(const Model& model, const std::vector<Participant>& participants, State& state, DrivenCar& car,
+                 std::vector<Event>& events) {
   if (state.tick % effects_step_ticks != 0) return;
   if (effects_are_still(state.effects)) return;
   const Environment& weather = state.scenario.environment;
   const double friction = vehicle::weather_friction(weather.road_wetness, weather.snow_cover, weather.temperature_k);
-  const EffectsReport report = advance_effects(
-      {model.roads, model.obstacles.get(), participants, weather, driver_participant, friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s}, state.effects);
+  const EffectsReport report =
+      advance_effects({model.roads, model.obstacles.get(), participants, weather, driver_participant,
+                       friction / vehicle::weather_friction(0.0, 0.0, 293.0), state.tick, tick_s},
+                      state.effects);
   push_car(model, report.impulse_on_driver_ns, state, car);
   note_visibility(state, events);
-  if (report.crashes.pieces > 0) events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
+  if (report.crashes.pieces > 0)
+    events.push_back({"debris", std::nullopt, fmt::format("pieces={}", report.crashes.pieces)});
   if (report.fractures > 0) events.push_back({"fracture", std::nullopt, fmt::format("faces={}", report.fractures)});
   note_bad_numbers(static_cast<std::uint32_t>(report.bad_numbers), std::nullopt, "debris", state, events);
 }
@@ -87,8 +96,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   if (!started) return tl::unexpected(started.error());
   state.scenario = std::move(*started);
   const auto& entity = state.scenario.entities[model.driver_entity];
-  if (!entity.active)
-    return tl::unexpected(scenario::why_without_place(model.scenario, model.driver_entity));
+  if (!entity.active) return tl::unexpected(scenario::why_without_place(model.scenario, model.driver_entity));
   state.car = vehicle::standstill(model.car, entity.world_from_entity, entity.speed_mps);
   const Participant car = driven_car(model, state).participant;
   apply_swarms(model, init, car, state);
@@ -98,7 +106,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   return state;
 }
 
-Snapshot server_step(const Model& model, const DriverInput& input, State& state, std::vector<Event>& events, Snapshot old) {
+Snapshot server_step(const Model& model, const DriverInput& input, State& state, std::vector<Event>& events,
+                     Snapshot old) {
   ++state.tick;
   state.input = input;
   note_bad_numbers(reset_bad_numbers(state.input), driver_participant, "controls", state, events);

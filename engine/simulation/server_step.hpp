@@ -19,7 +19,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
 
 /// One tick on; returns the snapshot of the new tick. Events are appended. `old` is a snapshot that nobody needs any more: its
 /// memory is used again.
-Snapshot server_step(const Model& model, const DriverInput& input, State& state, std::vector<Event>& events, Snapshot old = {});
+Snapshot server_step(const Model& model, const DriverInput& input, State& state, std::vector<Event>& events,
+                     Snapshot old = {});
 
 /// The state as everybody is told of it: const from here on.
 Snapshot capture_snapshot(const Model& model, const State& state, Snapshot old = {});

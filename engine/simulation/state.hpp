@@ -36,8 +36,8 @@ struct State {
   Tick tick = 0;
   vehicle::VehicleState car;
   vehicle::HullState hull;
-  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};  ///< Where each wheel was, to find it again.
-  std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;     ///< One event a touch.
+  std::array<road::RoadPosition, vehicle::wheel_count> wheel_roads{};    ///< Where each wheel was, to find it again.
+  std::array<std::optional<KerbTouch>, vehicle::wheel_count> kerbs;      ///< One event a touch.
   std::array<std::optional<WheelStrike>, vehicle::wheel_count> strikes;  ///< One event a strike.
   std::optional<road::RoadPosition> car_road;
   scenario::ScenarioState scenario;

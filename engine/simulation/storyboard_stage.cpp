@@ -12,9 +12,12 @@ namespace {
 
 const char* name_of(scenario::ElementStatus status) {
   switch (status) {
-    case scenario::ElementStatus::standby: return "standby";
-    case scenario::ElementStatus::running: return "running";
-    case scenario::ElementStatus::complete: return "complete";
+    case scenario::ElementStatus::standby:
+      return "standby";
+    case scenario::ElementStatus::running:
+      return "running";
+    case scenario::ElementStatus::complete:
+      return "complete";
   }
   return "";
 }
@@ -37,7 +40,8 @@ void apply_swarms(const Model& model, const scenario::StepResult& step, const Pa
     if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
       parameters.opposite_share = swarm.opposite_direction_weight / both;
     std::vector<traffic::KindShare> mix;
-    for (const auto& entry : swarm.categories) mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
+    for (const auto& entry : swarm.categories)
+      mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
     traffic::set_mix(parameters, mix);
     state.traffic->start(parameters, foreign_vehicles(model, state, car));
   }
@@ -51,7 +55,8 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
       spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], state.effects);
       continue;
     }
-    const ParticipantId id = action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
+    const ParticipantId id =
+        action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
     if (action.kind == Kind::extinguish) extinguish(id, state.effects.fires);
     if (action.kind != Kind::ignite) continue;
     std::vector<Participant> participants{car};
@@ -61,14 +66,17 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
   }
 }
 
-void advance_storyboard(const Model& model, const DrivenCar& car, State& state,
-                        std::vector<Event>& events) {
-  scenario::place_external(model.roads, model.driver_entity, car.outputs.world_from_vehicle, car.outputs.velocity_mps, car.outputs.acceleration_mps2, state.scenario);
+void advance_storyboard(const Model& model, const DrivenCar& car, State& state, std::vector<Event>& events) {
+  scenario::place_external(model.roads, model.driver_entity, car.outputs.world_from_vehicle, car.outputs.velocity_mps,
+                           car.outputs.acceleration_mps2, state.scenario);
   const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
   for (const auto& event : step.events)
-    events.push_back({"scenario", std::nullopt, fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
+    events.push_back(
+        {"scenario", std::nullopt,
+         fmt::format("element={} state={}", model.scenario.element_names[event.element], name_of(event.to))});
   for (const scenario::EntityIndex entity : step.left)
-    events.push_back({"scenario", first_scripted_participant + entity, fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
+    events.push_back({"scenario", first_scripted_participant + entity,
+                      fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
   for (const scenario::EntityIndex entity : step.reset)
     note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
   apply_swarms(model, step, car.participant, state);

@@ -29,11 +29,12 @@ struct Way {
     return {seen.x, seen.y - 0.5 * curvature_per_m * seen.x * seen.x};
   }
   bool holds(const Vec2& middle, const Vec2& half_m) const {
-    return middle.x > middle_m && middle.x - half_m.x < front_m + sight_m && middle.y + half_m.y + room_beside_m > right_m &&
-           middle.y - half_m.y - room_beside_m < left_m;
+    return middle.x > middle_m && middle.x - half_m.x < front_m + sight_m &&
+           middle.y + half_m.y + room_beside_m > right_m && middle.y - half_m.y - room_beside_m < left_m;
   }
   void mind(double gap_m, double speed_mps, double own_mps) {
-    const double closing_mps = std::max(0.0, own_mps - speed_mps), needs_mps2 = closing_mps * closing_mps / std::max(0.5, 2.0 * gap_m) + 1.0 / std::max(gap_m, 0.5);
+    const double closing_mps = std::max(0.0, own_mps - speed_mps),
+                 needs_mps2 = closing_mps * closing_mps / std::max(0.5, 2.0 * gap_m) + 1.0 / std::max(gap_m, 0.5);
     if (nearest && needs_mps2 <= nearest_needs_mps2) return;
     nearest = {std::max(0.0, gap_m), speed_mps};
     nearest_needs_mps2 = needs_mps2;
@@ -67,13 +68,15 @@ Seen seen_on(const Way& way, const Participant& other, double ahead_m) {
   // The lane bends: its direction there is not the one here.
   const double bend = way.curvature_per_m * ahead_m;
   const double across = std::abs(seen.y - bend * seen.x), along = std::abs(seen.x);
-  return {way.along(other.world_from_vehicle * Vec3(body.centre_x_m(), 0.0, 0.0)),
-          {0.5 * (along * body.length_m + across * body.width_m), 0.5 * (across * body.length_m + along * body.width_m)}};
+  return {
+      way.along(other.world_from_vehicle * Vec3(body.centre_x_m(), 0.0, 0.0)),
+      {0.5 * (along * body.length_m + across * body.width_m), 0.5 * (across * body.length_m + along * body.width_m)}};
 }
 
 /// Whether somebody is beside the body where the way widens to, or would have to brake for who comes there, or be braked for,
 /// harder than people like.
-bool is_taken_beside(const std::vector<Participant>& participants, ParticipantId self, double own_mps, const VehicleModel& body, const Way& way) {
+bool is_taken_beside(const std::vector<Participant>& participants, ParticipantId self, double own_mps,
+                     const VehicleModel& body, const Way& way) {
   const double half_width_m = 0.5 * body.width_m, rear_m = 0.5 * body.length_m;
   const double from_m = way.right_m < -half_width_m ? way.right_m : half_width_m;
   const double to_m = way.right_m < -half_width_m ? -half_width_m : way.left_m;
@@ -87,7 +90,8 @@ bool is_taken_beside(const std::vector<Participant>& participants, ParticipantId
     if (seen.middle.y + seen.half_m.y <= from_m || seen.middle.y - seen.half_m.y >= to_m) return false;
     const double mps = glm::dot(other.velocity_mps, forward);
     const bool is_ahead = seen.middle.x > way.middle_m;
-    const double gap_m = is_ahead ? seen.middle.x - seen.half_m.x - way.front_m : way.middle_m - rear_m - (seen.middle.x + seen.half_m.x);
+    const double gap_m = is_ahead ? seen.middle.x - seen.half_m.x - way.front_m
+                                  : way.middle_m - rear_m - (seen.middle.x + seen.half_m.x);
     const double closing_mps = std::max(0.0, is_ahead ? own_mps - mps : mps - own_mps);
     return gap_m < least_gap_m + closing_mps * closing_mps / (2.0 * braking_mps2);
   });
@@ -100,7 +104,8 @@ void look_at_vehicles(const std::vector<Participant>& participants, ParticipantI
     const double ahead_m = glm::dot(away, forward);
     if (other.id == self || ahead_m < -20.0 || ahead_m > sight_m + 20.0 || std::abs(away.z) > 4.0) continue;
     const auto [middle, half_m] = seen_on(way, other, ahead_m);
-    if (way.holds(middle, half_m)) way.mind(middle.x - half_m.x - way.front_m, std::max(0.0, glm::dot(other.velocity_mps, forward)), own_mps);
+    if (way.holds(middle, half_m))
+      way.mind(middle.x - half_m.x - way.front_m, std::max(0.0, glm::dot(other.velocity_mps, forward)), own_mps);
   }
 }
 
@@ -119,18 +124,21 @@ void look_at_debris(const debris::State& debris, double own_mps, Way& way) {
 
 }  // namespace
 
-void look_ahead(const Model& model, const std::vector<Participant>& participants, const EffectsState& effects, scenario::ScenarioState& state) {
+void look_ahead(const Model& model, const std::vector<Participant>& participants, const EffectsState& effects,
+                scenario::ScenarioState& state) {
   for (scenario::EntityIndex i = 0; i < state.entities.size(); ++i) {
     const scenario::EntityState& entity = state.entities[i];
     const bool hurries = entity.lamps.has(Lamp::beacon) || entity.lamps.has(Lamp::siren);
-    if (!hurries || !entity.active || entity.external || !entity.on_road || !(entity.speed_mps + entity.held_back_mps > 0.0)) {
+    if (!hurries || !entity.active || entity.external || !entity.on_road ||
+        !(entity.speed_mps + entity.held_back_mps > 0.0)) {
       scenario::mind_the_way(i, std::nullopt, false, state);
       continue;
     }
     const VehicleModel& body = vehicle_models()[model.scenario.entities[i].model];
     const ParticipantId self = first_scripted_participant + i;
     Way way = way_of(model, entity, body, true);
-    const bool is_taken = scenario::has_yet_to_move_aside(entity) && is_taken_beside(participants, self, entity.speed_mps, body, way);
+    const bool is_taken =
+        scenario::has_yet_to_move_aside(entity) && is_taken_beside(participants, self, entity.speed_mps, body, way);
     if (is_taken) way = way_of(model, entity, body, false);
     look_at_vehicles(participants, self, entity.speed_mps, way);
     look_at_debris(effects.debris, entity.speed_mps, way);

@@ -10,6 +10,7 @@
 namespace septet::simulation {
 
 /// Tells the storyboard's emergency vehicles what they would drive into, as everybody stands now.
-void look_ahead(const Model& model, const std::vector<Participant>& participants, const EffectsState& effects, scenario::ScenarioState& state);
+void look_ahead(const Model& model, const std::vector<Participant>& participants, const EffectsState& effects,
+                scenario::ScenarioState& state);
 
 }  // namespace septet::simulation

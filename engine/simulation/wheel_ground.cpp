@@ -28,7 +28,8 @@ double surface_friction(const road::SurfaceMaterial* material, const RoadWeather
   const auto kind = material ? kind_of(*material) : vehicle::SurfaceKind::dry;
   double friction = 0.0;
   if (material && material->friction > 0.0)
-    friction = vehicle::given_friction(kind, material->friction, weather.wetness, weather.snow_cover, weather.temperature_k);
+    friction =
+        vehicle::given_friction(kind, material->friction, weather.wetness, weather.snow_cover, weather.temperature_k);
   else if (kind == vehicle::SurfaceKind::dry)
     friction = vehicle::weather_friction(weather.wetness, weather.snow_cover, weather.temperature_k);
   else
@@ -36,8 +37,8 @@ double surface_friction(const road::SurfaceMaterial* material, const RoadWeather
   return friction * weather.friction_scale;
 }
 
-bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
-                       road::RoadPosition& place, vehicle::WheelGround& wheel) {
+bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather,
+                       const Vec3& centre_m, bool has_place, road::RoadPosition& place, vehicle::WheelGround& wheel) {
   const auto surface = road::surface_at(roads, {centre_m.x, centre_m.y}, has_place ? &place : nullptr, near_m);
   if (!surface) return false;
   place = surface->position;
@@ -47,8 +48,8 @@ bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAre
   return true;
 }
 
-void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m, const Vec2& ahead, double radius_m,
-               const road::RoadPosition& place, vehicle::WheelGround& wheel) {
+void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
+               const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel) {
   constexpr double noticed_m = 0.03;  // A lower step is a bump: the plane under the wheel jumps by it.
   const bool near = raised && raised->is_near(centre_m, radius_m);
   if (roads.roads[place.road].flat && !near) return;

@@ -21,13 +21,13 @@ struct RoadWeather {
 
 /// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes where it is.
 /// Nothing where no road is near: the caller knows how the land goes on. `raised` may be null: there is nothing.
-bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather, const Vec3& centre_m, bool has_place,
-                       road::RoadPosition& place, vehicle::WheelGround& wheel);
+bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const RoadWeather& weather,
+                       const Vec3& centre_m, bool has_place, road::RoadPosition& place, vehicle::WheelGround& wheel);
 
 /// Looks for a kerb, a wheel's radius before and behind its centre: sets `wheel.edge_m`. `ahead`: the car's heading, level, unit
 /// length. Costs nothing on roads whose lanes have one height, far from what is raised.
-void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m, const Vec2& ahead, double radius_m,
-               const road::RoadPosition& place, vehicle::WheelGround& wheel);
+void find_kerb(const road::RoadNetwork& roads, const roadside::RaisedAreas* raised, const Vec3& centre_m,
+               const Vec2& ahead, double radius_m, const road::RoadPosition& place, vehicle::WheelGround& wheel);
 
 double surface_friction(const road::SurfaceMaterial* material, const RoadWeather& weather);
 

@@ -28,8 +28,7 @@ int lane_at_far_end(const road::RoadNetwork& network, Step step) {
     if (!road.sections[static_cast<std::size_t>(i)].has_lane(lane)) return 0;
     const bool last = step.along_s ? i == count - 1 : i == 0;
     if (last) return lane;
-    for (const auto& next :
-         road::continuations(network, step.road, static_cast<std::uint32_t>(i), lane, step.along_s))
+    for (const auto& next : road::continuations(network, step.road, static_cast<std::uint32_t>(i), lane, step.along_s))
       if (next.road == step.road) lane = next.lane;
   }
   return lane;
@@ -78,25 +77,22 @@ Corridor build_corridor(const road::RoadNetwork& network, const road::LanePositi
   corridor.closed = closed;
   std::optional<Step> step = first;
   for (std::size_t i = 0; step && i <= network.roads.size(); ++i) {
-    const bool again = std::ranges::any_of(
-        corridor.pieces, [&](const CorridorPiece& piece) { return piece.road == step->road; });
+    const bool again =
+        std::ranges::any_of(corridor.pieces, [&](const CorridorPiece& piece) { return piece.road == step->road; });
     if (again) break;
     const double length = network.roads[step->road].length_m;
-    corridor.pieces.push_back(
-        {step->road, step->along_s, step->lane > 0 ? 1 : -1, corridor.length_m, length});
+    corridor.pieces.push_back({step->road, step->along_s, step->lane > 0 ? 1 : -1, corridor.length_m, length});
     corridor.length_m += length;
     step = next_road(network, *step);
   }
   return corridor;
 }
 
-std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network,
-                                                const road::LanePosition& position) {
+std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position) {
   const auto& section = road::section_at(network.roads[position.road], position.s_m);
   const int sign = position.lane > 0 ? -1 : 1;
   for (int lane = sign; section.has_lane(lane); lane += sign)
-    if (road::is_drivable(section.lane(lane).type))
-      return road::LanePosition{position.road, lane, position.s_m, 0.0};
+    if (road::is_drivable(section.lane(lane).type)) return road::LanePosition{position.road, lane, position.s_m, 0.0};
   return std::nullopt;
 }
 
@@ -119,13 +115,12 @@ bool lane_open(const road::RoadNetwork& network, const Corridor& corridor, doubl
   return section.has_lane(position.lane) && road::is_drivable(section.lane(position.lane).type);
 }
 
-std::optional<double> x_of(const road::RoadNetwork&, const Corridor& corridor,
-                           const road::RoadPosition& position, int lane) {
+std::optional<double> x_of(const road::RoadNetwork&, const Corridor& corridor, const road::RoadPosition& position,
+                           int lane) {
   for (const CorridorPiece& piece : corridor.pieces)
     if (piece.road == position.road)
       return lane * piece.side > 0
-                 ? std::optional(piece.x_m +
-                                 (piece.along_s ? position.s_m : piece.length_m - position.s_m))
+                 ? std::optional(piece.x_m + (piece.along_s ? position.s_m : piece.length_m - position.s_m))
                  : std::nullopt;
   return std::nullopt;
 }

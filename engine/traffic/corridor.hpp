@@ -33,8 +33,7 @@ struct Corridor {
 /// The corridor through a lane, from where the roads begin to where they end (or back to itself).
 Corridor build_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
 /// The lane that runs the other way beside this one, if there is one.
-std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network,
-                                                const road::LanePosition& position);
+std::optional<road::LanePosition> opposite_lane(const road::RoadNetwork& network, const road::LanePosition& position);
 
 /// x taken into the ring, or as it is on an open corridor.
 inline double wrap_x(const Corridor& corridor, double x_m) {

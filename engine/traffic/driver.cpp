@@ -35,12 +35,10 @@ FollowingLaw::FollowingLaw(const FollowingParameters& driver)
       time_gap_s(driver.time_gap_s),
       acceleration_mps2(driver.acceleration_mps2),
       standstill_gap_m(driver.standstill_gap_m),
-      half_inverse_root_ab(0.5 /
-                           std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)),
+      half_inverse_root_ab(0.5 / std::sqrt(driver.acceleration_mps2 * driver.comfortable_braking_mps2)),
       comfortable_braking_mps2(driver.comfortable_braking_mps2) {}
 
-double idm_acceleration(const FollowingParameters& driver, double speed_mps,
-                        double leader_speed_mps, double gap_m) {
+double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m) {
   return FollowingLaw(driver).acceleration(speed_mps, leader_speed_mps, gap_m);
 }
 
@@ -60,10 +58,9 @@ double idm_stability_margin(const FollowingParameters& driver, double gap_m) {
   const double v0 = driver.desired_speed_mps;
   const double wanted_over_gap = (driver.standstill_gap_m + v * driver.time_gap_s) / gap_m;
   const double by_gap = 2.0 * a * wanted_over_gap * wanted_over_gap / gap_m;
-  const double by_speed = -a * (4.0 * v * v * v / (v0 * v0 * v0 * v0) +
-                                2.0 * wanted_over_gap * driver.time_gap_s / gap_m);
-  const double by_approach =
-      -wanted_over_gap * v / gap_m * std::sqrt(a / driver.comfortable_braking_mps2);
+  const double by_speed =
+      -a * (4.0 * v * v * v / (v0 * v0 * v0 * v0) + 2.0 * wanted_over_gap * driver.time_gap_s / gap_m);
+  const double by_approach = -wanted_over_gap * v / gap_m * std::sqrt(a / driver.comfortable_braking_mps2);
   return (0.5 * by_speed + by_approach) * by_speed - by_gap;
 }
 

@@ -47,8 +47,7 @@ inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();
 
 /// IDM, eqs. 3 and 4: acceleration at `speed` behind a leader `gap` ahead; no leader: gap infinite.
-double idm_acceleration(const FollowingParameters& driver, double speed_mps,
-                        double leader_speed_mps, double gap_m);
+double idm_acceleration(const FollowingParameters& driver, double speed_mps, double leader_speed_mps, double gap_m);
 
 /// The speed at which this gap is kept with no acceleration: the root of eq. 3, to 1e-12 m/s.
 double idm_equilibrium_speed(const FollowingParameters& driver, double gap_m);
@@ -71,8 +70,7 @@ struct FollowingLaw {
   double acceleration(double speed_mps, double leader_speed_mps, double gap_m) const {
     const double ratio = speed_mps * inverse_desired_speed;
     const double ratio2 = ratio * ratio;
-    const double dynamic =
-        speed_mps * (time_gap_s + (speed_mps - leader_speed_mps) * half_inverse_root_ab);
+    const double dynamic = speed_mps * (time_gap_s + (speed_mps - leader_speed_mps) * half_inverse_root_ab);
     const double wanted = standstill_gap_m + (dynamic > 0.0 ? dynamic : 0.0);
     const double tight = wanted / (gap_m > 0.1 ? gap_m : 0.1);
     const double a = acceleration_mps2 * (1.0 - ratio2 * ratio2 - tight * tight);
@@ -85,24 +83,21 @@ struct FollowingLaw {
   /// constant-acceleration heuristic) on, the model's braking is felt no harder than the
   /// comfortable one. In equilibrium, and to first order about it, both are the same. Other than
   /// the paper, nobody counts on a leader's gaining speed, and tanh is its Padé approximant, good to 0.03.
-  double with_coolness(double idm_mps2, double speed_mps, double leader_speed_mps,
-                       double leader_acceleration_mps2, double gap_m) const {
+  double with_coolness(double idm_mps2, double speed_mps, double leader_speed_mps, double leader_acceleration_mps2,
+                       double gap_m) const {
     if (idm_mps2 >= 0.0) return idm_mps2;
     constexpr double coolness = 0.99;
     const double gap = gap_m > 0.1 ? gap_m : 0.1;
     const double leader_mps2 = leader_acceleration_mps2 < 0.0 ? leader_acceleration_mps2 : 0.0;
     const double closing = speed_mps - leader_speed_mps, free = -2.0 * gap * leader_mps2;
-    const double just_enough =
-        leader_speed_mps * closing < free
-            ? speed_mps * speed_mps * leader_mps2 / (leader_speed_mps * leader_speed_mps + free)
-            : leader_mps2 - (closing > 0.0 ? closing * closing / (2.0 * gap) : 0.0);
+    const double just_enough = leader_speed_mps * closing < free
+                                   ? speed_mps * speed_mps * leader_mps2 / (leader_speed_mps * leader_speed_mps + free)
+                                   : leader_mps2 - (closing > 0.0 ? closing * closing / (2.0 * gap) : 0.0);
     const double beyond = (idm_mps2 - just_enough) / comfortable_braking_mps2;
     if (beyond >= 0.0) return idm_mps2;
     const double square = beyond * beyond;
-    const double tanh =
-        beyond > -3.0 ? beyond * (27.0 + square) / (27.0 + 9.0 * square) : -1.0;
-    const double a = (1.0 - coolness) * idm_mps2 +
-                     coolness * (just_enough + comfortable_braking_mps2 * tanh);
+    const double tanh = beyond > -3.0 ? beyond * (27.0 + square) / (27.0 + 9.0 * square) : -1.0;
+    const double a = (1.0 - coolness) * idm_mps2 + coolness * (just_enough + comfortable_braking_mps2 * tanh);
     return a > -hardest_braking_mps2 ? a : -hardest_braking_mps2;
   }
 };

@@ -24,15 +24,13 @@ bool has_room_beside(const CorridorTraffic& traffic, const LaneEntry& own, const
   const auto then = [&](const LaneEntry& e) {
     return e.vehicle >= 0 ? across_then(traffic, static_cast<std::size_t>(e.vehicle)) : now(e);
   };
-  return apart(now(own), now(other)) && apart(then(own), now(other)) &&
-         apart(now(own), then(other));
+  return apart(now(own), now(other)) && apart(then(own), now(other)) && apart(now(own), then(other));
 }
 
 /// The next one ahead that is really in the way, in a lane where some are not in its middle. What
 /// an emergency vehicle passes bounds its speed.
-const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic,
-                                         const std::vector<LaneEntry>& lane, std::size_t k,
-                                         double& speed_limit_mps) {
+const LaneEntry* leader_among_straddlers(const CorridorTraffic& traffic, const std::vector<LaneEntry>& lane,
+                                         std::size_t k, double& speed_limit_mps) {
   const LaneEntry& own = lane[k];
   const bool emergency = traffic.emergency[static_cast<std::size_t>(own.vehicle)] != 0;
   const std::size_t count = lane.size();
@@ -62,8 +60,7 @@ void follow_carefully(CorridorTraffic& traffic, const std::vector<LaneEntry>& la
     const auto i = static_cast<std::size_t>(own.vehicle);
     double limit = no_leader;
     const LaneEntry* leader = leader_among_straddlers(traffic, lane, k, limit);
-    double a = acceleration_behind(traffic.law[i], own.speed_mps, leader,
-                                   gap_to(traffic, own.x_m, leader));
+    double a = acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, own.x_m, leader));
     if (own.speed_mps > limit - 1.0) {
       a = std::min(a, std::clamp(limit - own.speed_mps, -3.0, 1.0));
     }
@@ -78,16 +75,15 @@ void follow_in_lane(CorridorTraffic& traffic, const std::vector<LaneEntry>& lane
     if (own.vehicle < 0) continue;
     const auto i = static_cast<std::size_t>(own.vehicle);
     const LaneEntry& leader = lane[k + 1];
-    const double a = acceleration_behind(traffic.law[i], own.speed_mps, &leader,
-                                         leader.x_m - own.x_m - leader.length_m);
+    const double a =
+        acceleration_behind(traffic.law[i], own.speed_mps, &leader, leader.x_m - own.x_m - leader.length_m);
     traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
   }
   if (count == 0 || lane.back().vehicle < 0) return;
   const LaneEntry& own = lane.back();
   const auto i = static_cast<std::size_t>(own.vehicle);
   const LaneEntry* leader = traffic.corridor.closed && count > 1 ? &lane.front() : nullptr;
-  const double a = acceleration_behind(traffic.law[i], own.speed_mps, leader,
-                                       gap_to(traffic, own.x_m, leader));
+  const double a = acceleration_behind(traffic.law[i], own.speed_mps, leader, gap_to(traffic, own.x_m, leader));
   traffic.acceleration_mps2[i] = std::min(traffic.acceleration_mps2[i], a);
 }
 
@@ -116,8 +112,7 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
       if (lane[k].vehicle < 0) continue;
       const auto i = static_cast<std::size_t>(lane[k].vehicle);
       const bool emergency = traffic.emergency[i] != 0;
-      if (traffic.lane[i] != static_cast<int>(l) && traffic.from_lane[i] != static_cast<int>(l))
-        continue;
+      if (traffic.lane[i] != static_cast<int>(l) && traffic.from_lane[i] != static_cast<int>(l)) continue;
       if (kept != k) lane[kept] = lane[k];
       LaneEntry& entry = lane[kept++];
       entry.x_m = traffic.x_m[i];
@@ -141,8 +136,8 @@ void refresh_order(CorridorTraffic& traffic, const ForeignTraffic& foreign) {
   }
 }
 
-Neighbours neighbours(const CorridorTraffic& traffic, int lane_number, double x_m,
-                      std::int32_t self, std::uint32_t& hint) {
+Neighbours neighbours(const CorridorTraffic& traffic, int lane_number, double x_m, std::int32_t self,
+                      std::uint32_t& hint) {
   const std::vector<LaneEntry>& lane = traffic.order.lanes[static_cast<std::size_t>(lane_number)];
   const std::size_t count = lane.size();
   const std::size_t from = first_ahead(lane, x_m, hint);

@@ -24,9 +24,8 @@ Signals signals_of(const Lamps& lamps, double dt_s, std::array<double, 2>& since
   return {since_s[0] < flash_s, since_s[1] < flash_s};
 }
 
-void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle,
-                       std::int32_t index, double acceleration_mps2, const Signals& signals,
-                       const road::Location& place,
+void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& vehicle, std::int32_t index,
+                       double acceleration_mps2, const Signals& signals, const road::Location& place,
                        const CorridorTraffic& traffic, ForeignTraffic& found) {
   const auto x = x_of(network, traffic.corridor, place.position, place.lanes.lane);
   if (!x) return;
@@ -44,8 +43,7 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
   entry.lateral_m = static_cast<float>(-lane * traffic.table.lane_width_m + offset_left);
   entry.half_width_m = static_cast<float>(half_width);
   entry.vehicle = -1 - index;
-  const double width =
-      road::lane_width_m(network, place.position.road, place.lanes.lane, place.position.s_m);
+  const double width = road::lane_width_m(network, place.position.road, place.lanes.lane, place.position.s_m);
   const double over = std::abs(offset_left) + half_width - 0.5 * width;
   entry.straddles = over > over_the_line_m;
   found.entries.push_back({lane, entry});
@@ -64,9 +62,8 @@ void place_in_corridor(const road::RoadNetwork& network, const ForeignVehicle& v
 
 }  // namespace
 
-std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
-                                          std::span<const ForeignVehicle> foreign, double dt_s,
-                                          TrafficState& state) {
+std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
+                                          double dt_s, TrafficState& state) {
   state.foreign_places.resize(foreign.size());
   state.foreign_speeds_mps.resize(foreign.size(), no_leader);
   state.foreign_signals_s.resize(foreign.size(), {no_leader, no_leader});
@@ -83,11 +80,10 @@ std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
     const Signals signals = signals_of(foreign[i].lamps, dt_s, state.foreign_signals_s[i]);
     const double change_mps = now_mps - before_mps;
     // Who was put somewhere else has not braked.
-    const double braking_mps2 =
-        change_mps > -hardest_braking_mps2 * 2.0 * dt_s ? change_mps / dt_s : 0.0;
+    const double braking_mps2 = change_mps > -hardest_braking_mps2 * 2.0 * dt_s ? change_mps / dt_s : 0.0;
     for (std::size_t c = 0; c < state.corridors.size(); ++c) {
-      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, signals,
-                        *place, state.corridors[c], found[c]);
+      place_in_corridor(network, foreign[i], static_cast<std::int32_t>(i), braking_mps2, signals, *place,
+                        state.corridors[c], found[c]);
     }
   }
   return found;

@@ -8,9 +8,7 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double flow_per_h(double density_per_km, double speed_mps) {
-  return density_per_km * speed_mps * 3.6;
-}
+constexpr double flow_per_h(double density_per_km, double speed_mps) { return density_per_km * speed_mps * 3.6; }
 
 FlowPoint measure(const RingOptions& options, double density_per_km) {
   const auto network = ring_road(options.length_m, options.lanes);
@@ -38,22 +36,19 @@ FlowPoint measure(const RingOptions& options, double density_per_km) {
   point.density_per_km = count / (options.length_m / 1000.0 * options.lanes);
   point.speed_mps = sum / number;
   point.flow_per_h = flow_per_h(point.density_per_km, point.speed_mps);
-  point.deviation_mps =
-      std::sqrt(std::max(0.0, squares / number - point.speed_mps * point.speed_mps));
+  point.deviation_mps = std::sqrt(std::max(0.0, squares / number - point.speed_mps * point.speed_mps));
   return point;
 }
 
 }  // namespace
 
-std::vector<FlowPoint> fundamental_diagram(const RingOptions& options,
-                                           std::span<const double> densities_per_km) {
+std::vector<FlowPoint> fundamental_diagram(const RingOptions& options, std::span<const double> densities_per_km) {
   std::vector<FlowPoint> points;
   for (const double density : densities_per_km) points.push_back(measure(options, density));
   return points;
 }
 
-FlowPoint equilibrium_flow(const FollowingParameters& driver, double vehicle_length_m,
-                           double density_per_km) {
+FlowPoint equilibrium_flow(const FollowingParameters& driver, double vehicle_length_m, double density_per_km) {
   FlowPoint point;
   point.density_per_km = density_per_km;
   point.speed_mps = idm_equilibrium_speed(driver, 1000.0 / density_per_km - vehicle_length_m);

@@ -17,8 +17,7 @@ constexpr double exit_bias_mps2 = 3.0;
 constexpr double rest_after_change_s = 2.0;
 
 /// The law by which somebody in the order drives; foreign ones as the one who decides.
-const FollowingLaw& law_of(const CorridorTraffic& traffic, const LaneEntry& entry,
-                           std::size_t decider) {
+const FollowingLaw& law_of(const CorridorTraffic& traffic, const LaneEntry& entry, std::size_t decider) {
   return traffic.law[entry.vehicle >= 0 ? static_cast<std::size_t>(entry.vehicle) : decider];
 }
 
@@ -30,8 +29,7 @@ struct Decision {
   double old_follower_gain = 0.0;  ///< What the one behind gains when this one is gone.
 
   double present_acceleration(const LaneEntry& entry, double otherwise) const {
-    return entry.vehicle >= 0 ? traffic.acceleration_mps2[static_cast<std::size_t>(entry.vehicle)]
-                              : otherwise;
+    return entry.vehicle >= 0 ? traffic.acceleration_mps2[static_cast<std::size_t>(entry.vehicle)] : otherwise;
   }
 
   /// MOBIL, eqs. 2 to 4: the gain of the driver and, politely, of those behind; refused where it is
@@ -53,29 +51,25 @@ struct Decision {
       const double gap = way_ahead_m(traffic.corridor, x - behind->x_m) - traffic.length_m[i];
       if (gap < smallest_gap_m) return refused;
       const FollowingLaw& law_behind = law_of(traffic, *behind, i);
-      if (law_behind.acceleration(behind->speed_mps, v, gap) < -change.largest_braking_mps2)
-        return refused;
+      if (law_behind.acceleration(behind->speed_mps, v, gap) < -change.largest_braking_mps2) return refused;
       LaneEntry own;
       own.speed_mps = v;
       own.acceleration_mps2 = static_cast<float>(own_now);
-      others += acceleration_behind(law_behind, behind->speed_mps, &own, gap) -
-                present_acceleration(*behind, 0.0);
+      others += acceleration_behind(law_behind, behind->speed_mps, &own, gap) - present_acceleration(*behind, 0.0);
     }
     return own_then - own_now +
-           change.politeness *
-               std::clamp(others, -2.0 * hardest_braking_mps2, hardest_braking_mps2);
+           change.politeness * std::clamp(others, -2.0 * hardest_braking_mps2, hardest_braking_mps2);
   }
 };
 
-void decide(const TrafficParameters& parameters, const road::RoadNetwork& network,
-            CorridorTraffic& traffic, std::size_t i, double time_s) {
+void decide(const TrafficParameters& parameters, const road::RoadNetwork& network, CorridorTraffic& traffic,
+            std::size_t i, double time_s) {
   traffic.next_decision_s[i] = time_s + parameters.decision_interval_s;
   const MakingWay way = traffic.making_way[i];
   if (way == MakingWay::hold_lane) return;
   const LaneChangeParameters& change = traffic.driver[i].lane_change;
   const int lane = traffic.lane[i];
-  const RampMouth* exit =
-      traffic.exits.empty() ? nullptr : exit_ahead(traffic, i, parameters.exit_share);
+  const RampMouth* exit = traffic.exits.empty() ? nullptr : exit_ahead(traffic, i, parameters.exit_share);
   if (exit != nullptr && lane == exit->lane) return;
   Decision decision{traffic, i, traffic.x_m[i], traffic.speed_mps[i], traffic.acceleration_mps2[i]};
   const double x = decision.x, rear_x = rear_axle_x_m(traffic, i);
@@ -109,9 +103,7 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
     }
   }
   if (best == lane) return;
-  const auto centre = [&](int of) {
-    return lane_centre_along(network, traffic.corridor, traffic.table, rear_x, of);
-  };
+  const auto centre = [&](int of) { return lane_centre_along(network, traffic.corridor, traffic.table, rear_x, of); };
   const LaneCentre here = centre(lane), there = centre(best);
   traffic.from_lane[i] = static_cast<std::int16_t>(lane);
   traffic.lane[i] = static_cast<std::int16_t>(best);
@@ -124,8 +116,8 @@ void decide(const TrafficParameters& parameters, const road::RoadNetwork& networ
 
 }  // namespace
 
-void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network,
-                  double time_s, double dt_s, CorridorTraffic& traffic) {
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
+                  CorridorTraffic& traffic) {
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (traffic.emergency[i] != 0 || traffic.lane[i] == 0) continue;
     if (!changes_lane(traffic, i) && time_s >= traffic.next_decision_s[i])

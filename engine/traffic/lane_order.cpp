@@ -5,9 +5,7 @@
 namespace septet::traffic {
 namespace {
 
-bool before(const LaneEntry& a, const LaneEntry& b) {
-  return a.x_m != b.x_m ? a.x_m < b.x_m : a.vehicle < b.vehicle;
-}
+bool before(const LaneEntry& a, const LaneEntry& b) { return a.x_m != b.x_m ? a.x_m < b.x_m : a.vehicle < b.vehicle; }
 
 }  // namespace
 

@@ -24,8 +24,7 @@ bool is_open(const road::RoadNetwork& network, const Corridor& corridor, double 
   return road::lane_borders(road, section, at.lane, at.s_m).width_m() >= narrowest_m;
 }
 
-std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corridor& corridor,
-                                   int lane) {
+std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corridor& corridor, int lane) {
   std::vector<OpenStretch> found;
   const auto steps = static_cast<int>(std::ceil(corridor.length_m / step_m));
   for (int i = 0; i < steps; ++i) {
@@ -47,8 +46,7 @@ std::vector<OpenStretch> stretches(const road::RoadNetwork& network, const Corri
   return found;
 }
 
-LaneCentre exact_centre(const road::RoadNetwork& network, const CorridorPiece& piece, double x_m,
-                        int lane) {
+LaneCentre exact_centre(const road::RoadNetwork& network, const CorridorPiece& piece, double x_m, int lane) {
   const road::Road& road = network.roads[piece.road];
   const double along = std::clamp(x_m - piece.x_m, 0.0, piece.length_m);
   const double s = piece.along_s ? along : piece.length_m - along;
@@ -91,8 +89,7 @@ CentreLine centre_line(const road::RoadNetwork& network, const Corridor& corrido
 
 double length_m(const std::vector<OpenStretch>& open, double most_m) {
   double sum = 0.0;
-  for (const auto& stretch : open)
-    sum += std::min(stretch.end_m, most_m) - std::max(stretch.begin_m, 0.0);
+  for (const auto& stretch : open) sum += std::min(stretch.end_m, most_m) - std::max(stretch.begin_m, 0.0);
   return sum;
 }
 
@@ -113,8 +110,7 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
     open = stretches(network, corridor, lane);
     if (open.empty()) continue;
     table.highest = lane;
-    if (table.lowest == 0 && length_m(open, corridor.length_m) > 0.5 * corridor.length_m)
-      table.lowest = lane;
+    if (table.lowest == 0 && length_m(open, corridor.length_m) > 0.5 * corridor.length_m) table.lowest = lane;
   }
   table.lowest = std::max(table.lowest, 1);
   const auto middle = position_at(corridor, 0.5 * corridor.length_m, table.lowest);
@@ -125,8 +121,8 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
   return table;
 }
 
-LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
-                       const CorridorPiece& piece, double x_m, int lane) {
+LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table, const CorridorPiece& piece, double x_m,
+                       int lane) {
   const auto& knots = table.centres[static_cast<std::size_t>(lane)].knots;
   const double at = x_m * (1.0 / LaneTable::knot_step_m);
   const auto k = static_cast<std::size_t>(at);
@@ -135,8 +131,8 @@ LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
   return {centre.t_m, piece.along_s ? centre.slope : -centre.slope};
 }
 
-LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor,
-                             const LaneTable& table, double x_m, int lane) {
+LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor, const LaneTable& table,
+                             double x_m, int lane) {
   const double x = std::clamp(wrap_x(corridor, x_m), 0.0, corridor.length_m);
   const CorridorPiece& piece = piece_at(corridor, x);
   const LaneCentre centre = lane_centre(network, table, piece, x, lane);

@@ -33,9 +33,9 @@ struct CentreLine {
 struct LaneTable {
   static constexpr double knot_step_m = 10.0;
 
-  int lowest = 1, highest = 0;  ///< Lane numbers that are open anywhere along most of the corridor,
-                                ///< and anywhere at all.
-  double lane_width_m = 3.5;    ///< Of the lowest lane at the corridor's middle.
+  int lowest = 1, highest = 0;                 ///< Lane numbers that are open anywhere along most of the corridor,
+                                               ///< and anywhere at all.
+  double lane_width_m = 3.5;                   ///< Of the lowest lane at the corridor's middle.
   std::vector<std::vector<OpenStretch>> open;  ///< [lane number], ascending, apart.
   std::vector<CentreLine> centres;             ///< [lane number]
 };
@@ -44,12 +44,12 @@ LaneTable make_lane_table(const road::RoadNetwork& network, const Corridor& corr
 
 /// The middle of lane `lane` at x, which lies on `piece` and within the corridor; of the outermost
 /// lane where the road has no such lane.
-LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table,
-                       const CorridorPiece& piece, double x_m, int lane);
+LaneCentre lane_centre(const road::RoadNetwork& network, const LaneTable& table, const CorridorPiece& piece, double x_m,
+                       int lane);
 
 /// The same at any x, seen along travel: to the left of the reference line, and its slope by x.
-LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor,
-                             const LaneTable& table, double x_m, int lane);
+LaneCentre lane_centre_along(const road::RoadNetwork& network, const Corridor& corridor, const LaneTable& table,
+                             double x_m, int lane);
 
 /// The x at which the lane ends for a vehicle at x: infinite if it goes on; less than x where the
 /// lane is not open.

@@ -25,8 +25,7 @@ void begin_change(CorridorTraffic& traffic, std::size_t i, double offset_m, doub
 Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   Lateral lateral{traffic.aside_m[i]};
   const double speed = traffic.speed_mps[i];
-  if (traffic.aside_mps[i] != 0.0)
-    lateral.slope = traffic.aside_mps[i] / std::max(speed, slowest_aside_mps);
+  if (traffic.aside_mps[i] != 0.0) lateral.slope = traffic.aside_mps[i] / std::max(speed, slowest_aside_mps);
   const double u = traffic.change_part[i];
   if (u >= 1.0) return lateral;
   // Hermite: from an offset and a run (slope times length) to nothing.
@@ -34,10 +33,8 @@ Lateral lateral(const CorridorTraffic& traffic, std::size_t i) {
   const double rest = 1.0 - u, cube = rest * rest * rest;
   const double by_way = 1.0 / change_length_m(traffic, i, speed);
   lateral.offset_m += cube * (begun * (1.0 + u * (3.0 + 6.0 * u)) + run * u * (1.0 + 3.0 * u));
-  lateral.slope += rest * rest * by_way *
-                   (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
-  lateral.curvature_per_m = rest * u * by_way * by_way *
-                            (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
+  lateral.slope += rest * rest * by_way * (run * (1.0 + u * (2.0 - 15.0 * u)) - begun * 30.0 * u * u);
+  lateral.curvature_per_m = rest * u * by_way * by_way * (run * (60.0 * u - 36.0) - begun * 60.0 * (1.0 - 2.0 * u));
   return lateral;
 }
 
@@ -49,8 +46,7 @@ Across across(const CorridorTraffic& traffic, std::size_t i) {
 }
 
 Across across_then(const CorridorTraffic& traffic, std::size_t i) {
-  return {-traffic.lane[i] * traffic.table.lane_width_m + traffic.aside_target_m[i],
-          traffic.half_width_m[i]};
+  return {-traffic.lane[i] * traffic.table.lane_width_m + traffic.aside_target_m[i], traffic.half_width_m[i]};
 }
 
 double lateral_m(const CorridorTraffic& traffic, std::size_t i) {

@@ -16,9 +16,8 @@ RoadLine exact_line(const road::Road& road, double s_m) {
   const Vec2 heading = half_turn(section.plan.direction.x, section.plan.direction.y);
   const Vec2 pitch = half_turn(section.cos_pitch, section.sin_pitch);
   const Vec2 roll = half_turn(section.cos_roll, section.sin_roll);
-  return {{section.place(0.0, 0.0), Quat(heading.x, 0.0, 0.0, heading.y) *
-                                        Quat(pitch.x, 0.0, pitch.y, 0.0) *
-                                        Quat(roll.x, roll.y, 0.0, 0.0)},
+  return {{section.place(0.0, 0.0),
+           Quat(heading.x, 0.0, 0.0, heading.y) * Quat(pitch.x, 0.0, pitch.y, 0.0) * Quat(roll.x, roll.y, 0.0, 0.0)},
           section.plan.curvature_per_m};
 }
 
@@ -38,8 +37,7 @@ Numbers numbers_of(const RoadLine& line, const Quat& near) {
 Numbers evaluate(const LineTable::Cubics& cubics, double u) {
   const auto& [c0, c1, c2, c3] = cubics;
   Numbers value;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    value[i] = c0[i] + u * (c1[i] + u * (c2[i] + u * c3[i]));
+  for (std::size_t i = 0; i < value.size(); ++i) value[i] = c0[i] + u * (c1[i] + u * (c2[i] + u * c3[i]));
   return value;
 }
 
@@ -52,8 +50,8 @@ double largest_error(const Numbers& a, const Numbers& b) {
   return largest;
 }
 
-void add_step(const road::RoadNetwork& network, const Corridor& corridor, double begin_m,
-              double end_m, LineTable& table) {
+void add_step(const road::RoadNetwork& network, const Corridor& corridor, double begin_m, double end_m,
+              LineTable& table) {
   const CorridorPiece& piece = piece_at(corridor, begin_m);
   const road::Road& road = network.roads[piece.road];
   const Quat near = exact_line(road, station(piece, begin_m)).world_from_line.orientation;
@@ -70,11 +68,9 @@ void add_step(const road::RoadNetwork& network, const Corridor& corridor, double
     cubics[3][i] = -4.5 * f0[i] + 13.5 * f1[i] - 13.5 * f2[i] + 4.5 * f3[i];
   }
   bool smooth = &piece == &piece_at(corridor, end_m);
-  for (const double u : {0.1, 0.5, 0.9})
-    smooth = smooth && largest_error(evaluate(cubics, u), at(u)) < tolerance;
+  for (const double u : {0.1, 0.5, 0.9}) smooth = smooth && largest_error(evaluate(cubics, u), at(u)) < tolerance;
   table.cubics.push_back(cubics);
-  table.pieces.push_back(smooth ? static_cast<std::uint32_t>(&piece - corridor.pieces.data())
-                                : LineTable::no_piece);
+  table.pieces.push_back(smooth ? static_cast<std::uint32_t>(&piece - corridor.pieces.data()) : LineTable::no_piece);
 }
 
 }  // namespace
@@ -95,8 +91,7 @@ LineTable make_line_table(const road::RoadNetwork& network, const Corridor& corr
   return table;
 }
 
-LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const LineTable& table,
-               double x_m) {
+LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const LineTable& table, double x_m) {
   const double at = x_m * (1.0 / LineTable::step_m);
   const auto k = static_cast<std::size_t>(at);
   if (k >= table.pieces.size() || table.pieces[k] == LineTable::no_piece) {

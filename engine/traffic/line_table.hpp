@@ -40,8 +40,7 @@ struct LineAt {
   double s_m = 0.0;  ///< On the piece's road.
   RoadLine line;
 };
-LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const LineTable& table,
-               double x_m);
+LineAt line_at(const road::RoadNetwork& network, const Corridor& corridor, const LineTable& table, double x_m);
 
 /// (cos, sin) of half the angle that has this cosine and sine.
 Vec2 half_turn(double cosine, double sine);

@@ -73,8 +73,7 @@ void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& for
   const bool emergency_itself = std::ranges::find(traffic.emergency, 1) != traffic.emergency.end();
   for (std::size_t i = 0; emergency_itself && i < traffic.size(); ++i) {
     if (traffic.emergency[i] == 0 || traffic.lane[i] == 0) continue;
-    emergencies.push_back(
-        {traffic.x_m[i], traffic.length_m[i], lateral_m(traffic, i), traffic.half_width_m[i]});
+    emergencies.push_back({traffic.x_m[i], traffic.length_m[i], lateral_m(traffic, i), traffic.half_width_m[i]});
   }
   if (emergencies.empty() && !traffic.any_aside) return;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
@@ -84,8 +83,7 @@ void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& for
     bool near = false;
     for (const EmergencyVehicle& emergency : emergencies) {
       const double ahead = distance_m(traffic.corridor, emergency.front_x_m, traffic.x_m[i]);
-      if (ahead > heard_at_m + traffic.length_m[i] || ahead < -emergency.length_m - kept_open_m)
-        continue;
+      if (ahead > heard_at_m + traffic.length_m[i] || ahead < -emergency.length_m - kept_open_m) continue;
       near = true;
       hear(traffic, i, emergency, dt_s);
     }

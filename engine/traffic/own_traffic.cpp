@@ -8,11 +8,9 @@ namespace {
 
 class OwnTraffic final : public TrafficEngine {
  public:
-  OwnTraffic(const road::RoadNetwork& network, std::uint64_t seed)
-      : network_(network), random_(seed, 1) {}
+  OwnTraffic(const road::RoadNetwork& network, std::uint64_t seed) : network_(network), random_(seed, 1) {}
 
-  void start(const TrafficParameters& parameters,
-             std::span<const ForeignVehicle> foreign) override {
+  void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) override {
     parameters_ = parameters;
     state_ = populate(parameters_, network_, foreign, random_);
   }

@@ -118,8 +118,7 @@ void append_participants(const TrafficState& state, const road::RoadNetwork& net
       // The vehicle frame's origin is below the rear axle.
       const double x = traffic.x_m[i] - model.front_m();
       if (!traffic.corridor.closed && (x < 0.0 || x > traffic.corridor.length_m)) continue;
-      describe(traffic, i, model, wrap_x(traffic.corridor, x), network, state.time_s,
-               participants.emplace_back());
+      describe(traffic, i, model, wrap_x(traffic.corridor, x), network, state.time_s, participants.emplace_back());
     }
 }
 

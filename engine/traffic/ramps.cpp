@@ -14,34 +14,30 @@ namespace {
 
 constexpr double ramp_speed_mps = 19.0;
 constexpr double exit_announced_m = 1500.0;
-constexpr double changing_s = 7.0;  ///< Longer than any driver's change of lane.
+constexpr double changing_s = 7.0;      ///< Longer than any driver's change of lane.
 constexpr double exit_shown_m = 150.0;  ///< As far as a change of lane goes on into the ramp.
 
 bool has_road(const Corridor& corridor, road::RoadIndex road) {
-  return std::ranges::any_of(corridor.pieces,
-                             [&](const CorridorPiece& piece) { return piece.road == road; });
+  return std::ranges::any_of(corridor.pieces, [&](const CorridorPiece& piece) { return piece.road == road; });
 }
 
 /// What follows `lane` of a piece at its far end.
-std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& network,
-                                           const CorridorPiece& piece, int lane) {
+std::vector<road::LaneContinuation> beyond(const road::RoadNetwork& network, const CorridorPiece& piece, int lane) {
   const auto& sections = network.roads[piece.road].sections;
   const std::size_t last = piece.along_s ? sections.size() - 1 : 0;
   if (!sections[last].has_lane(piece.side * lane)) return {};
-  return road::continuations(network, piece.road, static_cast<std::uint32_t>(last),
-                             piece.side * lane, piece.along_s);
+  return road::continuations(network, piece.road, static_cast<std::uint32_t>(last), piece.side * lane, piece.along_s);
 }
 
 /// The chain of roads from an exit until it comes back to the corridor; no pieces where it does
 /// not, or changes its lane's number.
-Corridor follow_ramp(const road::RoadNetwork& network, const Corridor& main,
-                     road::LaneContinuation at, RampMouth& entry) {
+Corridor follow_ramp(const road::RoadNetwork& network, const Corridor& main, road::LaneContinuation at,
+                     RampMouth& entry) {
   Corridor ramp;
   const int lane = std::abs(at.lane);
   for (std::size_t i = 0; i < network.roads.size() && std::abs(at.lane) == lane; ++i) {
     const double length = network.roads[at.road].length_m;
-    ramp.pieces.push_back(
-        {at.road, at.towards_increasing_s, at.lane > 0 ? 1 : -1, ramp.length_m, length});
+    ramp.pieces.push_back({at.road, at.towards_increasing_s, at.lane > 0 ? 1 : -1, ramp.length_m, length});
     ramp.length_m += length;
     const auto next = beyond(network, ramp.pieces.back(), lane);
     if (next.empty()) break;
@@ -61,11 +57,7 @@ void add_ramps_of(const road::RoadNetwork& network, std::size_t main, TrafficSta
     for (int lane = 1; lane <= state.corridors[main].table.highest; ++lane) {
       for (const auto& next : beyond(network, piece, lane)) {
         if (has_road(corridor, next.road)) continue;
-        Ramp ramp{main,
-                  state.corridors.size(),
-                  {piece.x_m + piece.length_m, lane},
-                  {},
-                  std::abs(next.lane)};
+        Ramp ramp{main, state.corridors.size(), {piece.x_m + piece.length_m, lane}, {}, std::abs(next.lane)};
         const Corridor chain = follow_ramp(network, corridor, next, ramp.entry);
         if (chain.pieces.empty()) continue;
         state.corridors.push_back(empty_corridor(network, chain));
@@ -116,8 +108,8 @@ void hand_over(CorridorTraffic& from, std::size_t i, CorridorTraffic& to, int la
 
 /// The entry of the last vehicle in `lane` from x on, as seen `shift_m` away; for the order of
 /// those who drive towards it.
-void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double shift_m,
-               int shown_lane, ForeignTraffic& seen) {
+void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double shift_m, int shown_lane,
+               ForeignTraffic& seen) {
   for (const LaneEntry& entry : traffic.order.lanes[static_cast<std::size_t>(lane)]) {
     if (entry.x_m < from_x_m || entry.vehicle < 0) continue;
     LaneEntry shown = entry;
@@ -129,8 +121,7 @@ void show_last(const CorridorTraffic& traffic, int lane, double from_x_m, double
 }
 
 /// Who took the exit before its change of lane was done still stands in the lane beside the exit's.
-void show_unfinished(const CorridorTraffic& way, const Ramp& ramp, double lane_width_m,
-                     ForeignTraffic& seen) {
+void show_unfinished(const CorridorTraffic& way, const Ramp& ramp, double lane_width_m, ForeignTraffic& seen) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     if (!changes_lane(way, i) || way.x_m[i] > exit_shown_m) continue;
     LaneEntry shown = entry_of(way, i);
@@ -168,8 +159,7 @@ void show_across_mouths(const TrafficState& state, std::vector<ForeignTraffic>& 
     const double length = way.corridor.length_m;
     show_last(way, ramp.lane, -1e3, ramp.exit.x_m, ramp.exit.lane, seen[ramp.main]);
     show_unfinished(way, ramp, main.table.lane_width_m, seen[ramp.main]);
-    show_last(main, ramp.entry.lane, ramp.entry.x_m, length - ramp.entry.x_m, ramp.lane,
-              seen[ramp.way]);
+    show_last(main, ramp.entry.lane, ramp.entry.x_m, length - ramp.entry.x_m, ramp.lane, seen[ramp.way]);
   }
 }
 
@@ -177,9 +167,8 @@ void take_ramps(TrafficState& state) {
   for (const Ramp& ramp : state.ramps) {
     CorridorTraffic &main = state.corridors[ramp.main], &way = state.corridors[ramp.way];
     for (std::size_t i = 0; i < main.size();) {
-      const bool leaves =
-          main.lane[i] == ramp.exit.lane && rear_axle_x_m(main, i) >= ramp.exit.x_m &&
-          rear_axle_x_m(main, i) < ramp.exit.x_m + 20.0 && main.lane_end_m[i] == no_leader;
+      const bool leaves = main.lane[i] == ramp.exit.lane && rear_axle_x_m(main, i) >= ramp.exit.x_m &&
+                          rear_axle_x_m(main, i) < ramp.exit.x_m + 20.0 && main.lane_end_m[i] == no_leader;
       if (!leaves) {
         ++i;
         continue;

@@ -14,10 +14,9 @@ namespace septet::traffic {
 road::RoadNetwork ring_road(double length_m, int lanes) {
   std::string right;
   for (int id = 1; id <= lanes; ++id) {
-    right += fmt::format(
-        R"(<lane id="-{}" type="driving"><link><predecessor id="-{}"/><successor id="-{}"/></link>)"
-        R"(<width sOffset="0" a="3.75" b="0" c="0" d="0"/></lane>)",
-        id, id, id);
+    right += fmt::format(R"(<lane id="-{}" type="driving"><link><predecessor id="-{}"/><successor id="-{}"/></link>)"
+                         R"(<width sOffset="0" a="3.75" b="0" c="0" d="0"/></lane>)",
+                         id, id, id);
   }
   const std::string text = fmt::format(
       R"(<OpenDRIVE><header revMajor="1" revMinor="8"/><road id="ring" length="{0}" junction="-1"><link>)"
@@ -32,8 +31,7 @@ road::RoadNetwork ring_road(double length_m, int lanes) {
   return std::move(*network);
 }
 
-TrafficState dense_ring(const road::RoadNetwork& network, int lanes, std::uint32_t count,
-                        std::uint64_t seed) {
+TrafficState dense_ring(const road::RoadNetwork& network, int lanes, std::uint32_t count, std::uint64_t seed) {
   Random random(seed, 5);
   TrafficState state;
   state.corridors.push_back(empty_corridor(network, {0, -1, 1.0, 0.0}));
@@ -45,9 +43,8 @@ TrafficState dense_ring(const road::RoadNetwork& network, int lanes, std::uint32
     const bool heavy = lane + 2 > lanes && random.below(3) == 0;
     const VehicleClass& kind = parameters.classes[heavy ? 5 : random.below(5)];
     const double spacing = length * lanes / count;
-    const double x = std::fmod((k / static_cast<std::uint32_t>(lanes)) * spacing +
-                                   random.uniform(0.0, 0.1) * spacing + lane * 3.0,
-                               length);
+    const double x = std::fmod(
+        (k / static_cast<std::uint32_t>(lanes)) * spacing + random.uniform(0.0, 0.1) * spacing + lane * 3.0, length);
     const double bell = (random.uniform() + random.uniform() + random.uniform()) / 3.0;
     const Driver driver = with_temperament(kind.middle, bell);
     add_vehicle(traffic, 1000 + k, kind.model, driver, lane, x,

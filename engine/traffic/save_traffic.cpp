@@ -7,10 +7,12 @@
 
 namespace septet::traffic {
 
-SEPTET_MEMBERS(FollowingParameters, desired_speed_mps, time_gap_s, acceleration_mps2, comfortable_braking_mps2, standstill_gap_m)
+SEPTET_MEMBERS(FollowingParameters, desired_speed_mps, time_gap_s, acceleration_mps2, comfortable_braking_mps2,
+               standstill_gap_m)
 SEPTET_MEMBERS(LaneChangeParameters, politeness, threshold_mps2, keep_right_mps2, largest_braking_mps2, duration_s)
 SEPTET_MEMBERS(Driver, following, lane_change, reaction_s)
-SEPTET_MEMBERS(FollowingLaw, inverse_desired_speed, time_gap_s, acceleration_mps2, standstill_gap_m, half_inverse_root_ab, comfortable_braking_mps2)
+SEPTET_MEMBERS(FollowingLaw, inverse_desired_speed, time_gap_s, acceleration_mps2, standstill_gap_m,
+               half_inverse_root_ab, comfortable_braking_mps2)
 SEPTET_MEMBERS(VehicleClass, model, share, middle, temperament_spread)
 SEPTET_MEMBERS(TrafficParameters, classes, count, radius_m, opposite_share, exit_share, decision_interval_s, first_id)
 SEPTET_MEMBERS(LaneEntry, x_m, speed_mps, length_m, acceleration_mps2, lateral_m, half_width_m, vehicle, straddles)
@@ -21,12 +23,12 @@ SEPTET_MEMBERS(Ramp, main, way, exit, entry, lane)
 /// The arrays, one entry a vehicle in each.
 template <SameButForConst<CorridorTraffic> S>
 auto vehicle_arrays(S& traffic) {
-  auto& [corridor, table, line, id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
-         change_run_m, next_decision_s, lane_end_m, length_m, half_width_m, aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency,
-         neighbour_hints, any_aside, order, exits] = traffic;
-  return std::tie(id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m, change_run_m,
-                  next_decision_s, lane_end_m, length_m, half_width_m, aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency,
-                  neighbour_hints);
+  auto& [corridor, table, line, id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane,
+         change_part, change_offset_m, change_run_m, next_decision_s, lane_end_m, length_m, half_width_m, aside_m,
+         aside_mps, aside_target_m, heard_s, making_way, emergency, neighbour_hints, any_aside, order, exits] = traffic;
+  return std::tie(id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part,
+                  change_offset_m, change_run_m, next_decision_s, lane_end_m, length_m, half_width_m, aside_m,
+                  aside_mps, aside_target_m, heard_s, making_way, emergency, neighbour_hints);
 }
 /// All but the corridor and what is looked up of its roads.
 template <SameButForConst<CorridorTraffic> S>
@@ -78,31 +80,40 @@ Corridor corridor_of(const road::RoadNetwork& network, const RoadsOfCorridor& ke
 void require_whole(const CorridorTraffic& traffic, StateReader& reader) {
   const std::size_t count = traffic.size(), lanes = traffic.table.open.size();
   constexpr auto wrong = "traffic in it does not fit together";
-  std::apply([&](const auto&... each) { reader.require(((each.size() == count) && ...), wrong); }, vehicle_arrays(traffic));
+  std::apply([&](const auto&... each) { reader.require(((each.size() == count) && ...), wrong); },
+             vehicle_arrays(traffic));
   reader.require((count == 0 || (traffic.table.lowest >= 1 && traffic.table.lowest <= traffic.table.highest)) &&
-                     traffic.order.lanes.size() == lanes && traffic.order.has_straddlers.size() == lanes, wrong);
+                     traffic.order.lanes.size() == lanes && traffic.order.has_straddlers.size() == lanes,
+                 wrong);
   if (!reader.ok()) return;
   const auto is_lane = [&](int lane) { return lane >= 0 && lane < static_cast<int>(lanes); };
   const auto is_near = [&](double x_m) { return std::abs(x_m) <= traffic.corridor.length_m + 1e5; };
   for (std::size_t i = 0; i < count; ++i)
-    reader.require(traffic.model[i] < vehicle_models().size() && is_lane(traffic.lane[i]) && is_lane(traffic.from_lane[i]) && is_near(traffic.x_m[i]) &&
+    reader.require(traffic.model[i] < vehicle_models().size() && is_lane(traffic.lane[i]) &&
+                       is_lane(traffic.from_lane[i]) && is_near(traffic.x_m[i]) &&
                        std::isfinite(traffic.speed_mps[i]) && traffic.making_way[i] <= MakingWay::leave_lane,
                    wrong);
   for (const auto& lane : traffic.order.lanes)
     for (const LaneEntry& entry : lane)
-      reader.require((entry.vehicle < 0 || static_cast<std::size_t>(entry.vehicle) < count) && is_near(entry.x_m), wrong);
+      reader.require((entry.vehicle < 0 || static_cast<std::size_t>(entry.vehicle) < count) && is_near(entry.x_m),
+                     wrong);
   for (const RampMouth& mouth : traffic.exits) reader.require(is_lane(mouth.lane), wrong);
 }
 
-void require_whole(const road::RoadNetwork& network, const TrafficParameters& parameters, const TrafficState& state, StateReader& reader) {
+void require_whole(const road::RoadNetwork& network, const TrafficParameters& parameters, const TrafficState& state,
+                   StateReader& reader) {
   constexpr auto wrong = "traffic in it does not fit together";
   for (const VehicleClass& kind : parameters.classes) reader.require(kind.model < vehicle_models().size(), wrong);
-  reader.require(state.corridors.empty() || (!parameters.classes.empty() && parameters.decision_interval_s > 0.0), wrong);
+  reader.require(state.corridors.empty() || (!parameters.classes.empty() && parameters.decision_interval_s > 0.0),
+                 wrong);
   for (const Ramp& ramp : state.ramps) {
     if (!reader.require(ramp.main < state.corridors.size() && ramp.way < state.corridors.size(), wrong)) return;
-    const auto has_lane = [](const CorridorTraffic& traffic, int lane) { return lane > 0 && lane < static_cast<int>(traffic.order.lanes.size()); };
+    const auto has_lane = [](const CorridorTraffic& traffic, int lane) {
+      return lane > 0 && lane < static_cast<int>(traffic.order.lanes.size());
+    };
     const CorridorTraffic &main = state.corridors[ramp.main], &way = state.corridors[ramp.way];
-    reader.require(has_lane(main, ramp.exit.lane) && has_lane(main, ramp.entry.lane) && has_lane(way, ramp.lane), wrong);
+    reader.require(has_lane(main, ramp.exit.lane) && has_lane(main, ramp.entry.lane) && has_lane(way, ramp.lane),
+                   wrong);
   }
   for (const auto& place : state.foreign_places)
     if (place) road::require_on_roads(reader, network, *place);
@@ -122,7 +133,8 @@ void save_traffic(const TrafficParameters& parameters, const TrafficState& state
   }
 }
 
-void restore_traffic(const road::RoadNetwork& network, StateReader& reader, TrafficParameters& parameters, TrafficState& state) {
+void restore_traffic(const road::RoadNetwork& network, StateReader& reader, TrafficParameters& parameters,
+                     TrafficState& state) {
   transfer(reader, parameters);
   transfer(reader, state);
   const std::size_t corridors = transfer_count(reader);

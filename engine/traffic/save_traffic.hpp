@@ -10,6 +10,7 @@ namespace septet::traffic {
 void save_traffic(const TrafficParameters& parameters, const TrafficState& state, StateWriter& writer);
 
 /// `reader` fails where it is no traffic of this network: then both are not to be used.
-void restore_traffic(const road::RoadNetwork& network, StateReader& reader, TrafficParameters& parameters, TrafficState& state);
+void restore_traffic(const road::RoadNetwork& network, StateReader& reader, TrafficParameters& parameters,
+                     TrafficState& state);
 
 }  // namespace septet::traffic

@@ -25,8 +25,8 @@ double mean_gap_m(const TrafficParameters& parameters, const CorridorTraffic& tr
 }
 
 /// Whether somebody at x has room: by speed, where there is that much room at all.
-bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m,
-              double speed_mps, double mean_gap) {
+bool clear_at(const CorridorTraffic& traffic, int lane, double x_m, double length_m, double speed_mps,
+              double mean_gap) {
   const auto wanted = [&](double speed) { return std::min(8.0 + 0.8 * speed, 0.45 * mean_gap); };
   std::uint32_t hint = 0;
   const auto [ahead, behind] = neighbours(traffic, lane, x_m, -1, hint);
@@ -48,13 +48,12 @@ const VehicleClass& choose_class(const TrafficParameters& parameters, Random& ra
   return parameters.classes.back();
 }
 
-void add_random_vehicle(const TrafficParameters& parameters, CorridorTraffic& traffic,
-                        ParticipantId id, Random& random) {
+void add_random_vehicle(const TrafficParameters& parameters, CorridorTraffic& traffic, ParticipantId id,
+                        Random& random) {
   const VehicleClass& kind = choose_class(parameters, random);
   // The mean of three: a bell from timid to aggressive.
   const double bell = (random.uniform() + random.uniform() + random.uniform()) / 3.0;
-  const Driver driver =
-      with_temperament(kind.middle, 0.5 + kind.temperament_spread * (bell - 0.5) * 1.5);
+  const Driver driver = with_temperament(kind.middle, 0.5 + kind.temperament_spread * (bell - 0.5) * 1.5);
   add_vehicle(traffic, id, kind.model, driver, outside, 0.0, 0.0);
   traffic.paint.back() = static_cast<std::uint8_t>(random.below(12));
   traffic.next_decision_s.back() = random.uniform(0.0, 2.0 * parameters.decision_interval_s);
@@ -63,8 +62,7 @@ void add_random_vehicle(const TrafficParameters& parameters, CorridorTraffic& tr
 /// Cars anywhere, lorries on the two outer lanes.
 int likely_lane(const CorridorTraffic& traffic, std::size_t i, double x_m, Random& random) {
   int highest = traffic.table.highest;
-  while (highest > traffic.table.lowest && lane_end_m(traffic.table, highest, x_m) != no_leader)
-    --highest;
+  while (highest > traffic.table.lowest && lane_end_m(traffic.table, highest, x_m) != no_leader) --highest;
   const bool heavy = traffic.length_m[i] > 8.0;
   const int lowest = heavy ? std::max(traffic.table.lowest, highest - 1) : traffic.table.lowest;
   return lowest + static_cast<int>(random.below(static_cast<std::uint64_t>(highest - lowest + 1)));
@@ -82,25 +80,22 @@ void put(CorridorTraffic& traffic, std::size_t i, int lane, double x_m) {
 }
 
 bool within_ends(const CorridorTraffic& traffic, double x_m) {
-  return traffic.corridor.closed ||
-         (x_m >= from_end_m && x_m <= traffic.corridor.length_m - from_end_m);
+  return traffic.corridor.closed || (x_m >= from_end_m && x_m <= traffic.corridor.length_m - from_end_m);
 }
 
-bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_gap,
-               Random& random) {
+bool try_place(CorridorTraffic& traffic, std::size_t i, double x_m, double mean_gap, Random& random) {
   if (!within_ends(traffic, x_m)) return false;
   const double x = wrap_x(traffic.corridor, x_m);
   const int lane = likely_lane(traffic, i, x, random);
   if (lane_end_m(traffic.table, lane, x) < x + 300.0) return false;
   const FollowingParameters& following = traffic.driver[i].following;
-  const double speed = std::min(0.85 * following.desired_speed_mps,
-                                idm_equilibrium_speed(following, std::max(3.0, mean_gap)));
+  const double speed =
+      std::min(0.85 * following.desired_speed_mps, idm_equilibrium_speed(following, std::max(3.0, mean_gap)));
   if (!clear_at(traffic, lane, x, traffic.length_m[i], speed, mean_gap)) return false;
   // As fast as the one ahead allows: who comes in does not have to brake at once.
   std::uint32_t hint = 0;
   const LaneEntry* ahead = neighbours(traffic, lane, x, -1, hint).ahead;
-  traffic.speed_mps[i] =
-      gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
+  traffic.speed_mps[i] = gap_to(traffic, x, ahead) < 120.0 ? std::min(speed, ahead->speed_mps) : speed;
   put(traffic, i, lane, x);
   return true;
 }
@@ -115,14 +110,12 @@ void take_out(CorridorTraffic& traffic, std::size_t i) {
 }
 
 /// x of the swarm's middle in a corridor, for either direction of travel.
-double middle_x(const road::RoadNetwork& network, const CorridorTraffic& traffic,
-                const TrafficState& state) {
+double middle_x(const road::RoadNetwork& network, const CorridorTraffic& traffic, const TrafficState& state) {
   const double otherwise = 0.5 * traffic.corridor.length_m;
   if (state.foreign_places.empty() || !state.foreign_places.front()) return otherwise;
   const auto& place = *state.foreign_places.front();
   for (const CorridorPiece& piece : traffic.corridor.pieces) {
-    if (piece.road == place.road)
-      return x_of(network, traffic.corridor, place, piece.side).value_or(otherwise);
+    if (piece.road == place.road) return x_of(network, traffic.corridor, place, piece.side).value_or(otherwise);
   }
   return otherwise;
 }
@@ -156,8 +149,7 @@ void set_mix(TrafficParameters& parameters, std::span<const KindShare> mix) {
   for (const VehicleClass& entry : parameters.classes) {
     double wanted = 0.0, before = 0.0;
     for (const KindShare& kind : mix) wanted += kind.kind == kind_of(entry) ? kind.share : 0.0;
-    for (const VehicleClass& other : parameters.classes)
-      before += kind_of(other) == kind_of(entry) ? other.share : 0.0;
+    for (const VehicleClass& other : parameters.classes) before += kind_of(other) == kind_of(entry) ? other.share : 0.0;
     shares.push_back(before > 0.0 ? wanted * entry.share / before : 0.0);
     all += shares.back();
   }
@@ -192,15 +184,13 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
     refresh_order(traffic, placed_foreign[c]);
     const std::uint32_t wanted = c == 0 ? parameters.count - opposite_count : opposite_count;
     const double middle = middle_x(network, traffic, state);
-    for (std::uint32_t k = 0; k < wanted; ++k)
-      add_random_vehicle(parameters, traffic, next_id++, random);
+    for (std::uint32_t k = 0; k < wanted; ++k) add_random_vehicle(parameters, traffic, next_id++, random);
     const double mean_gap = mean_gap_m(parameters, traffic);
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       // A road that is full waits outside, until `recycle` finds room.
       for (int attempt = 0; attempt < 200; ++attempt) {
-        const double x = traffic.corridor.closed
-                             ? random.uniform(0.0, traffic.corridor.length_m)
-                             : middle + random.uniform(-parameters.radius_m, parameters.radius_m);
+        const double x = traffic.corridor.closed ? random.uniform(0.0, traffic.corridor.length_m)
+                                                 : middle + random.uniform(-parameters.radius_m, parameters.radius_m);
         if (try_place(traffic, i, x, mean_gap, random)) break;
       }
     }
@@ -208,8 +198,8 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
   return state;
 }
 
-void show_across_rims(const TrafficParameters& parameters, double middle_m,
-                      const CorridorTraffic& traffic, ForeignTraffic& seen) {
+void show_across_rims(const TrafficParameters& parameters, double middle_m, const CorridorTraffic& traffic,
+                      ForeignTraffic& seen) {
   if (traffic.corridor.closed) return;
   const double span = 2.0 * parameters.radius_m;
   for (int lane = 1; lane < static_cast<int>(traffic.order.lanes.size()); ++lane) {
@@ -229,15 +219,13 @@ void show_across_rims(const TrafficParameters& parameters, double middle_m,
   }
 }
 
-void recycle(const TrafficParameters& parameters, double middle, Random& random,
-             CorridorTraffic& traffic) {
+void recycle(const TrafficParameters& parameters, double middle, Random& random, CorridorTraffic& traffic) {
   if (traffic.corridor.closed) return;
   const double mean_gap = mean_gap_m(parameters, traffic);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     const bool waits = traffic.lane[i] == outside;
     const double ahead = traffic.x_m[i] - middle;
-    const bool out = std::abs(ahead) > parameters.radius_m ||
-                     traffic.x_m[i] > traffic.corridor.length_m - 20.0;
+    const bool out = std::abs(ahead) > parameters.radius_m || traffic.x_m[i] > traffic.corridor.length_m - 20.0;
     if (!waits && !out) continue;
     if (!waits) {
       // On with the same speed in the same lane at the other rim, where its neighbours have seen it.
@@ -250,8 +238,7 @@ void recycle(const TrafficParameters& parameters, double middle, Random& random,
       LaneEntry own;
       own.x_m = x, own.length_m = static_cast<float>(traffic.length_m[i]);
       if (within_ends(traffic, x) && lane_end_m(traffic.table, lane, x) == no_leader &&
-          gap_to(traffic, x, front) > 2.0 &&
-          (behind == nullptr || gap_to(traffic, behind->x_m, &own) > 2.0)) {
+          gap_to(traffic, x, front) > 2.0 && (behind == nullptr || gap_to(traffic, behind->x_m, &own) > 2.0)) {
         traffic.speed_mps[i] = speed;
         put(traffic, i, lane, x);
         continue;
@@ -266,8 +253,7 @@ void recycle(const TrafficParameters& parameters, double middle, Random& random,
 }
 
 void advance(const TrafficParameters& parameters, const road::RoadNetwork& network,
-             std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
-             TrafficState& state) {
+             std::span<const ForeignVehicle> foreign, double dt_s, Random& random, TrafficState& state) {
   state.time_s += dt_s;
   auto placed_foreign = place_foreign(network, foreign, dt_s, state);
   show_across_mouths(state, placed_foreign);

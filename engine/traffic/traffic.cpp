@@ -9,8 +9,7 @@
 
 namespace septet::traffic {
 
-CorridorTraffic empty_corridor(const road::RoadNetwork& network,
-                               const road::LanePosition& through) {
+CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::LanePosition& through) {
   return empty_corridor(network, build_corridor(network, through));
 }
 
@@ -24,11 +23,11 @@ CorridorTraffic empty_corridor(const road::RoadNetwork& network, const Corridor&
   return traffic;
 }
 
-void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver,
-                 int lane, double x_m, double speed_mps) {
+void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver, int lane,
+                 double x_m, double speed_mps) {
   const VehicleModel& kind = vehicle_models()[model];
-  SEPTET_CHECK(lane >= 0 && lane < static_cast<int>(traffic.order.lanes.size()), "lane {} of {}",
-               lane, traffic.order.lanes.size());
+  SEPTET_CHECK(lane >= 0 && lane < static_cast<int>(traffic.order.lanes.size()), "lane {} of {}", lane,
+               traffic.order.lanes.size());
   const std::size_t i = traffic.size();
   traffic.id.push_back(id);
   traffic.model.push_back(model);
@@ -38,8 +37,7 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.x_m.push_back(x_m);
   traffic.speed_mps.push_back(speed_mps);
   for (auto* array :
-       {&traffic.acceleration_mps2, &traffic.change_offset_m, &traffic.change_run_m,
-        &traffic.next_decision_s,
+       {&traffic.acceleration_mps2, &traffic.change_offset_m, &traffic.change_run_m, &traffic.next_decision_s,
         &traffic.aside_m, &traffic.aside_mps, &traffic.aside_target_m, &traffic.heard_s}) {
     array->push_back(0.0);
   }
@@ -54,12 +52,10 @@ void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, c
   traffic.making_way.push_back(MakingWay::no);
   traffic.emergency.push_back(0);
   traffic.neighbour_hints.push_back({});
-  if (lane > 0)
-    insert_entry(traffic.order.lanes[static_cast<std::size_t>(lane)], entry_of(traffic, i));
+  if (lane > 0) insert_entry(traffic.order.lanes[static_cast<std::size_t>(lane)], entry_of(traffic, i));
 }
 
-void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m,
-                           double speed_mps) {
+void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m, double speed_mps) {
   const auto model = find_vehicle_model("ambulance");
   SEPTET_CHECK(model.has_value(), "no model for vehicle {}", id);
   const Driver driver{{38.0, 0.8, 2.0, 3.0, 2.0}, {}, 0.0};
@@ -100,8 +96,7 @@ void hash_state(StateHash& hash, const TrafficState& state) {
   for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i) {
       // Three numbers in one word.
-      chains[0].add(std::uint64_t{traffic.id[i]} << 32 |
-                    static_cast<std::uint16_t>(traffic.lane[i]) << 16 |
+      chains[0].add(std::uint64_t{traffic.id[i]} << 32 | static_cast<std::uint16_t>(traffic.lane[i]) << 16 |
                     static_cast<std::uint16_t>(traffic.from_lane[i]));
       chains[1].add(traffic.x_m[i]);
       chains[2].add(traffic.speed_mps[i]);

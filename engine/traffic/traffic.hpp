@@ -34,20 +34,17 @@ namespace septet::traffic {
 struct VehicleClass {
   ModelIndex model = 0;
   double share = 1.0;
-  Driver middle;  ///< The driver of temperament 0.5.
-  double temperament_spread =
-      1.0;  ///< 0: all alike; 1: from timid to aggressive (with_temperament).
+  Driver middle;                    ///< The driver of temperament 0.5.
+  double temperament_spread = 1.0;  ///< 0: all alike; 1: from timid to aggressive (with_temperament).
 };
 
 struct TrafficParameters {
   std::vector<VehicleClass> classes;
-  std::uint32_t count = 0;  ///< Vehicles in all.
-  double radius_m =
-      1500.0;  ///< Around the driver's car; who falls out of it comes in again at its other rim.
-  double opposite_share = 0.4;  ///< Of the vehicles that drive the other way.
-  double exit_share = 0.1;      ///< Of those who come past an exit: they take it.
-  double decision_interval_s =
-      0.5;  ///< A driver thinks about changing lanes this often; drivers take turns.
+  std::uint32_t count = 0;           ///< Vehicles in all.
+  double radius_m = 1500.0;          ///< Around the driver's car; who falls out of it comes in again at its other rim.
+  double opposite_share = 0.4;       ///< Of the vehicles that drive the other way.
+  double exit_share = 0.1;           ///< Of those who come past an exit: they take it.
+  double decision_interval_s = 0.5;  ///< A driver thinks about changing lanes this often; drivers take turns.
   ParticipantId first_id = 1000;
 };
 
@@ -94,8 +91,8 @@ struct CorridorTraffic {
   std::vector<FollowingLaw> law;  ///< Of the driver.
   std::vector<double> x_m, speed_mps, acceleration_mps2;
   std::vector<std::int16_t> lane,
-      from_lane;  ///< The other lane it stands in; its own unless it changes. 0: waits outside.
-  std::vector<double> change_part;      ///< Of the way of a change of lane; 1: none is going on.
+      from_lane;                    ///< The other lane it stands in; its own unless it changes. 0: waits outside.
+  std::vector<double> change_part;  ///< Of the way of a change of lane; 1: none is going on.
   std::vector<double> change_offset_m, change_run_m;  ///< Where and how steeply it began
                                                       ///< (lateral.cpp).
   std::vector<double> next_decision_s;
@@ -129,12 +126,11 @@ struct TrafficState {
   std::vector<CorridorTraffic> corridors;  ///< The directions of travel, then the ramps' ways.
   std::vector<Ramp> ramps;
   double time_s = 0.0;
-  std::vector<std::optional<road::RoadPosition>>
-      foreign_places;                        ///< Hints, one per foreign vehicle.
-  std::vector<double> foreign_speeds_mps;  ///< A tick ago.
+  std::vector<std::optional<road::RoadPosition>> foreign_places;  ///< Hints, one per foreign vehicle.
+  std::vector<double> foreign_speeds_mps;                         ///< A tick ago.
   /// How long ago each one's left and right indicator were lit.
   std::vector<std::array<double, 2>> foreign_signals_s;
-  std::uint32_t bad_numbers = 0;           ///< Accelerations that were no numbers, and were taken for 0.
+  std::uint32_t bad_numbers = 0;  ///< Accelerations that were no numbers, and were taken for 0.
 };
 
 /// Vehicles around the first foreign vehicle (the driver's car), clear of all of them; on a ring
@@ -145,18 +141,16 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
 /// One tick on. `foreign` has the same vehicles in the same order each time; the first one is the
 /// swarm's middle.
 void advance(const TrafficParameters& parameters, const road::RoadNetwork& network,
-             std::span<const ForeignVehicle> foreign, double dt_s, Random& random,
-             TrafficState& state);
+             std::span<const ForeignVehicle> foreign, double dt_s, Random& random, TrafficState& state);
 
 /// A corridor without vehicles, for one's own arrangements.
 CorridorTraffic empty_corridor(const road::RoadNetwork& network, const Corridor& corridor);
 CorridorTraffic empty_corridor(const road::RoadNetwork& network, const road::LanePosition& through);
 /// Adds a vehicle; the caller answers for its place being free.
-void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver,
-                 int lane, double x_m, double speed_mps);
+void add_vehicle(CorridorTraffic& traffic, ParticipantId id, ModelIndex model, const Driver& driver, int lane,
+                 double x_m, double speed_mps);
 /// Adds an ambulance that drives on the line between the two fastest lanes, past whoever makes way.
-void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m,
-                           double speed_mps);
+void add_emergency_vehicle(CorridorTraffic& traffic, ParticipantId id, double x_m, double speed_mps);
 
 /// Metres to the left of lane number 0's middle, with the corridor's nominal lane width: falls with
 /// the lane number.

@@ -29,8 +29,7 @@ class TrafficEngine {
  public:
   virtual ~TrafficEngine() = default;
   /// A swarm around the first foreign vehicle; one that was there before is gone.
-  virtual void start(const TrafficParameters& parameters,
-                     std::span<const ForeignVehicle> foreign) = 0;
+  virtual void start(const TrafficParameters& parameters, std::span<const ForeignVehicle> foreign) = 0;
   /// Nobody is on the road any more.
   virtual void stop() = 0;
   /// One tick on. `foreign` has the same vehicles in the same order each time.

@@ -29,9 +29,8 @@ struct ForeignTraffic {
 inline constexpr std::int32_t nobody_here = -1'000'000;
 
 /// One per corridor. Keeps where foreign vehicles are and how fast, for the next tick.
-std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network,
-                                          std::span<const ForeignVehicle> foreign, double dt_s,
-                                          TrafficState& state);
+std::vector<ForeignTraffic> place_foreign(const road::RoadNetwork& network, std::span<const ForeignVehicle> foreign,
+                                          double dt_s, TrafficState& state);
 
 LaneEntry entry_of(const CorridorTraffic& traffic, std::size_t vehicle);
 /// Takes places and speeds into the order, drops who has left a lane, adds the foreign vehicles.
@@ -43,8 +42,7 @@ struct Neighbours {
   const LaneEntry* ahead = nullptr;
   const LaneEntry* behind = nullptr;
 };
-Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std::int32_t self,
-                      std::uint32_t& hint);
+Neighbours neighbours(const CorridorTraffic& traffic, int lane, double x_m, std::int32_t self, std::uint32_t& hint);
 
 /// A way ahead on a ring is never negative.
 inline double way_ahead_m(const Corridor& corridor, double d) {
@@ -56,13 +54,11 @@ inline double rear_axle_x_m(const CorridorTraffic& traffic, std::size_t vehicle)
 }
 /// From a front bumper at x to the rear bumper of the one ahead; infinite if there is none.
 inline double gap_to(const CorridorTraffic& traffic, double x_m, const LaneEntry* ahead) {
-  return ahead == nullptr ? no_leader
-                          : way_ahead_m(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
+  return ahead == nullptr ? no_leader : way_ahead_m(traffic.corridor, ahead->x_m - x_m) - ahead->length_m;
 }
 
 /// As the vehicle drives behind this entry; null: nobody.
-inline double acceleration_behind(const FollowingLaw& law, double speed_mps, const LaneEntry* ahead,
-                                  double gap_m) {
+inline double acceleration_behind(const FollowingLaw& law, double speed_mps, const LaneEntry* ahead, double gap_m) {
   if (ahead == nullptr) return law.acceleration(speed_mps, 0.0, no_leader);
   const double idm_mps2 = law.acceleration(speed_mps, ahead->speed_mps, gap_m);
   // Ordinary following, where coolness would take 0.1 m/s² off at most: of most, most of the time.
@@ -75,17 +71,16 @@ void follow(CorridorTraffic& traffic);
 /// Stage 2: who makes way for an emergency vehicle, and how far aside.
 void make_way(CorridorTraffic& traffic, const std::vector<EmergencyVehicle>& foreign, double dt_s);
 /// Stage 3: lane changes of those whose turn it is to think.
-void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network,
-                  double time_s, double dt_s, CorridorTraffic& traffic);
+void change_lanes(const TrafficParameters& parameters, const road::RoadNetwork& network, double time_s, double dt_s,
+                  CorridorTraffic& traffic);
 /// Stage 4: speeds and places.
 std::uint32_t move(CorridorTraffic& traffic, double dt_s);
 /// Stage 5: who left the simulation comes in again.
-void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random,
-             CorridorTraffic& traffic);
+void recycle(const TrafficParameters& parameters, double middle_x_m, Random& random, CorridorTraffic& traffic);
 /// A swarm is a ring that travels with its middle: beyond each rim goes on what is at the other, so
 /// that its density lasts. Whoever is there sees the other rim's nearest vehicle.
-void show_across_rims(const TrafficParameters& parameters, double middle_x_m,
-                      const CorridorTraffic& traffic, ForeignTraffic& seen);
+void show_across_rims(const TrafficParameters& parameters, double middle_x_m, const CorridorTraffic& traffic,
+                      ForeignTraffic& seen);
 
 /// Ramps of the corridors that there are so far, each with a corridor of its own.
 void add_ramps(const road::RoadNetwork& network, TrafficState& state);

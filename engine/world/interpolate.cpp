@@ -20,7 +20,8 @@ Vec3 quintic(const Vec3& p0, const Vec3& v0, const Vec3& a0, const Vec3& p1, con
 }
 
 bool teleported(const Participant& before, const Participant& after, double seconds) {
-  const Vec3 expected = before.world_from_vehicle.position_m + 0.5 * seconds * (before.velocity_mps + after.velocity_mps);
+  const Vec3 expected =
+      before.world_from_vehicle.position_m + 0.5 * seconds * (before.velocity_mps + after.velocity_mps);
   return glm::length(after.world_from_vehicle.position_m - expected) > 1.0 + 20.0 * seconds * seconds;
 }
 
@@ -36,14 +37,15 @@ Participant interpolate(const Participant& before, const Participant& after, dou
   result.world_from_vehicle.position_m =
       quintic(from.position_m, before.velocity_mps, before.acceleration_mps2, to.position_m, after.velocity_mps,
               after.acceleration_mps2, seconds, t);
-  result.world_from_vehicle.orientation =
-      slerp_quadratic(from.orientation, to.orientation,
-                      sigma_from_rates(glm::length(before.angular_velocity_radps), glm::length(after.angular_velocity_radps)), t);
+  result.world_from_vehicle.orientation = slerp_quadratic(
+      from.orientation, to.orientation,
+      sigma_from_rates(glm::length(before.angular_velocity_radps), glm::length(after.angular_velocity_radps)), t);
   result.velocity_mps = glm::mix(before.velocity_mps, after.velocity_mps, t);
   result.acceleration_mps2 = glm::mix(before.acceleration_mps2, after.acceleration_mps2, t);
   result.angular_velocity_radps = glm::mix(before.angular_velocity_radps, after.angular_velocity_radps, t);
   result.front_steer_rad = glm::mix(before.front_steer_rad, after.front_steer_rad, t);
-  for (std::size_t i = 0; i < 4; ++i) result.wheel_lift_m[i] = glm::mix(before.wheel_lift_m[i], after.wheel_lift_m[i], t);
+  for (std::size_t i = 0; i < 4; ++i)
+    result.wheel_lift_m[i] = glm::mix(before.wheel_lift_m[i], after.wheel_lift_m[i], t);
 
   // The wheel's own angle is known only to a turn; its mean rate says how many turns lie between.
   const double turn = 2.0 * glm::pi<double>();

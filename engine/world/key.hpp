@@ -7,7 +7,25 @@
 namespace septet {
 
 enum class Key : std::uint8_t {
-  arrow_up, arrow_down, arrow_left, arrow_right, space, comma, full_stop, a, d, e, f, h, l, q, s, w, x, f1, escape,
+  arrow_up,
+  arrow_down,
+  arrow_left,
+  arrow_right,
+  space,
+  comma,
+  full_stop,
+  a,
+  d,
+  e,
+  f,
+  h,
+  l,
+  q,
+  s,
+  w,
+  x,
+  f1,
+  escape,
 };
 inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::escape) + 1;
 

@@ -8,7 +8,7 @@ namespace septet {
 enum class Lamp : std::uint16_t {
   brake = 1 << 0,
   reverse = 1 << 1,
-  indicator_left = 1 << 2,   ///< Lit now: blinking happens in the simulation, so that every screen agrees.
+  indicator_left = 1 << 2,  ///< Lit now: blinking happens in the simulation, so that every screen agrees.
   indicator_right = 1 << 3,
   low_beam = 1 << 4,
   high_beam = 1 << 5,

@@ -31,13 +31,13 @@ std::string_view name_of(ObstacleKind kind);
 
 struct Obstacle {
   ObstacleKind kind = ObstacleKind::tree;
-  std::uint32_t run = 0;          ///< Equal for what is one thing: all stretches of one rail.
-  Vec2 from_m{0.0}, to_m{0.0};    ///< Equal: round.
-  double radius_m = 0.1;          ///< Half the thickness of a line.
-  double low_m = 0.0, high_m = 0.0;  ///< World z.
+  std::uint32_t run = 0;                  ///< Equal for what is one thing: all stretches of one rail.
+  Vec2 from_m{0.0}, to_m{0.0};            ///< Equal: round.
+  double radius_m = 0.1;                  ///< Half the thickness of a line.
+  double low_m = 0.0, high_m = 0.0;       ///< World z.
   bool open_from = true, open_to = true;  ///< Nothing goes on straight at this end.
-  double friction = 0.4;          ///< Of a car's body that slides along it.
-  double yielding_kg = 0.0;       ///< What is knocked over weighs so much; 0: it stands fast.
+  double friction = 0.4;                  ///< Of a car's body that slides along it.
+  double yielding_kg = 0.0;               ///< What is knocked over weighs so much; 0: it stands fast.
 };
 
 }  // namespace septet

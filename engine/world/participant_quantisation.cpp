@@ -22,7 +22,9 @@ constexpr double spin_steps = 65536.0;                 // of one turn
 constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 
 /// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over.
-std::int64_t rounded(double value) { return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value)); }
+std::int64_t rounded(double value) {
+  return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value));
+}
 
 /// Where doubles lie one apart: a number added to it is rounded to an integer (half to even) in the sum's last 32 bits.
 constexpr double unit_steps = 0x1.8p52;
@@ -37,15 +39,19 @@ constexpr std::array<FieldLimits, participant_field_count> make_limits() {
   set(field_model, field_model, 0, 65535);
   set(field_paint, field_paint, 0, 255);
   set(field_lamps, field_lamps, 0, 65535);
-  set(field_position_x, field_position_z, -limit(524288.0 * position_per_m - 1.0), limit(524288.0 * position_per_m - 1.0));
+  set(field_position_x, field_position_z, -limit(524288.0 * position_per_m - 1.0),
+      limit(524288.0 * position_per_m - 1.0));
   set(field_largest, field_largest, 0, 3);
   set(field_orientation_a, field_orientation_c, -limit(orientation_steps), limit(orientation_steps));
   set(field_velocity_x, field_velocity_z, -limit(1024.0 * velocity_per_mps), limit(1024.0 * velocity_per_mps));
-  set(field_acceleration_x, field_acceleration_z, -limit(8192.0 * acceleration_per_mps2), limit(8192.0 * acceleration_per_mps2));
-  set(field_angular_velocity_x, field_angular_velocity_z, -limit(1024.0 * angular_velocity_per_radps), limit(1024.0 * angular_velocity_per_radps));
+  set(field_acceleration_x, field_acceleration_z, -limit(8192.0 * acceleration_per_mps2),
+      limit(8192.0 * acceleration_per_mps2));
+  set(field_angular_velocity_x, field_angular_velocity_z, -limit(1024.0 * angular_velocity_per_radps),
+      limit(1024.0 * angular_velocity_per_radps));
   set(field_front_steer, field_front_steer, -limit(4.0 * angle_per_rad), limit(4.0 * angle_per_rad));
   set(field_wheel_spin, field_wheel_spin, 0, limit(spin_steps) - 1);
-  set(field_wheel_spin_rate, field_wheel_spin_rate, -limit(4096.0 * spin_rate_per_radps), limit(4096.0 * spin_rate_per_radps));
+  set(field_wheel_spin_rate, field_wheel_spin_rate, -limit(4096.0 * spin_rate_per_radps),
+      limit(4096.0 * spin_rate_per_radps));
   set(field_lift_front_left, field_lift_rear_right, -limit(16.0 * position_per_m), limit(16.0 * position_per_m));
   return limits;
 }
@@ -68,15 +74,16 @@ constexpr FieldRow<count> make_row(std::size_t first, const std::array<double, c
 /// Four are as cheap as three: what the fourth leaves is overwritten by the field that follows.
 constexpr auto position_row = make_row<4>(field_position_x, {position_per_m, position_per_m, position_per_m, 0.0});
 /// All four components, of which three travel; scaled with the sign of the largest already.
-constexpr FieldRow<4> orientation_row{.steps = {1.0, 1.0, 1.0, 1.0},
-                                      .lowest = {-orientation_steps, -orientation_steps, -orientation_steps, -orientation_steps},
-                                      .highest = {orientation_steps, orientation_steps, orientation_steps, orientation_steps}};
+constexpr FieldRow<4> orientation_row{
+    .steps = {1.0, 1.0, 1.0, 1.0},
+    .lowest = {-orientation_steps, -orientation_steps, -orientation_steps, -orientation_steps},
+    .highest = {orientation_steps, orientation_steps, orientation_steps, orientation_steps}};
 /// From the velocity on; the wheels' angle is put on its own.
 constexpr auto motion_row = make_row<participant_field_count - field_velocity_x>(
-    field_velocity_x, {velocity_per_mps, velocity_per_mps, velocity_per_mps,
-                       acceleration_per_mps2, acceleration_per_mps2, acceleration_per_mps2,
-                       angular_velocity_per_radps, angular_velocity_per_radps, angular_velocity_per_radps,
-                       angle_per_rad, 0.0, spin_rate_per_radps, position_per_m, position_per_m, position_per_m, position_per_m});
+    field_velocity_x,
+    {velocity_per_mps, velocity_per_mps, velocity_per_mps, acceleration_per_mps2, acceleration_per_mps2,
+     acceleration_per_mps2, angular_velocity_per_radps, angular_velocity_per_radps, angular_velocity_per_radps,
+     angle_per_rad, 0.0, spin_rate_per_radps, position_per_m, position_per_m, position_per_m, position_per_m});
 
 /// Doubles that lie in a row at `numbers`. Out of bounds is clamped, a number gone bad is sent as zero: the drive goes on,
 /// Diagnostics counts it at its source. Without a branch, so that the compiler takes several at a time.
@@ -123,11 +130,13 @@ void quantise(const Participant& participant, WireParticipant& wire) {
   const double scaled[] = {scale * q[0], scale * q[1], scale * q[2], scale * q[3]};
   std::int32_t components[4];
   put_fields(reinterpret_cast<const std::byte*>(scaled), orientation_row, components);
-  for (int i = 0; i < 3; ++i) fields[field_orientation_a + static_cast<std::size_t>(i)] = components[i + (i >= largest ? 1 : 0)];
+  for (int i = 0; i < 3; ++i)
+    fields[field_orientation_a + static_cast<std::size_t>(i)] = components[i + (i >= largest ? 1 : 0)];
 
   put_fields(bytes + offsetof(Participant, velocity_mps), motion_row, fields + field_velocity_x);
   const double turns = participant.wheel_spin_rad * (0.5 / glm::pi<double>());
-  const double steps = std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
+  const double steps =
+      std::floor((turns - std::floor(turns)) * spin_steps);  // A hair below a whole turn rounds to one.
   fields[field_wheel_spin] = steps < spin_steps ? static_cast<std::int32_t>(steps) : 0;
 }
 
@@ -165,7 +174,8 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
   const double half_square = 0.5 * seconds * seconds;
   const auto advance = [&](std::size_t field, double step) {
     const auto [low, high] = limits_of_field[field];
-    result.fields[field] = static_cast<std::int32_t>(std::clamp<std::int64_t>(wire.fields[field] + rounded(step), low, high));
+    result.fields[field] =
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(wire.fields[field] + rounded(step), low, high));
   };
   for (std::size_t i = 0; i < 3; ++i) {
     const auto velocity = static_cast<double>(wire.fields[field_velocity_x + i]);
@@ -177,7 +187,8 @@ WireParticipant extrapolate(const WireParticipant& wire, double seconds) {
   const auto spin_rate = static_cast<double>(wire.fields[field_wheel_spin_rate]) / spin_rate_per_radps;
   const auto turned = rounded(spin_rate * seconds / (2.0 * glm::pi<double>()) * spin_steps);
   // A turn is a power of two: the low bits are the remainder, of negative sums too.
-  result.fields[field_wheel_spin] = static_cast<std::int32_t>((wire.fields[field_wheel_spin] + turned) & (static_cast<std::int64_t>(spin_steps) - 1));
+  result.fields[field_wheel_spin] =
+      static_cast<std::int32_t>((wire.fields[field_wheel_spin] + turned) & (static_cast<std::int64_t>(spin_steps) - 1));
   return result;
 }
 

@@ -26,11 +26,11 @@ struct Participant {
   std::uint8_t paint = 0;  ///< Index into the palette of body colours.
   Lamps lamps;
   RigidTransform world_from_vehicle;
-  Vec3 velocity_mps{0.0};          ///< Of the origin, world frame.
-  Vec3 acceleration_mps2{0.0};     ///< World frame.
+  Vec3 velocity_mps{0.0};            ///< Of the origin, world frame.
+  Vec3 acceleration_mps2{0.0};       ///< World frame.
   Vec3 angular_velocity_radps{0.0};  ///< World frame.
-  double front_steer_rad = 0.0;    ///< Mean road-wheel angle of the front axle, positive to the left.
-  double wheel_spin_rad = 0.0;     ///< Rolling angle of the wheels, in [0, 2π).
+  double front_steer_rad = 0.0;      ///< Mean road-wheel angle of the front axle, positive to the left.
+  double wheel_spin_rad = 0.0;       ///< Rolling angle of the wheels, in [0, 2π).
   double wheel_spin_radps = 0.0;
   /// Height of each wheel's centre over its rest position (front left, front right, rear left, rear right).
   std::array<double, 4> wheel_lift_m{};
@@ -48,8 +48,8 @@ struct DriverCar {
   double yaw_rate_radps = 0.0;
   double gaze_heading_rad = 0.0;
   // Where the car is on the road; lane 0 means off every lane.
-  std::uint32_t road = 0;      ///< Index in the road network.
-  std::int32_t lane = 0;       ///< OpenDRIVE lane id.
+  std::uint32_t road = 0;  ///< Index in the road network.
+  std::int32_t lane = 0;   ///< OpenDRIVE lane id.
   double road_s_m = 0.0;
   double lateral_position_m = 0.0;  ///< From the centre of the lane, positive to the left as the driver sees it.
   double lane_width_m = 0.0;

@@ -17,15 +17,32 @@ enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2 };
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
 template <class Env, class Visit>
 void visit_environment(Env& e, Visit visit) {
-  visit(e.sun_azimuth_rad); visit(e.sun_elevation_rad); visit(e.sun_illuminance_lux); visit(e.visibility_m);
-  visit(e.cloud_cover); visit(e.rain_mm_per_h); visit(e.road_wetness); visit(e.snow_cover);
-  visit(e.temperature_k); visit(e.wind_speed_mps); visit(e.wind_direction_rad);
+  visit(e.sun_azimuth_rad);
+  visit(e.sun_elevation_rad);
+  visit(e.sun_illuminance_lux);
+  visit(e.visibility_m);
+  visit(e.cloud_cover);
+  visit(e.rain_mm_per_h);
+  visit(e.road_wetness);
+  visit(e.snow_cover);
+  visit(e.temperature_k);
+  visit(e.wind_speed_mps);
+  visit(e.wind_direction_rad);
 }
 template <class Car, class Visit>
 void visit_driver_car(Car& c, Visit visit) {
-  visit(c.speed_mps); visit(c.engine_radps); visit(c.steering_wheel_rad); visit(c.steering_torque_nm);
-  visit(c.accelerator); visit(c.brake); visit(c.clutch); visit(c.yaw_rate_radps); visit(c.gaze_heading_rad);
-  visit(c.road_s_m); visit(c.lateral_position_m); visit(c.lane_width_m);
+  visit(c.speed_mps);
+  visit(c.engine_radps);
+  visit(c.steering_wheel_rad);
+  visit(c.steering_torque_nm);
+  visit(c.accelerator);
+  visit(c.brake);
+  visit(c.clutch);
+  visit(c.yaw_rate_radps);
+  visit(c.gaze_heading_rad);
+  visit(c.road_s_m);
+  visit(c.lateral_position_m);
+  visit(c.lane_width_m);
 }
 
 double get_finite(ByteReader& reader) {
@@ -93,7 +110,9 @@ void remove_ids(ByteReader& reader, std::vector<Item>& items, std::size_t limit)
 }
 
 /// How far a receiver moves the baseline on.
-double seconds_since(const WireSnapshot& baseline, double time_s) { return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0); }
+double seconds_since(const WireSnapshot& baseline, double time_s) {
+  return std::clamp(time_s - baseline.rest.simulated_time_s, 0.0, 1.0);
+}
 
 /// What a receiver expects of an instant from the baseline alone.
 std::vector<WireParticipant> expected_participants(const WireSnapshot* baseline, double time_s) {
@@ -255,8 +274,8 @@ WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old) {
   wire.rest.environment = snapshot.environment;
   wire.rest.driver_car = snapshot.driver_car;
   for (const EffectKeyframe& effect : snapshot.effects)
-    SEPTET_CHECK(effect.tick <= snapshot.tick + max_effect_lead_ticks, "effect {} of tick {} at tick {}", effect.id, effect.tick,
-                 snapshot.tick);
+    SEPTET_CHECK(effect.tick <= snapshot.tick + max_effect_lead_ticks, "effect {} of tick {} at tick {}", effect.id,
+                 effect.tick, snapshot.tick);
   wire.rest.effects = snapshot.effects;
   wire.rest.diagnostics = snapshot.diagnostics;
   return wire;

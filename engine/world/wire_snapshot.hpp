@@ -28,14 +28,32 @@ inline constexpr Tick max_effect_lead_ticks = 64;  ///< How far an effect's keyf
 
 /// Field order of a participant on the wire; SNAPSHOT.md gives each one's unit.
 enum ParticipantField : std::size_t {
-  field_model, field_paint, field_lamps,
-  field_position_x, field_position_y, field_position_z,
-  field_largest, field_orientation_a, field_orientation_b, field_orientation_c,
-  field_velocity_x, field_velocity_y, field_velocity_z,
-  field_acceleration_x, field_acceleration_y, field_acceleration_z,
-  field_angular_velocity_x, field_angular_velocity_y, field_angular_velocity_z,
-  field_front_steer, field_wheel_spin, field_wheel_spin_rate,
-  field_lift_front_left, field_lift_front_right, field_lift_rear_left, field_lift_rear_right,
+  field_model,
+  field_paint,
+  field_lamps,
+  field_position_x,
+  field_position_y,
+  field_position_z,
+  field_largest,
+  field_orientation_a,
+  field_orientation_b,
+  field_orientation_c,
+  field_velocity_x,
+  field_velocity_y,
+  field_velocity_z,
+  field_acceleration_x,
+  field_acceleration_y,
+  field_acceleration_z,
+  field_angular_velocity_x,
+  field_angular_velocity_y,
+  field_angular_velocity_z,
+  field_front_steer,
+  field_wheel_spin,
+  field_wheel_spin_rate,
+  field_lift_front_left,
+  field_lift_front_right,
+  field_lift_rear_left,
+  field_lift_rear_right,
   participant_field_count
 };
 
@@ -47,7 +65,7 @@ struct WireParticipant {
 
 /// A snapshot whose participants are quantised; the rest travels exactly.
 struct WireSnapshot {
-  Snapshot rest;  ///< Everything but the participants, whose list is empty.
+  Snapshot rest;                              ///< Everything but the participants, whose list is empty.
   std::vector<WireParticipant> participants;  ///< Ascending id.
 };
 

@@ -9,10 +9,10 @@
 namespace septet {
 
 SEPTET_MEMBERS(Lamps, bits)
-SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights, horn, low_beam, high_beam,
-               parking_brake, gaze_heading_rad, sequence)
-SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover, rain_mm_per_h, road_wetness,
-               snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
+SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights,
+               horn, low_beam, high_beam, parking_brake, gaze_heading_rad, sequence)
+SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover,
+               rain_mm_per_h, road_wetness, snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
 SEPTET_MEMBERS(EffectKeyframe, id, kind, data, tick)
 SEPTET_MEMBERS(Diagnostics, bad_numbers, collisions, input_stale_ticks)
 

@@ -31,9 +31,7 @@ std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample) {
   const bool inside = area != detector.settings.areas.end();
   if (detector.current && inside && detector.current->area == area->name) return std::nullopt;
   const auto ended = finish(detector, sample.simulated_time_s);
-  if (inside)
-    detector.current =
-        Glance{.tick = sample.tick, .start_s = sample.simulated_time_s, .area = area->name};
+  if (inside) detector.current = Glance{.tick = sample.tick, .start_s = sample.simulated_time_s, .area = area->name};
   return ended;
 }
 
@@ -44,8 +42,7 @@ std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSe
   for (const Sample& sample : samples)
     if (const auto glance = advance(detector, sample)) glances.push_back(*glance);
   if (!samples.empty())
-    if (const auto glance = finish(detector, samples.back().simulated_time_s))
-      glances.push_back(*glance);
+    if (const auto glance = finish(detector, samples.back().simulated_time_s)) glances.push_back(*glance);
   return glances;
 }
 

@@ -48,7 +48,6 @@ struct GlanceDetector {
 std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample);
 
 /// A glance that lasts until the last sample counts with the time it has.
-std::vector<Glance> find_glances(std::span<const Sample> samples,
-                                 const GlanceSettings& settings = {});
+std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSettings& settings = {});
 
 }  // namespace septet::logging

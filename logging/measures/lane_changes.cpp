@@ -38,9 +38,8 @@ std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sa
   const int crossed = crossed_line(*detector.previous, sample);
   if (crossed != 0) {
     if (detector.pending_lanes_to_left == 0)
-      detector.pending = {.tick = sample.tick,
-                          .simulated_time_s = sample.simulated_time_s,
-                          .from_lane = detector.counted_lane};
+      detector.pending = {
+          .tick = sample.tick, .simulated_time_s = sample.simulated_time_s, .from_lane = detector.counted_lane};
     detector.pending_lanes_to_left += crossed;
   }
   detector.previous = sample;
@@ -48,9 +47,8 @@ std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sa
     detector.counted_lane = sample.lane;
     return std::nullopt;
   }
-  const bool counts =
-      std::abs(detector.pending_lanes_to_left) > 1 ||
-      depth_beyond_line_m(sample, detector.pending_lanes_to_left) >= detector.settings.hysteresis_m;
+  const bool counts = std::abs(detector.pending_lanes_to_left) > 1 ||
+                      depth_beyond_line_m(sample, detector.pending_lanes_to_left) >= detector.settings.hysteresis_m;
   if (!counts) return std::nullopt;
   LaneChange change = detector.pending;
   change.lanes_to_left = detector.pending_lanes_to_left;
@@ -60,8 +58,7 @@ std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sa
   return change;
 }
 
-std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples,
-                                          const LaneChangeSettings& settings) {
+std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings) {
   LaneChangeDetector detector;
   detector.settings = settings;
   std::vector<LaneChange> changes;
@@ -73,8 +70,7 @@ std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples,
 std::optional<double> mean_time_between_lane_changes_s(std::span<const Sample> samples,
                                                        std::span<const LaneChange> changes) {
   if (samples.empty() || changes.empty()) return std::nullopt;
-  return (samples.back().simulated_time_s - samples.front().simulated_time_s) /
-         static_cast<double>(changes.size());
+  return (samples.back().simulated_time_s - samples.front().simulated_time_s) / static_cast<double>(changes.size());
 }
 
 }  // namespace septet::logging

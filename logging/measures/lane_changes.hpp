@@ -25,8 +25,7 @@ struct LaneChangeSettings {
 struct LaneChange {
   Tick tick = 0;  ///< Of the first sample beyond the line.
   double simulated_time_s = 0.0;
-  int lanes_to_left =
-      0;  ///< +1 one lane to the left, −1 one to the right; ±2 when two lines were crossed.
+  int lanes_to_left = 0;  ///< +1 one lane to the left, −1 one to the right; ±2 when two lines were crossed.
   std::int32_t from_lane = 0, to_lane = 0;  ///< OpenDRIVE lane ids.
   bool operator==(const LaneChange&) const = default;
 };
@@ -43,8 +42,7 @@ struct LaneChangeDetector {
 /// Takes the next sample; returns the lane change that counts as of this sample.
 std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sample);
 
-std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples,
-                                          const LaneChangeSettings& settings = {});
+std::vector<LaneChange> find_lane_changes(std::span<const Sample> samples, const LaneChangeSettings& settings = {});
 
 /// Simulated time from the first to the last sample over the number of lane changes: the paper's
 /// "on average every 15 seconds" (Lebram, Engström and Gustavsson 2006, §4). Nothing without a lane

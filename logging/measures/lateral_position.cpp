@@ -18,9 +18,9 @@ bool is_near(const LaneChange& change, const Sample& sample, double distance_s) 
 
 }  // namespace
 
-LateralPositionStatistics compute_lateral_position_statistics(
-    std::span<const Sample> samples, std::span<const LaneChange> changes,
-    const LateralPositionSettings& settings) {
+LateralPositionStatistics compute_lateral_position_statistics(std::span<const Sample> samples,
+                                                              std::span<const LaneChange> changes,
+                                                              const LateralPositionSettings& settings) {
   LateralPositionStatistics result;
   double sum_of_squares = 0.0;  // Of differences to the running mean (Welford 1962).
   for (const Sample& sample : samples) {

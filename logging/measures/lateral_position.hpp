@@ -32,9 +32,9 @@ struct LateralPositionStatistics {
   std::size_t excluded_off_lane = 0;
 };
 
-LateralPositionStatistics compute_lateral_position_statistics(
-    std::span<const Sample> samples, std::span<const LaneChange> changes,
-    const LateralPositionSettings& settings = {});
+LateralPositionStatistics compute_lateral_position_statistics(std::span<const Sample> samples,
+                                                              std::span<const LaneChange> changes,
+                                                              const LateralPositionSettings& settings = {});
 
 /// Relative lateral position, offset over lane width, in 21 equal bins, closed below and open
 /// above: bin i holds [edge(i), edge(i+1)) with edge(i) = −1/2 + i/21. Bin 0 begins at the

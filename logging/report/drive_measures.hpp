@@ -27,7 +27,7 @@ struct MeasureSettings {
 
 struct DriveMeasures {
   double duration_s = 0.0;
-  double distance_m = 0.0;  ///< Speed summed over time (trapezoidal).
+  double distance_m = 0.0;                                                   ///< Speed summed over time (trapezoidal).
   double speed_mean_mps = 0.0, speed_sd_mps = 0.0, speed_largest_mps = 0.0;  ///< SD divides by N.
   LateralPositionStatistics lateral_position;
   LateralPositionHistogram histogram;
@@ -39,7 +39,6 @@ struct DriveMeasures {
   double following_s = 0.0;  ///< Time behind a leader within the cut-off, 0.1 s per sample.
 };
 
-DriveMeasures compute_drive_measures(std::span<const Sample> samples,
-                                     const MeasureSettings& settings = {});
+DriveMeasures compute_drive_measures(std::span<const Sample> samples, const MeasureSettings& settings = {});
 
 }  // namespace septet::logging

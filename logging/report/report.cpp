@@ -18,8 +18,7 @@ namespace {
 using document::escaped;
 
 std::string tile(std::string_view value, std::string_view unit, std::string_view name) {
-  return fmt::format("<div class=\"tile\"><b>{} <small>{}</small></b><span>{}</span></div>\n",
-                     value, unit, name);
+  return fmt::format("<div class=\"tile\"><b>{} <small>{}</small></b><span>{}</span></div>\n", value, unit, name);
 }
 
 std::string figure(const std::string& svg, std::string_view caption) {
@@ -34,21 +33,28 @@ const SourceFile* find_file(const SessionInfo& info, std::string_view role) {
 /// How the drive ended, and what whoever uses its figures has to know.
 std::string ending(const ReportData& data) {
   std::string html;
-  const auto warn = [&](const std::string& text) { html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(text)); };
+  const auto warn = [&](const std::string& text) {
+    html += fmt::format("<p class=\"warning\">{}</p>\n", escaped(text));
+  };
   if (const auto& outcome = data.outcome) {
-    html += fmt::format("<p>Ended after {:.1f} s of simulated time, {:.1f} s of wall time: {} (<code>{}</code>).</p>\n", outcome->simulated_s,
-                        outcome->wall_s, escaped(text_of(outcome->end)), name_of(outcome->end));
+    html += fmt::format("<p>Ended after {:.1f} s of simulated time, {:.1f} s of wall time: {} (<code>{}</code>).</p>\n",
+                        outcome->simulated_s, outcome->wall_s, escaped(text_of(outcome->end)), name_of(outcome->end));
     if (!outcome->error.empty()) warn(outcome->error);
     if (outcome->late_ticks > 0)
-      warn(fmt::format("{} of {} ticks began late: the machine was too slow for real time, and the simulation slowed down.", outcome->late_ticks,
-                       outcome->ticks));
+      warn(fmt::format(
+          "{} of {} ticks began late: the machine was too slow for real time, and the simulation slowed down.",
+          outcome->late_ticks, outcome->ticks));
     if (outcome->bad_numbers > 0)
-      warn(fmt::format("{} numbers went bad and were reset; the events bad_number in the log say whose and when. Figures around them mean nothing.",
-                       outcome->bad_numbers));
+      warn(
+          fmt::format("{} numbers went bad and were reset; the events bad_number in the log say whose and when. "
+                      "Figures around them mean nothing.",
+                      outcome->bad_numbers));
     if (outcome->lost_records > 0) warn(fmt::format("The log lacks the last {} records.", outcome->lost_records));
   }
   if (!data.ended_cleanly)
-    warn("The recording has no clean end: the program was stopped while it drove. What is here is what was safely written.");
+    warn(
+        "The recording has no clean end: the program was stopped while it drove. What is here is what was safely "
+        "written.");
   if (data.missing_ticks > 0) warn(fmt::format("The log has gaps: {} ticks are missing.", data.missing_ticks));
   return html;
 }
@@ -62,19 +68,25 @@ std::string moments(const std::vector<double>& times_s) {
 std::string screen_table(const ReportData& data) {
   if (!data.outcome || data.outcome->screens.empty()) return "";
   std::string html =
-      "<h2>Screens</h2>\n<table><tr><th>Screen</th><th>Pictures</th><th>Off tick</th><th>Ticks lost / repaired / refused</th>"
+      "<h2>Screens</h2>\n<table><tr><th>Screen</th><th>Pictures</th><th>Off tick</th><th>Ticks lost / repaired / "
+      "refused</th>"
       "<th>Picture to picture, median / 99 %</th><th>Connected</th><th>Left or died</th><th>Left behind</th></tr>\n";
   for (const ScreenOutcome& screen : data.outcome->screens) {
-    std::string row = fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td>", escaped(screen.name), screen.frames);
-    row += screen.has_reported
-               ? fmt::format("<td class=\"value\">{}</td><td class=\"value\">{} / {} / {}</td><td class=\"value\">{:.1f} / {:.1f} ms</td>",
-                             screen.frames_off_tick, screen.datagrams_lost, screen.datagrams_repaired, screen.refused_ticks, screen.frame_ms_p50,
-                             screen.frame_ms_p99)
-               : std::string("<td colspan=\"3\">was not there at the end</td>");
-    for (const auto* times : {&screen.connected_s, &screen.left_s, &screen.left_behind_s}) row += fmt::format("<td>{}</td>", moments(*times));
+    std::string row =
+        fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td>", escaped(screen.name), screen.frames);
+    row += screen.has_reported ? fmt::format(
+                                     "<td class=\"value\">{}</td><td class=\"value\">{} / {} / {}</td><td "
+                                     "class=\"value\">{:.1f} / {:.1f} ms</td>",
+                                     screen.frames_off_tick, screen.datagrams_lost, screen.datagrams_repaired,
+                                     screen.refused_ticks, screen.frame_ms_p50, screen.frame_ms_p99)
+                               : std::string("<td colspan=\"3\">was not there at the end</td>");
+    for (const auto* times : {&screen.connected_s, &screen.left_s, &screen.left_behind_s})
+      row += fmt::format("<td>{}</td>", moments(*times));
     html += row + "</tr>\n";
   }
-  return html + "</table>\n<p class=\"soft\">From picture to picture everything is in it: drawing, device, display and, in lockstep, the wait for the others.</p>\n";
+  return html +
+         "</table>\n<p class=\"soft\">From picture to picture everything is in it: drawing, device, display and, in "
+         "lockstep, the wait for the others.</p>\n";
 }
 
 std::string head(const ReportData& data, const DriveMeasures& measures) {
@@ -82,16 +94,13 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   const SourceFile* scenario = find_file(info, "scenario");
   const SourceFile* rig = find_file(info, "rig");
   const auto stem = [](const SourceFile& file) { return std::filesystem::path(file.name).stem().string(); };
-  std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">",
-                                 escaped(scenario ? stem(*scenario) : "A drive"));
+  std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">", escaped(scenario ? stem(*scenario) : "A drive"));
   if (rig) html += fmt::format("Rig {} · ", escaped(stem(*rig)));
   if (!info.participant.empty()) html += fmt::format("driver {} · ", escaped(info.participant));
   if (!info.started_utc.empty()) html += fmt::format("started {} · ", escaped(info.started_utc));
   for (const auto& [name, value] : info.parameters) html += fmt::format("{} = {} · ", escaped(name), escaped(value));
-  for (const auto& [name, seed] : info.seeds)
-    html += fmt::format("seed {} {} · ", escaped(name), seed);
-  html += fmt::format("Septet {}{}{}</p>\n", escaped(info.septet_version),
-                      info.git_revision.empty() ? "" : " at ",
+  for (const auto& [name, seed] : info.seeds) html += fmt::format("seed {} {} · ", escaped(name), seed);
+  html += fmt::format("Septet {}{}{}</p>\n", escaped(info.septet_version), info.git_revision.empty() ? "" : " at ",
                       escaped(info.git_revision.substr(0, 12)));
   html += ending(data);
   const auto& position = measures.lateral_position;
@@ -115,16 +124,14 @@ std::string speed_chart(const ReportData& data, const DriveMeasures& measures) {
   chart.y_label = "km/h";
   chart.y = {0.0, std::max(20.0, measures.speed_largest_mps * 3.6 * 1.05)};
   document::Series speed;
-  for (const Sample& sample : data.samples)
-    speed.points.push_back({sample.simulated_time_s, sample.speed_mps * 3.6});
+  for (const Sample& sample : data.samples) speed.points.push_back({sample.simulated_time_s, sample.speed_mps * 3.6});
   chart.series = {std::move(speed)};
   for (const Event& event : data.events)
     if (event.kind == "collision")
-      chart.marks.push_back({event.simulated_time_s, "✕",
-                             "collision at " + fmt::format("{:.1f} s", event.simulated_time_s)});
-  return figure(
-      document::to_svg(chart),
-      "Speed of the driver's car along its own axis, ten samples a second. ✕ marks a collision.");
+      chart.marks.push_back(
+          {event.simulated_time_s, "✕", "collision at " + fmt::format("{:.1f} s", event.simulated_time_s)});
+  return figure(document::to_svg(chart),
+                "Speed of the driver's car along its own axis, ten samples a second. ✕ marks a collision.");
 }
 
 std::string lateral_position_chart(const ReportData& data, const DriveMeasures& measures) {
@@ -138,11 +145,9 @@ std::string lateral_position_chart(const ReportData& data, const DriveMeasures& 
     const bool in_lane = sample.lane != 0 && sample.lane_width_m > 0.0;
     if (in_lane) half_lane_m = sample.lane_width_m / 2.0;
     // The jump from one lane's edge to the other's is no movement: lift the pen.
-    const bool jumped = !line.empty() &&
-                        std::abs(line.back().y - sample.lateral_position_m) > half_lane_m;
+    const bool jumped = !line.empty() && std::abs(line.back().y - sample.lateral_position_m) > half_lane_m;
     if (jumped) line.push_back({sample.simulated_time_s, std::nan("")});
-    line.push_back(
-        {sample.simulated_time_s, in_lane ? sample.lateral_position_m : std::nan("")});
+    line.push_back({sample.simulated_time_s, in_lane ? sample.lateral_position_m : std::nan("")});
     chart.band_low.push_back({sample.simulated_time_s, -half_lane_m});
     chart.band_high.push_back({sample.simulated_time_s, half_lane_m});
     largest_m = std::max(largest_m, half_lane_m * 1.1);
@@ -150,9 +155,9 @@ std::string lateral_position_chart(const ReportData& data, const DriveMeasures& 
   chart.series = {{"", std::move(line)}};
   chart.y = {-largest_m, largest_m};
   for (const LaneChange& change : measures.lane_changes)
-    chart.marks.push_back({change.simulated_time_s, change.lanes_to_left > 0 ? "▲" : "▼",
-                           fmt::format("{:.1f} s: lane {} to lane {}", change.simulated_time_s,
-                                       change.from_lane, change.to_lane)});
+    chart.marks.push_back(
+        {change.simulated_time_s, change.lanes_to_left > 0 ? "▲" : "▼",
+         fmt::format("{:.1f} s: lane {} to lane {}", change.simulated_time_s, change.from_lane, change.to_lane)});
   return figure(document::to_svg(chart),
                 "Offset of the middle of the car's front axle from the centre of "
                 "the lane it is in; the shaded band is "
@@ -165,23 +170,19 @@ std::string histogram_chart(const DriveMeasures& measures) {
   using Histogram = LateralPositionHistogram;
   const Histogram& histogram = measures.histogram;
   // Mirrored, so that the left-hand line is at the left, as the driver sees it.
-  document::BarChart chart{.title = "Lateral position within the lane",
-                 .x_label = "offset from the lane's centre, in lane widths",
-                 .y_label = "% of samples",
-                 .bars = {},
-                 .x_low = 0.5,
-                 .x_high = -0.5,
-                 .x_ticks = {{0.5, "½ left line"},
-                             {0.25, "¼"},
-                             {0.0, "centre"},
-                             {-0.25, "−¼"},
-                             {-0.5, "right line −½"}}};
+  document::BarChart chart{
+      .title = "Lateral position within the lane",
+      .x_label = "offset from the lane's centre, in lane widths",
+      .y_label = "% of samples",
+      .bars = {},
+      .x_low = 0.5,
+      .x_high = -0.5,
+      .x_ticks = {{0.5, "½ left line"}, {0.25, "¼"}, {0.0, "centre"}, {-0.25, "−¼"}, {-0.5, "right line −½"}}};
   for (std::size_t i = 0; i < Histogram::bins; ++i) {
     const double percent = 100.0 * histogram.fraction(i);
-    chart.bars.push_back(
-        {Histogram::edge(i), Histogram::edge(i + 1), percent, i == Histogram::bins / 2,
-         fmt::format("{:+.3f} to {:+.3f}: {} samples, {:.1f} %", Histogram::edge(i),
-                     Histogram::edge(i + 1), histogram.counts[i], percent)});
+    chart.bars.push_back({Histogram::edge(i), Histogram::edge(i + 1), percent, i == Histogram::bins / 2,
+                          fmt::format("{:+.3f} to {:+.3f}: {} samples, {:.1f} %", Histogram::edge(i),
+                                      Histogram::edge(i + 1), histogram.counts[i], percent)});
   }
   return figure(document::to_svg(chart),
                 fmt::format("21 equal intervals across the lane, closed at their right-hand edge, "
@@ -193,8 +194,8 @@ std::string histogram_chart(const DriveMeasures& measures) {
                             "10 Hz of 24 people in almost 12 hours, close to 25 % of them in the "
                             "centre interval, its edges and reference point not stated; "
                             "here it is one drive, and nothing is fitted to that figure.",
-                            histogram.total(), 100.0 * histogram.fraction(Histogram::bins / 2),
-                            histogram.overflow, histogram.underflow, histogram.off_lane));
+                            histogram.total(), 100.0 * histogram.fraction(Histogram::bins / 2), histogram.overflow,
+                            histogram.underflow, histogram.off_lane));
 }
 
 std::string event_table(const std::vector<Event>& events) {
@@ -203,8 +204,7 @@ std::string event_table(const std::vector<Event>& events) {
   if (counts.empty()) return "";
   std::string html = "<h2>Events in the log</h2>\n<table><tr><th>Kind</th><th>Count</th></tr>\n";
   for (const auto& [kind, count] : counts)
-    html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td></tr>\n",
-                        escaped(kind), count);
+    html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"value\">{}</td></tr>\n", escaped(kind), count);
   return html + "</table>\n";
 }
 
@@ -214,13 +214,11 @@ std::string answer_table(const std::vector<QuestionnaireRecord>& answers) {
       "<h2>Questionnaire</h2>\n<table><tr><th>Item</th><th>Answer</th><th>Observed "
       "until</th></tr>\n";
   for (const QuestionnaireRecord& record : answers) {
-    const std::string answer =
-        record.censored ? "censored" + (record.reason.empty() ? "" : ": " + record.reason)
-                        : record.answer.value_or("–");
-    html += fmt::format(
-        "<tr><td>{}</td><td class=\"value\">{}</td><td class=\"value\">{:.0f} s</td></tr>\n",
-        escaped(record.question.empty() ? record.item : record.question), escaped(answer),
-        record.observed_s);
+    const std::string answer = record.censored ? "censored" + (record.reason.empty() ? "" : ": " + record.reason)
+                                               : record.answer.value_or("–");
+    html += fmt::format("<tr><td>{}</td><td class=\"value\">{}</td><td class=\"value\">{:.0f} s</td></tr>\n",
+                        escaped(record.question.empty() ? record.item : record.question), escaped(answer),
+                        record.observed_s);
   }
   return html + "</table>\n";
 }
@@ -236,8 +234,14 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
   if (!answers) return tl::unexpected(answers.error());
   const auto missing = reader.missing_ticks();
   if (!missing) return tl::unexpected(missing.error());
-  ReportData data{.info = reader.info(), .ended_cleanly = reader.ended_cleanly(), .outcome = {}, .missing_ticks = *missing,
-                  .samples = std::move(*samples), .events = std::move(*events), .answers = std::move(*answers), .settings = {}};
+  ReportData data{.info = reader.info(),
+                  .ended_cleanly = reader.ended_cleanly(),
+                  .outcome = {},
+                  .missing_ticks = *missing,
+                  .samples = std::move(*samples),
+                  .events = std::move(*events),
+                  .answers = std::move(*answers),
+                  .settings = {}};
   if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
     auto outcome = read_outcome(row->second);
     if (!outcome) return tl::unexpected(outcome.error());
@@ -252,8 +256,8 @@ std::string to_html(const ReportData& data) {
   if (data.samples.empty())
     body += "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";
   else
-    body += speed_chart(data, measures) + lateral_position_chart(data, measures) +
-            histogram_chart(measures) + measure_table(measures, data.settings);
+    body += speed_chart(data, measures) + lateral_position_chart(data, measures) + histogram_chart(measures) +
+            measure_table(measures, data.settings);
   body += screen_table(data) + event_table(data.events) + answer_table(data.answers);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

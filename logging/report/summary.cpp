@@ -16,7 +16,8 @@ void add_measures(const DriveMeasures& m, Json& json) {
   const LateralPositionStatistics& position = m.lateral_position;
   const bool kept_lane = position.samples > 0;
   json["distance_m"] = number(m.distance_m);
-  json["speed_mps"] = {{"mean", number(m.speed_mean_mps)}, {"sd", number(m.speed_sd_mps)}, {"largest", number(m.speed_largest_mps)}};
+  json["speed_mps"] = {
+      {"mean", number(m.speed_mean_mps)}, {"sd", number(m.speed_sd_mps)}, {"largest", number(m.speed_largest_mps)}};
   json["lateral_position_m"] = {{"mean", kept_lane ? number(position.mean_m) : Json(nullptr)},
                                 {"sd", kept_lane ? number(position.sd_m) : Json(nullptr)},
                                 {"samples", position.samples},
@@ -49,7 +50,13 @@ Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
 }
 
 std::string to_json(const DriveSummary& s) {
-  Json json = {{"version", summary_version}, {"scenario", s.scenario}, {"rig", s.rig}, {"vehicle", s.vehicle}, {"participant", s.participant}, {"seed", s.seed}, {"parameters", Json(s.parameters)}};
+  Json json = {{"version", summary_version},
+               {"scenario", s.scenario},
+               {"rig", s.rig},
+               {"vehicle", s.vehicle},
+               {"participant", s.participant},
+               {"seed", s.seed},
+               {"parameters", Json(s.parameters)}};
   json.update(json_of(s.outcome));
   json["log"]["missing_ticks"] = s.log ? Json(s.log->missing_ticks) : Json(nullptr);
   if (s.log) {

@@ -48,7 +48,8 @@ std::string list_of(const Snapshot& world) {
 
 }  // namespace
 
-Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m, const std::vector<Look>& path) {
+Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& driver_eye_m,
+                           const std::vector<Look>& path) {
   if (shot.place_m) return Pivot{};
   const Participant* participant = find_meant(shot.participant, world);
   if (!participant)
@@ -66,7 +67,8 @@ Expected<Pivot> find_pivot(const Shot& shot, const Snapshot& world, const Vec3& 
   return Pivot{participant->id, middle_m};
 }
 
-frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world, const frame::Viewpoint& before) {
+frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapshot& world,
+                              const frame::Viewpoint& before) {
   if (shot.place_m) return {{*shot.place_m, Quat(1, 0, 0, 0)}, std::nullopt};
   const Participant* participant = pivot.participant ? find_participant(world, *pivot.participant) : nullptr;
   if (!participant) return before;
@@ -74,17 +76,20 @@ frame::Viewpoint viewpoint_at(const Shot& shot, const Pivot& pivot, const Snapsh
   if (is_outside(shot)) viewpoint.inside.reset();
   if (!is_outside(shot) && shot.bearings == Bearings::vehicle) return viewpoint;
   // A level frame below the same pivot.
-  const double heading = shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;
+  const double heading =
+      shot.bearings == Bearings::vehicle ? heading_rad(participant->world_from_vehicle.orientation) : 0.0;
   const Quat level = orientation_from_angles(heading, 0.0, 0.0);
   viewpoint.world_from_views = {participant->world_from_vehicle * pivot.in_views_m - level * pivot.in_views_m, level};
   return viewpoint;
 }
 
-frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px, std::uint32_t height_px) {
+frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& look, std::uint32_t width_px,
+                            std::uint32_t height_px) {
   const double slope = std::tan(0.5 * shot.field_of_view_rad);
   instant::FrameView view;
-  view.projection = instant::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(), look.pitch_rad(),
-                                           shot.field_of_view_rad, 2.0 * std::atan(slope * height_px / width_px));
+  view.projection =
+      instant::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(),
+                              look.pitch_rad(), shot.field_of_view_rad, 2.0 * std::atan(slope * height_px / width_px));
   view.viewport = {0, 0, width_px, height_px};
   return {{view}, shot.interior};
 }

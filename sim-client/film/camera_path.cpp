@@ -11,15 +11,19 @@ using Turning = IncrementalTurn<double, 2>;
 
 UnitVector<double, 2> unit(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
-Expected<Turning> turning(const char* what, double from_rad, double to_rad, std::size_t steps, const Turn& turn, const Shot& shot) {
+Expected<Turning> turning(const char* what, double from_rad, double to_rad, std::size_t steps, const Turn& turn,
+                          const Shot& shot) {
   auto result = Turning::between(unit(from_rad), unit(to_rad), steps, turn.sigma);
   if (result) return result;
   const double degrees = 180.0 / std::numbers::pi;
   if (std::abs(turn.sigma) <= 1.0)
-    return failure(fmt::format("the turn until {} s changes the {} from {:.0f}° to {:.0f}°, half a circle: neither way is the shorter",
-                               turn.until_s, what, from_rad * degrees, to_rad * degrees),
-                   shot.where, "put a turn to an angle between them before it");
-  return failure(fmt::format("the turn until {} s: {}", turn.until_s, result.error().what), shot.where, result.error().remedy);
+    return failure(
+        fmt::format(
+            "the turn until {} s changes the {} from {:.0f}° to {:.0f}°, half a circle: neither way is the shorter",
+            turn.until_s, what, from_rad * degrees, to_rad * degrees),
+        shot.where, "put a turn to an angle between them before it");
+  return failure(fmt::format("the turn until {} s: {}", turn.until_s, result.error().what), shot.where,
+                 result.error().remedy);
 }
 
 }  // namespace
@@ -46,7 +50,8 @@ Expected<std::vector<Look>> camera_path(const Shot& shot, double frames_per_seco
     if (!pan) return tl::unexpected(pan.error());
     auto tilt = turning("pitch", pitch_rad, turn.pitch_rad, steps, turn, shot);
     if (!tilt) return tl::unexpected(tilt.error());
-    for (std::size_t n = 0; n < steps; ++n, pan->advance(), tilt->advance()) path.push_back({pan->value(), tilt->value()});
+    for (std::size_t n = 0; n < steps; ++n, pan->advance(), tilt->advance())
+      path.push_back({pan->value(), tilt->value()});
     look = {pan->value(), tilt->value()};
     heading_rad = turn.heading_rad, pitch_rad = turn.pitch_rad;
   }

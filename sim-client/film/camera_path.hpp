@@ -8,8 +8,8 @@
 
 #include <vector>
 
-#include "engine/math/incremental_turn.hpp"
 #include "engine/film_script/shot.hpp"
+#include "engine/math/incremental_turn.hpp"
 
 namespace septet::film {
 

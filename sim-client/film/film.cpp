@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/film_script/film_script.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/scene/resolve.hpp"
 #include "logging/recorded_scene.hpp"
 #include "sim-client/film/camera.hpp"
-#include "engine/film_script/film_script.hpp"
 #include "sim-client/film/session_instants.hpp"
 #include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/picture_writer.hpp"
@@ -28,7 +28,9 @@ Expected<std::pair<double, double>> span_of(const logging::SessionReader& sessio
 }
 
 Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
-  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) { return instants.at(instant_s); });
+  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
+    return instants.at(instant_s);
+  });
 }
 
 /// Where the driver's eyes were: in the rig that was driven with, which the session holds.
@@ -71,9 +73,13 @@ Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, 
 /// What stays from frame to frame.
 class Studio {
  public:
-  Studio(const logging::SessionReader& session, const FilmOptions& options, std::vector<Pivot> pivots, render::Renderer renderer,
-         scene::ResolvedScene scene)
-      : session_(session), options_(options), pivots_(std::move(pivots)), renderer_(std::move(renderer)), scene_(std::move(scene)) {}
+  Studio(const logging::SessionReader& session, const FilmOptions& options, std::vector<Pivot> pivots,
+         render::Renderer renderer, scene::ResolvedScene scene)
+      : session_(session),
+        options_(options),
+        pivots_(std::move(pivots)),
+        renderer_(std::move(renderer)),
+        scene_(std::move(scene)) {}
 
   Expected<void> upload() { return renderer_.upload(scene_); }
   Expected<void> draw(const FilmPlan& plan, const FilmFrame& film_frame);
@@ -125,7 +131,8 @@ Expected<void> Studio::draw(const FilmPlan& plan, const FilmFrame& film_frame) {
 }
 
 /// The script of the options, or one for the whole session.
-Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session, std::pair<double, double> span_s) {
+Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session,
+                               std::pair<double, double> span_s) {
   if (!options.shots.empty()) {
     const auto text = read_regular_file(options.shots, longest_script_bytes);
     if (!text) return tl::unexpected(text.error());
@@ -133,8 +140,9 @@ Expected<Script> choose_script(const FilmOptions& options, const logging::Sessio
   }
   const double from_s = options.from_s.value_or(span_s.first), to_s = options.to_s.value_or(span_s.second);
   if (!(from_s >= span_s.first - time_slack_s && to_s <= span_s.second + time_slack_s && from_s < to_s))
-    return failure(fmt::format("from {} to {} s is not a part of the session, which lasts from {:.2f} to {:.2f} s", from_s, to_s,
-                               span_s.first, span_s.second), "--from, --to", "choose a beginning and a later end within it");
+    return failure(fmt::format("from {} to {} s is not a part of the session, which lasts from {:.2f} to {:.2f} s",
+                               from_s, to_s, span_s.first, span_s.second),
+                   "--from, --to", "choose a beginning and a later end within it");
   Script script = default_script(from_s, to_s, options.frames_per_second);
   const auto world = world_at(session, script.shots.back().from_s);
   if (!world) return tl::unexpected(world.error());
@@ -149,14 +157,18 @@ Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<
   for (std::size_t n = 0; n < script.shots.size(); ++n) {
     const Shot& shot = script.shots[n];
     if (shot.from_s < span_s.first - time_slack_s || shot.to_s > span_s.second + time_slack_s)
-      return failure(fmt::format("it shows {} to {} s, and the session lasts from {:.2f} to {:.2f} s", shot.from_s, shot.to_s,
-                                 span_s.first, span_s.second), shot.where, "choose instants within the session");
-    if (!((shot.to_s - shot.from_s) / shot.speed * frames_per_second < static_cast<double>(most_frames - plan.frames.size())))
-      return failure(fmt::format("with it the film has more than {} frames", most_frames), shot.where, "split the film");
+      return failure(fmt::format("it shows {} to {} s, and the session lasts from {:.2f} to {:.2f} s", shot.from_s,
+                                 shot.to_s, span_s.first, span_s.second),
+                     shot.where, "choose instants within the session");
+    if (!((shot.to_s - shot.from_s) / shot.speed * frames_per_second <
+          static_cast<double>(most_frames - plan.frames.size())))
+      return failure(fmt::format("with it the film has more than {} frames", most_frames), shot.where,
+                     "split the film");
     auto path = camera_path(shot, frames_per_second);
     if (!path) return tl::unexpected(path.error());
     for (std::size_t in_shot = 0; in_shot < path->size(); ++in_shot)
-      plan.frames.push_back({plan.frames.size() + 1, n, in_shot, shot.from_s + static_cast<double>(in_shot) * shot.speed / frames_per_second});
+      plan.frames.push_back({plan.frames.size() + 1, n, in_shot,
+                             shot.from_s + static_cast<double>(in_shot) * shot.speed / frames_per_second});
     plan.paths.push_back(std::move(*path));
   }
   plan.script = std::move(script);

@@ -18,8 +18,10 @@ struct FilmOptions {
   std::filesystem::path out;    ///< Folder for the pictures; made, or empty already.
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
-  bool software = false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
-  std::optional<double> from_s, to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
+  bool software =
+      false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  std::optional<double> from_s,
+      to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
 };
 
 /// One frame of a film.

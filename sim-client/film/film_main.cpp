@@ -12,14 +12,15 @@ int main(int argc, char** argv) {
   using namespace septet;
   using program::number_between;
   film::FilmOptions options;
-  CLI::App app{"Turn a recorded session into a folder of numbered pictures, seen by the cameras of a script.\n"
-               "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
-               "FILM.md in sim-client/film describes the script; this is one:\n\n"
-               "  [[shot]]\n  from_s = 2.0\n  to_s = 6.0\n  participant = \"ambulance\"  # or \"driver\", \"nearest\", an id\n"
-               "  distance_m = 9.0           # 0: through their eyes\n  heading_deg = 150.0        # looks back at it\n"
-               "  pitch_deg = -12.0\n  [[shot.turn]]              # half of the way round, speeding up\n  heading_deg = 10.0\n"
-               "  sigma = 1.0\n",
-               "septet film"};
+  CLI::App app{
+      "Turn a recorded session into a folder of numbered pictures, seen by the cameras of a script.\n"
+      "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
+      "FILM.md in sim-client/film describes the script; this is one:\n\n"
+      "  [[shot]]\n  from_s = 2.0\n  to_s = 6.0\n  participant = \"ambulance\"  # or \"driver\", \"nearest\", an id\n"
+      "  distance_m = 9.0           # 0: through their eyes\n  heading_deg = 150.0        # looks back at it\n"
+      "  pitch_deg = -12.0\n  [[shot.turn]]              # half of the way round, speeding up\n  heading_deg = 10.0\n"
+      "  sigma = 1.0\n",
+      "septet film"};
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("septet: {}; septet film --help shows the options\n", error.what());
   });
@@ -28,12 +29,19 @@ int main(int argc, char** argv) {
   app.add_option("session", options.session, "Session file of a drive")->required();
   app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
   app.add_option("--out", options.out, "New or empty folder for the pictures")->default_str("film, beside the session");
-  app.add_option("--fps", options.frames_per_second, "Frames a second")->check(number_between(1.0, 1000.0))->capture_default_str();
-  app.add_option("--size", "Of a picture, in pixels")->type_name("WIDTHxHEIGHT")->default_str("1280x720")->each([&](const std::string& text) {
-    if (const auto problem = film::read_size(text, options); !problem.empty()) throw CLI::ValidationError(problem);
-  });
-  app.add_flag("--software", options.software, "Draw without a graphics card, pixel for pixel as off-screen screens do");
-  app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")->check(number_between(0.0, 1e6));
+  app.add_option("--fps", options.frames_per_second, "Frames a second")
+      ->check(number_between(1.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--size", "Of a picture, in pixels")
+      ->type_name("WIDTHxHEIGHT")
+      ->default_str("1280x720")
+      ->each([&](const std::string& text) {
+        if (const auto problem = film::read_size(text, options); !problem.empty()) throw CLI::ValidationError(problem);
+      });
+  app.add_flag("--software", options.software,
+               "Draw without a graphics card, pixel for pixel as off-screen screens do");
+  app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
+      ->check(number_between(0.0, 1e6));
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
   return program::run("septet", app, argc, argv, [&] { return film::run_film(options); });
 }

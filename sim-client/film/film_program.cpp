@@ -17,7 +17,8 @@ std::string read_size(const std::string& text, FilmOptions& options) {
   const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
   const auto height = crossed ? std::from_chars(width.ptr + 1, end, options.height_px) : width;
   const auto good = [](std::uint32_t pixels) { return pixels >= 16 && pixels <= 16384; };
-  if (crossed && height.ec == std::errc() && height.ptr == end && good(options.width_px) && good(options.height_px)) return {};
+  if (crossed && height.ec == std::errc() && height.ptr == end && good(options.width_px) && good(options.height_px))
+    return {};
   return "\"" + text + "\" is no size; write WIDTHxHEIGHT in pixels, 16 to 16384 each";
 }
 
@@ -26,18 +27,21 @@ Expected<int> run_film(FilmOptions options) {
   program::catch_stop_signals();
   program::ProgressLine progress;
   const auto made = make_film(options, [&](const FilmMade& so_far) {
-    if (progress.is_due(program::monotonic_s())) progress.show(fmt::format("{} of {} frames", so_far.frames, so_far.planned));
+    if (progress.is_due(program::monotonic_s()))
+      progress.show(fmt::format("{} of {} frames", so_far.frames, so_far.planned));
     return !program::should_stop();
   });
   progress.close();
   if (!made) return tl::unexpected(made.error());
   if (made->frames < made->planned) {
-    program::say(fmt::format("septet: stopped; the first {} of {} pictures are in {}", made->frames, made->planned, options.out.string()));
+    program::say(fmt::format("septet: stopped; the first {} of {} pictures are in {}", made->frames, made->planned,
+                             options.out.string()));
     return program::failed_status;
   }
   const std::string pictures = (options.out / "%06d.png").string();
-  program::announce(fmt::format("{}: {} pictures, {} a second; to see them move: ffmpeg -framerate {} -i {} -pix_fmt yuv420p film.mp4",
-                                options.out.string(), made->frames, options.frames_per_second, options.frames_per_second, pictures));
+  program::announce(fmt::format(
+      "{}: {} pictures, {} a second; to see them move: ffmpeg -framerate {} -i {} -pix_fmt yuv420p film.mp4",
+      options.out.string(), made->frames, options.frames_per_second, options.frames_per_second, pictures));
   return 0;
 }
 

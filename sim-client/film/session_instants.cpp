@@ -18,7 +18,8 @@ Expected<SessionInstants> SessionInstants::start(const logging::SessionReader& s
 }
 
 Expected<Snapshot> SessionInstants::at(double instant_s) {
-  while (!ended_ && (history_.empty() || history_.newest().snapshot.simulated_time_s < instant_s + ticks_ahead * tick_s_)) {
+  while (!ended_ &&
+         (history_.empty() || history_.newest().snapshot.simulated_time_s < instant_s + ticks_ahead * tick_s_)) {
     auto next = cursor_.next();
     if (!next) return tl::unexpected(next.error());
     ended_ = !next->has_value();

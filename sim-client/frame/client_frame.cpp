@@ -19,7 +19,9 @@ std::optional<std::uint32_t> find_prototype(const scene::ResolvedScene& scene, s
 }
 
 instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
-  const auto pixel = [](double fraction, std::uint32_t size) { return static_cast<std::int32_t>(std::lround(fraction * size)); };
+  const auto pixel = [](double fraction, std::uint32_t size) {
+    return static_cast<std::int32_t>(std::lround(fraction * size));
+  };
   instant::PixelRectangle rectangle;
   rectangle.x = pixel(view.left, screen.width_px);
   rectangle.y = pixel(view.top, screen.height_px);
@@ -51,7 +53,7 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
 }
 
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
-                                const scene::ResolvedScene& scene) {
+                                 const scene::ResolvedScene& scene) {
   instant::FrameInput frame;
   frame.simulated_time_s = shown.simulated_time_s;
   frame.environment = shown.environment;
@@ -66,12 +68,14 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     if (participant.id == viewpoint.inside) {
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = instant::Shown::shadow_and_light;
-      if (const auto inside = find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
+      if (const auto inside =
+              find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
           inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
         interior.shown = instant::Shown::whole;
-        if (participant.id == shown.driver_car.participant) interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
+        if (participant.id == shown.driver_car.participant)
+          interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);
       }
     }

@@ -25,7 +25,7 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
 
 /// `shown` as seen from a viewpoint, in whose frame the views are given.
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
-                                const scene::ResolvedScene& scene);
+                                 const scene::ResolvedScene& scene);
 
 /// A line across the middle of the picture, for what the driver must know ("server lost").
 instant::OverlayText banner(std::string text, const rig::Screen& screen);

@@ -40,8 +40,8 @@ std::vector<MovingFace> faces_of(std::span<const Vec3> from, std::span<const Vec
 
 }  // namespace
 
-std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after,
-                                            double tick) {
+std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before,
+                                            const TimedDebris& after, double tick) {
   if (!before.keyframe && !after.keyframe) return std::nullopt;
   if (!before.keyframe) return DebrisInstant{after, after, 0.0};
   if (!after.keyframe) return DebrisInstant{before, before, 0.0};
@@ -89,20 +89,25 @@ instant::DynamicMesh DebrisWay::at(double share) const {
     if (normal == glm::vec3(0.0f)) normal.z = 1.0f;  // Without area it is not seen, but its light must be a number.
     for (const glm::vec3& corner : corners) mesh.vertices.push_back({corner, normal, {}});
     if (both_sides_)
-      for (const glm::vec3& corner : {corners[0], corners[2], corners[1]}) mesh.vertices.push_back({corner, -normal, {}});
+      for (const glm::vec3& corner : {corners[0], corners[2], corners[1]})
+        mesh.vertices.push_back({corner, -normal, {}});
   }
   return mesh;
 }
 
 std::string_view debris_look(debris::Part part, debris::Material material) {
   switch (part) {
-    case debris::Part::traffic_cone: return "debris/traffic-cone";
-    case debris::Part::lamp: return "debris/lamp";
-    case debris::Part::door: return "debris/door";
-    default: break;
+    case debris::Part::traffic_cone:
+      return "debris/traffic-cone";
+    case debris::Part::lamp:
+      return "debris/lamp";
+    case debris::Part::door:
+      return "debris/door";
+    default:
+      break;
   }
-  constexpr std::array<std::string_view, debris::material_count> looks{"debris/steel-sheet", "debris/bumper-plastic", "debris/glass",
-                                                                       "debris/ice",         "debris/rubber",         "debris/concrete"};
+  constexpr std::array<std::string_view, debris::material_count> looks{
+      "debris/steel-sheet", "debris/bumper-plastic", "debris/glass", "debris/ice", "debris/rubber", "debris/concrete"};
   return looks[static_cast<std::size_t>(material)];
 }
 
@@ -121,7 +126,7 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
 }
 
 std::vector<instant::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
-                                                     const scene::ResolvedScene& scene) {
+                                                      const scene::ResolvedScene& scene) {
   std::vector<instant::DynamicMesh> meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;
   for (auto& [key, entry] : ways_) entry.used = false;
@@ -138,7 +143,8 @@ std::vector<instant::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMome
     }
     found->second.used = true;
     const DebrisWay& way = found->second.way;
-    const auto look = std::ranges::find(scene.prototypes, debris_look(way.part(), way.material()), &scene::Prototype::name);
+    const auto look =
+        std::ranges::find(scene.prototypes, debris_look(way.part(), way.material()), &scene::Prototype::name);
     if (look == scene.prototypes.end()) continue;
     meshes.push_back(way.at(instant->share));
     meshes.back().prototype = static_cast<std::uint32_t>(look - scene.prototypes.begin());

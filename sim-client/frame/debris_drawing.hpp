@@ -31,8 +31,8 @@ struct DebrisInstant {
 };
 
 /// What is seen at `tick` (a fraction lies between two ticks); nothing where there is no keyframe at all.
-std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before, const TimedDebris& after,
-                                            double tick);
+std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const TimedDebris& before,
+                                            const TimedDebris& after, double tick);
 
 /// The way of a piece between two keyframes with the same triangles: all that does not depend on the instant.
 class DebrisWay {
@@ -59,7 +59,8 @@ std::string_view debris_look(debris::Part part, debris::Material material);
 class DebrisDrawing {
  public:
   /// All debris of the moments, ready for a frame.
-  std::vector<instant::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
+  std::vector<instant::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick,
+                                         const scene::ResolvedScene& scene);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes whose normals were worked out so far.
@@ -78,8 +79,8 @@ class DebrisDrawing {
   };
   TimedDebris decoded(const EffectKeyframe* effect);
 
-  std::map<Key, Decoded> decoded_;     ///< Each keyframe is read once.
-  std::map<WayKey, Prepared> ways_;    ///< Each pair is worked out once.
+  std::map<Key, Decoded> decoded_;   ///< Each keyframe is read once.
+  std::map<WayKey, Prepared> ways_;  ///< Each pair is worked out once.
   std::uint32_t refused_ = 0, prepared_ = 0;
 };
 

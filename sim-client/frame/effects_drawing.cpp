@@ -2,7 +2,8 @@
 
 namespace septet::frame {
 
-void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene) {
+void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, double tick_s,
+                          const scene::ResolvedScene& scene) {
   const double simulated_time_s = instant.simulated_time_s;
   meshes_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene);
   puffs_ = smoke_.draw(instant.effects, simulated_time_s);

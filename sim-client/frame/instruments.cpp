@@ -11,16 +11,19 @@
 namespace septet::frame {
 namespace {
 
-constexpr glm::vec4 white{0.95f, 0.95f, 0.95f, 1.0f}, green{0.3f, 0.95f, 0.4f, 1.0f},
-    amber{1.0f, 0.75f, 0.2f, 1.0f}, red{1.0f, 0.4f, 0.35f, 1.0f}, panel{0.05f, 0.05f, 0.06f, 0.6f}, dark_panel{0.05f, 0.05f, 0.06f, 0.8f};
+constexpr glm::vec4 white{0.95f, 0.95f, 0.95f, 1.0f}, green{0.3f, 0.95f, 0.4f, 1.0f}, amber{1.0f, 0.75f, 0.2f, 1.0f},
+    red{1.0f, 0.4f, 0.35f, 1.0f}, panel{0.05f, 0.05f, 0.06f, 0.6f}, dark_panel{0.05f, 0.05f, 0.06f, 0.8f};
 /// An idling engine turns at 70 rad/s, one on its starter motor at 20.
 constexpr double stalled_below_radps = 15.0;
 
 std::string gear_text(int gear) { return gear < 0 ? "R" : gear == 0 ? "N" : std::to_string(gear); }
 
 instant::OverlayText line(std::string text, double x_px, double y_px, double height_px, const glm::vec4& color) {
-  return {.text = std::move(text), .x_px = static_cast<float>(x_px), .y_px = static_cast<float>(y_px),
-          .height_px = static_cast<float>(height_px), .color = color};
+  return {.text = std::move(text),
+          .x_px = static_cast<float>(x_px),
+          .y_px = static_cast<float>(y_px),
+          .height_px = static_cast<float>(height_px),
+          .color = color};
 }
 
 }  // namespace
@@ -31,10 +34,12 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
   const DriverCar& car = shown.driver_car;
   const Participant* participant = find_participant(shown, car.participant);
   const Lamps lamps = participant ? participant->lamps : Lamps{};
-  const double height_px = std::max(12.0, std::round(screen.height_px / 17.0)), small_px = std::max(9.0, std::round(0.55 * height_px));
+  const double height_px = std::max(12.0, std::round(screen.height_px / 17.0)),
+               small_px = std::max(9.0, std::round(0.55 * height_px));
   const double half_width_px = 4.5 * height_px, width_px = screen.width_px;
   const auto ahead = rig::point_ahead(rig, screen);
-  const double x = std::clamp((ahead ? ahead->x : 0.5) * width_px, std::min(half_width_px, 0.5 * width_px), std::max(width_px - half_width_px, 0.5 * width_px));
+  const double x = std::clamp((ahead ? ahead->x : 0.5) * width_px, std::min(half_width_px, 0.5 * width_px),
+                              std::max(width_px - half_width_px, 0.5 * width_px));
   const double y = screen.height_px - 0.7 * height_px - small_px;
   const auto add = [&](std::string text, double from_middle_px, double y_px, double size_px, const glm::vec4& color) {
     texts.push_back(line(std::move(text), x + from_middle_px, y_px, size_px, color));
@@ -52,7 +57,8 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
 
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
-  const double row_px = std::clamp(std::floor(screen.height_px / 32.0), 8.0, 30.0), step_px = row_px + 4.0;  // A box is 4 px higher than its line.
+  const double row_px = std::clamp(std::floor(screen.height_px / 32.0), 8.0, 30.0),
+               step_px = row_px + 4.0;  // A box is 4 px higher than its line.
   const double rows = static_cast<double>(car_io::driving_keys().size()) + (headline.empty() ? 0.0 : 1.5);
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
   const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 11.0 * row_px));

@@ -32,7 +32,8 @@ instant::SootField soot_field(const smoke::SootKeyframe& keyframe) {
         cover[at(i + border, j + border, k + border)] =
             cover_of(keyframe.level[(static_cast<std::size_t>(k) * keyframe.ny + j) * keyframe.nx + i]);
   // The greatest of three along each axis in turn is the greatest of all 27.
-  for (const std::size_t stride : {std::size_t{1}, static_cast<std::size_t>(field.nx), static_cast<std::size_t>(field.nx) * field.ny}) {
+  for (const std::size_t stride :
+       {std::size_t{1}, static_cast<std::size_t>(field.nx), static_cast<std::size_t>(field.nx) * field.ny}) {
     field.cover = cover;
     for (std::size_t n = stride; n + stride < cover.size(); ++n)
       cover[n] = std::max({field.cover[n - stride], field.cover[n], field.cover[n + stride]});

@@ -46,8 +46,8 @@ void TickHistory::add(HistoryTick entry) {
 }
 
 TickHistory::Neighbours TickHistory::around(double simulated_time_s) const {
-  const auto after = std::ranges::upper_bound(
-      ticks_, simulated_time_s, {}, [](const HistoryTick& entry) { return entry.snapshot.simulated_time_s; });
+  const auto after = std::ranges::upper_bound(ticks_, simulated_time_s, {},
+                                              [](const HistoryTick& entry) { return entry.snapshot.simulated_time_s; });
   Neighbours neighbours;
   if (after != ticks_.end()) neighbours.after = &*after;
   if (after != ticks_.begin()) neighbours.before = &*std::prev(after);

@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "engine/core/expected.hpp"
 #include "engine/control/control_message.hpp"
+#include "engine/core/expected.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
 namespace septet::frame {

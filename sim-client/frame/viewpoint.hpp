@@ -8,8 +8,9 @@
 namespace septet::frame {
 
 struct Viewpoint {
-  RigidTransform world_from_views;      ///< The frame of the views' eyes and axes: a vehicle's, or that of any place.
-  std::optional<ParticipantId> inside;  ///< Whose eyes they are: of that vehicle its inside is drawn, its shadow and its light.
+  RigidTransform world_from_views;  ///< The frame of the views' eyes and axes: a vehicle's, or that of any place.
+  std::optional<ParticipantId>
+      inside;  ///< Whose eyes they are: of that vehicle its inside is drawn, its shadow and its light.
 };
 
 /// The driver's, in the frame of his car; where the snapshot has none, those of the first participant.

@@ -23,7 +23,8 @@ std::optional<double> PictureRate::per_second() const {
 std::optional<std::string> slowness(const PictureRate& rate, bool drawn_in_software) {
   const auto per_second = rate.per_second();
   if (!per_second || *per_second >= enough_per_s) return std::nullopt;
-  const std::string figure = *per_second < 3.0 ? fmt::format("{:.1f}", *per_second) : fmt::format("{:.0f}", *per_second);
+  const std::string figure =
+      *per_second < 3.0 ? fmt::format("{:.1f}", *per_second) : fmt::format("{:.0f}", *per_second);
   return fmt::format("{} pictures a second: {}", figure,
                      drawn_in_software ? "no GPU found, drawing in software; try --virtual, or fewer pixels in the rig"
                                        : "the GPU is too slow for this picture; try fewer pixels in the rig");

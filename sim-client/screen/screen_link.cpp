@@ -22,7 +22,9 @@ ScreenLink::ScreenLink(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
 void ScreenLink::pump(double now_s) {
   for (net::ClientEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
-      case net::ClientEvent::Kind::connected: on_connected(); break;
+      case net::ClientEvent::Kind::connected:
+        on_connected();
+        break;
       case net::ClientEvent::Kind::lost:
         scene_.disconnected();
         scene_arrived_ = is_welcome_ = false;
@@ -30,9 +32,12 @@ void ScreenLink::pump(double now_s) {
       case net::ClientEvent::Kind::message:
         switch (lane_of(event.bytes).value_or(LaneMessage::control)) {
           case LaneMessage::scene:
-            if (auto received = scene_.receive(std::span(event.bytes).subspan(1)); !received) refusal_ = received.error();
+            if (auto received = scene_.receive(std::span(event.bytes).subspan(1)); !received)
+              refusal_ = received.error();
             break;
-          case LaneMessage::control: on_control(event.bytes); break;
+          case LaneMessage::control:
+            on_control(event.bytes);
+            break;
         }
     }
   }
@@ -54,7 +59,8 @@ void ScreenLink::tell_of_forgeries(double now_s) {
   const auto& counters = ticks_.counters();
   const std::uint64_t forged = counters.forged + counters.malformed;
   if (const std::uint64_t fresh = forged - std::exchange(told_forged_, forged); fresh > 0)
-    messages_.push_back(fmt::format("datagrams on the tick lane that are not the server's: {} in {:.0f} s", fresh, every_s));
+    messages_.push_back(
+        fmt::format("datagrams on the tick lane that are not the server's: {} in {:.0f} s", fresh, every_s));
 }
 
 void ScreenLink::on_connected() {
@@ -84,7 +90,8 @@ void ScreenLink::on_control(std::span<const std::byte> bytes) {
   } else if (auto* refusal = std::get_if<Refusal>(&*message)) {
     // The server may be started again with another rig or list: it is asked again, though not all the time.
     if (std::exchange(refused_, refusal->reason) != refusal->reason)
-      messages_.push_back(fmt::format("refused by the server: {}; it is asked again by itself", printable(refusal->reason)));
+      messages_.push_back(
+          fmt::format("refused by the server: {}; it is asked again by itself", printable(refusal->reason)));
     lane_.leave_for(refused_for_s);
     scene_.disconnected();
     scene_arrived_ = is_welcome_ = false;
@@ -117,8 +124,12 @@ void ScreenLink::receive_ticks(double now_s) {
           if (const auto server_s = server_time_s(now_s))
             answer.lateness_s = static_cast<float>(*server_s - held->header.published_s);
         break;
-      case frame::TickHistory::Outcome::lost_baseline: answer.lost_baseline = true; [[fallthrough]];
-      case frame::TickHistory::Outcome::refused: ++refused_ticks_; break;
+      case frame::TickHistory::Outcome::lost_baseline:
+        answer.lost_baseline = true;
+        [[fallthrough]];
+      case frame::TickHistory::Outcome::refused:
+        ++refused_ticks_;
+        break;
     }
     if (answer.lost_baseline || history_.find(tick->tick)) send(answer, net::Reliability::unreliable);
   }

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/control/control_message.hpp"
 #include "engine/net/connection_report.hpp"
 #include "engine/net/secure_client.hpp"
 #include "engine/net/tick_receiver.hpp"
-#include "engine/control/control_message.hpp"
 #include "engine/replication/replication_client.hpp"
 #include "engine/scene/store.hpp"
 #include "sim-client/frame/tick_history.hpp"
@@ -22,12 +22,12 @@
 namespace septet::screen {
 
 /// Opens the socket that hears the tick lane's group, when the server has named it.
-using OpenGroup =
-    std::function<Expected<std::unique_ptr<net::DatagramSocket>>(const net::Address& group, std::uint32_t interface_ip)>;
+using OpenGroup = std::function<Expected<std::unique_ptr<net::DatagramSocket>>(const net::Address& group,
+                                                                               std::uint32_t interface_ip)>;
 
 struct ScreenLinkOptions {
-  std::string screen;            ///< Name in the rig.
-  std::uint16_t tick_port = 0;   ///< Of `tick_socket`, told to the server for unicast ticks.
+  std::string screen;           ///< Name in the rig.
+  std::uint16_t tick_port = 0;  ///< Of `tick_socket`, told to the server for unicast ticks.
   net::SecureClientOptions lane;
 };
 

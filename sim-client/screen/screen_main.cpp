@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
   app.add_option("--pictures", options.pictures, "Folder for a picture of every simulated second");
   app.add_flag("--virtual", options.is_virtual, "Off-screen");
   app.add_flag("--full-screen", options.full_screen, "Cover a whole monitor");
-  app.add_option("--monitor", options.monitor, "Which monitor of this machine, from 0, instead of the rig's")->check(CLI::Range(0, 63));
+  app.add_option("--monitor", options.monitor, "Which monitor of this machine, from 0, instead of the rig's")
+      ->check(CLI::Range(0, 63));
   app.add_flag("--validation", options.validation, "Turn on Vulkan's validation layer");
   return program::run("septet-screen", app, argc, argv, [&]() -> Expected<int> {
     const auto address = net::parse_address(server, "--server");

@@ -38,10 +38,12 @@ class Session {
   Expected<void> run();
 
  private:
-  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group, std::uint32_t interface_ip) {
-    return net::UdpSocket::open_group(group, interface_ip).map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
-      return std::make_unique<net::UdpSocket>(std::move(socket));
-    });
+  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group,
+                                                                   std::uint32_t interface_ip) {
+    return net::UdpSocket::open_group(group, interface_ip)
+        .map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
+          return std::make_unique<net::UdpSocket>(std::move(socket));
+        });
   }
 
   Expected<void> take_welcome();
@@ -80,7 +82,7 @@ class Session {
   frame::EffectsDrawing effects_;
   double lost_drawn_s_ = 0.0;
   static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
-  std::optional<bool> keys_shown_;  ///< By the driver's keys; nothing: none has been pressed.
+  std::optional<bool> keys_shown_;                  ///< By the driver's keys; nothing: none has been pressed.
   bool was_touched_ = false;
   float last_submit_ms_ = 0.0f;
 };
@@ -102,7 +104,9 @@ Expected<void> Session::take_welcome() {
   resolver_.forget();
   uploaded_revision_ = 0;
   // A server that was started again brings the same rig as a rule: its content is new, the picture's place is not.
-  if (display_ && display_->renderer().width() == screen_->width_px && display_->renderer().height() == screen_->height_px) return {};
+  if (display_ && display_->renderer().width() == screen_->width_px &&
+      display_->renderer().height() == screen_->height_px)
+    return {};
   // It takes a tenth of a second, in which the scene arrives.
   std::jthread receiving([this](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -110,8 +114,9 @@ Expected<void> Session::take_welcome() {
       wait(0.001);
     }
   });
-  auto display = Display::open({screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen || screen_->full_screen,
-                                options_.monitor ? options_.monitor : screen_->monitor, options_.validation, "Septet " + screen_->name});
+  auto display = Display::open(
+      {screen_->width_px, screen_->height_px, options_.is_virtual, options_.full_screen || screen_->full_screen,
+       options_.monitor ? options_.monitor : screen_->monitor, options_.validation, "Septet " + screen_->name});
   receiving.request_stop();
   receiving.join();
   if (!display) return tl::unexpected(display.error());
@@ -134,8 +139,10 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   const double begun_s = program::monotonic_s();
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
   effects_.add_to(input);
-  if (message) input.overlay.push_back(frame::banner(std::move(*message), *screen_));
-  else add_driver_texts(input, snapshot);
+  if (message)
+    input.overlay.push_back(frame::banner(std::move(*message), *screen_));
+  else
+    add_driver_texts(input, snapshot);
   if (auto drawn = display_->renderer().draw(std::move(input)); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
@@ -155,17 +162,24 @@ void Session::take_effects(const Snapshot& snapshot) {
 }
 
 void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot) {
-  const auto add = [&](const std::vector<instant::OverlayText>& texts) { input.overlay.insert(input.overlay.end(), texts.begin(), texts.end()); };
+  const auto add = [&](const std::vector<instant::OverlayText>& texts) {
+    input.overlay.insert(input.overlay.end(), texts.begin(), texts.end());
+  };
   add(frame::instruments(snapshot, rig_, *screen_));
   if (!options_.is_virtual)
-    if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe"))) input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
+    if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe")))
+      input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
   if (screen_ != &rig::screen_ahead(rig_)) return;
   const control::Notice& notice = link_.notice();
   const bool unasked = notice.keys && snapshot.simulated_time_s < keys_shown_for_s;
-  if (display_->take_keys_request()) keys_shown_ = !keys_shown_.value_or(unasked);
-  else if (display_->is_touched() && !std::exchange(was_touched_, true)) keys_shown_ = false;
-  if (keys_shown_.value_or(unasked)) add(frame::key_table(notice.text, *screen_));
-  else if (!notice.text.empty()) input.overlay.push_back(frame::banner(notice.text, *screen_));
+  if (display_->take_keys_request())
+    keys_shown_ = !keys_shown_.value_or(unasked);
+  else if (display_->is_touched() && !std::exchange(was_touched_, true))
+    keys_shown_ = false;
+  if (keys_shown_.value_or(unasked))
+    add(frame::key_table(notice.text, *screen_));
+  else if (!notice.text.empty())
+    input.overlay.push_back(frame::banner(notice.text, *screen_));
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
@@ -203,7 +217,8 @@ Expected<void> Session::draw_real_time(double now_s) {
   }
   if (auto scene = bring_scene_up(); !scene) return scene;
   const double tick_s = 1.0 / link_.welcome()->tick_rate_hz;
-  const auto shown = frame::show(link_.history(), *frame::playout_time_s(link_.history(), frame::frame_number(*server_s)), tick_s);
+  const auto shown =
+      frame::show(link_.history(), *frame::playout_time_s(link_.history(), frame::frame_number(*server_s)), tick_s);
   take_effects(shown.snapshot);
   if (auto drawn = draw(shown.snapshot, std::nullopt); !drawn) return drawn;
   picture_rate_.add(now_s);
@@ -247,10 +262,13 @@ void Session::wait(double seconds) {
 void Session::say_goodbye() {
   if (display_) {
     const auto& last = display_->renderer().statistics();
-    program::say(fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances", options_.name,
-                             frames_, last.triangles, last.shadow_triangles, last.draws, last.instances));
+    program::say(
+        fmt::format("{}: {} frames; the last one: {} triangles ({} of them for shadows), {} draws, {} instances",
+                    options_.name, frames_, last.triangles, last.shadow_triangles, last.draws, last.instances));
   }
-  const auto percentile = [](const FrameTimes& times, double fraction) { return static_cast<float>(times.percentile_ms(fraction)); };
+  const auto percentile = [](const FrameTimes& times, double fraction) {
+    return static_cast<float>(times.percentile_ms(fraction));
+  };
   control::ScreenReport report{.frames = frames_, .frames_off_tick = frames_off_tick_};
   report.frame_ms_p50 = percentile(frame_times_, 0.5);
   report.frame_ms_p99 = percentile(frame_times_, 0.99);
@@ -289,9 +307,12 @@ Expected<void> Session::run() {
         departure.emplace(leaving == Display::Leaving::escape, now_s);
         continue;
       }
-      if (link_.server_is_gone()) drawn = draw_lost(now_s);
-      else if (link_.welcome()->lockstep) drawn = draw_lockstep();
-      else drawn = draw_real_time(now_s);
+      if (link_.server_is_gone())
+        drawn = draw_lost(now_s);
+      else if (link_.welcome()->lockstep)
+        drawn = draw_lockstep();
+      else
+        drawn = draw_real_time(now_s);
     }
     if (!drawn) return drawn;
     if (!display_ || link_.welcome()->lockstep) wait(link_.has_backlog() ? 0.0 : 0.005);
@@ -318,8 +339,10 @@ Expected<void> run_screen(const ScreenOptions& options) {
   if (!tick_socket) return tl::unexpected(tick_socket.error());
   const std::uint16_t tick_port = tick_socket->local_address().port;
   net::SecureClientOptions lane{options.server, *server_key, *identity, {}};
-  if (options.is_virtual) lane.limits.timeout_s = 10.0;  // On a slow machine a server may be silent for seconds and go on.
-  Session session(options, std::move(*lane_socket), std::move(*tick_socket), {options.name, tick_port, std::move(lane)});
+  if (options.is_virtual)
+    lane.limits.timeout_s = 10.0;  // On a slow machine a server may be silent for seconds and go on.
+  Session session(options, std::move(*lane_socket), std::move(*tick_socket),
+                  {options.name, tick_port, std::move(lane)});
   return session.run();
 }
 

@@ -12,12 +12,12 @@
 namespace septet::screen {
 
 struct ScreenOptions {
-  std::string name;               ///< In the rig.
+  std::string name;  ///< In the rig.
   net::Address server;
-  std::filesystem::path keys;     ///< Folder with NAME.key and server.public.
-  std::filesystem::path pictures; ///< Where pictures of whole ticks go (TICK.png); empty: none are kept.
-  bool is_virtual = false;        ///< Off-screen, on the software rasteriser.
-  bool full_screen = false;       ///< Also where the rig does not say so.
+  std::filesystem::path keys;            ///< Folder with NAME.key and server.public.
+  std::filesystem::path pictures;        ///< Where pictures of whole ticks go (TICK.png); empty: none are kept.
+  bool is_virtual = false;               ///< Off-screen, on the software rasteriser.
+  bool full_screen = false;              ///< Also where the rig does not say so.
   std::optional<std::uint32_t> monitor;  ///< Instead of the rig's.
   bool validation = false;
 };

@@ -25,8 +25,8 @@ car_io::GamepadState gamepad_of(const render::Gamepad& pad) {
 /// Whether a hand is on the gamepad.
 bool is_held(const render::Gamepad& pad) {
   constexpr float clearly = 0.3f;
-  return std::abs(pad.left_x) > clearly || std::abs(pad.right_x) > clearly || pad.left_trigger > clearly || pad.right_trigger > clearly ||
-         pad.a || pad.b || pad.x || pad.y || pad.left_bumper || pad.right_bumper;
+  return std::abs(pad.left_x) > clearly || std::abs(pad.right_x) > clearly || pad.left_trigger > clearly ||
+         pad.right_trigger > clearly || pad.a || pad.b || pad.x || pad.y || pad.left_bumper || pad.right_bumper;
 }
 
 class WindowDisplay final : public Display {
@@ -73,7 +73,8 @@ class WindowDisplay final : public Display {
 
 }  // namespace
 
-Expected<std::unique_ptr<Display>> open_window(const DisplayOptions& options, render::RendererOptions renderer_options) {
+Expected<std::unique_ptr<Display>> open_window(const DisplayOptions& options,
+                                               render::RendererOptions renderer_options) {
   render::WindowOptions window_options;
   window_options.title = options.title;
   window_options.width = options.width_px;

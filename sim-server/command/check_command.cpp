@@ -29,7 +29,9 @@ struct Checked {
   std::string file, kind;
   std::vector<Finding> findings;
 
-  std::size_t count(Severity severity) const { return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity)); }
+  std::size_t count(Severity severity) const {
+    return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity));
+  }
 };
 
 /// The line in "file:12, <element>"; 0 where there is none.
@@ -83,7 +85,10 @@ Checked check_file(const std::string& name) {
   }
   if (extension != ".xodr" && extension != ".xosc" && extension != ".toml") {
     checked.kind = "unknown";
-    checked.findings.push_back({Severity::error, 0, {"it is neither .xodr, .xosc, .toml nor .sqlite", name, "check roads, scenarios, rigs, vehicles, film scripts or sessions"}});
+    checked.findings.push_back({Severity::error,
+                                0,
+                                {"it is neither .xodr, .xosc, .toml nor .sqlite", name,
+                                 "check roads, scenarios, rigs, vehicles, film scripts or sessions"}});
     return checked;
   }
   checked.kind = extension == ".xodr" ? "road" : extension == ".xosc" ? "scenario" : "TOML";
@@ -91,7 +96,8 @@ Checked check_file(const std::string& name) {
   add_error(text, checked);
   if (!text) return checked;
   if (extension == ".xodr") checked.findings = road::check_opendrive(*text, name);
-  if (extension == ".xosc") checked.findings = scenario::check_scenario(*text, name, scenario::files_in(file.parent_path().string()));
+  if (extension == ".xosc")
+    checked.findings = scenario::check_scenario(*text, name, scenario::files_in(file.parent_path().string()));
   if (extension == ".toml") check_toml(*text, checked);
   return checked;
 }
@@ -100,7 +106,8 @@ const char* word(Severity severity) { return severity == Severity::error ? "erro
 
 void print_lines(const std::vector<Checked>& all, std::size_t errors, std::size_t warnings, std::ostream& out) {
   for (const Checked& checked : all)
-    for (const Finding& finding : checked.findings) out << word(finding.severity) << ": " << describe(finding.error) << "\n";
+    for (const Finding& finding : checked.findings)
+      out << word(finding.severity) << ": " << describe(finding.error) << "\n";
   out << fmt::format("{} files, {} errors, {} warnings\n", all.size(), errors, warnings);
 }
 
@@ -112,7 +119,12 @@ void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t
     for (const Finding& finding : checked.findings) {
       const Error& error = finding.error;
       Json line = finding.line > 0 ? Json(finding.line) : Json(nullptr);
-      findings.push_back({{"severity", word(finding.severity)}, {"line", std::move(line)}, {"what", error.what}, {"where", error.where}, {"remedy", error.remedy}, {"rule", finding.rule.empty() ? Json(nullptr) : Json(finding.rule)}});
+      findings.push_back({{"severity", word(finding.severity)},
+                          {"line", std::move(line)},
+                          {"what", error.what},
+                          {"where", error.where},
+                          {"remedy", error.remedy},
+                          {"rule", finding.rule.empty() ? Json(nullptr) : Json(finding.rule)}});
     }
     files.push_back({{"file", checked.file},
                      {"kind", checked.kind},
@@ -120,7 +132,11 @@ void print_json(const std::vector<Checked>& all, std::size_t errors, std::size_t
                      {"warnings", checked.count(Severity::warning)},
                      {"findings", std::move(findings)}});
   }
-  const Json answer = {{"format", "septet check"}, {"version", 1}, {"errors", errors}, {"warnings", warnings}, {"files", std::move(files)}};
+  const Json answer = {{"format", "septet check"},
+                       {"version", 1},
+                       {"errors", errors},
+                       {"warnings", warnings},
+                       {"files", std::move(files)}};
   out << document::text_of(answer);
 }
 

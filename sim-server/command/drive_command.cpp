@@ -44,7 +44,8 @@ Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& cli
   }
   const auto server = net::load_or_create_identity(folder->path() / "server.key");
   if (!server) return tl::unexpected(server.error());
-  const auto written = document::write_text_files(folder->path(), {{"allowed-clients", allowed}, {"server.public", net::to_text(server->public_key()) + '\n'}});
+  const auto written = document::write_text_files(
+      folder->path(), {{"allowed-clients", allowed}, {"server.public", net::to_text(server->public_key()) + '\n'}});
   if (!written) return tl::unexpected(written.error());
   return folder;
 }
@@ -53,7 +54,8 @@ Expected<program::TemporaryFolder> make_keys(const std::vector<std::string>& cli
 /// that dies again and again before it shows a picture is tried more and more rarely.
 class RunningScreen {
  public:
-  RunningScreen(std::string name, program::ChildOptions options) : name_(std::move(name)), options_(std::move(options)) {}
+  RunningScreen(std::string name, program::ChildOptions options)
+      : name_(std::move(name)), options_(std::move(options)) {}
 
   void keep_running() {
     if (!process_) return start();
@@ -68,8 +70,11 @@ class RunningScreen {
       ++deaths_;
       const auto pause = deaths_ == 1 ? 0ms : std::min(100ms * (1 << std::min(deaths_, 10)), 10'000ms);
       next_start_ = Clock::now() + pause;
-      const std::string how = exit->signal != 0 ? fmt::format("was ended by signal {}", exit->signal) : fmt::format("ended with status {}", exit->code);
-      program::say(fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how, pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
+      const std::string how = exit->signal != 0 ? fmt::format("was ended by signal {}", exit->signal)
+                                                : fmt::format("ended with status {}", exit->code);
+      program::say(
+          fmt::format("\nscreen {} {}; starting it again{}; its log: {}", name_, how,
+                      pause > 0ms ? fmt::format(" in {:.1f} s", 1e-3 * static_cast<double>(pause.count())) : "",
                       options_.log.string()));
       return;
     }
@@ -112,11 +117,20 @@ std::string last_line_of(const fs::path& file) {
 program::ChildOptions server_options(const DriveOptions& options, const fs::path& rig, const fs::path& keys) {
   program::ChildOptions server;
   server.program = (program::own_folder() / "septet-server").string();
-  server.arguments = {"--rig", rig.string(), "--keys", keys.string(), "--out", options.out.string(),
-                      "--seed", std::to_string(options.seed), "--seconds", fmt::format("{}", *options.seconds), "--any-port", "--wait-for-screens", "60"};
-  const auto add = [&](std::initializer_list<std::string> more) { server.arguments.insert(server.arguments.end(), more); };
-  if (options.replay.empty()) add({"--scenario", options.scenario, "--traffic", options.traffic});
-  else add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
+  server.arguments = {"--rig",      rig.string(),
+                      "--keys",     keys.string(),
+                      "--out",      options.out.string(),
+                      "--seed",     std::to_string(options.seed),
+                      "--seconds",  fmt::format("{}", *options.seconds),
+                      "--any-port", "--wait-for-screens",
+                      "60"};
+  const auto add = [&](std::initializer_list<std::string> more) {
+    server.arguments.insert(server.arguments.end(), more);
+  };
+  if (options.replay.empty())
+    add({"--scenario", options.scenario, "--traffic", options.traffic});
+  else
+    add({"--replay", options.replay.string(), "--from", fmt::format("{}", options.replay_from_s)});
   const auto add_chosen = [&](const char* option, const std::string& value) {
     // As one word: a value may begin with a hyphen.
     if (!value.empty()) add({fmt::format("{}={}", option, value)});
@@ -131,11 +145,12 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   return server;
 }
 
-program::ChildOptions screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server, const fs::path& keys) {
+program::ChildOptions screen_options(const DriveOptions& options, const rig::Screen& screen, const std::string& server,
+                                     const fs::path& keys) {
   program::ChildOptions running;
   running.program = (program::own_folder() / "septet-screen").string();
-  running.arguments = {"--name", screen.name, "--server", server, "--keys", keys.string(),
-                       "--pictures", (options.out / "screens" / screen.name).string()};
+  running.arguments = {"--name", screen.name,   "--server",   server,
+                       "--keys", keys.string(), "--pictures", (options.out / "screens" / screen.name).string()};
   running.log = options.out / "screens" / (screen.name + ".log");
   if (options.full_screen) running.arguments.push_back("--full-screen");
   if (options.virtual_screens) {
@@ -159,12 +174,18 @@ Ending ending_of(const program::ChildExit& exit, const std::optional<std::string
     const auto text = last_words->find(' ', std::string_view("ended ").size());
     return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1)};
   }
-  if (exit.signal != 0 && program::stop_signal() && !was_ready) return {false, logging::stopped_status, "stopped before the drive began"};
+  if (exit.signal != 0 && program::stop_signal() && !was_ready)
+    return {false, logging::stopped_status, "stopped before the drive began"};
   if (exit.signal != 0)
-    return {was_ready, logging::failed_status, fmt::format("the server was ended by signal {}; what it had logged is in the session file", exit.signal)};
-  if (exit.code == 127) return {false, logging::failed_status, "the server does not start; check that septet-server lies beside septet"};
+    return {was_ready, logging::failed_status,
+            fmt::format("the server was ended by signal {}; what it had logged is in the session file", exit.signal)};
+  if (exit.code == 127)
+    return {false, logging::failed_status, "the server does not start; check that septet-server lies beside septet"};
   if (was_ready)
-    return {true, logging::failed_status, fmt::format("the server ended with status {} and did not say why; what it had logged is in the session file", exit.code)};
+    return {
+        true, logging::failed_status,
+        fmt::format("the server ended with status {} and did not say why; what it had logged is in the session file",
+                    exit.code)};
   return {false, logging::failed_status, ""};
 }
 
@@ -190,7 +211,8 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
     if (!line->starts_with("ready ")) return true;
     was_ready = true;
     if (!options.no_screens)
-      for (const auto& screen : rig.screens) screens.emplace_back(screen.name, screen_options(options, screen, ip + ':' + line->substr(6), keys->path()));
+      for (const auto& screen : rig.screens)
+        screens.emplace_back(screen.name, screen_options(options, screen, ip + ':' + line->substr(6), keys->path()));
     return true;
   };
   while (!server->poll()) {
@@ -201,15 +223,18 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
     }
     if (!last_words && !has_given_up)
       for (auto& screen : screens) screen.keep_running();
-    if (!screens.empty() && std::ranges::all_of(screens, &RunningScreen::is_hopeless) && !std::exchange(has_given_up, true)) {
+    if (!screens.empty() && std::ranges::all_of(screens, &RunningScreen::is_hopeless) &&
+        !std::exchange(has_given_up, true)) {
       const fs::path& log = screens.front().options().log;
       program::say(fmt::format("septet: no screen can be started; {} says: {}", log.string(), last_line_of(log)));
       server->send_signal(SIGUSR1);
     }
   }
-  while (!last_words && listen(0ms)) {}
+  while (!last_words && listen(0ms)) {
+  }
   // The screens have had Finish and their reports are in; whoever still runs writes its last pictures, or hangs.
-  for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i) std::this_thread::sleep_for(20ms);
+  for (int i = 0; i < 1500 && std::ranges::any_of(screens, &RunningScreen::is_running); ++i)
+    std::this_thread::sleep_for(20ms);
   return ending_of(*server->poll(), last_words, was_ready);
 }
 
@@ -227,24 +252,34 @@ Expected<fs::path> folder_of(const DriveOptions& options) {
   if (options.out.empty()) return options.replay.parent_path() / "replay";
   const fs::path out = fs::weakly_canonical(options.out, error);
   if (std::ranges::mismatch(out, session).in1 == out.end())
-    return failure("the session that is to be shown lies in this folder", options.out.string(), "choose another folder with --out, or leave --out away");
+    return failure("the session that is to be shown lies in this folder", options.out.string(),
+                   "choose another folder with --out, or leave --out away");
   return options.out;
 }
 
 /// What there is to look at after a drive.
 Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, int status) {
-  const auto tell = [](const fs::path& file, const std::string& what) { program::announce(fmt::format("{}: {}", file.string(), what)); };
+  const auto tell = [](const fs::path& file, const std::string& what) {
+    program::announce(fmt::format("{}: {}", file.string(), what));
+  };
   Expected<void> done;
   if (options.virtual_screens && !options.no_screens) {
-    done = write_panorama(options.out, rig, fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
+    done =
+        write_panorama(options.out, rig,
+                       fs::path(options.replay.empty() ? options.scenario : options.replay.string()).stem().string());
     if (done)
-      tell(options.out / "panorama.png", fmt::format("what the driver saw, all screens of one tick; each screen once a second is in {}", (options.out / "screens").string()));
+      tell(options.out / "panorama.png",
+           fmt::format("what the driver saw, all screens of one tick; each screen once a second is in {}",
+                       (options.out / "screens").string()));
   }
   const fs::path session = options.out / "session.sqlite";
   std::error_code ignored;
-  if (fs::exists(options.out / "report.html", ignored)) tell(options.out / "report.html", "speed, lateral position and its histogram");
+  if (fs::exists(options.out / "report.html", ignored))
+    tell(options.out / "report.html", "speed, lateral position and its histogram");
   if (fs::exists(session, ignored))
-    tell(session, fmt::format("{}; show it again with: septet replay {}", status == logging::failed_status ? "what was logged" : "the whole drive", session.string()));
+    tell(session,
+         fmt::format("{}; show it again with: septet replay {}",
+                     status == logging::failed_status ? "what was logged" : "the whole drive", session.string()));
   return done;
 }
 
@@ -264,7 +299,9 @@ Expected<int> run_drive(DriveOptions options) {
     if (!scenario) return tl::unexpected(scenario.error());
     options.scenario = scenario->string();
   }
-  if (!options.seconds) options.seconds = (options.virtual_screens || options.no_screens) && options.replay.empty() ? seconds_unless_told : 0.0;
+  if (!options.seconds)
+    options.seconds =
+        (options.virtual_screens || options.no_screens) && options.replay.empty() ? seconds_unless_told : 0.0;
   const auto out = folder_of(options);
   if (!out) return tl::unexpected(out.error());
   options.out = *out;
@@ -283,7 +320,8 @@ Expected<int> run_drive(DriveOptions options) {
       status = logging::failed_status;
     }
   }
-  if (!ending->text.empty()) (status == logging::failed_status && !ending->driven ? program::say : program::announce)(ending->text);
+  if (!ending->text.empty())
+    (status == logging::failed_status && !ending->driven ? program::say : program::announce)(ending->text);
   return status;
 }
 

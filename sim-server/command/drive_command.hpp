@@ -13,21 +13,21 @@ namespace septet::server {
 
 struct DriveOptions {
   std::string scenario = "motorway-ambulance";  ///< A file, a folder, or a name below scenarios/.
-  std::string rig;                              ///< A file, or a name below rigs/; empty: by whether there is a display.
-  std::filesystem::path out;                    ///< Empty: out/latest; of a replay: replay, beside the session.
-  std::optional<double> seconds;                ///< Simulated; 0: until the scenario ends or somebody stops it.
+  std::string rig;                ///< A file, or a name below rigs/; empty: by whether there is a display.
+  std::filesystem::path out;      ///< Empty: out/latest; of a replay: replay, beside the session.
+  std::optional<double> seconds;  ///< Simulated; 0: until the scenario ends or somebody stops it.
   std::uint64_t seed = 1;
   bool virtual_screens = false;
-  std::string driver;           ///< Which simulated driver; empty: the rig's.
-  std::string vehicle;          ///< A file, or a name below vehicles/; empty: the rig's.
-  std::string participant;      ///< The driver's code, for log, summary and report.
+  std::string driver;                   ///< Which simulated driver; empty: the rig's.
+  std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
+  std::string participant;              ///< The driver's code, for log, summary and report.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
-  std::string traffic = "own";   ///< Who moves the traffic: own or sumo.
-  std::filesystem::path replay;  ///< A session to show again, instead of a scenario to drive.
+  std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
+  std::filesystem::path replay;         ///< A session to show again, instead of a scenario to drive.
   double replay_from_s = 0.0;
-  bool full_screen = false; ///< Also where the rig does not say so.
-  bool start_now = false;   ///< Do not wait for a person to take the controls.
-  bool no_screens = false;  ///< Server and car only.
+  bool full_screen = false;  ///< Also where the rig does not say so.
+  bool start_now = false;    ///< Do not wait for a person to take the controls.
+  bool no_screens = false;   ///< Server and car only.
 };
 
 /// Of a drive that is not told how long to last, off-screen. One in a window, and a replay, last as for `--seconds 0`.

@@ -19,7 +19,9 @@ Expected<int> lock(const fs::path& folder) {
   if (file < 0 || ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
   const bool is_held = errno == EWOULDBLOCK;
   ::close(file);
-  if (is_held) return failure("another drive is going on in this folder", folder.string(), "wait for its end, or choose another folder with --out");
+  if (is_held)
+    return failure("another drive is going on in this folder", folder.string(),
+                   "wait for its end, or choose another folder with --out");
   return -1;
 }
 
@@ -32,10 +34,12 @@ Expected<DriveFolder> DriveFolder::prepare(const fs::path& chosen) {
   std::error_code error;
   const auto kind = fs::status(folder.path_, error).type();
   if (kind != fs::file_type::directory && kind != fs::file_type::not_found)
-    return failure(kind == fs::file_type::none ? error.message() : "it is a file, not a folder", chosen.string(), "choose a folder for the drive with --out");
+    return failure(kind == fs::file_type::none ? error.message() : "it is a file, not a folder", chosen.string(),
+                   "choose a folder for the drive with --out");
   if (kind == fs::file_type::directory && !fs::is_empty(folder.path_, error)) {
     if (!fs::exists(folder.path_ / "session.sqlite", error) && !fs::exists(folder.path_ / "screens", error))
-      return failure("the folder holds other things than an earlier drive", chosen.string(), "choose a new or empty one with --out");
+      return failure("the folder holds other things than an earlier drive", chosen.string(),
+                     "choose a new or empty one with --out");
     const auto earlier = lock(folder.path_);
     if (!earlier) return tl::unexpected(earlier.error());
     for (int number = 1; folder.aside_.empty() || fs::exists(folder.aside_, error); ++number)

@@ -22,11 +22,13 @@ struct Column {
 };
 constexpr std::array<Column, 7> columns{{
     {"time_s", -1e6, 1e6, [](vehicle::TimedInput& row, double value) { row.time_s = value; }},
-    {"steering_wheel_deg", -1500.0, 1500.0, [](vehicle::TimedInput& row, double value) { row.input.steering_wheel_rad = value * radians_per_degree; }},
+    {"steering_wheel_deg", -1500.0, 1500.0,
+     [](vehicle::TimedInput& row, double value) { row.input.steering_wheel_rad = value * radians_per_degree; }},
     {"accelerator", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.accelerator = value; }},
     {"brake", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.brake = value; }},
     {"clutch", 0.0, 1.0, [](vehicle::TimedInput& row, double value) { row.input.clutch = value; }},
-    {"gear", -1.0, 10.0, [](vehicle::TimedInput& row, double value) {
+    {"gear", -1.0, 10.0,
+     [](vehicle::TimedInput& row, double value) {
        row.input.selector = GearSelector::manual;
        row.input.gear = static_cast<std::int8_t>(std::lround(value));
      }},
@@ -73,7 +75,8 @@ Expected<std::vector<vehicle::TimedInput>> read_input_table(std::string_view tex
       continue;
     }
     if (cells.size() != header.size())
-      return failure(fmt::format("{} numbers for {} columns", cells.size(), header.size()), where, "give each column one");
+      return failure(fmt::format("{} numbers for {} columns", cells.size(), header.size()), where,
+                     "give each column one");
     vehicle::TimedInput row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto value = document::number_in<double>(cells[i]);
@@ -83,11 +86,16 @@ Expected<std::vector<vehicle::TimedInput>> read_input_table(std::string_view tex
       header[i]->set(row, *value);
     }
     if (!rows.empty() && row.time_s <= rows.back().time_s)
-      return failure(fmt::format("time_s {} follows {}", row.time_s, rows.back().time_s), where, "give ascending times");
-    if (rows.size() == most_rows) return failure(fmt::format("has more than {} rows", most_rows), where, "give fewer: between rows inputs change evenly");
+      return failure(fmt::format("time_s {} follows {}", row.time_s, rows.back().time_s), where,
+                     "give ascending times");
+    if (rows.size() == most_rows)
+      return failure(fmt::format("has more than {} rows", most_rows), where,
+                     "give fewer: between rows inputs change evenly");
     rows.push_back(row);
   }
-  if (rows.size() < 2) return failure("has fewer than two rows of inputs", std::string(name), "name the columns in the first line, then give one line for each time");
+  if (rows.size() < 2)
+    return failure("has fewer than two rows of inputs", std::string(name),
+                   "name the columns in the first line, then give one line for each time");
   return rows;
 }
 

@@ -33,7 +33,8 @@ std::string first_comment(const std::string& text) {
 Expected<std::vector<Entry>> entries_of(const std::string& kind) {
   std::vector<Entry> entries;
   if (kind == "drivers") {
-    for (const auto& driver : car_io::simulated_drivers()) entries.push_back({std::string(driver.name), std::string(driver.description)});
+    for (const auto& driver : car_io::simulated_drivers())
+      entries.push_back({std::string(driver.name), std::string(driver.description)});
     return entries;
   }
   const bool scenarios = kind == "scenarios";
@@ -41,7 +42,8 @@ Expected<std::vector<Entry>> entries_of(const std::string& kind) {
   if (!data) return tl::unexpected(data.error());
   std::set<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(*data / kind, ignored)) names.insert(entry.path().stem().string());
+  for (const auto& entry : std::filesystem::directory_iterator(*data / kind, ignored))
+    names.insert(entry.path().stem().string());
   for (const auto& name : names) {
     const auto file = find_resource(name, kind, scenarios ? ".xosc" : ".toml");
     if (!file) continue;  // Something else that lies there.
@@ -51,7 +53,8 @@ Expected<std::vector<Entry>> entries_of(const std::string& kind) {
     if (!scenarios) {
       entry.description = first_comment(*text);
     } else {
-      const auto scenario = scenario::read_scenario(*text, file->string(), scenario::files_in(file->parent_path().string()));
+      const auto scenario =
+          scenario::read_scenario(*text, file->string(), scenario::files_in(file->parent_path().string()));
       entry.description = scenario ? scenario->header.description : "cannot be read: " + describe(scenario.error());
     }
     entries.push_back(std::move(entry));

@@ -22,7 +22,8 @@ std::set<std::uint64_t> ticks_in(const fs::path& folder) {
     const std::string name = entry.path().stem().string();
     std::uint64_t tick = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), tick);
-    if (error == std::errc() && end == name.data() + name.size() && entry.path().extension() == ".png") ticks.insert(tick);
+    if (error == std::errc() && end == name.data() + name.size() && entry.path().extension() == ".png")
+      ticks.insert(tick);
   }
   return ticks;
 }
@@ -38,7 +39,8 @@ Expected<void> write_panorama(const fs::path& out, const rig::Rig& rig, const st
     common = std::move(both);
   }
   if (common.empty())
-    return failure("the screens have no picture of a common tick", (out / "screens").string(), "drive for at least one simulated second");
+    return failure("the screens have no picture of a common tick", (out / "screens").string(),
+                   "drive for at least one simulated second");
   const std::uint64_t tick = *common.rbegin();
 
   std::vector<image::Image> pictures;
@@ -52,7 +54,8 @@ Expected<void> write_panorama(const fs::path& out, const rig::Rig& rig, const st
     if (!picture) return tl::unexpected(picture.error());
     pictures.push_back(std::move(*picture));
     const auto& window = screen.views.front().window;
-    view.screens.push_back({screen.name, window.lower_left_m, window.lower_right_m, window.upper_left_m, &pictures.back()});
+    view.screens.push_back(
+        {screen.name, window.lower_left_m, window.lower_right_m, window.upper_left_m, &pictures.back()});
   }
   const auto panorama = image::unroll(view);
   if (!panorama) return tl::unexpected(panorama.error());

@@ -28,7 +28,8 @@ bool is_altered(const DriverInput& input, const DriverCar& car) {
 }
 
 /// Whether the inputs are those that were driven with, by the hash that the log ends with; nothing where it was not closed.
-Expected<std::optional<bool>> are_original(const logging::SessionInfo& info, const std::vector<logging::InputRecord>& inputs) {
+Expected<std::optional<bool>> are_original(const logging::SessionInfo& info,
+                                           const std::vector<logging::InputRecord>& inputs) {
   const auto row = info.other.find("outcome");
   if (row == info.other.end()) return std::optional<bool>();
   const auto outcome = logging::read_outcome(row->second);
@@ -42,22 +43,29 @@ Expected<std::optional<bool>> are_original(const logging::SessionInfo& info, con
 std::string cause_of(const logging::SessionInfo& info, bool input_is_altered) {
   if (input_is_altered) return "the session's driver inputs are not those that were driven with: use an unaltered copy";
   const auto compiler = info.other.find("compiler");
-  if (info.git_revision != revision || info.septet_version != version || (compiler != info.other.end() && compiler->second != __VERSION__))
-    return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one", info.septet_version,
-                       info.git_revision.empty() ? "an unknown revision" : info.git_revision, version, revision);
-  return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since its revision, or the "
+  if (info.git_revision != revision || info.septet_version != version ||
+      (compiler != info.other.end() && compiler->second != __VERSION__))
+    return fmt::format("it was recorded by another build, Septet {} at {}; this is {} at {}: verify it with that one",
+                       info.septet_version, info.git_revision.empty() ? "an unknown revision" : info.git_revision,
+                       version, revision);
+  return "inputs and build are those of the recording: its hashes or files were altered, this tree was changed since "
+         "its revision, or the "
          "processor's arithmetic differs";
 }
 
 /// The drive where it is to be run again from: at a state that the log has kept, else at its start.
-Expected<simulation::State> state_at(const std::filesystem::path& file, const logging::SessionReader& session, const simulation::Model& model,
-                                     double from_s, std::unique_ptr<traffic::TrafficEngine> traffic) {
+Expected<simulation::State> state_at(const std::filesystem::path& file, const logging::SessionReader& session,
+                                     const simulation::Model& model, double from_s,
+                                     std::unique_ptr<traffic::TrafficEngine> traffic) {
   auto saved = session.saved_state(static_cast<Tick>(from_s * simulation::tick_rate_hz));
   if (!saved) return tl::unexpected(saved.error());
   if (!*saved) return simulation::initial_state(model, std::move(traffic));
-  auto state = simulation::restore_state(model, std::move(traffic), (*saved)->data, fmt::format("{}, tick {}", file.string(), (*saved)->tick));
+  auto state = simulation::restore_state(model, std::move(traffic), (*saved)->data,
+                                         fmt::format("{}, tick {}", file.string(), (*saved)->tick));
   if (state && state->tick != (*saved)->tick)
-    return refused(file, fmt::format("the state that was saved at tick {} is that of tick {}", (*saved)->tick, state->tick), "use an unaltered copy");
+    return refused(file,
+                   fmt::format("the state that was saved at tick {} is that of tick {}", (*saved)->tick, state->tick),
+                   "use an unaltered copy");
   return state;
 }
 
@@ -73,7 +81,9 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   if (!session) return tl::unexpected(session.error());
   const auto inputs = session->inputs();
   if (!inputs) return tl::unexpected(inputs.error());
-  if (inputs->empty()) return refused(file, "the session holds no driver inputs: there is nothing to verify", "give a session that was driven");
+  if (inputs->empty())
+    return refused(file, "the session holds no driver inputs: there is nothing to verify",
+                   "give a session that was driven");
   const auto original = are_original(session->info(), *inputs);
   if (!original) return tl::unexpected(original.error());
   const auto drive = load_drive(session->info());
@@ -100,12 +110,18 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
     if (!*snapshot) return false;
     if ((*snapshot)->tick != state->tick) return gap("snapshot");
     if ((*snapshot)->state_hash == hash) return true;
-    return refused(file, fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash, (*snapshot)->state_hash),
-                   cause_of(session->info(), original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
+    return refused(
+        file,
+        fmt::format("tick {} gives state hash {:016x}, recorded is {:016x}", state->tick, hash,
+                    (*snapshot)->state_hash),
+        cause_of(session->info(),
+                 original->has_value() ? !**original : state->tick > 0 && is_altered(input, (*snapshot)->driver_car)));
   };
   const auto first = compare(simulation::hash_state(*state));
   if (!first) return tl::unexpected(first.error());
-  if (!*first) return refused(file, "the session holds no snapshots: there is nothing to compare with", "give a session that was driven");
+  if (!*first)
+    return refused(file, "the session holds no snapshots: there is nothing to compare with",
+                   "give a session that was driven");
   std::vector<simulation::Event> events;
   for (const auto& next : *inputs) {
     if (next.tick <= verified.first) continue;
@@ -125,9 +141,12 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
     ++state->tick;
     return gap("driver input");
   }
-  if (verified.ticks == 0) return refused(file, "no tick has both an input and a snapshot: there is nothing to compare", "give a session that was driven");
+  if (verified.ticks == 0)
+    return refused(file, "no tick has both an input and a snapshot: there is nothing to compare",
+                   "give a session that was driven");
   if (!original->value_or(true))
-    return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees", "use an unaltered copy");
+    return refused(file, "the driver inputs are not those that were driven with, though every state hash agrees",
+                   "use an unaltered copy");
   return verified;
 }
 

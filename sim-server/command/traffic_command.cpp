@@ -21,8 +21,7 @@ namespace {
 using traffic::FlowPoint;
 
 /// Per km and lane: closer where the flow turns.
-constexpr double densities_per_km[] = {2,  5,  8,  10, 12, 14, 16, 18, 20, 22,
-                                       24, 27, 30, 35, 40, 50, 60, 75, 90, 110};
+constexpr double densities_per_km[] = {2, 5, 8, 10, 12, 14, 16, 18, 20, 22, 24, 27, 30, 35, 40, 50, 60, 75, 90, 110};
 /// The plain car of the motorway's mix, for the theory beside the measurement.
 const traffic::FollowingParameters plain_driver{32.0, 1.3, 1.5, 2.5, 2.0};
 constexpr double plain_length_m = 4.6;
@@ -60,8 +59,7 @@ Diagram measure(const TrafficDiagramOptions& options) {
   for (double density = 2.0; density <= 110.0; density += 1.0)
     diagram.equilibrium.push_back(traffic::equilibrium_flow(plain_driver, plain_length_m, density));
   const FlowPoint &capacity = most_flow(diagram.measured), &ideal = most_flow(diagram.equilibrium);
-  const FlowPoint& waves =
-      *std::ranges::max_element(diagram.measured, {}, &FlowPoint::deviation_mps);
+  const FlowPoint& waves = *std::ranges::max_element(diagram.measured, {}, &FlowPoint::deviation_mps);
   diagram.figures = {{"capacity", capacity.flow_per_h, "vehicles/h/lane"},
                      {"density at capacity", capacity.density_per_km, "vehicles/km/lane"},
                      {"speed at capacity", capacity.speed_mps, "m/s"},
@@ -82,14 +80,13 @@ std::string diagram_json(const TrafficDiagramOptions& options, const Diagram& di
 std::string points_csv(const std::vector<FlowPoint>& points) {
   std::string text = "density_per_km,flow_per_h,speed_mps,deviation_mps\n";
   for (const FlowPoint& p : points)
-    fmt::format_to(std::back_inserter(text), "{:.3f},{:.1f},{:.4f},{:.4f}\n", p.density_per_km,
-                   p.flow_per_h, p.speed_mps, p.deviation_mps);
+    fmt::format_to(std::back_inserter(text), "{:.3f},{:.1f},{:.4f},{:.4f}\n", p.density_per_km, p.flow_per_h,
+                   p.speed_mps, p.deviation_mps);
   return text;
 }
 
 std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& diagram) {
-  const auto chart_of = [](const std::vector<FlowPoint>& points, const char* label,
-                        double FlowPoint::*value) {
+  const auto chart_of = [](const std::vector<FlowPoint>& points, const char* label, double FlowPoint::*value) {
     document::LineChart chart;
     chart.x_label = "density, vehicles/km/lane";
     chart.y_label = label;
@@ -112,18 +109,17 @@ std::string diagram_svg(const TrafficDiagramOptions& options, const Diagram& dia
 
 Expected<int> run_traffic_diagram(const TrafficDiagramOptions& options) {
   const Diagram diagram = measure(options);
-  fmt::print("{:>18} {:>16} {:>10} {:>14}\n", "vehicles/km/lane", "vehicles/h/lane", "m/s",
-             "deviation m/s");
+  fmt::print("{:>18} {:>16} {:>10} {:>14}\n", "vehicles/km/lane", "vehicles/h/lane", "m/s", "deviation m/s");
   for (const FlowPoint& p : diagram.measured)
-    fmt::print("{:>18.1f} {:>16.0f} {:>10.2f} {:>14.2f}\n", p.density_per_km, p.flow_per_h,
-               p.speed_mps, p.deviation_mps);
+    fmt::print("{:>18.1f} {:>16.0f} {:>10.2f} {:>14.2f}\n", p.density_per_km, p.flow_per_h, p.speed_mps,
+               p.deviation_mps);
   for (const Figure& figure : diagram.figures)
     fmt::print("  {:<38} {:>10.4g} {}\n", figure.name, figure.value, figure.unit);
   if (options.out.empty()) return 0;
   const auto written =
       document::write_text_files(options.out, {{"traffic-diagram.json", diagram_json(options, diagram)},
-                                     {"traffic-diagram.csv", points_csv(diagram.measured)},
-                                     {"traffic-diagram.svg", diagram_svg(options, diagram)}});
+                                               {"traffic-diagram.csv", points_csv(diagram.measured)},
+                                               {"traffic-diagram.svg", diagram_svg(options, diagram)}});
   if (!written) return tl::unexpected(written.error());
   return 0;
 }

@@ -9,8 +9,7 @@
 namespace septet::server {
 
 struct TrafficDiagramOptions {
-  std::filesystem::path
-      out;  ///< Folder for traffic-diagram.json, .csv, .svg; empty writes nothing.
+  std::filesystem::path out;  ///< Folder for traffic-diagram.json, .csv, .svg; empty writes nothing.
   std::uint64_t seed = 1;
   int lanes = 3;
 };

@@ -19,23 +19,23 @@ namespace {
 namespace fs = std::filesystem;
 
 Expected<vehicle::VehicleParameters> load_vehicle(const fs::path& path) {
-  return read_regular_file(path).and_then([&](const std::string& text) {
-    return vehicle::read_vehicle(text, path.filename().string());
-  });
+  return read_regular_file(path).and_then(
+      [&](const std::string& text) { return vehicle::read_vehicle(text, path.filename().string()); });
 }
 
 Expected<void> write_report(const fs::path& folder, const std::string& car, const vehicle::ManoeuvreReport& report) {
   const std::string name = fmt::format("{}-{}", car, report.manoeuvre);
   return document::write_text_files(folder, {{name + ".json", figures_json(car, report)},
-                                        {name + ".csv", series_csv(report)},
-                                        {name + ".svg", manoeuvre_svg(car, report)}});
+                                             {name + ".csv", series_csv(report)},
+                                             {name + ".svg", manoeuvre_svg(car, report)}});
 }
 
 /// Conditions that no test track has are driven, and said so.
 void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio) {
   const auto warn = [](const char* what, double value, const char* unit, double low, double high) {
     if (value != 0.0 && !(value >= low && value <= high))
-      program::say(fmt::format("septet: warning: {} {:g} {} is outside of what is tested, {:g} to {:g}", what, value, unit, low, high));
+      program::say(fmt::format("septet: warning: {} {:g} {} is outside of what is tested, {:g} to {:g}", what, value,
+                               unit, low, high));
   };
   warn("--speed", conditions.speed_mps * 3.6, "km/h", 10.0, 250.0);
   warn("--friction", conditions.friction, "", 0.05, 1.2);

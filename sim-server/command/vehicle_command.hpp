@@ -11,11 +11,10 @@ namespace septet::server {
 
 struct VehicleTestOptions {
   std::string vehicle = "volvo-s80";  ///< A file, or a name below vehicles/.
-  std::string manoeuvre;          ///< One of vehicle::manoeuvre_names(), or "all".
-  std::filesystem::path
-      out;  ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
-  std::filesystem::path inputs;  ///< Instead of a manoeuvre: a table of inputs (input_table.hpp).
-  double amplitude_deg = 0.0;    ///< Of the hand wheel, for step steer and sine with dwell; 0: found by the manoeuvre.
+  std::string manoeuvre;              ///< One of vehicle::manoeuvre_names(), or "all".
+  std::filesystem::path out;          ///< Folder for NAME.json, NAME.csv and NAME.svg; empty writes nothing.
+  std::filesystem::path inputs;       ///< Instead of a manoeuvre: a table of inputs (input_table.hpp).
+  double amplitude_deg = 0.0;  ///< Of the hand wheel, for step steer and sine with dwell; 0: found by the manoeuvre.
   vehicle::ManoeuvreOptions conditions;
 };
 

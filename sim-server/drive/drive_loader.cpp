@@ -31,7 +31,8 @@ scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
 }
 
 /// Of all that the simulation depends on: the rig it does not.
-std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources, std::vector<scenario::ParameterValue> parameters) {
+std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources,
+                      std::vector<scenario::ParameterValue> parameters) {
   StateHash hash;
   const auto add = [&](const std::string& text) { hash.add_bytes(std::as_bytes(std::span(text))); };
   for (const auto& source : sources) {
@@ -48,7 +49,8 @@ std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources, std::vect
 }
 
 /// `vehicle`: instead of the rig's, unless it is empty.
-Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle, std::vector<scenario::ParameterValue> parameters) {
+Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std::string& vehicle,
+                           std::vector<scenario::ParameterValue> parameters) {
   LoadedDrive drive;
   auto model = std::make_shared<simulation::Model>();
   model->seed = seed;
@@ -68,7 +70,9 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
   const auto scenario_source = take("scenario", "");
   if (!scenario_source) return tl::unexpected(scenario_source.error());
   scenario::ScenarioFiles files;
-  files.read = [&](const std::string& path) { return take("catalog", path).map([](const auto& source) { return source.content; }); };
+  files.read = [&](const std::string& path) {
+    return take("catalog", path).map([](const auto& source) { return source.content; });
+  };
   files.list = [&](const std::string& folder) -> Expected<std::vector<std::string>> {
     return take("catalog-folder", folder).map([](const auto& source) {
       std::vector<std::string> names;
@@ -80,7 +84,8 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
     });
   };
   std::vector<road::Finding> findings;
-  auto scenario = scenario::read_scenario(scenario_source->content, scenario_source->name, files, &findings, parameters);
+  auto scenario =
+      scenario::read_scenario(scenario_source->content, scenario_source->name, files, &findings, parameters);
   if (!scenario) return tl::unexpected(scenario.error());
   model->scenario = std::move(*scenario);
   model->driver_entity = driver_entity(model->scenario);
@@ -96,7 +101,9 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
     return failure(buildable.error().what, road_source->name, buildable.error().remedy);
   model->obstacles = std::make_shared<const roadside::Obstacles>(model->roads, seed);
   model->raised = std::make_shared<const roadside::RaisedAreas>(model->roads);
-  if (!model->raised->complete()) drive.warnings.push_back(road_source->name + ": too many kerbs and islands, or too large ones; the rest is not met");
+  if (!model->raised->complete())
+    drive.warnings.push_back(road_source->name +
+                             ": too many kerbs and islands, or too large ones; the rest is not met");
 
   const auto car_source = take("vehicle", drive.rig.car.vehicle);
   if (!car_source) return tl::unexpected(car_source.error());
@@ -111,7 +118,9 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
 }
 
 Expected<logging::SourceFile> from_disk(const std::string& role, const fs::path& path) {
-  return read_regular_file(path).map([&](std::string text) { return logging::SourceFile{role, path.string(), std::move(text)}; });
+  return read_regular_file(path).map([&](std::string text) {
+    return logging::SourceFile{role, path.string(), std::move(text)};
+  });
 }
 
 }  // namespace
@@ -134,7 +143,9 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
         if (role == "rig") return from_disk(role, files.rig);
         if (role == "scenario") return from_disk(role, files.scenario);
         if (role == "vehicle")
-          return find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) { return from_disk(role, path); });
+          return find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) {
+            return from_disk(role, path);
+          });
         if (role == "catalog-folder") {
           const auto names = scenario::files_in(scenario_folder.string()).list(name);
           if (!names) return tl::unexpected(names.error());
@@ -159,7 +170,8 @@ Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         for (const auto& source : session.files)
           if (source.role == role && (!role.starts_with("catalog") || source.name == name)) return source;
-        return failure(fmt::format("the session holds no {} {}", role, name), "session", "it was written by another version of Septet");
+        return failure(fmt::format("the session holds no {} {}", role, name), "session",
+                       "it was written by another version of Septet");
       },
       seed == session.seeds.end() ? 1 : seed->second, {}, std::move(parameters));
 }

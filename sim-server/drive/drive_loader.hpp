@@ -7,8 +7,8 @@
 
 #include "engine/rig/rig.hpp"
 #include "engine/scenario/scenario_reader.hpp"
-#include "logging/records.hpp"
 #include "engine/simulation/model.hpp"
+#include "logging/records.hpp"
 
 namespace septet::server {
 
@@ -25,9 +25,9 @@ struct DriveFiles {
 struct LoadedDrive {
   std::shared_ptr<const simulation::Model> model;
   rig::Rig rig;
-  std::vector<logging::SourceFile> sources;  ///< Roles: scenario, road, rig, vehicle, catalog.
+  std::vector<logging::SourceFile> sources;          ///< Roles: scenario, road, rig, vehicle, catalog.
   std::vector<scenario::ParameterValue> parameters;  ///< Those that were given from outside.
-  std::vector<std::string> warnings;         ///< What the files hold that Septet does not do, by name and line.
+  std::vector<std::string> warnings;                 ///< What the files hold that Septet does not do, by name and line.
 
   const std::string& source(std::string_view role) const;
   /// The name of the vehicle's file, without folder and ending.

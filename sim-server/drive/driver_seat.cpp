@@ -6,7 +6,8 @@
 
 namespace septet::server {
 
-Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, std::shared_ptr<const simulation::Model> model) {
+Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
+                                      std::shared_ptr<const simulation::Model> model) {
   DriverSeat seat;
   if (car.source == rig::CarSource::simulated_driver) {
     auto parameters = car_io::find_driver(car.driver);
@@ -15,7 +16,8 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, s
     parameters->car.has_clutch = powertrain.transmission == vehicle::Transmission::manual;
     parameters->car.gears = powertrain.gear_count;
     for (int gear = 0; gear < powertrain.gear_count; ++gear)
-      parameters->car.engine_radps_per_mps[gear] = powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
+      parameters->car.engine_radps_per_mps[gear] =
+          powertrain.gear_ratio[gear] * powertrain.final_ratio / model->car.tyre.radius_m;
     // The driver keeps the model alive: the road in it is what they see.
     const auto person = std::make_shared<car_io::SimulatedDriverCar>(*parameters, seed, model->roads);
     seat.actuators = car.actuators;
@@ -34,8 +36,9 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, s
     options.retry_s = 0.0;  // Asking the relay costs nothing.
     seat.car = std::make_unique<car_io::CarConnection>(seat.remote->device.opener(), options);
     seat.actuate = [remote = seat.remote](Tick tick, const car_io::Actuators& actuators) -> std::optional<Error> {
-      remote->feedback = control::CarFeedback{tick, static_cast<float>(actuators.fan), static_cast<float>(actuators.vibration),
-                                              static_cast<float>(actuators.vibration_hz), static_cast<float>(actuators.steering)};
+      remote->feedback =
+          control::CarFeedback{tick, static_cast<float>(actuators.fan), static_cast<float>(actuators.vibration),
+                               static_cast<float>(actuators.vibration_hz), static_cast<float>(actuators.steering)};
       return std::nullopt;
     };
     return seat;
@@ -56,7 +59,8 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed, s
 void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options) {
   seat.car = std::make_unique<car_io::CarConnection>(open, options);
   const auto writer = std::make_shared<car_io::ActuatorWriter>(
-      open, car_io::ActuatorWriterOptions{.layout = options.layout, .has_steering_force = seat.actuators.steering_most > 0.0});
+      open, car_io::ActuatorWriterOptions{.layout = options.layout,
+                                          .has_steering_force = seat.actuators.steering_most > 0.0});
   seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
     writer->set(actuators);
     return writer->take_error();

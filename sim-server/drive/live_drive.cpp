@@ -19,15 +19,18 @@ constexpr Tick saved_state_ticks = 10 * static_cast<Tick>(simulation::tick_rate_
 /// More than the trembling of a device that nobody touches.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
   constexpr double clearly = 0.1;  // Of a pedal's travel; of the hand wheel radians.
-  for (const auto control : {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
+  for (const auto control :
+       {&DriverInput::steering_wheel_rad, &DriverInput::accelerator, &DriverInput::brake, &DriverInput::clutch})
     if (std::abs(now.*control - found.*control) > clearly) return true;
-  return now.selector != found.selector || now.gear != found.gear || now.indicator != found.indicator || now.hazard_lights != found.hazard_lights ||
-         now.horn != found.horn || now.low_beam != found.low_beam || now.high_beam != found.high_beam || now.parking_brake != found.parking_brake;
+  return now.selector != found.selector || now.gear != found.gear || now.indicator != found.indicator ||
+         now.hazard_lights != found.hazard_lights || now.horn != found.horn || now.low_beam != found.low_beam ||
+         now.high_beam != found.high_beam || now.parking_brake != found.parking_brake;
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const simulation::Model> model, std::unique_ptr<traffic::TrafficEngine> traffic,
+Expected<std::unique_ptr<LiveDrive>> LiveDrive::start(std::shared_ptr<const simulation::Model> model,
+                                                      std::unique_ptr<traffic::TrafficEngine> traffic,
                                                       DriverSeat seat) {
   auto state = simulation::initial_state(*model, std::move(traffic));
   if (!state) return tl::unexpected(state.error());
@@ -55,7 +58,8 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
   // A window whose keys have all been let go is silent too, and holds nothing down.
   if (!seat_.car && heard_tick_ && state_.tick - *heard_tick_ > silent_screen_ticks && held_.accelerator > 0.0) {
     record.input = car_io::released(held_);
-    if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0) tell("the screen that drives is silent: the accelerator is released");
+    if (state_.diagnostics.input_stale_ticks++ % silent_screen_ticks == 0)
+      tell("the screen that drives is silent: the accelerator is released");
   }
   if (seat_.car) {
     // The device's clock is simulated time, so that a slow machine does not see a stale driver.
@@ -64,7 +68,8 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     record.input = reading.input;
     record.report = reading.report;
     if (const auto error = seat_.car->take_error()) tell(describe(*error));
-    if (reading.is_connected && !car_was_there_ && state_.diagnostics.input_stale_ticks > 0) tell("the car's device is there");
+    if (reading.is_connected && !car_was_there_ && state_.diagnostics.input_stale_ticks > 0)
+      tell("the car's device is there");
     car_was_there_ = reading.is_connected;
   }
   return record;
@@ -92,7 +97,8 @@ void LiveDrive::tell(const std::string& what) {
 void LiveDrive::move_actuators() {
   if (!seat_.actuate) return;
   const auto motion = car_motion(*model_, state_);
-  if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators))) tell(describe(*error));
+  if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators)))
+    tell(describe(*error));
 }
 
 /// Where another program moves the traffic there is none to be kept.

@@ -12,9 +12,9 @@
 #include "car-io/car_connection.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
-#include "sim-server/host/remote_car.hpp"
-#include "sim-server/drive/session_log.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "sim-server/drive/session_log.hpp"
+#include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/tick_source.hpp"
 
 namespace septet::server {
@@ -26,15 +26,15 @@ struct DriverSeat {
   std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
   /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
   std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
-  rig::CarActuators actuators;                ///< Their limits.
-  std::shared_ptr<RemoteCar> remote;   ///< Of a car on another machine.
+  rig::CarActuators actuators;        ///< Their limits.
+  std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
 };
 
 class LiveDrive final : public TickSource {
  public:
   /// The drive as it stands at tick 0.
-  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const simulation::Model> model, std::unique_ptr<traffic::TrafficEngine> traffic,
-                                                    DriverSeat seat);
+  static Expected<std::unique_ptr<LiveDrive>> start(std::shared_ptr<const simulation::Model> model,
+                                                    std::unique_ptr<traffic::TrafficEngine> traffic, DriverSeat seat);
   /// From here on everything is logged, tick 0 first. `log` outlives the drive.
   void log_to(SessionLog& log);
 
@@ -59,7 +59,7 @@ class LiveDrive final : public TickSource {
   DriverSeat seat_;
   SessionLog* log_ = nullptr;
   simulation::State state_;
-  DriverInput held_;  ///< The last controls from a screen: they come less often than ticks.
+  DriverInput held_;                ///< The last controls from a screen: they come less often than ticks.
   std::optional<Tick> heard_tick_;  ///< When they came.
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;

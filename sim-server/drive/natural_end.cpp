@@ -16,7 +16,8 @@ std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, con
 
 bool is_beyond_road_end(const road::RoadNetwork& roads, const road::RoadPosition& place, const Vec2& world_m) {
   const road::Road& road = roads.roads[place.road];
-  constexpr double at_m = 0.01;  // A place beyond the end is told as the end of the geometry, which need not be the length to the last bit.
+  constexpr double at_m =
+      0.01;  // A place beyond the end is told as the end of the geometry, which need not be the length to the last bit.
   const bool at_end = place.s_m >= road.length_m - at_m;
   if (!at_end && place.s_m > at_m) return false;
   const road::RoadLink& link = at_end ? road.successor : road.predecessor;

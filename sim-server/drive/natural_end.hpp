@@ -5,8 +5,8 @@
 
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
-#include "logging/drive_end.hpp"
 #include "engine/simulation/state.hpp"
+#include "logging/drive_end.hpp"
 
 namespace septet::server {
 

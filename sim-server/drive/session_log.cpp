@@ -75,7 +75,8 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   for (const auto& event : events)
     writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
   // The leader is looked for only where a sample wants it: ten times a second.
-  const auto leader = logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
+  const auto leader =
+      logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
   auto observation = logging::observe(observer_, snapshot, leader);
   for (auto& event : observation.events) writer_.record(std::move(event));
   if (observation.sample) writer_.record(std::move(*observation.sample));
@@ -87,7 +88,8 @@ std::optional<std::string> SessionLog::take_warning() {
   if (!real_time_ || waited_s < told_waited_s_ + 0.1) return std::nullopt;
   told_waited_s_ = waited_s;
   record_message("log_slow", fmt::format("waited_s={:.2f}", waited_s));
-  return fmt::format("log: the disk is too slow for this drive, which has waited {:.1f} s for it so far; nothing is lost", waited_s);
+  return fmt::format(
+      "log: the disk is too slow for this drive, which has waited {:.1f} s for it so far; nothing is lost", waited_s);
 }
 
 void SessionLog::record_input(logging::InputRecord input) {
@@ -112,7 +114,8 @@ logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::
     logging::ScreenOutcome seen;
     const auto report = screen.report.value_or(control::ScreenReport{});
     seen.name = screen.name;
-    seen.frames = std::max(screen.frames, report.frames);  // The host's count knows all lives, the screen's own loses none on the way.
+    seen.frames = std::max(screen.frames,
+                           report.frames);  // The host's count knows all lives, the screen's own loses none on the way.
     seen.frames_off_tick = report.frames_off_tick;
     seen.datagrams_lost = report.datagrams_lost;
     seen.datagrams_repaired = report.datagrams_repaired;
@@ -136,8 +139,10 @@ Expected<void> SessionLog::finish(const logging::DriveOutcome& outcome) {
 
 std::string SessionLog::ending(const ServeResult& result) const {
   std::string text = fmt::format("the drive ended after {:.1f} s: {}", result.simulated_s, text_of(result.end));
-  if (bad_numbers_ > 0) text += fmt::format("; {} numbers went bad and were reset: look for bad_number in the log", bad_numbers_);
-  if (const auto lost = writer_.lost_records(); lost > 0) text += fmt::format("; the log lacks the last {} records", lost);
+  if (bad_numbers_ > 0)
+    text += fmt::format("; {} numbers went bad and were reset: look for bad_number in the log", bad_numbers_);
+  if (const auto lost = writer_.lost_records(); lost > 0)
+    text += fmt::format("; the log lacks the last {} records", lost);
   if (real_time_ && writer_.waited_s() >= 0.1)
     text += fmt::format("; the disk was too slow and made the drive wait for {:.1f} s", writer_.waited_s());
   return text;
@@ -178,11 +183,18 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
   return leader;
 }
 
-Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome) {
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options,
+                             const logging::DriveOutcome& outcome) {
   const auto reader = logging::SessionReader::open(options.out / "session.sqlite");
   const auto log = reader.and_then(logging::summarise_log);
-  logging::DriveSummary summary{.scenario = std::filesystem::path(options.scenario).stem().string(), .rig = drive.rig.name, .vehicle = drive.vehicle_name(),
-                                .participant = options.participant, .parameters = parameters_of(drive), .seed = options.seed, .outcome = outcome, .log = {}};
+  logging::DriveSummary summary{.scenario = std::filesystem::path(options.scenario).stem().string(),
+                                .rig = drive.rig.name,
+                                .vehicle = drive.vehicle_name(),
+                                .participant = options.participant,
+                                .parameters = parameters_of(drive),
+                                .seed = options.seed,
+                                .outcome = outcome,
+                                .log = {}};
   if (log) summary.log = *log;
   if (auto written = logging::write_summary(options.out / "summary.json", summary); !written) return written;
   if (!log) return tl::unexpected(log.error());

@@ -61,6 +61,7 @@ class SessionLog {
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
 
 /// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
-Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options, const logging::DriveOutcome& outcome);
+Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options,
+                             const logging::DriveOutcome& outcome);
 
 }  // namespace septet::server

@@ -13,7 +13,8 @@ Expected<void> check_traffic(const std::string& name) {
   return failure(fmt::format("there is no traffic engine \"{}\"", printable(name)), "--traffic", "use own or sumo");
 }
 
-Expected<std::unique_ptr<traffic::TrafficEngine>> open_traffic(const std::string& name, const simulation::Model& model) {
+Expected<std::unique_ptr<traffic::TrafficEngine>> open_traffic(const std::string& name,
+                                                               const simulation::Model& model) {
   if (auto known = check_traffic(name); !known) return tl::unexpected(known.error());
   if (name == "own") return traffic::own_traffic(model.roads, model.seed);
   SumoNetwork network = make_sumo_network(model.roads);

@@ -40,9 +40,9 @@ class PlayoutPlanner {
   double delay_s() const { return delay_s_; }
 
  private:
-  static constexpr double memory_s = 5.0;   ///< How long a late tick is remembered.
-  static constexpr double notice_s = 0.1;   ///< From the announcement of a change to the change.
-  static constexpr double largest_s = 0.25; ///< Of D: beyond this no driver would believe the wheel.
+  static constexpr double memory_s = 5.0;    ///< How long a late tick is remembered.
+  static constexpr double notice_s = 0.1;    ///< From the announcement of a change to the change.
+  static constexpr double largest_s = 0.25;  ///< Of D: beyond this no driver would believe the wheel.
 
   double least_s_, tick_s_;
   double delay_s_ = 0.0;

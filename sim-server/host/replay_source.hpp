@@ -16,7 +16,8 @@ class ReplaySource final : public TickSource {
   double tick_rate_hz() const override { return tick_rate_hz_; }
 
  private:
-  ReplaySource(logging::SnapshotCursor cursor, double tick_rate_hz) : cursor_(std::move(cursor)), tick_rate_hz_(tick_rate_hz) {}
+  ReplaySource(logging::SnapshotCursor cursor, double tick_rate_hz)
+      : cursor_(std::move(cursor)), tick_rate_hz_(tick_rate_hz) {}
   logging::SnapshotCursor cursor_;
   double tick_rate_hz_;
 };

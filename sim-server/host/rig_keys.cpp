@@ -60,7 +60,8 @@ Expected<void> put_server_key(const fs::path& file, const std::string& key) {
   const auto there = net::load_public_key(file);
   if (!there) return tl::unexpected(there.error());
   if (net::to_text(*there) != key)
-    return failure("another server's public key is there", file.string(), "delete it if its server is no longer used, or choose another folder with --out");
+    return failure("another server's public key is there", file.string(),
+                   "delete it if its server is no longer used, or choose another folder with --out");
   return {};
 }
 
@@ -75,7 +76,9 @@ std::vector<MachineKeys> machines_of(const rig::Rig& rig) {
     found->clients.push_back(client);
   };
   for (const auto& screen : rig.screens) add(screen.machine, screen.name);
-  if ((rig.car.source == rig::CarSource::hid || rig.car.source == rig::CarSource::automatic) && !rig.car.machine.empty()) add(rig.car.machine, car_client_name);
+  if ((rig.car.source == rig::CarSource::hid || rig.car.source == rig::CarSource::automatic) &&
+      !rig.car.machine.empty())
+    add(rig.car.machine, car_client_name);
   return machines;
 }
 
@@ -88,7 +91,10 @@ Expected<std::vector<std::string>> write_rig_keys(const rig::Rig& rig, const fs:
   if (!server_identity) return tl::unexpected(server_identity.error());
   const std::string server_key = net::to_text(server_identity->public_key());
   std::string list = text_of(list_file);
-  if (list.empty()) list = "# Who may connect: a public key and the name that it stands for, one a line. The server follows changes at once.\n";
+  if (list.empty())
+    list =
+        "# Who may connect: a public key and the name that it stands for, one a line. The server follows changes at "
+        "once.\n";
   for (const MachineKeys& machine : machines_of(rig)) {
     const fs::path folder = out / machine.machine;
     std::string fresh = machine.machine == server_machine && is_new_server ? "server" : "", kept;

@@ -13,7 +13,8 @@ using namespace control;
 
 namespace {
 
-constexpr std::size_t scene_bytes_per_pump = 1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
+constexpr std::size_t scene_bytes_per_pump =
+    1024 * 1024;  // Before packing, shared by all screens: a tick is not held up.
 constexpr double deaf_after_s = 0.5, hung_after_s = 0.25;
 constexpr double strangers_told_every_s = 10.0;
 
@@ -29,7 +30,9 @@ std::uint64_t instance_of(const net::SessionId& session) {
 }
 
 std::string other_protocol(std::uint16_t theirs) {
-  return fmt::format("it speaks version {} of the control messages, the server version {}; run the same Septet on all machines", theirs, protocol_version);
+  return fmt::format(
+      "it speaks version {} of the control messages, the server version {}; run the same Septet on all machines",
+      theirs, protocol_version);
 }
 
 /// Of a screen that comes and goes all day the first moments and the newest are kept.
@@ -55,7 +58,8 @@ ScreenHost::ScreenHost(net::DatagramSocket& lane_socket, net::DatagramSocket& ti
       publisher_(tick_socket, options_.identity, options_.session, {options_.max_datagram_bytes, true}),
       scene_(store, instance_of(options_.session)),
       planner_(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz) {
-  if (options_.welcome.group_ip != 0) publisher_.add_destination({options_.welcome.group_ip, options_.welcome.group_port});
+  if (options_.welcome.group_ip != 0)
+    publisher_.add_destination({options_.welcome.group_ip, options_.welcome.group_port});
   for (const auto& name : options_.screens) screens_.push_back({.name = name});
 }
 
@@ -71,10 +75,18 @@ void ScreenHost::send(net::ClientId client, const ControlMessage& message) {
 void ScreenHost::pump(double now_s) {
   for (const net::ServerEvent& event : lane_.pump(now_s)) {
     switch (event.kind) {
-      case net::ServerEvent::Kind::connected: on_connected(event); break;
-      case net::ServerEvent::Kind::disconnected: on_disconnected(event.client, event.reason, now_s); break;
-      case net::ServerEvent::Kind::message: on_message(event, now_s); break;
-      case net::ServerEvent::Kind::refused: messages_.push_back("refused a client: " + event.reason); break;
+      case net::ServerEvent::Kind::connected:
+        on_connected(event);
+        break;
+      case net::ServerEvent::Kind::disconnected:
+        on_disconnected(event.client, event.reason, now_s);
+        break;
+      case net::ServerEvent::Kind::message:
+        on_message(event, now_s);
+        break;
+      case net::ServerEvent::Kind::refused:
+        messages_.push_back("refused a client: " + event.reason);
+        break;
     }
   }
   tell_of_strangers(now_s);
@@ -111,7 +123,8 @@ void ScreenHost::add_unicast(net::ClientId client, std::uint16_t port) {
   const auto* info = lane_.info(client);
   if (!info) return;
   const net::Address destination{info->address.ip, port};
-  if (const auto before = unicast_.find(client); before != unicast_.end()) publisher_.remove_destination(before->second);
+  if (const auto before = unicast_.find(client); before != unicast_.end())
+    publisher_.remove_destination(before->second);
   unicast_[client] = destination;
   publisher_.add_destination(destination);
 }
@@ -159,7 +172,10 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     screen->scene_arrived = true;
   } else if (const auto* presented = std::get_if<Presented>(&message)) {
     if (!screen->has_presented)
-      tell(client, fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick, now_s - screen->joined_s), now_s);
+      tell(client,
+           fmt::format("screen {} shows tick {}, {:.2f} s after it connected", screen->name, presented->tick,
+                       now_s - screen->joined_s),
+           now_s);
     // Nobody has shown what was not sent.
     const Tick newest = sent_.empty() ? 0 : sent_.back()->snapshot().tick;
     screen->presented = std::max(screen->presented, std::min(presented->tick, newest));
@@ -180,7 +196,10 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
   const std::string& name = clients_.at(client);
   if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
   if (hello.screen != name)
-    return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen), now_s);
+    return refuse(
+        client,
+        fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be screen \"{}\"", name, hello.screen),
+        now_s);
   if (screen == screens_.end()) return refuse(client, fmt::format("the rig has no screen \"{}\"", hello.screen), now_s);
   // A screen that was killed and started again is heard before its old connection times out: the new one takes its place.
   if (screen->client && *screen->client != client) {
@@ -206,8 +225,13 @@ void ScreenHost::on_hello(net::ClientId client, const Hello& hello, double now_s
 void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, double now_s) {
   const std::string& name = clients_.at(client);
   if (hello.protocol != protocol_version) return refuse(client, other_protocol(hello.protocol), now_s);
-  if (!options_.car) return refuse(client, "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)", now_s);
-  if (name != car_client_name) return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be the car", name), now_s);
+  if (!options_.car)
+    return refuse(client,
+                  "the rig's car is not on another machine (its [car] has no machine, or a simulated driver drives)",
+                  now_s);
+  if (name != car_client_name)
+    return refuse(client, fmt::format("its key is called \"{}\" in allowed-clients, so it cannot be the car", name),
+                  now_s);
   car_client_ = client;
   options_.car->device.lose("septet-car has connected and has not read its device yet");
   tell(client, "the car connected", now_s);
@@ -216,7 +240,10 @@ void ScreenHost::on_car_hello(net::ClientId client, const CarHello& hello, doubl
 
 void ScreenHost::refuse(net::ClientId client, const std::string& reason, double now_s) {
   const auto* info = lane_.info(client);
-  tell(client, fmt::format("refused the client {} at {}: {}", clients_.at(client), info ? net::to_text(info->address) : "?", reason), now_s);
+  tell(client,
+       fmt::format("refused the client {} at {}: {}", clients_.at(client), info ? net::to_text(info->address) : "?",
+                   reason),
+       now_s);
   send(client, Refusal{printable(reason)});
 }
 
@@ -231,11 +258,14 @@ void ScreenHost::tell_of_strangers(double now_s) {
   const net::ChannelCounters now = lane_.counters();
   // A connection that never was takes its counters with it.
   const auto rise = [](std::uint64_t after, std::uint64_t before) { return after > before ? after - before : 0; };
-  const auto forged = rise(now.forged, told_.forged), malformed = rise(now.malformed, told_.malformed), cookies = rise(now.bad_cookies, told_.bad_cookies);
+  const auto forged = rise(now.forged, told_.forged), malformed = rise(now.malformed, told_.malformed),
+             cookies = rise(now.bad_cookies, told_.bad_cookies);
   told_ = now;
   if (forged + malformed + cookies == 0) return;
-  messages_.push_back(fmt::format("datagrams that were refused in {:.0f} s: {} forged or sealed for another server's key, {} malformed, {} with a bad cookie",
-                                  strangers_told_every_s, forged, malformed, cookies));
+  messages_.push_back(
+      fmt::format("datagrams that were refused in {:.0f} s: {} forged or sealed for another server's key, {} "
+                  "malformed, {} with a bad cookie",
+                  strangers_told_every_s, forged, malformed, cookies));
 }
 
 void ScreenHost::on_disconnected(net::ClientId client, const std::string& reason, double now_s) {
@@ -312,7 +342,9 @@ void ScreenHost::give_notice(const Notice& notice) {
     if (screen.client) send(*screen.client, notice_);
 }
 
-void ScreenHost::restart_shown_time() { planner_ = PlayoutPlanner(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz); }
+void ScreenHost::restart_shown_time() {
+  planner_ = PlayoutPlanner(options_.least_playout_delay_s, 1.0 / options_.welcome.tick_rate_hz);
+}
 
 void ScreenHost::finish(const std::string& reason) {
   is_finishing_ = true;

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/control/control_message.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/net/baseline_tracker.hpp"
 #include "engine/net/secure_server.hpp"
 #include "engine/net/tick_publisher.hpp"
-#include "engine/control/control_message.hpp"
 #include "engine/replication/replication_server.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
@@ -50,17 +50,18 @@ struct HostedScreen {
   std::string name;
   std::optional<net::ClientId> client;
   std::uint16_t tick_port = 0;  ///< Where it hears ticks by unicast.
-  bool expected = false;  ///< Whoever has the key of this name has connected; the Hello is on its way.
+  bool expected = false;        ///< Whoever has the key of this name has connected; the Hello is on its way.
   bool scene_arrived = false;
   Tick presented = 0;
   bool has_presented = false;
   std::uint64_t frames = 0;
-  std::uint32_t joined = 0;  ///< How often it has connected.
-  double joined_s = 0.0;     ///< When it last did.
+  std::uint32_t joined = 0;       ///< How often it has connected.
+  double joined_s = 0.0;          ///< When it last did.
   std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
-  std::vector<double> connected_s, left_s, left_behind_s;  ///< When, in simulated time; at most `most_moments` each: the first and the newest.
+  std::vector<double> connected_s, left_s,
+      left_behind_s;  ///< When, in simulated time; at most `most_moments` each: the first and the newest.
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.
 
   bool live() const { return client.has_value(); }

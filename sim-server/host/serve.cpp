@@ -19,8 +19,8 @@ struct Loop {
   ServeResult result = {};
 
   void report(std::string what) {
-    environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(), environment.now_s() - started_s,
-                        std::move(what)});
+    environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(),
+                        environment.now_s() - started_s, std::move(what)});
   }
   /// What the source says; it has logged it itself.
   void show_messages() {
@@ -101,8 +101,9 @@ bool wait_for_screens(ScreenLoop& loop) {
   const bool can_go = loop.environment.told_to_go != nullptr;
   const auto told_to_go = [&] { return can_go && loop.environment.told_to_go(); };
   if (patience_s > 0.0)
-    loop.pump_until([&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
-                    [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
+    loop.pump_until(
+        [&] { return loop.host.all_ready() || told_to_go(); }, patience_s, 0.5,
+        [&] { loop.report(fmt::format("waiting for {}{}", missing(), can_go ? " (Enter: drive without)" : "")); });
   loop.started_s = loop.environment.now_s();
   if (patience_s <= 0.0 || loop.host.all_ready()) return true;
   if (loop.is_stopped()) return false;
@@ -118,7 +119,9 @@ bool wait_for_screens(ScreenLoop& loop) {
 
 /// Somebody who is waited for has shown nothing yet: its first frame takes as long as a start does.
 bool awaits_first_frame(const ScreenHost& host) {
-  return std::ranges::any_of(host.screens(), [](const HostedScreen& screen) { return screen.live() && !screen.has_presented && !screen.left_behind; });
+  return std::ranges::any_of(host.screens(), [](const HostedScreen& screen) {
+    return screen.live() && !screen.has_presented && !screen.left_behind;
+  });
 }
 
 void run_lockstep(ScreenLoop& loop) {
@@ -130,7 +133,8 @@ void run_lockstep(ScreenLoop& loop) {
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(snapshot, loop.environment.now_s());
     const double asked_s = loop.environment.now_s();
-    const double patience_s = awaits_first_frame(loop.host) ? loop.options.patience_s : loop.options.lockstep_patience_s;
+    const double patience_s =
+        awaits_first_frame(loop.host) ? loop.options.patience_s : loop.options.lockstep_patience_s;
     const bool together = loop.pump_until([&] { return loop.host.all_presented(tick); }, patience_s, 0.1,
                                           [&] { loop.host.repeat_newest(); });
     if (!together && loop.environment.now_s() - asked_s > patience_s) loop.host.leave_behind(tick);
@@ -143,16 +147,19 @@ void wait_for_driver(ScreenLoop& loop) {
   const auto first = loop.source.first();
   if (!first || loop.options.wait_for_driver.empty()) return;
   loop.host.give_notice({loop.options.wait_for_driver, loop.host.notice().keys});
-  loop.environment.message(fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
+  loop.environment.message(
+      fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
   const double begun_s = loop.environment.now_s();
   loop.host.publish(first, begun_s);
   const auto waited_s = [&] { return loop.environment.now_s() - begun_s; };
-  const bool is_ready = loop.pump_until([&] { return loop.source.driver_is_ready(loop.host.take_controls(), waited_s()); },
-                                        std::numeric_limits<double>::infinity(), 0.1, [&] {
-                                          loop.show_messages();
-                                          loop.host.repeat_newest();
-                                          loop.report("waiting for the driver");
-                                        });
+  const bool is_ready =
+      loop.pump_until([&] { return loop.source.driver_is_ready(loop.host.take_controls(), waited_s()); },
+                      std::numeric_limits<double>::infinity(), 0.1,
+                      [&] {
+                        loop.show_messages();
+                        loop.host.repeat_newest();
+                        loop.report("waiting for the driver");
+                      });
   loop.host.give_notice({"", loop.host.notice().keys});
   loop.host.restart_shown_time();
   loop.started_s = loop.environment.now_s();
@@ -190,7 +197,8 @@ void run_real_time(ScreenLoop& loop) {
 
 }  // namespace
 
-ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const ServeEnvironment& environment) {
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
+                  const ServeEnvironment& environment) {
   ScreenLoop loop{{source, environment, options.ticks, environment.now_s()}, host, options};
   options.lockstep ? run_lockstep(loop) : run_real_time(loop);
   loop.result.wall_s = environment.now_s() - loop.started_s;

@@ -22,10 +22,13 @@ struct ServeOptions {
   bool lockstep = false;
   std::uint64_t draw_every_ticks = 8;  ///< In lockstep.
   std::uint64_t ticks = 0;             ///< 0: until stopped.
-  double patience_s = 60.0;            ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for a screen's first frame.
-  std::string wait_for_driver;         ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
-  double wait_for_screens_s = 0.0;     ///< The same in real time; then it drives without those that are missing.
-  double lockstep_patience_s = 10.0;   ///< For one frame that is not a screen's first; then whoever has not answered is left behind.
+  double patience_s =
+      60.0;  ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for a screen's first frame.
+  std::string
+      wait_for_driver;  ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
+  double wait_for_screens_s = 0.0;  ///< The same in real time; then it drives without those that are missing.
+  double lockstep_patience_s =
+      10.0;  ///< For one frame that is not a screen's first; then whoever has not answered is left behind.
 };
 
 struct Progress {
@@ -60,7 +63,8 @@ struct ServeResult {
   std::uint64_t state_hash = 0;
 };
 
-ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options, const ServeEnvironment& environment);
+ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& options,
+                  const ServeEnvironment& environment);
 
 /// The same without screens: there is nobody to wait for, and ticks follow each other as fast as they are computed.
 ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment);

@@ -12,11 +12,21 @@ using program::number_between, program::seed_number;
 
 /// Options that `drive` and `replay` share, and what they are by default.
 void add_drive_options(CLI::App& command, DriveOptions& drive, const std::string& out, const std::string& seconds) {
-  command.add_option("--rig", drive.rig, "Rig: a file or a name of septet list rigs")->default_str("desktop with a display, else seven-screens");
-  command.add_option("--out", drive.out, "Folder for pictures, log and report; what an earlier one left there is moved aside")->default_str(out);
-  command.add_option("--seconds", drive.seconds, "Simulated seconds to run; 0: until its own end, or until somebody stops it")->default_str(seconds)->check(number_between(0.0, 1e6));
-  command.add_flag("--full-screen", drive.full_screen, "Cover whole monitors: those that the rig names, else the first");
-  command.add_flag("--virtual", drive.virtual_screens, "Off-screen pictures in lockstep, even where there is a display");
+  command.add_option("--rig", drive.rig, "Rig: a file or a name of septet list rigs")
+      ->default_str("desktop with a display, else seven-screens");
+  command
+      .add_option("--out", drive.out,
+                  "Folder for pictures, log and report; what an earlier one left there is moved aside")
+      ->default_str(out);
+  command
+      .add_option("--seconds", drive.seconds,
+                  "Simulated seconds to run; 0: until its own end, or until somebody stops it")
+      ->default_str(seconds)
+      ->check(number_between(0.0, 1e6));
+  command.add_flag("--full-screen", drive.full_screen,
+                   "Cover whole monitors: those that the rig names, else the first");
+  command.add_flag("--virtual", drive.virtual_screens,
+                   "Off-screen pictures in lockstep, even where there is a display");
 }
 
 }  // namespace
@@ -24,34 +34,58 @@ void add_drive_options(CLI::App& command, DriveOptions& drive, const std::string
 void add_drive_commands(CLI::App& app, Options& options) {
   auto* drive_command = app.add_subcommand("drive", "Drive a scenario: server, screens and car on this machine");
   add_drive_options(*drive_command, options.drive, "out/latest", "0 in a window, 30 off-screen");
-  drive_command->add_option("--scenario", options.drive.scenario, "OpenSCENARIO file, its folder, or a name of septet list scenarios");
-  drive_command->add_option("--parameter", options.drive.parameters, "Of the scenario, instead of its own value; as often as needed")->type_name("NAME=VALUE")->default_str("")->allow_extra_args(false);
-  drive_command->add_option("--vehicle", options.drive.vehicle, "Vehicle file, or a name of septet list vehicles")->default_str("the rig's");
-  drive_command->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")->default_str("none");
+  drive_command->add_option("--scenario", options.drive.scenario,
+                            "OpenSCENARIO file, its folder, or a name of septet list scenarios");
+  drive_command
+      ->add_option("--parameter", options.drive.parameters,
+                   "Of the scenario, instead of its own value; as often as needed")
+      ->type_name("NAME=VALUE")
+      ->default_str("")
+      ->allow_extra_args(false);
+  drive_command->add_option("--vehicle", options.drive.vehicle, "Vehicle file, or a name of septet list vehicles")
+      ->default_str("the rig's");
+  drive_command
+      ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")
+      ->default_str("none");
   drive_command->add_option("--seed", options.drive.seed, "Seed of everything random")->check(seed_number());
-  drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")->default_str("whom the rig names");
-  drive_command->add_flag("--start-now", options.drive.start_now, "Do not wait until the driver presses a key or a pedal");
-  drive_command->add_option("--traffic", options.drive.traffic, "Who moves the traffic: own, or sumo where the package sumo is installed");
+  drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
+      ->default_str("whom the rig names");
+  drive_command->add_flag("--start-now", options.drive.start_now,
+                          "Do not wait until the driver presses a key or a pedal");
+  drive_command->add_option("--traffic", options.drive.traffic,
+                            "Who moves the traffic: own, or sumo where the package sumo is installed");
   drive_command->add_flag("--no-screens", options.drive.no_screens, "Server and car only, as fast as it goes");
   drive_command->footer(car_io::driving_keys_text());
   drive_command->callback([&] { options.work = [&] { return run_drive(options.drive); }; });
 
-  auto* replay_command = app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
+  auto* replay_command =
+      app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
   replay_command->add_option("session", options.replay.replay, "Session file")->required();
   add_drive_options(*replay_command, options.replay, "replay, beside the session", "0");
-  replay_command->add_option("--from", options.replay.replay_from_s, "Simulated second to begin at; with --verify at the last state before it that the log keeps")->check(number_between(0.0, 1e6));
-  replay_command->add_flag("--verify", options.verify, "Run the recorded input again and compare every tick's state hash");
-  replay_command->callback([&] { options.work = [&] { return options.verify ? run_verify(options.replay.replay, options.replay.replay_from_s) : run_drive(options.replay); }; });
+  replay_command
+      ->add_option("--from", options.replay.replay_from_s,
+                   "Simulated second to begin at; with --verify at the last state before it that the log keeps")
+      ->check(number_between(0.0, 1e6));
+  replay_command->add_flag("--verify", options.verify,
+                           "Run the recorded input again and compare every tick's state hash");
+  replay_command->callback([&] {
+    options.work = [&] {
+      return options.verify ? run_verify(options.replay.replay, options.replay.replay_from_s)
+                            : run_drive(options.replay);
+    };
+  });
 
   // Its options are those of septet-film, which explains them too.
-  auto* film_command = app.add_subcommand("film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
+  auto* film_command = app.add_subcommand(
+      "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
   film_command->set_help_flag();
   film_command->callback([&] { options.work = [&] { return run_film(options.film); }; });
 
   auto* report_command = app.add_subcommand("report", "Write report.html for a session");
   report_command->add_option("session", options.session, "Session file")->required();
-  report_command->add_option("--out", options.report_out, "Where to write")->default_str("report.html beside the session");
+  report_command->add_option("--out", options.report_out, "Where to write")
+      ->default_str("report.html beside the session");
   report_command->callback([&] { options.work = [&] { return run_report(options.session, options.report_out); }; });
 }
 

@@ -20,9 +20,11 @@ void add_file_commands(CLI::App& app, Options& options) {
 
   auto* rig_command = app.add_subcommand("rig", "What a rig of several machines needs");
   rig_command->require_subcommand(1);
-  auto* rig_keys = rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
+  auto* rig_keys =
+      rig_command->add_subcommand("keys", "Make the keys of a rig's machines, one folder for each (rigs/EIGHT-PCS.md)");
   rig_keys->add_option("rig", options.rig_name, "Rig: a file or a name")->required();
-  rig_keys->add_option("--out", options.keys_out, "Folder for the folders; keys that are there stay")->capture_default_str();
+  rig_keys->add_option("--out", options.keys_out, "Folder for the folders; keys that are there stay")
+      ->capture_default_str();
   rig_keys->callback([&] { options.work = [&] { return run_rig_keys(options.rig_name, options.keys_out); }; });
 
   auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
@@ -30,10 +32,15 @@ void add_file_commands(CLI::App& app, Options& options) {
   list_command->callback([&] { options.work = [&] { return run_list(options.kind); }; });
 
   auto* check_command = app.add_subcommand("check", "Say what is wrong with files; exit status 1: a file has an error");
-  check_command->add_option("files", options.check.files, "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), sessions (.sqlite)")->required();
+  check_command
+      ->add_option(
+          "files", options.check.files,
+          "Roads (.xodr), scenarios and catalogs (.xosc), rigs, vehicles and film scripts (.toml), sessions (.sqlite)")
+      ->required();
   check_command->add_flag("--json", options.check.json, "Answer in JSON (docs/check.md)");
   check_command->add_flag("--strict", options.check.strict, "Warnings count as errors in the exit status");
-  check_command->callback([&] { options.work = [&]() -> Expected<int> { return run_check(options.check, std::cout); }; });
+  check_command->callback(
+      [&] { options.work = [&]() -> Expected<int> { return run_check(options.check, std::cout); }; });
 }
 
 }  // namespace septet::server

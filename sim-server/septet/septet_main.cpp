@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Septet: a driving simulator that surrounds a real car with seven screens."};
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  app.footer("Exit status: 0 finished, 1 failed, 2 wrong use, 3 a drive or replay that somebody stopped before its end.");
+  app.footer(
+      "Exit status: 0 finished, 1 failed, 2 wrong use, 3 a drive or replay that somebody stopped before its end.");
   app.failure_message([](const CLI::App* self, const CLI::Error& error) {
     return fmt::format("septet: {}; {} --help shows the options\n", error.what(), self->get_display_name());
   });

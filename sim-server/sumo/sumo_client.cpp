@@ -9,14 +9,18 @@ namespace septet::server {
 Expected<ConnectSumo> load_sumo_module() {
   std::error_code ignored;
   auto file = program::own_folder() / "septet-sumo.so";  // As it is built; else as it is installed.
-  if (!std::filesystem::exists(file, ignored)) file = program::own_folder().parent_path() / "lib/septet/modules/septet-sumo.so";
   if (!std::filesystem::exists(file, ignored))
-    return failure("this Septet was built without SUMO's client library", "--traffic sumo", "install the package sumo and build again, or drive with --traffic own");
-  void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.
+    file = program::own_folder().parent_path() / "lib/septet/modules/septet-sumo.so";
+  if (!std::filesystem::exists(file, ignored))
+    return failure("this Septet was built without SUMO's client library", "--traffic sumo",
+                   "install the package sumo and build again, or drive with --traffic own");
+  void* module =
+      ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);  // Stays loaded: its objects may live as long as the program.
   void* connect = module ? ::dlsym(module, "septet_connect_sumo") : nullptr;
   if (!connect) {
     const char* reason = ::dlerror();
-    return failure(reason ? reason : "not a module of this Septet", file.string(), "install the package sumo, or drive with --traffic own");
+    return failure(reason ? reason : "not a module of this Septet", file.string(),
+                   "install the package sumo, or drive with --traffic own");
   }
   return reinterpret_cast<ConnectSumo>(connect);
 }

@@ -41,8 +41,8 @@ struct SumoDeparture {
 /// One vehicle after a step.
 struct SumoVehicle {
   ParticipantId id = 0;
-  Vec2 front_m{0.0};          ///< Middle of the front bumper.
-  double heading_rad = 0.0;   ///< Counter-clockwise from x.
+  Vec2 front_m{0.0};         ///< Middle of the front bumper.
+  double heading_rad = 0.0;  ///< Counter-clockwise from x.
   double speed_mps = 0.0, acceleration_mps2 = 0.0;
   int signals = 0;
 };

@@ -30,9 +30,11 @@ auto asked(Call call) -> Expected<decltype(call())> {
       return call();
     }
   } catch (const libsumo::TraCIException& refusal) {
-    return failure(std::string("SUMO refuses: ") + refusal.what(), "--traffic sumo", "check the scenario's road, or drive with --traffic own");
+    return failure(std::string("SUMO refuses: ") + refusal.what(), "--traffic sumo",
+                   "check the scenario's road, or drive with --traffic own");
   } catch (const std::exception& gone) {
-    return failure(std::string("SUMO has gone: ") + gone.what(), "--traffic sumo", "start the drive again, or drive with --traffic own");
+    return failure(std::string("SUMO has gone: ") + gone.what(), "--traffic sumo",
+                   "start the drive again, or drive with --traffic own");
   }
 }
 
@@ -119,14 +121,16 @@ class TraciClient final : public SumoClient {
         SumoVehicle vehicle;
         std::from_chars(name.data(), name.data() + name.size(), vehicle.id);
         const auto place = values.find(libsumo::VAR_POSITION);
-        const auto* at = place == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIPosition*>(place->second.get());
+        const auto* at =
+            place == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIPosition*>(place->second.get());
         if (!at || at->x == libsumo::INVALID_DOUBLE_VALUE) continue;
         vehicle.front_m = {at->x, at->y};
         vehicle.heading_rad = (90.0 - number(values, libsumo::VAR_ANGLE)) / degrees_per_radian;
         vehicle.speed_mps = number(values, libsumo::VAR_SPEED);
         vehicle.acceleration_mps2 = number(values, libsumo::VAR_ACCELERATION);
         const auto signals = values.find(libsumo::VAR_SIGNALS);
-        if (const auto* bits = signals == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIInt*>(signals->second.get()))
+        if (const auto* bits =
+                signals == values.end() ? nullptr : dynamic_cast<const libsumo::TraCIInt*>(signals->second.get()))
           vehicle.signals = bits->value;
         vehicles.push_back(vehicle);
       }

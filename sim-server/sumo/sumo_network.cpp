@@ -21,9 +21,11 @@ constexpr double no_limit_mps = 80.0;
 /// Times round a ring, for SUMO's routes have an end.
 constexpr int laps = 40;
 
-std::optional<std::size_t> find_edge(const std::vector<SumoEdge>& edges, road::RoadIndex road, std::uint32_t section, int lane) {
+std::optional<std::size_t> find_edge(const std::vector<SumoEdge>& edges, road::RoadIndex road, std::uint32_t section,
+                                     int lane) {
   for (std::size_t i = 0; i < edges.size(); ++i)
-    if (edges[i].road == road && edges[i].section == section && std::ranges::find(edges[i].lanes, lane) != edges[i].lanes.end())
+    if (edges[i].road == road && edges[i].section == section &&
+        std::ranges::find(edges[i].lanes, lane) != edges[i].lanes.end())
       return i;
   return std::nullopt;
 }
@@ -75,14 +77,18 @@ struct Link {
   int from_lane, to_lane;  ///< SUMO's lane indices.
 };
 
-int index_of(const std::vector<int>& lanes, int lane) { return static_cast<int>(std::ranges::find(lanes, lane) - lanes.begin()); }
+int index_of(const std::vector<int>& lanes, int lane) {
+  return static_cast<int>(std::ranges::find(lanes, lane) - lanes.begin());
+}
 
 std::vector<Link> links_of(const road::RoadNetwork& roads, const std::vector<SumoEdge>& edges) {
   std::vector<Link> links;
   for (std::size_t from = 0; from < edges.size(); ++from)
     for (const int lane : edges[from].lanes)
-      for (const auto& next : road::continuations(roads, edges[from].road, edges[from].section, lane, edges[from].along_s))
-        if (const auto to = find_edge(edges, next.road, next.section, next.lane); to && edges[*to].along_s == next.towards_increasing_s)
+      for (const auto& next :
+           road::continuations(roads, edges[from].road, edges[from].section, lane, edges[from].along_s))
+        if (const auto to = find_edge(edges, next.road, next.section, next.lane);
+            to && edges[*to].along_s == next.towards_increasing_s)
           links.push_back({from, *to, index_of(edges[from].lanes, lane), index_of(edges[*to].lanes, next.lane)});
   return links;
 }
@@ -121,32 +127,39 @@ SumoNetwork make_sumo_network(const road::RoadNetwork& roads) {
       // All lanes of an edge are sampled where the first one is, unless a curve begins between them: then the first decides.
       if (line.size() == middle.size())
         for (std::size_t k = 0; k < line.size(); ++k) middle[k] += line[k] / static_cast<double>(edge.lanes.size());
-      else if (i == 0) middle = line;
+      else if (i == 0)
+        middle = line;
       const double width = road::lane_width_m(roads, edge.road, edge.lanes[i], 0.5 * (edge.begin_s_m + edge.end_s_m));
-      lanes += fmt::format("  <lane index=\"{}\" width=\"{:.2f}\" shape=\"{}\"/>\n", i, std::max(width, 2.0), shape_text(line));
+      lanes += fmt::format("  <lane index=\"{}\" width=\"{:.2f}\" shape=\"{}\"/>\n", i, std::max(width, 2.0),
+                           shape_text(line));
     }
     for (const auto& [end, point] : {std::pair{2 * e, middle.front()}, std::pair{2 * e + 1, middle.back()}}) {
       sum[node[end]] += point;
       count[node[end]] += 1.0;
     }
-    network.edges_xml += fmt::format("<edge id=\"{}\" from=\"n{}\" to=\"n{}\" numLanes=\"{}\" speed=\"{}\" spreadType=\"center\" shape=\"{}\">\n{}</edge>\n",
-                                     edge.id, node[2 * e], node[2 * e + 1], edge.lanes.size(), no_limit_mps, shape_text(middle), lanes);
+    network.edges_xml += fmt::format(
+        "<edge id=\"{}\" from=\"n{}\" to=\"n{}\" numLanes=\"{}\" speed=\"{}\" spreadType=\"center\" "
+        "shape=\"{}\">\n{}</edge>\n",
+        edge.id, node[2 * e], node[2 * e + 1], edge.lanes.size(), no_limit_mps, shape_text(middle), lanes);
   }
   network.edges_xml += "</edges>\n";
   network.nodes_xml = "<nodes>\n";
   for (std::size_t n = 0; n < node.size(); ++n)
     if (count[n] > 0.0)
-      network.nodes_xml += fmt::format("<node id=\"n{}\" x=\"{:.4f}\" y=\"{:.4f}\" type=\"priority\"/>\n", n, sum[n].x / count[n], sum[n].y / count[n]);
+      network.nodes_xml += fmt::format("<node id=\"n{}\" x=\"{:.4f}\" y=\"{:.4f}\" type=\"priority\"/>\n", n,
+                                       sum[n].x / count[n], sum[n].y / count[n]);
   network.nodes_xml += "</nodes>\n";
   network.connections_xml = "<connections>\n";
   for (const Link& link : links)
-    network.connections_xml += fmt::format("<connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\"/>\n", network.edges[link.from].id,
-                                           network.edges[link.to].id, link.from_lane, link.to_lane);
+    network.connections_xml +=
+        fmt::format("<connection from=\"{}\" to=\"{}\" fromLane=\"{}\" toLane=\"{}\"/>\n", network.edges[link.from].id,
+                    network.edges[link.to].id, link.from_lane, link.to_lane);
   network.connections_xml += "</connections>\n";
   return network;
 }
 
-SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roads, const traffic::Corridor& corridor, int lane, double x_m) {
+SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roads, const traffic::Corridor& corridor,
+                        int lane, double x_m) {
   const auto at = traffic::position_at(corridor, x_m, lane);
   SumoPlace place;
   const auto section = static_cast<std::uint32_t>(road::section_index_at(roads.roads[at.road], at.s_m));

@@ -37,7 +37,7 @@ struct SumoPlace {
   double along_m = 0.0;  ///< From the beginning of that edge.
 };
 /// Where lane number `lane` of a corridor is at x; an empty route where that lane cannot be driven on.
-SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roads, const traffic::Corridor& corridor, int lane,
-                        double x_m);
+SumoPlace place_in_sumo(const SumoNetwork& network, const road::RoadNetwork& roads, const traffic::Corridor& corridor,
+                        int lane, double x_m);
 
 }  // namespace septet::server

@@ -34,7 +34,8 @@ constexpr const char* types_xml = R"(<additional>
 Expected<fs::path> find_program(const std::string& name) {
   std::stringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (const fs::path file = fs::path(folder.empty() ? "." : folder) / name; ::access(file.c_str(), X_OK) == 0) return file;
+    if (const fs::path file = fs::path(folder.empty() ? "." : folder) / name; ::access(file.c_str(), X_OK) == 0)
+      return file;
   return failure(fmt::format("SUMO is not installed: there is no program {}", name), "--traffic sumo",
                  "install the package sumo (apt install sumo), or drive with --traffic own");
 }
@@ -67,7 +68,9 @@ Expected<std::unique_ptr<SumoProcess>> SumoProcess::start(const SumoNetwork& net
   auto folder = program::TemporaryFolder::make("septet-sumo");
   if (!folder) return tl::unexpected(folder.error());
   std::unique_ptr<SumoProcess> sumo(new SumoProcess(std::move(*folder)));
-  auto done = sumo->write_files(network).and_then([&] { return sumo->convert_network(); }).and_then([&] { return sumo->run(options); });
+  auto done = sumo->write_files(network).and_then([&] { return sumo->convert_network(); }).and_then([&] {
+    return sumo->run(options);
+  });
   if (!done) return tl::unexpected(done.error());
   return sumo;
 }
@@ -84,18 +87,34 @@ Expected<void> SumoProcess::convert_network() {
   if (!program) return tl::unexpected(program.error());
   const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
   auto process = program::ChildProcess::start({.program = program->string(),
-                                      .arguments = {"--node-files", in("nodes.xml"), "--edge-files", in("edges.xml"), "--connection-files",
-                                                    in("connections.xml"), "--output-file", in("net.xml"), "--precision", "4",
-                                                    "--offset.disable-normalization", "true", "--no-turnarounds", "true", "--no-warnings", "true",
-                                                    "--xml-validation", "never", "--log", in("netconvert.log")},
-                                      .environment = {},
-                                      .log = folder_.path() / "netconvert.err"});
+                                               .arguments = {"--node-files",
+                                                             in("nodes.xml"),
+                                                             "--edge-files",
+                                                             in("edges.xml"),
+                                                             "--connection-files",
+                                                             in("connections.xml"),
+                                                             "--output-file",
+                                                             in("net.xml"),
+                                                             "--precision",
+                                                             "4",
+                                                             "--offset.disable-normalization",
+                                                             "true",
+                                                             "--no-turnarounds",
+                                                             "true",
+                                                             "--no-warnings",
+                                                             "true",
+                                                             "--xml-validation",
+                                                             "never",
+                                                             "--log",
+                                                             in("netconvert.log")},
+                                               .environment = {},
+                                               .log = folder_.path() / "netconvert.err"});
   if (!process) return tl::unexpected(process.error());
   const auto until = std::chrono::steady_clock::now() + patience;
   while (!process->poll() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(5ms);
   if (!process->poll() || process->poll()->code != 0)
-    return failure("SUMO's netconvert does not accept the road: " + first_error_in(folder_.path() / "netconvert.err"), "--traffic sumo",
-                   "drive with --traffic own");
+    return failure("SUMO's netconvert does not accept the road: " + first_error_in(folder_.path() / "netconvert.err"),
+                   "--traffic sumo", "drive with --traffic own");
   return {};
 }
 
@@ -109,21 +128,45 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
   const auto port = free_port();
   if (!port) return tl::unexpected(port.error());
   const auto in = [&](const char* name) { return (folder_.path() / name).string(); };
-  auto process = program::ChildProcess::start(
-      {.program = program->string(),
-       .arguments = {"--net-file", in("net.xml"), "--additional-files", in("types.xml"), "--remote-port", std::to_string(*port),
-                     "--step-length", fmt::format("{}", options.step_s), "--step-method.ballistic", "true", "--lateral-resolution", "0.8",
-                     "--seed", std::to_string(options.seed % 2147483647), "--collision.action", "none", "--time-to-teleport", "-1",
-                     "--no-step-log", "true", "--no-warnings", "true", "--xml-validation", "never", "--xml-validation.net", "never",
-                     "--log", in("sumo.log")},
-       .environment = {},
-       .log = folder_.path() / "sumo.err"});
+  auto process = program::ChildProcess::start({.program = program->string(),
+                                               .arguments = {"--net-file",
+                                                             in("net.xml"),
+                                                             "--additional-files",
+                                                             in("types.xml"),
+                                                             "--remote-port",
+                                                             std::to_string(*port),
+                                                             "--step-length",
+                                                             fmt::format("{}", options.step_s),
+                                                             "--step-method.ballistic",
+                                                             "true",
+                                                             "--lateral-resolution",
+                                                             "0.8",
+                                                             "--seed",
+                                                             std::to_string(options.seed % 2147483647),
+                                                             "--collision.action",
+                                                             "none",
+                                                             "--time-to-teleport",
+                                                             "-1",
+                                                             "--no-step-log",
+                                                             "true",
+                                                             "--no-warnings",
+                                                             "true",
+                                                             "--xml-validation",
+                                                             "never",
+                                                             "--xml-validation.net",
+                                                             "never",
+                                                             "--log",
+                                                             in("sumo.log")},
+                                               .environment = {},
+                                               .log = folder_.path() / "sumo.err"});
   if (!process) return tl::unexpected(process.error());
   process_ = std::move(*process);
   // Only the start is waited for by the clock; from the first step on, SUMO's time is the simulation's.
   const auto until = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < until) {
-    if (process_->poll()) return failure("SUMO does not start: " + first_error_in(folder_.path() / "sumo.err"), "--traffic sumo", "drive with --traffic own");
+    if (process_->poll())
+      return failure("SUMO does not start: " + first_error_in(folder_.path() / "sumo.err"), "--traffic sumo",
+                     "drive with --traffic own");
     auto client = (*connect)(*port);
     if (client) {
       client_ = std::move(*client);
@@ -131,7 +174,8 @@ Expected<void> SumoProcess::run(const SumoOptions& options) {
     }
     std::this_thread::sleep_for(20ms);
   }
-  return failure("SUMO does not answer", "--traffic sumo", "look whether the machine is overloaded, or drive with --traffic own");
+  return failure("SUMO does not answer", "--traffic sumo",
+                 "look whether the machine is overloaded, or drive with --traffic own");
 }
 
 }  // namespace septet::server

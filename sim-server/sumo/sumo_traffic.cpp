@@ -22,13 +22,16 @@ constexpr double drift_time_s = 0.3;
 constexpr double slip_time_s = 2.0, most_slip_m = 6.0;
 constexpr double brake_lamp_mps2 = 0.7;
 
-bool is_emergency(const ForeignVehicle& vehicle) { return vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren); }
+bool is_emergency(const ForeignVehicle& vehicle) {
+  return vehicle.lamps.has(Lamp::beacon) || vehicle.lamps.has(Lamp::siren);
+}
 
 std::string type_name(ParticipantId id) { return fmt::format("type{}", id); }
 
 }  // namespace
 
-SumoTraffic::SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client, std::uint64_t seed)
+SumoTraffic::SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client,
+                         std::uint64_t seed)
     : roads_(roads), network_(std::move(network)), client_(std::move(client)), random_(seed, 1) {}
 
 bool SumoTraffic::ok(const Expected<void>& outcome) {
@@ -47,10 +50,14 @@ void SumoTraffic::start(const traffic::TrafficParameters& parameters, std::span<
     const auto& corridor = corridors_[c];
     for (std::size_t i = 0; i < corridor.size() && running_; ++i) {
       const VehicleModel& model = vehicle_models()[corridor.model[i]];
-      members_.push_back({.id = corridor.id[i], .model = corridor.model[i], .paint = corridor.paint[i], .corridor = c,
+      members_.push_back({.id = corridor.id[i],
+                          .model = corridor.model[i],
+                          .paint = corridor.paint[i],
+                          .corridor = c,
                           .desired_speed_mps = corridor.driver[i].following.desired_speed_mps,
                           .place = std::nullopt});
-      ok(client_->define_type({type_name(corridor.id[i]), "driver", model.length_m, model.width_m, model.height_m, corridor.driver[i].following}));
+      ok(client_->define_type({type_name(corridor.id[i]), "driver", model.length_m, model.width_m, model.height_m,
+                               corridor.driver[i].following}));
       if (corridor.lane[i] > 0 && running_) enter(members_.back(), corridor.lane[i], corridor.x_m[i]);
     }
   }
@@ -82,8 +89,11 @@ void SumoTraffic::enter(Member& member, int lane, double x_m) {
   member.stay = Member::Stay::asked_for;
   member.steps_waiting = 0;
   member.place.reset();
-  ok(client_->add_vehicle({.id = member.id, .type = type_name(member.id), .route = std::move(place.route), .lane_index = place.lane_index,
-                          .along_m = place.along_m}));
+  ok(client_->add_vehicle({.id = member.id,
+                           .type = type_name(member.id),
+                           .route = std::move(place.route),
+                           .lane_index = place.lane_index,
+                           .along_m = place.along_m}));
 }
 
 void SumoTraffic::leave(Member& member) {
@@ -129,10 +139,14 @@ void SumoTraffic::place_foreign(std::span<const ForeignVehicle> foreign, double 
       if (network_.edges.empty()) return;
       told_.push_back(vehicle.id);
       const auto type = type_name(vehicle.id);
-      ok(client_->define_type({type, is_emergency(vehicle) ? "emergency" : "foreign", model.length_m, model.width_m, model.height_m, {}}));
-      if (running_) ok(client_->add_vehicle({.id = vehicle.id, .type = type, .route = {network_.edges.front().id}, .watched = false}));
+      ok(client_->define_type(
+          {type, is_emergency(vehicle) ? "emergency" : "foreign", model.length_m, model.width_m, model.height_m, {}}));
+      if (running_)
+        ok(client_->add_vehicle(
+            {.id = vehicle.id, .type = type, .route = {network_.edges.front().id}, .watched = false}));
     }
-    if (running_) ok(client_->place_vehicle(vehicle.id, {front.x, front.y}, heading_rad(vehicle.world_from_vehicle.orientation)));
+    if (running_)
+      ok(client_->place_vehicle(vehicle.id, {front.x, front.y}, heading_rad(vehicle.world_from_vehicle.orientation)));
     if (!running_) return;
   }
 }
@@ -183,7 +197,8 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   member.place = front->position;
   member.speed_mps = vehicle.speed_mps;
 
-  const double heading = line.heading_rad + (direction > 0.0 ? 0.0 : 0.5 * turn) + std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, 1.0));
+  const double heading = line.heading_rad + (direction > 0.0 ? 0.0 : 0.5 * turn) +
+                         std::atan2(member.lateral_mps, std::max(vehicle.speed_mps, 1.0));
   const Vec2 rear = vehicle.front_m + (member.slip_m - model.front_m()) * Vec2(std::cos(heading), std::sin(heading));
   const double speed = vehicle.speed_mps - member.slip_m / slip_time_s;
   const auto place = road::locate(roads_, rear, &*member.place);
@@ -198,7 +213,8 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   participant.id = member.id;
   participant.model = member.model;
   participant.paint = member.paint;
-  participant.world_from_vehicle = {point.position_m, world_from_line.orientation * glm::angleAxis(heading - point.heading_rad, Vec3(0, 0, 1))};
+  participant.world_from_vehicle = {
+      point.position_m, world_from_line.orientation * glm::angleAxis(heading - point.heading_rad, Vec3(0, 0, 1))};
   participant.velocity_mps = forward * speed + left * member.lateral_mps;
   participant.acceleration_mps2 = forward * vehicle.acceleration_mps2 + left * (speed * yaw_rate);
   participant.angular_velocity_radps = Vec3(0.0, 0.0, yaw_rate);
@@ -207,7 +223,8 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
   participant.wheel_spin_radps = speed / model.wheel_radius_m;
   participant.lamps.set(Lamp::low_beam, true);
   // At speed SUMO lights the brake lamps only from about 5 m/s²; drivers behind need to see less.
-  participant.lamps.set(Lamp::brake, (vehicle.signals & sumo_signal::brake_light) != 0 || vehicle.acceleration_mps2 < -brake_lamp_mps2);
+  participant.lamps.set(
+      Lamp::brake, (vehicle.signals & sumo_signal::brake_light) != 0 || vehicle.acceleration_mps2 < -brake_lamp_mps2);
   // Whether the indicator is on; it blinks where it is shown.
   participant.lamps.set(Lamp::indicator_left, (vehicle.signals & sumo_signal::blinker_left) != 0);
   participant.lamps.set(Lamp::indicator_right, (vehicle.signals & sumo_signal::blinker_right) != 0);
@@ -217,7 +234,8 @@ std::optional<Participant> SumoTraffic::participant_of(Member& member, const Sum
 Participant SumoTraffic::shown(const Participant& participant) const {
   Participant result = participant;
   const bool lit = indicator_is_lit(time_s_, participant.id);
-  for (const Lamp lamp : {Lamp::indicator_left, Lamp::indicator_right}) result.lamps.set(lamp, lit && participant.lamps.has(lamp));
+  for (const Lamp lamp : {Lamp::indicator_left, Lamp::indicator_right})
+    result.lamps.set(lamp, lit && participant.lamps.has(lamp));
   return result;
 }
 

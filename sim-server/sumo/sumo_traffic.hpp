@@ -21,7 +21,8 @@ inline constexpr double sumo_step_s = 0.05;
 class SumoTraffic final : public traffic::TrafficEngine {
  public:
   /// `network` is made from `roads`, which outlive this.
-  SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client, std::uint64_t seed);
+  SumoTraffic(const road::RoadNetwork& roads, SumoNetwork network, std::shared_ptr<SumoClient> client,
+              std::uint64_t seed);
 
   void start(const traffic::TrafficParameters& parameters, std::span<const traffic::ForeignVehicle> foreign) override;
   void stop() override;
@@ -60,8 +61,8 @@ class SumoTraffic final : public traffic::TrafficEngine {
   Random random_;
   traffic::TrafficParameters parameters_;
   std::vector<traffic::CorridorTraffic> corridors_;
-  std::vector<Member> members_;  ///< Ascending id.
-  std::vector<ParticipantId> told_;  ///< Foreign vehicles that SUMO knows.
+  std::vector<Member> members_;              ///< Ascending id.
+  std::vector<ParticipantId> told_;          ///< Foreign vehicles that SUMO knows.
   std::vector<Participant> before_, after_;  ///< At SUMO's last step and at the one ahead; ascending id.
   double phase_s_ = 0.0;                     ///< Since `before_`.
   double time_s_ = 0.0;

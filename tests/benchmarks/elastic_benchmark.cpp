@@ -14,13 +14,11 @@ namespace {
 using namespace septet::elastic;
 
 void elastic_step(benchmark::State& state, Eigen::Vector3i cells) {
-  auto body = *make_elastic_body(lattice_mesh(cells, 0.1 * cells.cast<double>()),
-                                 {1e8, 0.25, 1000.0});
+  auto body = *make_elastic_body(lattice_mesh(cells, 0.1 * cells.cast<double>()), {1e8, 0.25, 1000.0});
   fix_nodes(body, {-1e-9, -1e-9, -1e-9}, {100, 100, 1e-9});
   const double length = 0.1 * cells.z();
   const Eigen::Vector3d axis(0.05 * cells.x(), 0.05 * cells.y(), 0);
-  for (auto& x : body.position_m)
-    x = axis + Eigen::AngleAxisd(x.z() / length, Eigen::Vector3d::UnitZ()) * (x - axis);
+  for (auto& x : body.position_m) x = axis + Eigen::AngleAxisd(x.z() / length, Eigen::Vector3d::UnitZ()) * (x - axis);
   StepSettings settings;
   settings.gravity_mps2 = {0, -9.81, 0};
   const ElasticBody start = body;
@@ -77,19 +75,30 @@ void elastic_bend(benchmark::State& state, Eigen::Vector3i cells) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(elastic_bend, 105, Eigen::Vector3i(1, 1, 21))->Name("elastic_bend/105")
-    ->Iterations(600)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_bend, 990, Eigen::Vector3i(3, 3, 22))->Name("elastic_bend/990")
-    ->Iterations(400)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_bend, 5000, Eigen::Vector3i(6, 6, 28))->Name("elastic_bend/5000")
-    ->Iterations(200)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_step, 105, Eigen::Vector3i(1, 1, 21))->Name("elastic_step/105")
+BENCHMARK_CAPTURE(elastic_bend, 105, Eigen::Vector3i(1, 1, 21))
+    ->Name("elastic_bend/105")
+    ->Iterations(600)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_step, 990, Eigen::Vector3i(3, 3, 22))->Name("elastic_step/990")
+BENCHMARK_CAPTURE(elastic_bend, 990, Eigen::Vector3i(3, 3, 22))
+    ->Name("elastic_bend/990")
+    ->Iterations(400)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_step, 5000, Eigen::Vector3i(6, 6, 28))->Name("elastic_step/5000")
+BENCHMARK_CAPTURE(elastic_bend, 5000, Eigen::Vector3i(6, 6, 28))
+    ->Name("elastic_bend/5000")
+    ->Iterations(200)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_step, 10000, Eigen::Vector3i(8, 8, 31))->Name("elastic_step/10000")
+BENCHMARK_CAPTURE(elastic_step, 105, Eigen::Vector3i(1, 1, 21))
+    ->Name("elastic_step/105")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(elastic_step, 20000, Eigen::Vector3i(10, 10, 40))->Name("elastic_step/20000")
+BENCHMARK_CAPTURE(elastic_step, 990, Eigen::Vector3i(3, 3, 22))
+    ->Name("elastic_step/990")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(elastic_step, 5000, Eigen::Vector3i(6, 6, 28))
+    ->Name("elastic_step/5000")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(elastic_step, 10000, Eigen::Vector3i(8, 8, 31))
+    ->Name("elastic_step/10000")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(elastic_step, 20000, Eigen::Vector3i(10, 10, 40))
+    ->Name("elastic_step/20000")
     ->Unit(benchmark::kMillisecond);

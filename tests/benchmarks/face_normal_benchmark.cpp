@@ -12,8 +12,7 @@ using namespace septet;
 namespace {
 
 void face_normals(benchmark::State& run, NormalMethod method) {
-  const TemporalNormals normals(
-      method, morphs::sphere_faces(morphs::blob, morphs::other_blob));
+  const TemporalNormals normals(method, morphs::sphere_faces(morphs::blob, morphs::other_blob));
   FaceNormals at;
   float t = 0.0f;
   for (auto _ : run) {
@@ -38,15 +37,18 @@ void two_frames(benchmark::State& run, NormalMethod method) {
     }
   }
 }
-BENCHMARK_CAPTURE(two_frames, t_variant, NormalMethod::t_variant)->Name("face_normals_two_frames/15300")->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(two_frames, linear, NormalMethod::linear)->Name("face_normals_two_frames/15300/linear")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(two_frames, t_variant, NormalMethod::t_variant)
+    ->Name("face_normals_two_frames/15300")
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(two_frames, linear, NormalMethod::linear)
+    ->Name("face_normals_two_frames/15300/linear")
+    ->Unit(benchmark::kMicrosecond);
 
 const bool registered = [] {
   for (int method = 0; method < normal_method_count; ++method) {
     const auto which = static_cast<NormalMethod>(method);
-    const std::string name = which == NormalMethod::t_variant
-                                 ? "face_normals/15300"
-                                 : fmt::format("face_normals/15300/{}", name_of(which));
+    const std::string name =
+        which == NormalMethod::t_variant ? "face_normals/15300" : fmt::format("face_normals/15300/{}", name_of(which));
     benchmark::RegisterBenchmark(name.c_str(), face_normals, which)->Unit(benchmark::kMicrosecond);
   }
   return true;

@@ -32,7 +32,8 @@ struct Motorway {
 
 const Motorway& motorway() {
   static const Motorway world = [] {
-    Motorway result{must(road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr")), {}};
+    Motorway result{
+        must(road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr")), {}};
     scene::Store store;
     scene::SceneBuilder builder(store);
     scenery::build_vehicles(builder);
@@ -47,7 +48,8 @@ RigidTransform in_lane(int lane, double s_m) {
   return road::world_from_lane(road::evaluate_lane(motorway().network, {0, lane, s_m, 0.0}));
 }
 
-void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, Antialiasing antialiasing) {
+void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height,
+                          Antialiasing antialiasing) {
   auto renderer = must(Renderer::create({width, height, DevicePreference::software, false, antialiasing, nullptr}));
   const Motorway& world = motorway();
   must(renderer.upload(world.scene));
@@ -79,10 +81,18 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
 }
 
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, Antialiasing::automatic)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Iterations(30)->Repetitions(3)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Iterations(30)
+    ->Repetitions(3)
     ->ReportAggregatesOnly();
 BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, Antialiasing::automatic)
-    ->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime()->Iterations(30)->Repetitions(3)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Iterations(30)
+    ->Repetitions(3)
     ->ReportAggregatesOnly();
 
 }  // namespace

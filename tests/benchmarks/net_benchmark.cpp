@@ -99,8 +99,8 @@ void send_scene(benchmark::State& state) {
       allowed.push_back({identity.public_key(), "screen"});
       sockets.push_back(std::move(*UdpSocket::open({.bind = {loopback_ip, 0}})));
       clients.push_back(std::make_unique<SecureClient>(
-          sockets.back(), SecureClientOptions{server_socket->local_address(),
-                                              identity_of(1).public_key(), identity, limits}));
+          sockets.back(),
+          SecureClientOptions{server_socket->local_address(), identity_of(1).public_key(), identity, limits}));
     }
     SecureServer server(*server_socket, {identity_of(1), SessionId{1}, allowed, limits});
     double now_s = 0.0;
@@ -115,15 +115,13 @@ void send_scene(benchmark::State& state) {
     while (server.clients().size() < screens) step();
     state.ResumeTiming();
     for (const ClientId client : server.clients())
-      for (std::size_t i = 0; i < messages; ++i)
-        server.send(client, message, Reliability::reliable);
+      for (std::size_t i = 0; i < messages; ++i) server.send(client, message, Reliability::reliable);
     while (received < screens * messages && now_s < 100.0) step();
     if (received < screens * messages) state.SkipWithError("not everything arrived");
     state.counters["resent"] = static_cast<double>(server.counters().resent);
     state.counters["pumps"] = now_s * 1000.0;
   }
-  state.SetBytesProcessed(state.iterations() *
-                          static_cast<std::int64_t>(screens * messages * message_bytes));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(screens * messages * message_bytes));
 }
 BENCHMARK(send_scene)
     ->Name("net/send_30_MB_scene_to_7")

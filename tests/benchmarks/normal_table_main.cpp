@@ -12,9 +12,9 @@ using namespace septet;
 
 namespace {
 
-constexpr std::array order{NormalMethod::linear,       NormalMethod::quadratic,
-                           NormalMethod::cubic,        NormalMethod::t_variant,
-                           NormalMethod::vector_slerp, NormalMethod::spherical_de_casteljau,
+constexpr std::array order{NormalMethod::linear,          NormalMethod::quadratic,
+                           NormalMethod::cubic,           NormalMethod::t_variant,
+                           NormalMethod::vector_slerp,    NormalMethod::spherical_de_casteljau,
                            NormalMethod::quaternion_slerp};
 
 void print_row(std::string_view name, double linear, const std::array<double, order.size()>& errors) {
@@ -40,7 +40,8 @@ int main() {
   for (const PaperMesh& mesh : paper) print_row(mesh.name, mesh.errors[0], mesh.errors);
   for (const Morph& morph : all_morphs()) {
     std::array<double, order.size()> errors{};
-    std::ranges::transform(order, errors.begin(), [&](NormalMethod method) { return angle_error(morph.faces, method); });
+    std::ranges::transform(order, errors.begin(),
+                           [&](NormalMethod method) { return angle_error(morph.faces, method); });
     print_row(morph.name, errors[0], errors);
   }
 }

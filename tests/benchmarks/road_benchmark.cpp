@@ -36,8 +36,8 @@ std::vector<Vehicle> vehicles() {
     const auto road = static_cast<RoadIndex>(random.below(3));
     const double s = random.uniform(1.0, network.roads[road].length_m - 1.0);
     const auto lane = static_cast<int>(random.below(5)) + 3;
-    const LanePoint point = evaluate_lane(
-        network, {road, random.below(2) == 0 ? lane : -lane, s, random.uniform(-0.5, 0.5)});
+    const LanePoint point =
+        evaluate_lane(network, {road, random.below(2) == 0 ? lane : -lane, s, random.uniform(-0.5, 0.5)});
     const RoadPosition before{road, s - random.uniform(0.0, 1.0), point.t_m};
     all.push_back({before, Vec2(point.road.position_m)});
   }
@@ -56,28 +56,22 @@ void for_a_thousand(benchmark::State& state, Each each) {
 }
 
 void locate_with_hint(benchmark::State& state) {
-  for_a_thousand(state, [](const Vehicle& v) {
-    benchmark::DoNotOptimize(locate(motorway(), v.now_m, &v.before));
-  });
+  for_a_thousand(state, [](const Vehicle& v) { benchmark::DoNotOptimize(locate(motorway(), v.now_m, &v.before)); });
 }
 BENCHMARK(locate_with_hint)->Name("road_locate/hint");
 
 void locate_cold(benchmark::State& state) {
-  for_a_thousand(state,
-                 [](const Vehicle& v) { benchmark::DoNotOptimize(locate(motorway(), v.now_m)); });
+  for_a_thousand(state, [](const Vehicle& v) { benchmark::DoNotOptimize(locate(motorway(), v.now_m)); });
 }
 BENCHMARK(locate_cold)->Name("road_locate/cold");
 
 void surface_with_hint(benchmark::State& state) {
-  for_a_thousand(state, [](const Vehicle& v) {
-    benchmark::DoNotOptimize(surface_at(motorway(), v.now_m, &v.before));
-  });
+  for_a_thousand(state, [](const Vehicle& v) { benchmark::DoNotOptimize(surface_at(motorway(), v.now_m, &v.before)); });
 }
 BENCHMARK(surface_with_hint)->Name("road_surface/hint");
 
 void evaluate_point(benchmark::State& state) {
-  for_a_thousand(
-      state, [](const Vehicle& v) { benchmark::DoNotOptimize(evaluate(motorway(), v.before)); });
+  for_a_thousand(state, [](const Vehicle& v) { benchmark::DoNotOptimize(evaluate(motorway(), v.before)); });
 }
 BENCHMARK(evaluate_point)->Name("road_evaluate");
 

@@ -39,8 +39,7 @@ void encode_world(benchmark::State& state) {
   for (auto _ : state) {
     bytes.clear();
     scene::describe_store(
-        sample_world(), [&](const scene::Command& command) { scene::encode(command, bytes); },
-        8192);
+        sample_world(), [&](const scene::Command& command) { scene::encode(command, bytes); }, 8192);
   }
   state.counters["bytes"] = static_cast<double>(bytes.size());
 }
@@ -55,9 +54,7 @@ void decode_and_apply_world(benchmark::State& state) {
     benchmark::DoNotOptimize(store.revision());
   }
 }
-BENCHMARK(decode_and_apply_world)
-    ->Name("scene/decode_and_apply_world")
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(decode_and_apply_world)->Name("scene/decode_and_apply_world")->Unit(benchmark::kMillisecond);
 
 void resolve_world(benchmark::State& state) {
   sample_world();
@@ -76,9 +73,7 @@ void resolve_one_moved_object(benchmark::State& state) {
     resolver.update(store);
   }
 }
-BENCHMARK(resolve_one_moved_object)
-    ->Name("scene/resolve_one_moved_object_of_4000")
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(resolve_one_moved_object)->Name("scene/resolve_one_moved_object_of_4000")->Unit(benchmark::kMicrosecond);
 
 /// From the first datagram to a complete mirror, over UDP on this machine, both ends on one thread.
 void late_join_over_loopback(benchmark::State& state) {
@@ -92,8 +87,9 @@ void late_join_over_loopback(benchmark::State& state) {
     if (!server_lane || !server_tick || !screen_lane || !screen_tick) return state.SkipWithError("no sockets");
     server::ScreenHost host(*server_lane, *server_tick, sample_world(),
                             {.identity = server, .allowed = {{client.public_key(), "screen"}}, .screens = {"screen"}});
-    screen::ScreenLink link(*screen_lane, *screen_tick, {},
-                            {"screen", screen_tick->local_address().port, {server_lane->local_address(), server.public_key(), client, {}}});
+    screen::ScreenLink link(
+        *screen_lane, *screen_tick, {},
+        {"screen", screen_tick->local_address().port, {server_lane->local_address(), server.public_key(), client, {}}});
     const auto start = std::chrono::steady_clock::now();
     while (!link.scene_arrived()) {
       const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -105,9 +101,7 @@ void late_join_over_loopback(benchmark::State& state) {
   }
   state.counters["bytes"] = static_cast<double>(bytes);
 }
-BENCHMARK(late_join_over_loopback)
-    ->Name("scene/late_join_over_loopback")
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(late_join_over_loopback)->Name("scene/late_join_over_loopback")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace septet::replication

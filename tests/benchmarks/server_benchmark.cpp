@@ -57,7 +57,8 @@ void server_tick_200(benchmark::State& bench) {
     benchmark::DoNotOptimize(drive->step());
   }
   SEPTET_CHECK(drive->state.diagnostics.collisions == 0, "the car has met somebody in {} ticks", drive->state.tick);
-  bench.counters["vehicles"] = static_cast<double>(simulation::capture_snapshot(*drive->model, drive->state).participants.size());
+  bench.counters["vehicles"] =
+      static_cast<double>(simulation::capture_snapshot(*drive->model, drive->state).participants.size());
 }
 BENCHMARK(server_tick_200)->Name("server_tick/200")->Unit(benchmark::kMicrosecond);
 

@@ -49,8 +49,7 @@ void slerp_trigonometric(benchmark::State& run) {
       angle += change;
       change += 2.0 * a;
       const double c = std::cos(angle), s = std::sin(angle);
-      q = {from.w * c + across.w * s, from.x * c + across.x * s, from.y * c + across.y * s,
-           from.z * c + across.z * s};
+      q = {from.w * c + across.w * s, from.x * c + across.x * s, from.y * c + across.y * s, from.z * c + across.z * s};
     }
   });
 }

@@ -19,9 +19,10 @@ State settled_tunnel(std::size_t count) {
   State state = make_smoke(make_tunnel_grid({}, 0.5, length_m, 5.5, 4.0, 7.0), {fire}, 1, count);
   Random random(3);
   while (state.particles.size() < count)
-    add_particle(state, {random.uniform(0.0, state.grid.nx), random.uniform(0.0, state.grid.ny),
-                         random.uniform(0.0, state.grid.nz)}, 0,
-                 static_cast<float>(random.uniform(0.0, 20.0)));
+    add_particle(
+        state,
+        {random.uniform(0.0, state.grid.nx), random.uniform(0.0, state.grid.ny), random.uniform(0.0, state.grid.nz)}, 0,
+        static_cast<float>(random.uniform(0.0, 20.0)));
   state.grid.open_faces = 0;
   for (int tick = 0; tick < 30; ++tick) advance_smoke(state, Vec3(1.0, 0.0, 0.0), {}, step_s);
   return state;

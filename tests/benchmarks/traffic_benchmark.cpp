@@ -58,7 +58,11 @@ void emergency_run(benchmark::State& bench) {
   bench.counters["traffic_mps"] = run.traffic_mps;
   bench.counters["overlaps"] = run.overlaps;
 }
-BENCHMARK(emergency_run)->Name("traffic_emergency_run")->DenseRange(1, 10)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(emergency_run)
+    ->Name("traffic_emergency_run")
+    ->DenseRange(1, 10)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace septet::traffic

@@ -80,8 +80,7 @@ TEST_CASE("a device that takes no output delays neither who sets nor who reads")
 TEST_CASE("a device that was plugged in again is written to again without a word") {
   SimulatedHidPort port;
   port.plug();
-  ActuatorWriter writer(port.opener(),
-                        {.period_s = 0.002, .silent_after_s = 60.0, .retry_s = 0.01});
+  ActuatorWriter writer(port.opener(), {.period_s = 0.002, .silent_after_s = 60.0, .retry_s = 0.01});
   writer.set({.fan = 0.5});
   double fan = -1.0;
   REQUIRE(comes_true([&] { return (fan = newest_fan(port, fan)) > 0.49; }));
@@ -198,9 +197,7 @@ TEST_CASE("a device that is unplugged while its watchdog is set is not called on
 TEST_CASE("a device that refuses output reports is named once") {
   struct Refusing final : HidDevice {
     Expected<std::optional<Bytes>> read_newest() override { return std::nullopt; }
-    Expected<void> write(std::span<const std::byte>) override {
-      return failure("Broken pipe", "a wheel", "");
-    }
+    Expected<void> write(std::span<const std::byte>) override { return failure("Broken pipe", "a wheel", ""); }
     Expected<Bytes> get_feature(std::uint8_t, std::size_t) override { return feature; }
     Expected<void> send_feature(std::span<const std::byte> report) override {
       feature.assign(report.begin(), report.end());
@@ -208,9 +205,8 @@ TEST_CASE("a device that refuses output reports is named once") {
     }
     Bytes feature;
   };
-  ActuatorWriter writer(
-      []() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Refusing>(); },
-      {.period_s = 0.001, .retry_s = 0.001});
+  ActuatorWriter writer([]() -> Expected<std::unique_ptr<HidDevice>> { return std::make_unique<Refusing>(); },
+                        {.period_s = 0.001, .retry_s = 0.001});
   std::optional<Error> error;
   REQUIRE(comes_true([&] { return (error = writer.take_error()).has_value(); }));
   CHECK(error->what == "it takes no output reports: Broken pipe");

@@ -9,9 +9,7 @@ namespace septet::car_io {
 
 TEST_CASE("the fan is off at rest and linear in the speed of the car up to full speed") {
   const rig::CarActuators limits{.fan_full_speed_mps = 40.0, .fan_least = 0.2, .fan_most = 1.0};
-  const auto fan_at = [&](double speed_mps) {
-    return actuators_for({.speed_mps = speed_mps}, limits).fan;
-  };
+  const auto fan_at = [&](double speed_mps) { return actuators_for({.speed_mps = speed_mps}, limits).fan; };
   CHECK(fan_at(0.0) == 0.0);
   CHECK(fan_at(10.0) == doctest::Approx(0.4));
   CHECK(fan_at(20.0) == doctest::Approx(0.6));
@@ -44,16 +42,16 @@ TEST_CASE("at idle the shaker plays the firing order and at speed the turning of
   const double idle_radps = 700.0 / 60.0 * 2.0 * std::numbers::pi;
   const auto idle = actuators_for({.engine_radps = idle_radps, .cylinders = 6}, limits);
   CHECK(idle.vibration_hz == doctest::Approx(35.0));
-  const auto cruise = actuators_for(
-      {.speed_mps = 25.0, .engine_radps = 250.0, .wheel_radius_m = 0.31, .roughness = 1.0}, limits);
+  const auto cruise =
+      actuators_for({.speed_mps = 25.0, .engine_radps = 250.0, .wheel_radius_m = 0.31, .roughness = 1.0}, limits);
   CHECK(cruise.vibration_hz == doctest::Approx(12.83).epsilon(0.01));
   CHECK(cruise.vibration > idle.vibration);
 }
 
 TEST_CASE("a hand wheel without a motor gets no force") {
   CHECK(actuators_for({.steering_torque_nm = 5.0}, {}).steering == 0.0);
-  CHECK(actuators_for({.steering_torque_nm = 4.0}, {.steering_full_nm = 8.0, .steering_most = 1.0})
-            .steering == doctest::Approx(0.5));
+  CHECK(actuators_for({.steering_torque_nm = 4.0}, {.steering_full_nm = 8.0, .steering_most = 1.0}).steering ==
+        doctest::Approx(0.5));
 }
 
 }  // namespace septet::car_io

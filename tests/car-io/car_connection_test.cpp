@@ -138,8 +138,7 @@ TEST_CASE("output and feature reports reach the device") {
   REQUIRE(device->write(encode_actuators({.fan = 1.0}, 1)));
   REQUIRE(port.take_written().size() == 1);
   REQUIRE(device->send_feature(encode_device_status({.firmware = 0, .watchdog_ms = 300})));
-  CHECK(decode_device_status(device->get_feature(device_report_id, device_report_bytes).value())
-            ->watchdog_ms == 300);
+  CHECK(decode_device_status(device->get_feature(device_report_id, device_report_bytes).value())->watchdog_ms == 300);
 }
 
 TEST_CASE("a far device is read like a near one and what was overtaken on the way does not count") {

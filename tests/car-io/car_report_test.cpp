@@ -19,11 +19,10 @@ std::map<std::pair<int, int>, int> bits_of_reports(std::span<const std::uint8_t>
   std::map<std::pair<int, int>, int> bits;
   int size = 0, count = 0, id = 0;
   for (std::size_t i = 0; i < descriptor.size();) {
-    const int prefix = descriptor[i], length = (prefix & 3) == 3 ? 4 : prefix & 3,
-              tag = prefix >> 4, type = prefix >> 2 & 3;
+    const int prefix = descriptor[i], length = (prefix & 3) == 3 ? 4 : prefix & 3, tag = prefix >> 4,
+              type = prefix >> 2 & 3;
     int value = 0;
-    for (int k = 0; k < length; ++k)
-      value |= descriptor[i + 1 + static_cast<std::size_t>(k)] << (8 * k);
+    for (int k = 0; k < length; ++k) value |= descriptor[i + 1 + static_cast<std::size_t>(k)] << (8 * k);
     if (type == 1 && tag == 7) size = value;
     if (type == 1 && tag == 9) count = value;
     if (type == 1 && tag == 8) id = value;
@@ -56,11 +55,10 @@ DriverInput lively_input() {
 
 TEST_CASE("the descriptor announces reports of exactly the sizes that are sent") {
   const auto bits = bits_of_reports(car_report_descriptor());
-  CHECK(bits == std::map<std::pair<int, int>, int>{
-                    {{8, controls_report_id}, 8 * (controls_report_bytes - 1)},
-                    {{9, actuators_report_id}, 8 * (actuators_report_bytes - 1)},
-                    {{9, steering_report_id}, 8 * (steering_report_bytes - 1)},
-                    {{11, device_report_id}, 8 * (device_report_bytes - 1)}});
+  CHECK(bits == std::map<std::pair<int, int>, int>{{{8, controls_report_id}, 8 * (controls_report_bytes - 1)},
+                                                   {{9, actuators_report_id}, 8 * (actuators_report_bytes - 1)},
+                                                   {{9, steering_report_id}, 8 * (steering_report_bytes - 1)},
+                                                   {{11, device_report_id}, 8 * (device_report_bytes - 1)}});
 }
 
 TEST_CASE("controls go through a report and back within half a step of their field") {
@@ -167,8 +165,7 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
   rig::CarCalibration calibration;
   auto input = decode_report(layout_of("logitech-g29"), calibration, report);
   REQUIRE(input.has_value());
-  CHECK(input->steering_wheel_rad ==
-        doctest::Approx(-0.5 * default_steering_lock_rad).epsilon(1e-4));
+  CHECK(input->steering_wheel_rad == doctest::Approx(-0.5 * default_steering_lock_rad).epsilon(1e-4));
   CHECK(input->accelerator == doctest::Approx(128.0 / 255));
   CHECK(input->brake == 0.0);
   CHECK(input->horn);
@@ -203,17 +200,14 @@ TEST_CASE("calibrated axes read 0 and 1 at their own ends and nothing in their d
   CHECK(read(0.1, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
   CHECK(read(0.13, 0, 0).steering_wheel_rad == doctest::Approx(0.0));
   CHECK(read(0.95, 0, 0).steering_wheel_rad == doctest::Approx(default_steering_lock_rad));
-  CHECK(read(-0.8, 0, 0).steering_wheel_rad ==
-        doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+  CHECK(read(-0.8, 0, 0).steering_wheel_rad == doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
   calibration.steering.inverted = true;
-  CHECK(read(0.9, 0, 0).steering_wheel_rad ==
-        doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
+  CHECK(read(0.9, 0, 0).steering_wheel_rad == doctest::Approx(-default_steering_lock_rad).epsilon(1e-3));
 }
 
 TEST_CASE("the force of the hand wheel goes through its report and back") {
   for (const double force : {-1.0, -0.25, 0.0, 0.5, 1.0})
-    CHECK(decode_steering(encode_steering(force, 3)).value() ==
-          doctest::Approx(force).epsilon(1e-3));
+    CHECK(decode_steering(encode_steering(force, 3)).value() == doctest::Approx(force).epsilon(1e-3));
   CHECK(encode_steering(1.0, 0)[2] == std::byte{0x80});  // To the left: negative, as the wheel.
   CHECK_FALSE(decode_steering(Bytes(3)).has_value());
 }
@@ -225,14 +219,12 @@ TEST_CASE("an unknown layout is refused with the names that exist") {
 }
 
 TEST_CASE("actuators and device status go through their reports and back") {
-  const auto actuators =
-      decode_actuators(encode_actuators({.fan = 0.5, .vibration = 1.5, .vibration_hz = 45}, 7));
+  const auto actuators = decode_actuators(encode_actuators({.fan = 0.5, .vibration = 1.5, .vibration_hz = 45}, 7));
   REQUIRE(actuators.has_value());
   CHECK(actuators->fan == doctest::Approx(0.5).epsilon(1e-4));
   CHECK(actuators->vibration == 1.0);
   CHECK(actuators->vibration_hz == 45);
-  const auto status =
-      decode_device_status(encode_device_status({.firmware = 0x0102, .watchdog_ms = 250}));
+  const auto status = decode_device_status(encode_device_status({.firmware = 0x0102, .watchdog_ms = 250}));
   REQUIRE(status.has_value());
   CHECK(status->firmware == 0x0102);
   CHECK(status->watchdog_ms == 250);

@@ -12,8 +12,7 @@ constexpr double dt_s = 1.0 / 120.0;
 
 DriverInput hold(KeyboardDriver& driver, const KeyStates& keys, double speed_mps, double time_s) {
   DriverInput input = driver.input;
-  for (int i = 0; i < static_cast<int>(std::lround(time_s / dt_s)); ++i)
-    input = advance(driver, keys, speed_mps, dt_s);
+  for (int i = 0; i < static_cast<int>(std::lround(time_s / dt_s)); ++i) input = advance(driver, keys, speed_mps, dt_s);
   return input;
 }
 
@@ -36,8 +35,7 @@ TEST_CASE("a steering key turns the wheel gradually and letting go straightens i
   KeyboardDriver driver;
   const KeyStates left{.left = true};
   const double full = largest_steering_rad(driver.settings, 25.0);
-  CHECK(hold(driver, left, 25.0, 0.225).steering_wheel_rad ==
-        doctest::Approx(full / 2).epsilon(0.02));
+  CHECK(hold(driver, left, 25.0, 0.225).steering_wheel_rad == doctest::Approx(full / 2).epsilon(0.02));
   CHECK(hold(driver, left, 25.0, 0.5).steering_wheel_rad == doctest::Approx(full));
   CHECK(hold(driver, {}, 25.0, 0.3).steering_wheel_rad == 0.0);
   CHECK(hold(driver, {.right = true}, 25.0, 1.0).steering_wheel_rad == doctest::Approx(-full));
@@ -46,8 +44,7 @@ TEST_CASE("a steering key turns the wheel gradually and letting go straightens i
 
 TEST_CASE("pedals rise and fall within their times") {
   KeyboardDriver driver;
-  CHECK(hold(driver, {.accelerate = true}, 10.0, 0.175).accelerator ==
-        doctest::Approx(0.5).epsilon(0.03));
+  CHECK(hold(driver, {.accelerate = true}, 10.0, 0.175).accelerator == doctest::Approx(0.5).epsilon(0.03));
   CHECK(hold(driver, {.accelerate = true}, 10.0, 0.5).accelerator == 1.0);
   const DriverInput braking = hold(driver, {.brake = true}, 10.0, 0.5);
   CHECK(braking.accelerator == 0.0);
@@ -78,8 +75,7 @@ TEST_CASE("an indicator key switches once per press") {
   CHECK(hold(driver, {.indicator_right = true}, 10.0, 0.1).indicator == IndicatorStalk::off);
 }
 
-TEST_CASE(
-    "a gamepad stick has a dead zone and reaches the full angle and its triggers the pedals") {
+TEST_CASE("a gamepad stick has a dead zone and reaches the full angle and its triggers the pedals") {
   GamepadDriver driver;
   GamepadState pad;
   pad.left_stick_x = 0.1;

@@ -34,8 +34,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   parse_parameter(text.substr(0, 200));
   // A catalog that a scenario names is the same text again.
-  const ScenarioFiles files{.read = [&](const std::string&) { return Expected<std::string>(std::string(text)); },
-                            .list = [](const std::string&) { return Expected<std::vector<std::string>>({"fuzz.xosc"}); }};
+  const ScenarioFiles files{
+      .read = [&](const std::string&) { return Expected<std::string>(std::string(text)); },
+      .list = [](const std::string&) { return Expected<std::vector<std::string>>({"fuzz.xosc"}); }};
   check_scenario(text, "fuzz.xosc", files);
   const auto scenario = read_scenario(text, "fuzz.xosc", files);
   if (!scenario) return 0;
@@ -47,6 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   append_participants(*scenario, *state, 1, participants);
   // A number gone bad is reset and told, and never handed on.
   for (const Participant& participant : participants)
-    if (!std::isfinite(participant.world_from_vehicle.position_m.x) || !std::isfinite(participant.world_from_vehicle.position_m.y)) std::abort();
+    if (!std::isfinite(participant.world_from_vehicle.position_m.x) ||
+        !std::isfinite(participant.world_from_vehicle.position_m.y))
+      std::abort();
   return 0;
 }

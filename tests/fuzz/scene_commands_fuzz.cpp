@@ -33,8 +33,7 @@ void fill_store(std::span<const std::byte> bytes) {
     (void)store.apply(*command);
     require(store.content_bytes() <= limits.bytes);
   }
-  scene::describe_store(
-      store, [&](const scene::Command& command) { require(copy.apply(command).has_value()); });
+  scene::describe_store(store, [&](const scene::Command& command) { require(copy.apply(command).has_value()); });
   require(same_content(store, copy));
   const scene::ResolvedScene resolved = scene::resolve(store);
   for (const auto& mesh : resolved.meshes)

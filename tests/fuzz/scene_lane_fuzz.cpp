@@ -41,12 +41,9 @@ std::span<const std::byte> next_part(ByteReader& input) {
 }
 
 void feed_strangers(ByteReader& input) {
-  static const Identity server_identity = Identity::from_seed({1}),
-                        client_identity = Identity::from_seed({2});
+  static const Identity server_identity = Identity::from_seed({1}), client_identity = Identity::from_seed({2});
   Queue server_socket, client_socket;
-  SecureServer server(
-      server_socket,
-      {server_identity, SessionId{1}, {{client_identity.public_key(), "screen"}}, {}});
+  SecureServer server(server_socket, {server_identity, SessionId{1}, {{client_identity.public_key(), "screen"}}, {}});
   SecureClient client(client_socket, {there, server_identity.public_key(), client_identity, {}});
   double now_s = 1.0;
   require(client.pump(now_s).empty());
@@ -68,20 +65,13 @@ void feed_sealed(ByteReader& input) {
   limits.window_bytes = 64 * 1024;
   Queue socket;
   const Terms terms = terms_of(limits, socket, there, 1);
-  Channel channel({.connection = 9,
-                   .peer = there,
-                   .keys = keys,
-                   .own = terms,
-                   .theirs = terms,
-                   .limits = limits},
-                  0.0);
+  Channel channel({.connection = 9, .peer = there, .keys = keys, .own = terms, .theirs = terms, .limits = limits}, 0.0);
   std::vector<ChannelMessage> messages;
   double now_s = 0.0;
   for (std::uint64_t number = 0; input.ok() && !input.at_end(); ++number) {
     const auto steps = input.get<std::uint8_t>();
     if (steps & 1)
-      channel.send(share(Bytes(steps * 40u)),
-                   steps & 2 ? Reliability::reliable : Reliability::unreliable, steps >> 5);
+      channel.send(share(Bytes(steps * 40u)), steps & 2 ? Reliability::reliable : Reliability::unreliable, steps >> 5);
     if (steps & 4) channel.advance_to(now_s += 0.005);
     Bytes datagram;
     ByteWriter writer(datagram);

@@ -100,7 +100,10 @@ class Place {
       static_cast<std::vector<Cell>*>(cells)->push_back({values[0], values[1]});
       return 0;
     };
-    require(sqlite3_exec(database, "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_info(m.name) c WHERE m.type = 'table'", add, &cells_, nullptr) == SQLITE_OK);
+    require(
+        sqlite3_exec(database,
+                     "SELECT m.name, c.name FROM sqlite_schema m, pragma_table_info(m.name) c WHERE m.type = 'table'",
+                     add, &cells_, nullptr) == SQLITE_OK);
     sqlite3_close(database);
     require(!cells_.empty());
   }
@@ -127,14 +130,16 @@ void put_in_cell(const Place& place, std::uint8_t choice, std::span<const std::u
   require(sqlite3_open(place.file().c_str(), &database) == SQLITE_OK);
   sqlite3_exec(database, "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF", nullptr, nullptr, nullptr);
   const Cell& cell = place.cells()[choice / 3u % place.cells().size()];
-  const std::string sql = "UPDATE \"" + cell.table + "\" SET \"" + cell.column + "\" = ? WHERE rowid = (SELECT max(rowid) FROM \"" + cell.table + "\")";
+  const std::string sql = "UPDATE \"" + cell.table + "\" SET \"" + cell.column +
+                          "\" = ? WHERE rowid = (SELECT max(rowid) FROM \"" + cell.table + "\")";
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr) == SQLITE_OK) {
     const int length = static_cast<int>(value.size());
     double number = 0.0;
     std::memcpy(&number, value.data(), std::min(value.size(), sizeof number));
     if (choice % 3 == 0) sqlite3_bind_blob(statement, 1, value.data(), length, SQLITE_TRANSIENT);
-    if (choice % 3 == 1) sqlite3_bind_text(statement, 1, reinterpret_cast<const char*>(value.data()), length, SQLITE_TRANSIENT);
+    if (choice % 3 == 1)
+      sqlite3_bind_text(statement, 1, reinterpret_cast<const char*>(value.data()), length, SQLITE_TRANSIENT);
     if (choice % 3 == 2) sqlite3_bind_double(statement, 1, number);
     sqlite3_step(statement);
     sqlite3_finalize(statement);
@@ -167,8 +172,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Place place;
   if (size < 2) return 0;
   const std::span<const std::uint8_t> script(data, size);
-  if (script[0] % 2 == 0) patch(place, script.subspan(1));
-  else put_in_cell(place, script[1], script.subspan(2));
+  if (script[0] % 2 == 0)
+    patch(place, script.subspan(1));
+  else
+    put_in_cell(place, script[1], script.subspan(2));
   read_everything(place.file());
   return 0;
 }

@@ -29,7 +29,8 @@ void feed_snapshots(ByteReader& input) {
   Bytes difference;
   encode_snapshot(*second, &*first, difference);
   const auto came_back = decode_snapshot(difference, &*first);
-  require(came_back && came_back->participants == second->participants && came_back->rest.effects == second->rest.effects);
+  require(came_back && came_back->participants == second->participants &&
+          came_back->rest.effects == second->rest.effects);
 }
 
 void feed_debris(std::span<const std::byte> bytes) {
@@ -59,10 +60,18 @@ void feed_soot(std::span<const std::byte> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ByteReader input(std::as_bytes(std::span(data, size)));
   switch (input.get<std::uint8_t>() % 4) {
-    case 0: feed_snapshots(input); break;
-    case 1: feed_debris(input.take(input.remaining())); break;
-    case 2: feed_smoke(input.take(input.remaining())); break;
-    default: feed_soot(input.take(input.remaining())); break;
+    case 0:
+      feed_snapshots(input);
+      break;
+    case 1:
+      feed_debris(input.take(input.remaining()));
+      break;
+    case 2:
+      feed_smoke(input.take(input.remaining()));
+      break;
+    default:
+      feed_soot(input.take(input.remaining()));
+      break;
   }
   return 0;
 }

@@ -37,11 +37,9 @@ void feed_raw(TickReceiver& receiver, ByteReader& input) {
   require(!receiver.next());
 }
 
-void feed_altered(TickReceiver& receiver, const Identity& server, const SessionId& session,
-                  ByteReader& input) {
+void feed_altered(TickReceiver& receiver, const Identity& server, const SessionId& session, ByteReader& input) {
   Recorder wire;
-  TickPublisher publisher(wire, server, session,
-                          {.max_datagram_bytes = 576u + input.get<std::uint16_t>() % 1000});
+  TickPublisher publisher(wire, server, session, {.max_datagram_bytes = 576u + input.get<std::uint16_t>() % 1000});
   publisher.add_destination({loopback_ip, 1});
   std::map<std::uint64_t, Bytes> published;
   const int ticks = 1 + input.get<std::uint8_t>() % 3;

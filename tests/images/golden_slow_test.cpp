@@ -56,7 +56,8 @@ class Motorway {
       input.environment.sun_illuminance_lux = 0.0;
     }
     instant::FrameView view;
-    view.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), instant.heading_deg * std::numbers::pi / 180.0, 0.0, 0.77, 0.52);
+    view.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), instant.heading_deg * std::numbers::pi / 180.0,
+                                              0.0, 0.77, 0.52);
     view.world_from_car = in_lane(-3, instant.s_m);
     view.viewport = {0, 0, width, height};
     input.views.push_back(view);
@@ -98,9 +99,9 @@ class Motorway {
 };
 
 struct Difference {
-  double mean = 0.0;      ///< Of the three colours, in steps of 255.
+  double mean = 0.0;         ///< Of the three colours, in steps of 255.
   double largest_1pc = 0.0;  ///< One pixel in a hundred differs by more.
-  image::Image picture;   ///< Fourfold, on grey.
+  image::Image picture;      ///< Fourfold, on grey.
 };
 
 Difference difference(const image::Image& a, const image::Image& b) {
@@ -126,17 +127,23 @@ Difference difference(const image::Image& a, const image::Image& b) {
 
 }  // namespace
 
-TEST_CASE("the motorway looks as its golden pictures by day and in the tunnel at noon and at night and behind and on a rainy night") {
+TEST_CASE(
+    "the motorway looks as its golden pictures by day and in the tunnel at noon and at night and behind and on a rainy "
+    "night") {
   namespace fs = std::filesystem;
-  const fs::path golden = fs::path(SEPTET_SOURCE_DIR) / "tests/images/golden", made = fs::path(SEPTET_BINARY_DIR) / "images";
+  const fs::path golden = fs::path(SEPTET_SOURCE_DIR) / "tests/images/golden",
+                 made = fs::path(SEPTET_BINARY_DIR) / "images";
   fs::create_directories(made);
   const bool renew = std::getenv("SEPTET_RENEW_IMAGES") != nullptr;
   const Motorway motorway;
-  auto renderer = render::Renderer::create({width, height, render::DevicePreference::software, false, render::Antialiasing::automatic, nullptr});
+  auto renderer = render::Renderer::create(
+      {width, height, render::DevicePreference::software, false, render::Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(motorway.scene()).has_value());
-  for (const Instant& instant : {Instant{"day-ahead", 800.0, 0.0, false, false}, Instant{"tunnel", 3350.0, 0.0, false, false},
-                                 Instant{"tunnel-night", 3350.0, 0.0, true, false}, Instant{"rear", 800.0, 165.0, false, false}, Instant{"night-rain", 2400.0, 0.0, true, true}}) {
+  for (const Instant& instant :
+       {Instant{"day-ahead", 800.0, 0.0, false, false}, Instant{"tunnel", 3350.0, 0.0, false, false},
+        Instant{"tunnel-night", 3350.0, 0.0, true, false}, Instant{"rear", 800.0, 165.0, false, false},
+        Instant{"night-rain", 2400.0, 0.0, true, true}}) {
     CAPTURE(instant.name);
     REQUIRE(renderer->draw(motorway.frame(instant)).has_value());
     CHECK(renderer->statistics().triangles < 100'000);
@@ -149,7 +156,8 @@ TEST_CASE("the motorway looks as its golden pictures by day and in the tunnel at
     REQUIRE(expected->width == width);
     REQUIRE(expected->height == height);
     const Difference differs = difference(*picture, *expected);
-    INFO("mean " << differs.mean << ", one pixel in a hundred by more than " << differs.largest_1pc << " of 255; see " << made.string());
+    INFO("mean " << differs.mean << ", one pixel in a hundred by more than " << differs.largest_1pc << " of 255; see "
+                 << made.string());
     const bool same = differs.mean < 1.0 && differs.largest_1pc < 24.0;
     CHECK(same);
     if (same) continue;

@@ -70,15 +70,13 @@ RigidTransform camera(const Vec3& eye_m, double heading_rad, double pitch_up_rad
 
 std::uint32_t prototype_of(const scene::ResolvedScene& scene, std::string_view name) {
   for (std::uint32_t i = 0; i < scene.prototypes.size(); ++i)
-    if (scene.prototypes[i].name == name ||
-        scene.prototypes[i].name == "model/" + std::string(name))
-      return i;
+    if (scene.prototypes[i].name == name || scene.prototypes[i].name == "model/" + std::string(name)) return i;
   fmt::print(stderr, "no prototype {}\n", name);
   std::exit(1);
 }
 
-instant::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string_view model,
-                                 const RigidTransform& pose, const glm::vec3& paint) {
+instant::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string_view model, const RigidTransform& pose,
+                                  const glm::vec3& paint) {
   instant::DrawnParticipant participant;
   participant.prototype = prototype_of(scene, model);
   participant.world_from_vehicle = pose;
@@ -88,20 +86,17 @@ instant::DrawnParticipant vehicle(const scene::ResolvedScene& scene, std::string
 }
 
 /// Four sides of a model, near, and one from each further level of detail.
-void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene,
-               const VehicleModel& model, const std::filesystem::path& out) {
+void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene, const VehicleModel& model,
+               const std::filesystem::path& out) {
   image::Image sheet(width, height);
   const double reach = std::max(model.length_m * 1.45, model.height_m * 2.6);
-  constexpr double azimuths[]{32, 148, 90, 35}, elevations[]{12, 16, 4, 14},
-      distances[]{1, 1, 1, 1};
+  constexpr double azimuths[]{32, 148, 90, 35}, elevations[]{12, 16, 4, 14}, distances[]{1, 1, 1, 1};
   for (int i = 0; i < 4; ++i) {
     const double distance = i == 3 ? 75.0 : reach * distances[i];
     const Vec3 middle(model.centre_x_m(), 0, model.height_m * 0.45);
     const double a = azimuths[i] * degree_rad, e = elevations[i] * degree_rad;
-    const Vec3 eye =
-        middle + distance * Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-    const double angle =
-        2.0 * std::atan(reach * std::tan(24.0 * degree_rad) / distance) / degree_rad;
+    const Vec3 eye = middle + distance * Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
+    const double angle = 2.0 * std::atan(reach * std::tan(24.0 * degree_rad) / distance) / degree_rad;
     auto input = frame(camera(eye, a + std::numbers::pi, -e), angle);
     auto participant = vehicle(scene, model.name, {}, {0.30f, 0.035f, 0.03f});
     if (i == 1) participant.lamps.set(Lamp::brake, true);
@@ -109,8 +104,8 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene,
     participant.lamps.set(Lamp::beacon, true);
     if (i == 0) participant.front_steer_rad = 0.35;
     input.participants.push_back(participant);
-    image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2),
-                (i % 2) * width / 2, (i / 2) * height / 2);
+    image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2,
+                (i / 2) * height / 2);
   }
   must(image::write_png(out / fmt::format("{}.png", model.name), sheet, image::PngEffort::fast));
   fmt::print("{}: {} triangles, {} draws at 75 m\n", model.name, renderer.statistics().triangles,
@@ -118,26 +113,21 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene,
 }
 
 /// Some traffic ahead of and beside the camera, so that scale can be judged.
-void add_traffic(instant::FrameInput& input, const scene::ResolvedScene& scene,
-                 const road::RoadNetwork& network, double s) {
-  constexpr const char* models[]{"saloon",    "estate", "lorry",  "hatchback",
-                                 "ambulance", "suv",    "van",    "motorcycle",
-                                 "saloon",    "lorry",  "estate", "hatchback"};
+void add_traffic(instant::FrameInput& input, const scene::ResolvedScene& scene, const road::RoadNetwork& network,
+                 double s) {
+  constexpr const char* models[]{"saloon", "estate",     "lorry",  "hatchback", "ambulance", "suv",
+                                 "van",    "motorcycle", "saloon", "lorry",     "estate",    "hatchback"};
   constexpr double ahead[]{28, 14, 60, 75, 45, 110, 140, 22, 180, 240, 210, 300};
   constexpr int lanes[]{-5, -3, -7, -4, -6, -5, -7, -4, -3, -7, -6, -5};
-  const glm::vec3 paints[]{{0.32f, 0.03f, 0.03f},
-                           {0.02f, 0.06f, 0.20f},
-                           {0.6f, 0.6f, 0.6f},
-                           {0.04f, 0.05f, 0.05f},
-                           {0.7f, 0.7f, 0.68f}};
+  const glm::vec3 paints[]{
+      {0.32f, 0.03f, 0.03f}, {0.02f, 0.06f, 0.20f}, {0.6f, 0.6f, 0.6f}, {0.04f, 0.05f, 0.05f}, {0.7f, 0.7f, 0.68f}};
   for (int k = 0; k < 12; ++k)
     for (const int side : {1, -1}) {
       const double at = s + ahead[k] * side + (side < 0 ? 15 : 0);
       const int lane = lanes[k] * (side < 0 && k % 2 == 1 ? -1 : 1);
       if (at < 0 || at > network.roads[0].length_m) continue;
       const auto point = road::evaluate_lane(network, {0, lane, at, 0.0});
-      auto participant = vehicle(scene, models[k], road::world_from_lane(point),
-                                 paints[(k + (side > 0 ? 0 : 2)) % 5]);
+      auto participant = vehicle(scene, models[k], road::world_from_lane(point), paints[(k + (side > 0 ? 0 : 2)) % 5]);
       participant.lamps.set(Lamp::low_beam, true);
       participant.lamps.set(Lamp::brake, k == 0);
       participant.lamps.set(Lamp::beacon, true);
@@ -155,8 +145,7 @@ std::size_t wire_bytes(const scene::Store& store, bool table) {
   std::map<std::string, std::pair<std::size_t, std::size_t>> by_name;
   std::size_t all = 0;
   for (const auto& [id, node] : store.nodes()) {
-    auto& [count, bytes] =
-        by_name[std::string(name_of(node.type())) + " " + node.name.substr(0, node.name.find('/'))];
+    auto& [count, bytes] = by_name[std::string(name_of(node.type())) + " " + node.name.substr(0, node.name.find('/'))];
     ++count;
     scene::describe_node(node, [&](const scene::Command& command) {
       Bytes encoded;
@@ -166,8 +155,7 @@ std::size_t wire_bytes(const scene::Store& store, bool table) {
     });
   }
   if (table)
-    for (const auto& [name, size] : by_name)
-      fmt::print("  {:9} bytes {:6} {}\n", size.second, size.first, name);
+    for (const auto& [name, size] : by_name) fmt::print("  {:9} bytes {:6} {}\n", size.second, size.first, name);
   return all;
 }
 
@@ -175,8 +163,7 @@ void vehicles(const std::filesystem::path& out, const std::vector<std::string>& 
   scene::Store store;
   scene::SceneBuilder builder(store);
   scenery::build_vehicles(builder);
-  fmt::print("vehicles: {} nodes, {} bytes on the wire\n", store.nodes().size(),
-             wire_bytes(store, false));
+  fmt::print("vehicles: {} nodes, {} bytes on the wire\n", store.nodes().size(), wire_bytes(store, false));
   const scene::ResolvedScene scene = scene::resolve(store);
   auto renderer = value_of(render::Renderer::create({.width = width, .height = height}));
   must(renderer.upload(scene));
@@ -193,8 +180,7 @@ void road_views(const std::filesystem::path& out, const std::vector<std::string>
   scene::SceneBuilder builder(store);
   scenery::build_vehicles(builder);
   scenery::build_road_world(builder, network, 1);
-  fmt::print("world: {} nodes, {} bytes on the wire\n", store.nodes().size(),
-             wire_bytes(store, true));
+  fmt::print("world: {} nodes, {} bytes on the wire\n", store.nodes().size(), wire_bytes(store, true));
   const scene::ResolvedScene scene = scene::resolve(store);
   auto renderer = value_of(render::Renderer::create({.width = width, .height = height}));
   must(renderer.upload(scene));
@@ -209,15 +195,14 @@ void road_views(const std::filesystem::path& out, const std::vector<std::string>
       from = to + 1;
     }
     const auto point = road::evaluate(network, {0, values[0], values[1]});
-    auto input = frame(camera(point.position_m + Vec3(0, 0, values[3]),
-                              point.heading_rad + values[2] * degree_rad, values[4] * degree_rad),
+    auto input = frame(camera(point.position_m + Vec3(0, 0, values[3]), point.heading_rad + values[2] * degree_rad,
+                              values[4] * degree_rad),
                        44.0);
     if (values[5] > 0.0) add_traffic(input, scene, network, values[0]);
-    must(image::write_png(out / fmt::format("road-{}.png", words[i]), drawn(renderer, input),
-                          image::PngEffort::fast));
+    must(image::write_png(out / fmt::format("road-{}.png", words[i]), drawn(renderer, input), image::PngEffort::fast));
     const auto& cost = renderer.statistics();
-    fmt::print("{}: {} triangles ({} in shadows), {} draws, {} instances\n", words[i],
-               cost.triangles, cost.shadow_triangles, cost.draws, cost.instances);
+    fmt::print("{}: {} triangles ({} in shadows), {} draws, {} instances\n", words[i], cost.triangles,
+               cost.shadow_triangles, cost.draws, cost.instances);
   }
 }
 

@@ -24,21 +24,18 @@ TEST_CASE("mean and standard deviation of lateral position equal those computed 
 TEST_CASE("samples around a lane change are left out of lane keeping and counted") {
   std::vector<Sample> samples;
   for (int i = 0; i < 100; ++i) samples.push_back(sample_at(i, -1, i < 50 ? 0.2 : 0.4));
-  const std::vector changes{LaneChange{
-      .tick = 0, .simulated_time_s = 5.0, .lanes_to_left = 1, .from_lane = -2, .to_lane = -1}};
-  const auto result =
-      compute_lateral_position_statistics(samples, changes, {.exclude_around_lane_change_s = 3.0});
+  const std::vector changes{
+      LaneChange{.tick = 0, .simulated_time_s = 5.0, .lanes_to_left = 1, .from_lane = -2, .to_lane = -1}};
+  const auto result = compute_lateral_position_statistics(samples, changes, {.exclude_around_lane_change_s = 3.0});
   // Left out: 2.0 s < t < 8.0 s, samples 21 to 79.
   CHECK(result.excluded_lane_change == 59);
   CHECK(result.samples == 41);
   CHECK(result.mean_m == doctest::Approx((21 * 0.2 + 20 * 0.4) / 41));
-  CHECK(compute_lateral_position_statistics(samples, changes, {.exclude_around_lane_change_s = 0.0})
-            .samples == 100);
+  CHECK(compute_lateral_position_statistics(samples, changes, {.exclude_around_lane_change_s = 0.0}).samples == 100);
 }
 
 TEST_CASE("samples off every lane do not count as lane keeping") {
-  const std::vector samples{sample_at(0, 0, 9.0, 0.0), sample_at(1, -1, 0.5),
-                            sample_at(2, -1, std::nan(""))};
+  const std::vector samples{sample_at(0, 0, 9.0, 0.0), sample_at(1, -1, 0.5), sample_at(2, -1, std::nan(""))};
   const auto result = compute_lateral_position_statistics(samples, {});
   CHECK(result.samples == 1);
   CHECK(result.excluded_off_lane == 2);
@@ -47,22 +44,19 @@ TEST_CASE("samples off every lane do not count as lane keeping") {
 
 TEST_CASE("the histogram puts each of 21 bin centres into its bin") {
   std::vector<Sample> samples;
-  for (int i = 0; i < 21; ++i)
-    samples.push_back(sample_at(i, -1, 4.2 * (-0.5 + (i + 0.5) / 21), 4.2));
+  for (int i = 0; i < 21; ++i) samples.push_back(sample_at(i, -1, 4.2 * (-0.5 + (i + 0.5) / 21), 4.2));
   const auto histogram = compute_lateral_position_histogram(samples);
   for (std::size_t bin = 0; bin < 21; ++bin) CHECK(histogram.counts[bin] == 1);
   CHECK(histogram.total() == 21);
 }
 
-TEST_CASE(
-    "the centre bin is symmetric about the lane centre and bins are closed below and open above") {
+TEST_CASE("the centre bin is symmetric about the lane centre and bins are closed below and open above") {
   using Histogram = LateralPositionHistogram;
   CHECK(Histogram::edge(10) == doctest::Approx(-1.0 / 42));
   CHECK(Histogram::edge(11) == doctest::Approx(1.0 / 42));
   // A lane of width 1 makes the position the relative one, so that the edges are hit exactly.
   std::vector<Sample> samples{sample_at(0, -1, 0.0, 1.0)};
-  for (std::size_t i = 0; i <= 21; ++i)
-    samples.push_back(sample_at(0, -1, Histogram::edge(i), 1.0));
+  for (std::size_t i = 0; i <= 21; ++i) samples.push_back(sample_at(0, -1, Histogram::edge(i), 1.0));
   samples.push_back(sample_at(0, -1, std::nextafter(Histogram::edge(1), -1.0), 1.0));
   const auto histogram = compute_lateral_position_histogram(samples);
   CHECK(histogram.counts[0] == 2);
@@ -96,14 +90,12 @@ TEST_CASE("a lane change is dated at the crossing of the line and tells its dire
 }
 
 TEST_CASE("driving on the line is no lane change") {
-  const auto samples =
-      drive_through({-1.6, -1.7, -1.8, -1.9, -1.7, -1.6, -1.8, -1.9, -2.0, -1.7, -1.5, -1.0});
+  const auto samples = drive_through({-1.6, -1.7, -1.8, -1.9, -1.7, -1.6, -1.8, -1.9, -2.0, -1.7, -1.5, -1.0});
   CHECK(find_lane_changes(samples).empty());
 }
 
 TEST_CASE("every line crossed is one change and a return is a change to the right") {
-  const auto changes =
-      find_lane_changes(drive_through({-7.0, -5.5, -4.5, -3.0, -1.9, -1.0, 0.0, -1.0, -1.8, -2.5}));
+  const auto changes = find_lane_changes(drive_through({-7.0, -5.5, -4.5, -3.0, -1.9, -1.0, 0.0, -1.0, -1.8, -2.5}));
   REQUIRE(changes.size() == 3);
   CHECK(changes[0].lanes_to_left == 1);
   CHECK(changes[1].lanes_to_left == 1);
@@ -113,8 +105,7 @@ TEST_CASE("every line crossed is one change and a return is a change to the righ
 }
 
 TEST_CASE("lines crossed within the hysteresis are one change over two lanes") {
-  const auto changes =
-      find_lane_changes(drive_through({-7.0, -5.5, -4.5, -3.0, -1.9, -1.0}), {.hysteresis_m = 3.4});
+  const auto changes = find_lane_changes(drive_through({-7.0, -5.5, -4.5, -3.0, -1.9, -1.0}), {.hysteresis_m = 3.4});
   REQUIRE(changes.size() == 1);
   CHECK(changes[0].lanes_to_left == 2);
   CHECK(changes[0].from_lane == -3);
@@ -122,11 +113,11 @@ TEST_CASE("lines crossed within the hysteresis are one change over two lanes") {
 }
 
 TEST_CASE("a renumbered lane is no lane change and a road left and entered again neither") {
-  const std::vector renumbered{sample_at(0, -2, 0.3), sample_at(1, -2, 0.31),
-                               sample_at(2, -3, 0.32), sample_at(3, -3, 0.3)};
+  const std::vector renumbered{sample_at(0, -2, 0.3), sample_at(1, -2, 0.31), sample_at(2, -3, 0.32),
+                               sample_at(3, -3, 0.3)};
   CHECK(find_lane_changes(renumbered).empty());
-  const std::vector off_road{sample_at(0, -2, 1.0), sample_at(1, 0, 0.0, 0.0),
-                             sample_at(2, -1, -1.0), sample_at(3, -1, 0.0)};
+  const std::vector off_road{sample_at(0, -2, 1.0), sample_at(1, 0, 0.0, 0.0), sample_at(2, -1, -1.0),
+                             sample_at(3, -1, 0.0)};
   CHECK(find_lane_changes(off_road).empty());
 }
 
@@ -138,7 +129,8 @@ TEST_CASE("mean time between lane changes is driving time over their number") {
   CHECK_FALSE(mean_time_between_lane_changes_s(samples, {}).has_value());
 }
 
-TEST_CASE("glances begin and end at the borders of their area, and a head that passes through one does not look there") {
+TEST_CASE(
+    "glances begin and end at the borders of their area, and a head that passes through one does not look there") {
   std::vector<Sample> samples;
   const double degree = std::numbers::pi / 180;
   const double gaze[] = {0, 0, 40, 45, 40, 0, -30, -60, -60, 0, 30};
@@ -158,8 +150,7 @@ TEST_CASE("glances begin and end at the borders of their area, and a head that p
 TEST_CASE("ten samples a second are due at any tick rate") {
   for (const double rate : {60.0, 120.0, 125.0, 1000.0 / 3.0}) {
     int due = 0;
-    for (Tick tick = 0; tick < static_cast<Tick>(rate * 100.0 + 0.5); ++tick)
-      due += is_sample_due(tick, rate);
+    for (Tick tick = 0; tick < static_cast<Tick>(rate * 100.0 + 0.5); ++tick) due += is_sample_due(tick, rate);
     CHECK(due == 1000);
   }
   CHECK(is_sample_due(0, 120));

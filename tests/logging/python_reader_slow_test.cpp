@@ -27,7 +27,8 @@ Snapshot busy_snapshot(Tick tick) {
 }
 
 int run_check(const std::string& arguments) {
-  return std::system(("/usr/bin/python3 " SEPTET_SOURCE_DIR "/tests/logging/python_reader_check.py " + arguments).c_str());
+  return std::system(
+      ("/usr/bin/python3 " SEPTET_SOURCE_DIR "/tests/logging/python_reader_check.py " + arguments).c_str());
 }
 
 }  // namespace
@@ -58,10 +59,12 @@ TEST_CASE("the Python reader has everybody at every tick where the C++ reader ha
     for (const Participant& p : (*next)->participants) {
       const Vec3& at = p.world_from_vehicle.position_m;
       const Quat& q = p.world_from_vehicle.orientation;
-      out << fmt::format("{},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
-                         (*next)->tick, (*next)->simulated_time_s, p.id, p.model, p.lamps.bits, at.x, at.y, at.z, q.w, q.x, q.y, q.z,
-                         p.velocity_mps.x, p.acceleration_mps2.y, p.angular_velocity_radps.z, p.front_steer_rad, p.wheel_spin_rad,
-                         p.wheel_spin_radps);
+      out << fmt::format(
+          "{},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},"
+          "{:.17g},{:.17g}\n",
+          (*next)->tick, (*next)->simulated_time_s, p.id, p.model, p.lamps.bits, at.x, at.y, at.z, q.w, q.x, q.y, q.z,
+          p.velocity_mps.x, p.acceleration_mps2.y, p.angular_velocity_radps.z, p.front_steer_rad, p.wheel_spin_rad,
+          p.wheel_spin_radps);
     }
   }
   out.close();

@@ -18,8 +18,7 @@ namespace {
 
 int count_of(const std::string& text, const std::string& part) {
   int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++count;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
 }
 
@@ -43,18 +42,34 @@ ReportData example_drive() {
     sample.gaze_heading_rad = i % 97 < 6 ? -0.5 : i % 211 < 9 ? 0.7 : 0.02;
     sample.leader = Leader{4, 40 + 10 * std::sin(t / 20), 45 + 10 * std::sin(t / 20), 28};
   }
-  data.events = {{100, 3.0, "scenario", std::nullopt, "ambulance"},
-                 {1200, 70.0, "collision", 1, ""}};
+  data.events = {{100, 3.0, "scenario", std::nullopt, "ambulance"}, {1200, 70.0, "collision", 1, ""}};
   data.answers = {{"fun", "It was fun to drive", "agree", 4.0, 600.0, false, ""},
                   {"drive_completed", "", std::nullopt, std::nullopt, 412.0, true, "felt <sick>"}};
   return data;
 }
 
 DriveOutcome example_outcome() {
-  DriveOutcome outcome{.end = DriveEnd::window_closed, .error = "", .ticks = 3600, .simulated_s = 30.0, .wall_s = 41.25, .state_hash = 0xabc,
-                       .inputs_hash = 0xdef, .late_ticks = 3, .bad_numbers = 5, .lost_records = 4, .log_waited_s = 1.5, .screens = {}};
-  outcome.screens = {{.name = "ahead-1", .frames = 450, .refused_ticks = 6, .frame_ms_p50 = 21.5, .frame_ms_p99 = std::nan(""),
-                      .connected_s = {0.0, 12.5}, .left_s = {11.0}, .left_behind_s = {}, .has_reported = true},
+  DriveOutcome outcome{.end = DriveEnd::window_closed,
+                       .error = "",
+                       .ticks = 3600,
+                       .simulated_s = 30.0,
+                       .wall_s = 41.25,
+                       .state_hash = 0xabc,
+                       .inputs_hash = 0xdef,
+                       .late_ticks = 3,
+                       .bad_numbers = 5,
+                       .lost_records = 4,
+                       .log_waited_s = 1.5,
+                       .screens = {}};
+  outcome.screens = {{.name = "ahead-1",
+                      .frames = 450,
+                      .refused_ticks = 6,
+                      .frame_ms_p50 = 21.5,
+                      .frame_ms_p99 = std::nan(""),
+                      .connected_s = {0.0, 12.5},
+                      .left_s = {11.0},
+                      .left_behind_s = {},
+                      .has_reported = true},
                      {.name = "rear-2", .frames = 0, .connected_s = {0.0}, .left_s = {3.0}, .left_behind_s = {}}};
   return outcome;
 }
@@ -62,7 +77,8 @@ DriveOutcome example_outcome() {
 }  // namespace
 
 TEST_CASE("the summary says how the drive ended and what its screens saw and its measures in figures") {
-  DriveSummary summary{.scenario = "motorway \"ambulance\"", .rig = "seven-screens", .seed = 7, .outcome = example_outcome(), .log = {}};
+  DriveSummary summary{
+      .scenario = "motorway \"ambulance\"", .rig = "seven-screens", .seed = 7, .outcome = example_outcome(), .log = {}};
   const ReportData drive = example_drive();
   summary.log = DriveSummary::FromLog{2, compute_drive_measures(drive.samples), {{"collision", 1}}};
   const auto json = nlohmann::json::parse(to_json(summary));
@@ -86,14 +102,16 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   for (const auto& bin : json["lateral_position_histogram"]["counts"]) counted += bin.get<std::size_t>();
   CHECK(counted == 6000);
   CHECK(json["speed_mps"]["mean"].get<double>() == doctest::Approx(summary.log->measures.speed_mean_mps));
-  CHECK(json["time_headway_s"]["median"].get<double>() == doctest::Approx(*summary.log->measures.time_headway_median_s));
+  CHECK(json["time_headway_s"]["median"].get<double>() ==
+        doctest::Approx(*summary.log->measures.time_headway_median_s));
   CHECK(json["lateral_position_m"]["few_samples"] == false);
   CHECK(json["events"]["collision"] == 1);
   // Every key is explained.
   std::ifstream in(std::string(SEPTET_SOURCE_DIR) + "/logging/report/SUMMARY.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const auto& item : json.items()) CHECK_MESSAGE(page.find("`" + item.key()) != std::string::npos, item.key());
-  for (const auto& item : json["screens"][0].items()) CHECK_MESSAGE(page.find("." + item.key()) != std::string::npos, item.key());
+  for (const auto& item : json["screens"][0].items())
+    CHECK_MESSAGE(page.find("." + item.key()) != std::string::npos, item.key());
 
   summary.log.reset();  // A log that was deleted.
   const auto poor = nlohmann::json::parse(to_json(summary));
@@ -107,10 +125,13 @@ TEST_CASE("an outcome reads back as it was written and anything else is refused"
   REQUIRE(back.has_value());
   CHECK(to_json(*back) == to_json(outcome));
   CHECK(back->end == DriveEnd::window_closed);
-  for (const std::string text : {"", "{}", "[1]", "nonsense", "{\"ended\": \"nonsense\"}", "{\"ended\": 3}"}) CHECK_FALSE(read_outcome(text).has_value());
+  for (const std::string text : {"", "{}", "[1]", "nonsense", "{\"ended\": \"nonsense\"}", "{\"ended\": 3}"})
+    CHECK_FALSE(read_outcome(text).has_value());
 }
 
-TEST_CASE("the report says how the drive ended and what went wrong and which figures are of few samples and names no folder") {
+TEST_CASE(
+    "the report says how the drive ended and what went wrong and which figures are of few samples and names no "
+    "folder") {
   ReportData data = example_drive();
   data.info.files = {{"scenario", "/home/somebody/motorway.xosc", ""}, {"rig", "/home/somebody/three.toml", ""}};
   data.outcome = example_outcome();
@@ -122,7 +143,7 @@ TEST_CASE("the report says how the drive ended and what went wrong and which fig
   CHECK(html.find("3 of 3600 ticks began late") != std::string::npos);
   CHECK(html.find("5 numbers went bad") != std::string::npos);
   CHECK(html.find("2 ticks are missing") != std::string::npos);
-  CHECK(html.find("0.0, 12.5 s") != std::string::npos);       // The first screen came back.
+  CHECK(html.find("0.0, 12.5 s") != std::string::npos);               // The first screen came back.
   CHECK(html.find("was not there at the end") != std::string::npos);  // The second one did not.
   CHECK(html.find("of only") == std::string::npos);
   data.samples.resize(4);

@@ -55,8 +55,8 @@ bool read_everything(const std::filesystem::path& path) {
     CHECK_FALSE(reader.error().remedy.empty());
     return false;
   }
-  bool all = reader->inputs() && reader->samples() && reader->events() && reader->scene_edits() &&
-             reader->questionnaire();
+  bool all =
+      reader->inputs() && reader->samples() && reader->events() && reader->scene_edits() && reader->questionnaire();
   auto cursor = reader->snapshots();
   if (!cursor) return false;
   for (;;) {
@@ -74,9 +74,8 @@ TEST_CASE("a file at its largest size ends the recording with one message and ke
   std::size_t committed = 0;
   {
     SessionWriter writer =
-        must_create(folder / "session.sqlite", {.queue_bytes = 1 << 20,
-                                                .commit_interval = std::chrono::milliseconds(5),
-                                                .max_bytes = 400'000});
+        must_create(folder / "session.sqlite",
+                    {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5), .max_bytes = 400'000});
     committed = record_until_full(writer, errors);
     CHECK(writer.lost_records() >= 100);
     CHECK(writer.finish().has_value());  // The error was taken already.
@@ -99,8 +98,7 @@ TEST_CASE("a full file system ends the recording with one message and keeps what
   std::size_t committed = 0;
   {
     SessionWriter writer =
-        must_create(disk / "session.sqlite",
-                    {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
+        must_create(disk / "session.sqlite", {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
     committed = record_until_full(writer, errors);
   }
   CHECK(errors.size() == 1);
@@ -117,9 +115,8 @@ TEST_CASE("a file size limit of the system ends the recording and keeps what it 
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{600'000, 600'000};
     setrlimit(RLIMIT_FSIZE, &limit);
-    auto writer = SessionWriter::create(
-        folder / "session.sqlite", example_info(),
-        {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
+    auto writer = SessionWriter::create(folder / "session.sqlite", example_info(),
+                                        {.queue_bytes = 1 << 20, .commit_interval = std::chrono::milliseconds(5)});
     std::vector<Error> errors;
     const std::size_t committed = record_until_full(*writer, errors);
     std::ofstream(folder / "committed") << committed << ' ' << errors.size();
@@ -167,9 +164,8 @@ TEST_CASE("a truncated session is refused or read up to the damage and never cra
   }
   const std::string content = read_file(folder / "session.sqlite");
   for (const double part : {0.1, 0.37, 0.6, 0.9}) {
-    write_file(
-        folder / "cut.sqlite",
-        content.substr(0, static_cast<std::size_t>(static_cast<double>(content.size()) * part)));
+    write_file(folder / "cut.sqlite",
+               content.substr(0, static_cast<std::size_t>(static_cast<double>(content.size()) * part)));
     CHECK_FALSE(read_everything(folder / "cut.sqlite"));
   }
 }
@@ -179,8 +175,7 @@ TEST_CASE("random damage never crashes the reader and a flipped snapshot is name
   {
     SessionWriter writer = must_create(folder / "session.sqlite");
     for (Tick tick = 0; tick < 200; ++tick) writer.record(taken(drive_snapshot(tick)));
-    for (Tick tick = 0; tick < 20; ++tick)
-      writer.record(take_sample(drive_snapshot(tick), std::nullopt));
+    for (Tick tick = 0; tick < 20; ++tick) writer.record(take_sample(drive_snapshot(tick), std::nullopt));
     REQUIRE(writer.finish());
   }
   const std::string content = read_file(folder / "session.sqlite");
@@ -189,8 +184,7 @@ TEST_CASE("random damage never crashes the reader and a flipped snapshot is name
   int refused = 0;
   for (int trial = 0; trial < 60; ++trial) {
     std::string damaged = content;
-    for (int i = 0; i < 8; ++i)
-      damaged[random.below(damaged.size())] = static_cast<char>(random.below(256));
+    for (int i = 0; i < 8; ++i) damaged[random.below(damaged.size())] = static_cast<char>(random.below(256));
     write_file(folder / "damaged.sqlite", damaged);
     refused += !read_everything(folder / "damaged.sqlite");
   }

@@ -24,8 +24,7 @@ inline Snapshot drive_snapshot(Tick tick, int participants = 5) {
     const double angle = snapshot.simulated_time_s * 0.3 + i;
     Participant participant;
     participant.id = static_cast<ParticipantId>(i + 1);
-    participant.world_from_vehicle.position_m = {100 * std::cos(angle), 100 * std::sin(angle),
-                                                 0.1 * i};
+    participant.world_from_vehicle.position_m = {100 * std::cos(angle), 100 * std::sin(angle), 0.1 * i};
     participant.world_from_vehicle.orientation = orientation_from_angles(angle + 1.57, 0, 0);
     participant.velocity_mps = {-30 * std::sin(angle), 30 * std::cos(angle), 0};
     snapshot.participants.push_back(participant);
@@ -51,14 +50,12 @@ inline SessionInfo example_info() {
   info.seeds = {{"driver", 18446744073709551615u}, {"traffic", 7}};
   info.parameters = {{"ego_speed", "20"}};
   info.other = {{"weather", "clear"}};
-  info.files = {{"rig", "seven-screens.toml", "[[screen]]\n"},
-                {"scenario", "motorway.xosc", "<OpenSCENARIO/>"}};
+  info.files = {{"rig", "seven-screens.toml", "[[screen]]\n"}, {"scenario", "motorway.xosc", "<OpenSCENARIO/>"}};
   return info;
 }
 
 /// The writer, or the end of the test with the reason.
-inline SessionWriter must_create(const std::filesystem::path& path,
-                                 const WriterOptions& options = {}) {
+inline SessionWriter must_create(const std::filesystem::path& path, const WriterOptions& options = {}) {
   auto writer = SessionWriter::create(path, example_info(), options);
   REQUIRE_MESSAGE(writer.has_value(), (writer ? "" : describe(writer.error())));
   return std::move(*writer);

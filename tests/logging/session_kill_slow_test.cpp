@@ -14,7 +14,7 @@ namespace {
 
 /// How far a writer has come, seen by its process and by the one that kills it.
 struct Progress {
-  std::atomic<std::int64_t> recorded{0};    ///< Ticks handed to the writer.
+  std::atomic<std::int64_t> recorded{0};   ///< Ticks handed to the writer.
   std::atomic<std::int64_t> committed{0};  ///< Those of them that the writer calls safe.
 };
 
@@ -27,7 +27,8 @@ struct Progress {
       writer->record(taken(drive_snapshot(static_cast<Tick>(tick), 50)));
       progress.recorded.store(++tick);
     }
-    if (const auto committed = writer->committed_tick()) progress.committed.store(static_cast<std::int64_t>(*committed) + 1);
+    if (const auto committed = writer->committed_tick())
+      progress.committed.store(static_cast<std::int64_t>(*committed) + 1);
   }
 }
 
@@ -75,7 +76,8 @@ TEST_CASE("kill -9 at any moment loses nothing that was committed and the file o
     CAPTURE(moment);
     CHECK(killed.found >= killed.committed);
     CHECK(killed.found <= killed.recorded + 1);  // One may have been on its way.
-    MESSAGE("killed after ", killed.recorded, " ticks, of which ", killed.committed, " were committed: the file has ", killed.found);
+    MESSAGE("killed after ", killed.recorded, " ticks, of which ", killed.committed, " were committed: the file has ",
+            killed.found);
   }
 }
 

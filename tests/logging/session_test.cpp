@@ -13,8 +13,7 @@ namespace septet::logging {
 TEST_CASE("a session reads back as it was recorded") {
   const TemporaryFolder folder;
   const auto path = folder / "session.sqlite";
-  InputRecord with_report{
-      .tick = 0, .report = Bytes{std::byte{1}, std::byte{0}, std::byte{255}}, .input = {}};
+  InputRecord with_report{.tick = 0, .report = Bytes{std::byte{1}, std::byte{0}, std::byte{255}}, .input = {}};
   with_report.input.steering_wheel_rad = 0.1 + 1e-17;
   with_report.input.selector = GearSelector::manual;
   with_report.input.gear = -1;
@@ -29,16 +28,10 @@ TEST_CASE("a session reads back as it was recorded") {
   sample.gear = -1;
   sample.lamps.set(Lamp::brake, true);
   const Sample no_leader = take_sample(drive_snapshot(12), std::nullopt);
-  const Event event{.tick = 3,
-                    .simulated_time_s = 0.025,
-                    .kind = "collision",
-                    .participant = 4,
-                    .detail = "speed_mps=3"};
-  const Event nobody{.tick = 4,
-                     .simulated_time_s = 1.0 / 30,
-                     .kind = "scenario",
-                     .participant = std::nullopt,
-                     .detail = ""};
+  const Event event{
+      .tick = 3, .simulated_time_s = 0.025, .kind = "collision", .participant = 4, .detail = "speed_mps=3"};
+  const Event nobody{
+      .tick = 4, .simulated_time_s = 1.0 / 30, .kind = "scenario", .participant = std::nullopt, .detail = ""};
   const QuestionnaireRecord answer{.item = "fun",
                                    .question = "It was fun to drive",
                                    .answer = "agree",
@@ -109,9 +102,7 @@ TEST_CASE("a seek stands on the last snapshot at or before the time") {
   for (Tick tick = 10; tick < 500; ++tick) writer.record(taken(drive_snapshot(tick)));
   REQUIRE(writer.finish());
   const SessionReader reader = must_open(folder / "session.sqlite");
-  const auto tick_at = [&](double time_s) {
-    return reader.snapshots_from(time_s).value().next().value().value().tick;
-  };
+  const auto tick_at = [&](double time_s) { return reader.snapshots_from(time_s).value().next().value().value().tick; };
   CHECK(tick_at(0.0) == 10);
   CHECK(tick_at(250 / 120.0) == 250);
   CHECK(tick_at(250.5 / 120.0) == 250);
@@ -133,8 +124,7 @@ TEST_CASE("a session without a clean end opens and says so") {
 
 TEST_CASE("a session can be read while it is being written") {
   const TemporaryFolder folder;
-  SessionWriter writer =
-      must_create(folder / "session.sqlite", {.commit_interval = std::chrono::milliseconds(1)});
+  SessionWriter writer = must_create(folder / "session.sqlite", {.commit_interval = std::chrono::milliseconds(1)});
   writer.record(taken(drive_snapshot(0)));
   while (!writer.committed_tick()) usleep(1000);
   const SessionReader reader = must_open(folder / "session.sqlite");
@@ -181,7 +171,8 @@ TEST_CASE("a file that is deleted is noticed though nothing more is recorded") {
   while (!writer.committed_tick()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   std::filesystem::remove(folder / "session.sqlite");
   std::optional<Error> error;
-  for (int i = 0; i < 300'000 && !error; ++i, error = writer.take_error()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int i = 0; i < 300'000 && !error; ++i, error = writer.take_error())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   REQUIRE(error.has_value());
   CHECK(error->what.find("deleted") != std::string::npos);
   CHECK(writer.finish().has_value());  // It has been told.

@@ -16,12 +16,17 @@ TEST_CASE("septet-car is let in by its key and learns from the server which devi
   const std::string screens_only = text_of(keys / "allowed-clients");
   const auto serve = [&](const std::string& allowed, const std::string& name) {
     write_text(keys / "allowed-clients", allowed);
-    auto server = start("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", keys.string(), "--out", (folder / name).string(), "--any-port"},
+    auto server = start("septet-server",
+                        {"--rig", (folder / "small.toml").string(), "--keys", keys.string(), "--out",
+                         (folder / name).string(), "--any-port"},
                         folder / (name + ".err"));
     const std::string port = ready_port(server, folder / (name + ".err"));
-    auto process = start("septet-car", {"--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / (name + "-car.err"));
+    auto process =
+        start("septet-car", {"--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / (name + "-car.err"));
     // One that is refused goes on asking: once the server has said so, that is seen.
-    const auto refused = [&] { return text_of(folder / (name + ".err")).find("refused a client") != std::string::npos; };
+    const auto refused = [&] {
+      return text_of(folder / (name + ".err")).find("refused a client") != std::string::npos;
+    };
     becomes_true([&] { return process.poll().has_value() || refused(); });
     const int code = exit_code(process, refused() ? 200ms : patience);
     server.send_signal(SIGTERM);

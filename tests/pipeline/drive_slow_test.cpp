@@ -12,8 +12,10 @@ namespace {
 
 Ended drive(const TemporaryFolder& folder, const std::string& out, int seed) {
   write_text(folder / "small.toml", small_rig(2));
-  return run("septet", {"drive", "--virtual", "--seconds", "2", "--rig", (folder / "small.toml").string(), "--seed", std::to_string(seed),
-                        "--out", (folder / out).string()}, folder / (out + ".err"));
+  return run("septet",
+             {"drive", "--virtual", "--seconds", "2", "--rig", (folder / "small.toml").string(), "--seed",
+              std::to_string(seed), "--out", (folder / out).string()},
+             folder / (out + ".err"));
 }
 
 std::string state_hash(const fs::path& out) {
@@ -26,7 +28,8 @@ std::string state_hash(const fs::path& out) {
 std::vector<int> numbers_of(const std::string& text, const std::string& key) {
   std::vector<int> numbers;
   const std::regex pattern("\"" + key + "\": ([0-9]+)");
-  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) numbers.push_back(std::stoi((*i)[1]));
+  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i)
+    numbers.push_back(std::stoi((*i)[1]));
   return numbers;
 }
 
@@ -45,16 +48,16 @@ TEST_CASE("a drive leaves its pictures and log and report and summary and does t
   const Ended first = drive(folder, "first", 7);
   INFO(first.error);
   REQUIRE(first.code == 0);
-  for (const char* file : {"panorama.png", "screens/a/120.png", "screens/a/240.png", "screens/b/120.png", "screens/b/240.png",
-                           "session.sqlite", "report.html", "summary.json"}) {
+  for (const char* file : {"panorama.png", "screens/a/120.png", "screens/a/240.png", "screens/b/120.png",
+                           "screens/b/240.png", "session.sqlite", "report.html", "summary.json"}) {
     CAPTURE(file);
     CHECK(fs::file_size(folder / "first" / file) > 100);
   }
   CHECK_FALSE(fs::exists(folder / "first" / "screens" / "a" / "server-lost.png"));
   const std::string summary = text_of(folder / "first" / "summary.json");
-  for (const char* key : {"scenario", "rig", "seed", "ticks", "simulated_s", "wall_s", "state_hash", "lateral_position_m", "mean", "sd",
-                          "lane_changes", "screens", "name", "frames", "frames_off_tick", "datagrams_lost", "datagrams_repaired",
-                          "frame_ms_p50", "frame_ms_p99"}) {
+  for (const char* key : {"scenario", "rig", "seed", "ticks", "simulated_s", "wall_s", "state_hash",
+                          "lateral_position_m", "mean", "sd", "lane_changes", "screens", "name", "frames",
+                          "frames_off_tick", "datagrams_lost", "datagrams_repaired", "frame_ms_p50", "frame_ms_p99"}) {
     CAPTURE(key);
     CHECK(summary.find("\"" + std::string(key) + "\":") != std::string::npos);
   }
@@ -88,26 +91,34 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   CHECK(*line == "240 ticks run again: every state hash agrees");
 
   write_text(folder / "other.toml", small_rig(3));
-  const Ended shown = run("septet", {"replay", session.string(), "--virtual", "--rig", (folder / "other.toml").string(), "--out",
-                                     (folder / "shown").string()}, folder / "shown.err");
+  const Ended shown = run("septet",
+                          {"replay", session.string(), "--virtual", "--rig", (folder / "other.toml").string(), "--out",
+                           (folder / "shown").string()},
+                          folder / "shown.err");
   INFO(shown.error);
   CHECK(shown.code == 0);
   CHECK(fs::exists(folder / "shown" / "panorama.png"));
   CHECK(fs::exists(folder / "shown" / "screens" / "c" / "240.png"));
 
   // Where nothing is said, beside the session; never where the session would be moved away from under its readers.
-  const Ended beside = run("septet", {"replay", session.string(), "--virtual", "--seconds", "0.1", "--rig", (folder / "other.toml").string()}, folder / "beside.err");
+  const Ended beside =
+      run("septet",
+          {"replay", session.string(), "--virtual", "--seconds", "0.1", "--rig", (folder / "other.toml").string()},
+          folder / "beside.err");
   INFO(beside.error);
   CHECK(beside.code == 0);
   CHECK(fs::exists(folder / "out" / "replay" / "panorama.png"));
-  check_refused(run("septet", {"replay", session.string(), "--virtual", "--out", (folder / "out").string()}, folder / "same.err"), {"lies in this folder", "--out"},
-                folder / "nothing");
-  check_refused(run("septet", {"replay", (folder / "typo" / "session.sqlite").string(), "--virtual"}, folder / "typo.err"), {"typo/session.sqlite", "no such file"},
-                folder / "typo");
+  check_refused(
+      run("septet", {"replay", session.string(), "--virtual", "--out", (folder / "out").string()}, folder / "same.err"),
+      {"lies in this folder", "--out"}, folder / "nothing");
+  check_refused(
+      run("septet", {"replay", (folder / "typo" / "session.sqlite").string(), "--virtual"}, folder / "typo.err"),
+      {"typo/session.sqlite", "no such file"}, folder / "typo");
   CHECK(fs::exists(session));
 
   // One verdict, and the cause of it.
-  const auto refuse = [&](const std::string& name, const std::string& statement, const std::vector<std::string>& words) {
+  const auto refuse = [&](const std::string& name, const std::string& statement,
+                          const std::vector<std::string>& words) {
     const fs::path copy = folder / (name + ".sqlite");
     fs::copy_file(session, copy);
     change(copy, statement);
@@ -119,12 +130,18 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
   refuse("altered", "UPDATE driver_inputs SET steering_wheel_rad = steering_wheel_rad + 0.2 WHERE tick = 100",
          {"tick 100 gives state hash", "driver inputs are not those"});
   refuse("horn", "UPDATE driver_inputs SET horn = 1 WHERE tick = 100", {"driver inputs are not those"});
-  refuse("hash", "UPDATE snapshots SET state_hash = 5 WHERE tick = 100", {"tick 100 gives state hash", "hashes or files were altered"});
-  refuse("build", "UPDATE snapshots SET state_hash = 5 WHERE tick = 100; UPDATE meta SET value = 'abcdef0' WHERE key = 'git_revision'",
+  refuse("hash", "UPDATE snapshots SET state_hash = 5 WHERE tick = 100",
+         {"tick 100 gives state hash", "hashes or files were altered"});
+  refuse("build",
+         "UPDATE snapshots SET state_hash = 5 WHERE tick = 100; UPDATE meta SET value = 'abcdef0' WHERE key = "
+         "'git_revision'",
          {"tick 100 gives state hash", "another build", "abcdef0"});
   refuse("no-inputs", "DELETE FROM driver_inputs WHERE tick > 1; DELETE FROM driver_inputs", {"no driver inputs"});
   refuse("no-snapshots", "DELETE FROM snapshots WHERE tick > 0; DELETE FROM snapshots", {"no snapshots"});
-  refuse("negative", "UPDATE driver_inputs SET tick = tick - 1000000 WHERE tick > 1; UPDATE driver_inputs SET tick = -1 WHERE tick = 1", {"no driver inputs"});
+  refuse("negative",
+         "UPDATE driver_inputs SET tick = tick - 1000000 WHERE tick > 1; UPDATE driver_inputs SET tick = -1 WHERE tick "
+         "= 1",
+         {"no driver inputs"});
   refuse("late", "DELETE FROM snapshots WHERE tick = 0", {"tick 0 is missing", "gap"});
   refuse("input-gap", "DELETE FROM driver_inputs WHERE tick = 7", {"driver input of tick 7 is missing", "gap"});
   refuse("cut", "DELETE FROM driver_inputs WHERE tick = 240", {"driver input of tick 240 is missing"});
@@ -133,7 +150,9 @@ TEST_CASE("a replay verifies every tick and refuses altered input and draws on a
 TEST_CASE("a replay verifies from the last state that the log has kept") {
   const TemporaryFolder folder;
   const fs::path session = folder / "out" / "session.sqlite";
-  REQUIRE(run("septet", {"drive", "--no-screens", "--seconds", "12", "--out", (folder / "out").string()}, folder / "err").code == 0);
+  REQUIRE(
+      run("septet", {"drive", "--no-screens", "--seconds", "12", "--out", (folder / "out").string()}, folder / "err")
+          .code == 0);
   const auto verify = [&](const fs::path& file, const std::string& from_s) {
     auto again = start("septet", {"replay", "--verify", file.string(), "--from", from_s}, folder / "verify.err");
     const auto line = again.read_line(patience);
@@ -169,7 +188,8 @@ TEST_CASE("an input whose snapshot was not written any more is not counted as co
 
 TEST_CASE("a drive without screens keeps the world that it was in") {
   const TemporaryFolder folder;
-  const Ended driven = run("septet", {"drive", "--no-screens", "--seconds", "0.1", "--out", (folder / "out").string()}, folder / "err");
+  const Ended driven =
+      run("septet", {"drive", "--no-screens", "--seconds", "0.1", "--out", (folder / "out").string()}, folder / "err");
   INFO(driven.error);
   REQUIRE(driven.code == 0);
   const auto session = logging::SessionReader::open(folder / "out" / "session.sqlite");

@@ -73,7 +73,8 @@ TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time 
 
 TEST_CASE("a signal ends a drive in order with its own reason and status 3 and no key stays behind") {
   std::signal(SIGHUP, SIG_DFL);  // Also where the tests run under nohup.
-  for (const auto& [signal, name] : {std::pair(SIGINT, "interrupted"), std::pair(SIGTERM, "terminated"), std::pair(SIGHUP, "hung_up")}) {
+  for (const auto& [signal, name] :
+       {std::pair(SIGINT, "interrupted"), std::pair(SIGTERM, "terminated"), std::pair(SIGHUP, "hung_up")}) {
     CAPTURE(name);
     const TemporaryFolder folder;
     fs::create_directories(folder / "tmp");
@@ -99,7 +100,8 @@ TEST_CASE("a server that still reads its files is ended at once by a signal") {
   REQUIRE(::mkfifo((keys / "allowed-clients").c_str(), 0600) == 0);  // Nobody ever writes into it.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
-    auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()}, folder / "err");
+    auto server = start("septet-server", {"--keys", keys.string(), "--any-port", "--out", (folder / "out").string()},
+                        folder / "err");
     CHECK_FALSE(server.read_line(1s).has_value());
     server.send_signal(signal);
     REQUIRE(becomes_true([&] { return server.poll().has_value(); }));
@@ -130,26 +132,33 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
   CHECK(last_words(drive).find("the log cannot be written") != std::string::npos);
 
   // 30 MB: the world is in, and a minute of the drive.
-  auto limited = start("/bin/sh", {"-c", fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --seconds 0 --out '{}'",
-                                                     (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
-                       folder / "limited.err");
+  auto limited =
+      start("/bin/sh",
+            {"-c", fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --seconds 0 --out '{}'",
+                               (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
+            folder / "limited.err");
   CHECK(exit_code(limited) == 1);
   const std::string said = text_of(folder / "limited.err");
   INFO(said);
   CHECK(said.find("limited/session.sqlite") != std::string::npos);
-  CHECK(run("septet", {"replay", "--verify", (folder / "limited" / "session.sqlite").string()}, folder / "verify.err").code == 0);
+  CHECK(run("septet", {"replay", "--verify", (folder / "limited" / "session.sqlite").string()}, folder / "verify.err")
+            .code == 0);
 }
 
 TEST_CASE("a killed drive's session is checked also where no file may grow") {
   const TemporaryFolder folder;
-  auto server = start("septet-server", {"--no-screens", "--keys", folder.path().string(), "--out", (folder / "out").string()}, folder / "err");
+  auto server =
+      start("septet-server", {"--no-screens", "--keys", folder.path().string(), "--out", (folder / "out").string()},
+            folder / "err");
   const fs::path session = folder / "out" / "session.sqlite", wal = session.string() + "-wal";
   REQUIRE(becomes_true([&] { return (fs::exists(wal) && fs::file_size(wal) > 0) || server.poll(); }));
   server.send_signal(SIGKILL);
   CHECK(exit_code(server) == -1);
   REQUIRE(fs::exists(wal));
   fs::remove(session.string() + "-shm");  // The WAL's index, which whoever reads it makes anew.
-  auto check = start("/bin/sh", {"-c", fmt::format("ulimit -f 8; exec '{}' check '{}'", (fs::path(SEPTET_BINARY_DIR) / "septet").string(), session.string())},
+  auto check = start("/bin/sh",
+                     {"-c", fmt::format("ulimit -f 8; exec '{}' check '{}'",
+                                        (fs::path(SEPTET_BINARY_DIR) / "septet").string(), session.string())},
                      folder / "check.err");
   CHECK(exit_code(check) == 1);  // Not −1, ended by a signal.
   CHECK(last_words(check) == "1 files, 1 errors, 0 warnings");
@@ -158,8 +167,10 @@ TEST_CASE("a killed drive's session is checked also where no file may grow") {
 TEST_CASE("a log that is deleted while the server waits for its screens ends it") {
   const TemporaryFolder folder;
   write_text(folder / "small.toml", small_rig(1));
-  auto server = start("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", make_keys(folder / "keys", "a").string(), "--out",
-                                        (folder / "out").string(), "--any-port"}, folder / "err");
+  auto server = start("septet-server",
+                      {"--rig", (folder / "small.toml").string(), "--keys", make_keys(folder / "keys", "a").string(),
+                       "--out", (folder / "out").string(), "--any-port"},
+                      folder / "err");
   ready_port(server, folder / "err");
   fs::remove(folder / "out" / "session.sqlite");
   CHECK(exit_code(server) == 1);
@@ -174,7 +185,8 @@ TEST_CASE("closing the window ends the drive and so does Escape") {
   for (const std::string end : {"window_closed", "escape"}) {
     CAPTURE(end);
     const fs::path out = folder / end;
-    auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err", display.environment());
+    auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()},
+                       folder / "err", display.environment());
     REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; }));
     end == "escape" ? display.press_escape("Septet a") : display.close_window("Septet a");
     const int code = exit_code(drive);
@@ -190,10 +202,13 @@ TEST_CASE("Escape ends the drive also at a screen that the server has dropped") 
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1));
   const fs::path keys = make_keys(folder / "keys", "a"), out = folder / "out";
-  auto server = start("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", keys.string(), "--any-port", "--seconds", "60", "--out", out.string()},
+  auto server = start("septet-server",
+                      {"--rig", (folder / "small.toml").string(), "--keys", keys.string(), "--any-port", "--seconds",
+                       "60", "--out", out.string()},
                       folder / "server.err");
   const std::string port = ready_port(server, folder / "server.err");
-  auto screen = start("septet-screen", {"--name", "a", "--server", "127.0.0.1:" + port, "--keys", keys.string()}, folder / "screen.err", display.environment());
+  auto screen = start("septet-screen", {"--name", "a", "--server", "127.0.0.1:" + port, "--keys", keys.string()},
+                      folder / "screen.err", display.environment());
   REQUIRE(screen.read_line(patience) == "showing");
   screen.send_signal(SIGSTOP);  // As on a machine that has no time for it.
   REQUIRE(becomes_true([&] { return text_of(folder / "server.err").find("screen a left") != std::string::npos; }));
@@ -206,13 +221,15 @@ TEST_CASE("Escape ends the drive also at a screen that the server has dropped") 
   CHECK(exit_code(screen) == 0);
 }
 
-TEST_CASE("a screen that fails is tried again and costs the others nothing and where none can start the drive says so") {
+TEST_CASE(
+    "a screen that fails is tried again and costs the others nothing and where none can start the drive says so") {
   const TemporaryFolder folder;
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(2));
   const fs::path out = folder / "out";
-  auto drive = start("septet", {"drive", "--seconds", "4", "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err",
-                     display.environment());
+  auto drive =
+      start("septet", {"drive", "--seconds", "4", "--rig", (folder / "small.toml").string(), "--out", out.string()},
+            folder / "err", display.environment());
   REQUIRE(becomes_true([&] { return fs::exists(out / "screens"); }));
   write_text(out / "screens" / "b", "a file where the screen wants its folder");
   const int code = exit_code(drive);
@@ -224,8 +241,10 @@ TEST_CASE("a screen that fails is tried again and costs the others nothing and w
   CHECK(why(out) == "time_over");
   check_results(out);
 
-  auto blind = start("septet", {"drive", "--seconds", "300", "--rig", (folder / "small.toml").string(), "--out", (folder / "blind").string()},
-                     folder / "blind.err", {{"DISPLAY", ":4711"}});
+  auto blind = start(
+      "septet",
+      {"drive", "--seconds", "300", "--rig", (folder / "small.toml").string(), "--out", (folder / "blind").string()},
+      folder / "blind.err", {{"DISPLAY", ":4711"}});
   CHECK(exit_code(blind) == 1);
   const std::string complaint = text_of(folder / "blind.err");
   INFO(complaint);

@@ -15,12 +15,15 @@ bool says(const fs::path& log, const std::string& words) { return text_of(log).f
 
 }  // namespace
 
-TEST_CASE("a world in a window waits at its first tick until the driver presses a key and then log and verification agree") {
+TEST_CASE(
+    "a world in a window waits at its first tick until the driver presses a key and then log and verification agree") {
   const TemporaryFolder folder;
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1, "", "source = \"keyboard\""));
   const fs::path out = folder / "out", log = folder / "err", session = out / "session.sqlite";
-  auto drive = start("septet", {"drive", "--seconds", "0.5", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log, display.environment());
+  auto drive =
+      start("septet", {"drive", "--seconds", "0.5", "--rig", (folder / "small.toml").string(), "--out", out.string()},
+            log, display.environment());
   const bool shows = becomes_true([&] { return drive.poll() || says(log, "screen a shows tick 0"); });
   INFO(text_of(log));
   REQUIRE(shows);
@@ -50,7 +53,8 @@ TEST_CASE("a world that waits for its driver can be left") {
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1, "", "source = \"keyboard\""));
   const fs::path out = folder / "out", log = folder / "err";
-  auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log, display.environment());
+  auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log,
+                     display.environment());
   REQUIRE(becomes_true([&] { return says(log, "screen a shows tick 0"); }));
   display.press_escape("Septet a");
   INFO(text_of(log));
@@ -64,8 +68,10 @@ TEST_CASE("told to start now a drive waits for nobody and a full screen covers i
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1, "", "source = \"keyboard\""));
   const fs::path out = folder / "out", log = folder / "err";
-  auto drive = start("septet", {"drive", "--start-now", "--full-screen", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log,
-                     display.environment());
+  auto drive =
+      start("septet",
+            {"drive", "--start-now", "--full-screen", "--rig", (folder / "small.toml").string(), "--out", out.string()},
+            log, display.environment());
   const bool shows = becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; });
   INFO(text_of(log));
   REQUIRE(shows);
@@ -81,8 +87,9 @@ TEST_CASE("a monitor of the rig that is not there is named by the screen that sh
   std::string rig = small_rig(1, "", "source = \"keyboard\"");
   rig += "monitor = 7\nfull_screen = true\n";
   write_text(folder / "small.toml", rig);
-  const Ended driven = run("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", (folder / "out").string()}, folder / "err",
-                           display.environment());
+  const Ended driven =
+      run("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", (folder / "out").string()},
+          folder / "err", display.environment());
   INFO(driven.error);
   CHECK(driven.code == 1);
   CHECK(driven.error.find("none with index 7") != std::string::npos);
@@ -90,7 +97,10 @@ TEST_CASE("a monitor of the rig that is not there is named by the screen that sh
 
 TEST_CASE("a rig for a keyboard is driven by the simulated driver where there is no window") {
   const TemporaryFolder folder;
-  const Ended driven = run("septet", {"drive", "--no-screens", "--seconds", "1", "--rig", "three-monitors", "--out", (folder / "out").string()}, folder / "err");
+  const Ended driven =
+      run("septet",
+          {"drive", "--no-screens", "--seconds", "1", "--rig", "three-monitors", "--out", (folder / "out").string()},
+          folder / "err");
   INFO(driven.error);
   REQUIRE(driven.code == 0);
   CHECK(driven.error.find("the rig's car is not plugged in: a keyboard drives") != std::string::npos);

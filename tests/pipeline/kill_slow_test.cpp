@@ -15,14 +15,18 @@ namespace {
 class Observer {
  public:
   Observer(const std::string& name, const std::string& port, const net::Identity& identity, const fs::path& keys)
-      : lane_(open()), tick_(open()), link_(lane_, tick_, open_group, options(name, port, identity, keys, tick_.local_address().port)) {}
+      : lane_(open()),
+        tick_(open()),
+        link_(lane_, tick_, open_group, options(name, port, identity, keys, tick_.local_address().port)) {}
   screen::ScreenLink& link() { return link_; }
   /// Receives until the condition holds.
   bool watch(const std::function<bool()>& condition, std::chrono::milliseconds within = patience) {
-    return becomes_true([&] {
-      link_.pump(std::chrono::duration<double>(Clock::now().time_since_epoch()).count());
-      return condition();
-    }, within);
+    return becomes_true(
+        [&] {
+          link_.pump(std::chrono::duration<double>(Clock::now().time_since_epoch()).count());
+          return condition();
+        },
+        within);
   }
   Tick newest_tick() const { return link_.history().empty() ? 0 : link_.history().newest().snapshot.tick; }
 
@@ -32,16 +36,21 @@ class Observer {
     REQUIRE(socket.has_value());
     return std::move(*socket);
   }
-  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group, std::uint32_t interface_ip) {
-    return net::UdpSocket::open_group(group, interface_ip).map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
-      return std::make_unique<net::UdpSocket>(std::move(socket));
-    });
+  static Expected<std::unique_ptr<net::DatagramSocket>> open_group(const net::Address& group,
+                                                                   std::uint32_t interface_ip) {
+    return net::UdpSocket::open_group(group, interface_ip)
+        .map([](net::UdpSocket socket) -> std::unique_ptr<net::DatagramSocket> {
+          return std::make_unique<net::UdpSocket>(std::move(socket));
+        });
   }
-  static screen::ScreenLinkOptions options(const std::string& name, const std::string& port, const net::Identity& identity,
-                                           const fs::path& keys, std::uint16_t tick_port) {
+  static screen::ScreenLinkOptions options(const std::string& name, const std::string& port,
+                                           const net::Identity& identity, const fs::path& keys,
+                                           std::uint16_t tick_port) {
     std::string key = text_of(keys / "server.public");
     key.resize(64);
-    return {name, tick_port, {*net::parse_address("127.0.0.1:" + port, "test"), *net::parse_public_key(key, "test"), identity, {}}};
+    return {name,
+            tick_port,
+            {*net::parse_address("127.0.0.1:" + port, "test"), *net::parse_public_key(key, "test"), identity, {}}};
   }
 
   net::UdpSocket lane_, tick_;
@@ -93,8 +102,14 @@ std::size_t count(const std::string& text, const std::string& word) {
 }
 
 std::vector<std::string> server_arguments(const TemporaryFolder& folder, const std::string& out) {
-  return {"--rig", (folder / "small.toml").string(), "--keys", (folder / "keys").string(), "--out", (folder / out).string(),
-          "--wait-for-screens", "0"};
+  return {"--rig",
+          (folder / "small.toml").string(),
+          "--keys",
+          (folder / "keys").string(),
+          "--out",
+          (folder / out).string(),
+          "--wait-for-screens",
+          "0"};
 }
 
 }  // namespace
@@ -103,12 +118,15 @@ TEST_CASE("a killed screen costs the others no frame and is back by itself") {
   const TemporaryFolder folder;
   write_text(folder / "small.toml", small_rig(3));
   const fs::path log = folder / "err", out = folder / "out";
-  auto drive = start("septet", {"drive", "--virtual", "--seconds", "8", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log);
+  auto drive = start(
+      "septet",
+      {"drive", "--virtual", "--seconds", "8", "--rig", (folder / "small.toml").string(), "--out", out.string()}, log);
   REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "b") >= 120; }));
   const int victim = child_called(drive.process_id(), "b");
   REQUIRE(victim > 0);
   REQUIRE(::kill(victim, SIGKILL) == 0);
-  const bool noticed = becomes_true([&] { return text_of(log).find("screen b was ended by signal 9") != std::string::npos; });
+  const bool noticed =
+      becomes_true([&] { return text_of(log).find("screen b was ended by signal 9") != std::string::npos; });
   const auto restarted = Clock::now();
   const bool back = becomes_true([&] { return count(text_of(log), "screen b shows tick") == 2; });
   const double back_s = seconds_since(restarted);
@@ -124,7 +142,8 @@ TEST_CASE("a killed screen costs the others no frame and is back by itself") {
   }
   const auto screen = screen_in(out / "summary.json", "b");
   CHECK(screen["frames"] > 0);
-  CHECK(screen["frames"] <= 120);  // It may miss none: in lockstep the others wait for as long as it is not known to be gone.
+  CHECK(screen["frames"] <=
+        120);  // It may miss none: in lockstep the others wait for as long as it is not known to be gone.
   CHECK(screen["connected_s"].size() == 2);
   CHECK(screen["left_s"].size() == 1);
   CHECK(fs::exists(out / "screens" / "b" / "960.png"));
@@ -160,17 +179,20 @@ TEST_CASE("a screen that hangs costs the others nothing and is back when it goes
   CHECK(exit_code(b) == 0);
 }
 
-TEST_CASE("screens hold the picture of a killed server and return to the next one and its log is whole but for its end") {
+TEST_CASE(
+    "screens hold the picture of a killed server and return to the next one and its log is whole but for its end") {
   const TemporaryFolder folder;
   const std::string port = std::to_string(free_port());
-  write_text(folder / "small.toml", small_rig(2, "scene_port = " + port + "\ntick_port = " + std::to_string(free_port())));
+  write_text(folder / "small.toml",
+             small_rig(2, "scene_port = " + port + "\ntick_port = " + std::to_string(free_port())));
   const fs::path keys = make_keys(folder / "keys", "ab"), pictures = folder / "pictures";
   auto server = start("septet-server", server_arguments(folder, "first"), folder / "first.err");
   ready_port(server, folder / "first.err");
   auto a = start_screen("a", port, keys, pictures);
   Observer observer("b", port, *net::load_identity(keys / "b.key"), keys);
   const fs::path log = folder / "first" / "session.sqlite";
-  REQUIRE(observer.watch([&] { return observer.newest_tick() > 240 && newest_picture(pictures / "a") > 120 && logged_s(log) > 1.0; }));
+  REQUIRE(observer.watch(
+      [&] { return observer.newest_tick() > 240 && newest_picture(pictures / "a") > 120 && logged_s(log) > 1.0; }));
   server.send_signal(SIGKILL);
   CHECK(exit_code(server) == -1);
   const auto killed = Clock::now();
@@ -183,7 +205,8 @@ TEST_CASE("screens hold the picture of a killed server and return to the next on
     CHECK_FALSE(session->ended_cleanly());
     const auto span = session->time_span_s();
     REQUIRE((span && *span));
-    MESSAGE("the killed server's log lacks the last " << static_cast<double>(reached) / 120.0 - (*span)->second << " s");
+    MESSAGE("the killed server's log lacks the last " << static_cast<double>(reached) / 120.0 - (*span)->second
+                                                      << " s");
     CHECK((*span)->second > 1.0);  // What was in it is in it; the rest is session_kill_slow_test's.
   }
   const fs::path held = pictures / "a" / "server-lost.png";
@@ -197,9 +220,11 @@ TEST_CASE("screens hold the picture of a killed server and return to the next on
   ready_port(next, folder / "second.err");
   const auto ready = Clock::now();
   CHECK(becomes_true([&] { return text_of(folder / "second.err").find("screen a shows tick") != std::string::npos; }));
-  MESSAGE("the screen showed the new server's drive " << seconds_since(ready) << " s after it was ready; it had shown tick " << before);
+  MESSAGE("the screen showed the new server's drive " << seconds_since(ready)
+                                                      << " s after it was ready; it had shown tick " << before);
   CHECK(becomes_true([&] { return newest_picture(pictures / "a") > 0; }));
-  CHECK(observer.watch([&] { return observer.link().state() == net::ClientState::connected && observer.newest_tick() > 0; }));
+  CHECK(observer.watch(
+      [&] { return observer.link().state() == net::ClientState::connected && observer.newest_tick() > 0; }));
   CHECK_FALSE(a.poll().has_value());
 }
 
@@ -211,14 +236,15 @@ TEST_CASE("a client that is not on the allow-list gets nothing") {
   arguments.push_back("--any-port");
   auto server = start("septet-server", arguments, folder / "server.err");
   const std::string port = ready_port(server, folder / "server.err");
-  Observer stranger("b", port, net::Identity::generate(), keys), friendly("a", port, *net::load_identity(keys / "a.key"), keys);
+  Observer stranger("b", port, net::Identity::generate(), keys),
+      friendly("a", port, *net::load_identity(keys / "a.key"), keys);
   CHECK(friendly.watch([&] { return friendly.newest_tick() > 0 && friendly.link().scene_arrived(); }));
   // For as long as it takes the server to refuse it and to send the other one two further seconds of the drive.
   const Tick seen = friendly.newest_tick();
   bool has_got = false;
   CHECK(stranger.watch([&] {
-    has_got = has_got || stranger.link().state() == net::ClientState::connected || stranger.link().welcome() || stranger.newest_tick() > 0 ||
-              stranger.link().scene_arrived();
+    has_got = has_got || stranger.link().state() == net::ClientState::connected || stranger.link().welcome() ||
+              stranger.newest_tick() > 0 || stranger.link().scene_arrived();
     return friendly.watch([] { return true; }) && friendly.newest_tick() > seen + 240 &&
            text_of(folder / "server.err").find("refused a client") != std::string::npos;
   }));

@@ -27,7 +27,8 @@ class Circles final : public server::TickSource {
 /// Screens on a simulated clock that answer as those of the product do: each new tick, once they hold the scene.
 class LockstepRig {
  public:
-  explicit LockstepRig(std::size_t screens) : rig({.screens = screens, .faults = {.latency_s = 0.0003}, .real_time = false}) {
+  explicit LockstepRig(std::size_t screens)
+      : rig({.screens = screens, .faults = {.latency_s = 0.0003}, .real_time = false}) {
     rig.run_for(0.5);
   }
 
@@ -39,8 +40,15 @@ class LockstepRig {
                                                  each_ms();
                                                  for (std::size_t i = 0; i < rig.size(); ++i) answer(i);
                                                },
-                                               [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [this](const std::string& text) { messages.push_back(text); }};
-    const auto served = server::serve(circles, rig.host(), {.lockstep = true, .draw_every_ticks = draw_every_ticks, .ticks = static_cast<std::uint64_t>(120.0 * seconds), .lockstep_patience_s = patience_s}, environment);
+                                               [] { return std::optional<logging::DriveEnd>(); },
+                                               [](const server::Progress&) {},
+                                               [this](const std::string& text) { messages.push_back(text); }};
+    const auto served = server::serve(circles, rig.host(),
+                                      {.lockstep = true,
+                                       .draw_every_ticks = draw_every_ticks,
+                                       .ticks = static_cast<std::uint64_t>(120.0 * seconds),
+                                       .lockstep_patience_s = patience_s},
+                                      environment);
     REQUIRE_FALSE(served.error.has_value());
     CHECK(served.end == logging::DriveEnd::time_over);
     return served;
@@ -70,7 +78,8 @@ TEST_CASE("in lockstep all screens show every drawn tick") {
   lockstep.serve(2.0, [] {});
   for (std::size_t i = 0; i < 3; ++i) {
     REQUIRE(lockstep.shown[i].size() == 240 / draw_every_ticks);
-    for (std::size_t n = 0; n < lockstep.shown[i].size(); ++n) CHECK(lockstep.shown[i][n] == draw_every_ticks * (n + 1));
+    for (std::size_t n = 0; n < lockstep.shown[i].size(); ++n)
+      CHECK(lockstep.shown[i][n] == draw_every_ticks * (n + 1));
   }
 }
 
@@ -102,12 +111,13 @@ TEST_CASE("in lockstep a screen that comes up is waited for and misses no tick a
 
 TEST_CASE("in lockstep a screen that hangs is waited for once and shows again what comes after") {
   LockstepRig lockstep(3);
-  const auto served = lockstep.serve(4.0, [&] {
-    lockstep.rig.screen(2).hung = lockstep.shown[0].size() >= 10 && lockstep.shown[0].size() < 30;
-  });
+  const auto served = lockstep.serve(
+      4.0, [&] { lockstep.rig.screen(2).hung = lockstep.shown[0].size() >= 10 && lockstep.shown[0].size() < 30; });
   CHECK(served.wall_s > patience_s);
   CHECK(served.wall_s < 2.0 * patience_s);
-  CHECK(std::ranges::count_if(lockstep.messages, [](const std::string& text) { return text.find("go on without it") != std::string::npos; }) == 1);
+  CHECK(std::ranges::count_if(lockstep.messages, [](const std::string& text) {
+          return text.find("go on without it") != std::string::npos;
+        }) == 1);
   CHECK(lockstep.shown[0].size() == 480 / draw_every_ticks);
   CHECK(lockstep.shown[2].size() >= 10 + 25);
   CHECK(lockstep.shown[2].back() == 480);
@@ -120,7 +130,8 @@ TEST_CASE("in lockstep the first frame of a screen is waited for as long as its 
     if (!begun_s && !lockstep.shown[0].empty()) begun_s = lockstep.rig.now_s();
     lockstep.rig.screen(1).hung = !begun_s || lockstep.rig.now_s() < *begun_s + 1.5 * patience_s;
   });
-  CHECK(std::ranges::none_of(lockstep.messages, [](const std::string& text) { return text.find("go on without it") != std::string::npos; }));
+  CHECK(std::ranges::none_of(
+      lockstep.messages, [](const std::string& text) { return text.find("go on without it") != std::string::npos; }));
   CHECK(lockstep.shown[1] == lockstep.shown[0]);
 }
 

@@ -37,12 +37,16 @@ struct Machines {
     return false;
   }
   program::ChildProcess start_server(const std::string& name, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"--rig", rig.string(), "--keys", (keys / "server").string(), "--out", (folder / name).string()};
+    std::vector<std::string> arguments{
+        "--rig", rig.string(), "--keys", (keys / "server").string(), "--out", (folder / name).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return start("septet-server", arguments, log(name));
   }
-  program::ChildProcess start_screen(const std::string& screen, const fs::path& its_keys, const std::string& log_name) const {
-    return start("septet-screen", {"--name", screen, "--server", "127.0.0.1:" + port, "--keys", its_keys.string(), "--virtual"}, log(log_name));
+  program::ChildProcess start_screen(const std::string& screen, const fs::path& its_keys,
+                                     const std::string& log_name) const {
+    return start("septet-screen",
+                 {"--name", screen, "--server", "127.0.0.1:" + port, "--keys", its_keys.string(), "--virtual"},
+                 log(log_name));
   }
 };
 
@@ -73,7 +77,8 @@ TEST_CASE("a rig of several machines is started in any order and each part says 
   rig.says("astray", "another one than server.public says");
   astray.stop();
   fs::copy_file(rig.keys / "pc-b" / "b.key", rig.folder / "astray" / "a.key");
-  fs::copy_file(rig.keys / "pc-b" / "server.public", rig.folder / "astray" / "server.public", fs::copy_options::overwrite_existing);
+  fs::copy_file(rig.keys / "pc-b" / "server.public", rig.folder / "astray" / "server.public",
+                fs::copy_options::overwrite_existing);
   auto impostor = rig.start_screen("a", rig.folder / "astray", "impostor");
   rig.says("impostor", "its key is called \"b\" in allowed-clients, so it cannot be screen \"a\"");
   CHECK_FALSE(impostor.poll().has_value());
@@ -132,7 +137,8 @@ TEST_CASE("the server drives without missing screens after the time that it was 
 TEST_CASE("the keys of a rig are made once and anew only for a name that was taken off the list") {
   const Machines rig;
   const std::string key = text_of(rig.keys / "pc-a" / "a.key"), list = text_of(rig.keys / "server" / "allowed-clients");
-  for (const fs::path& file : {rig.keys / "server" / "server.key", rig.keys / "pc-a" / "a.key", rig.keys / "pc-b" / "b.key"}) {
+  for (const fs::path& file :
+       {rig.keys / "server" / "server.key", rig.keys / "pc-a" / "a.key", rig.keys / "pc-b" / "b.key"}) {
     CAPTURE(file.string());
     CHECK(fs::status(file).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
   }

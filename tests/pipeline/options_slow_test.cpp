@@ -13,7 +13,8 @@ namespace {
 
 /// Standard output of a command that succeeds.
 std::string output_of(const std::string& command) {
-  FILE* pipe = ::popen(fmt::format("SEPTET_DATA={} {}/{} 2>&1", SEPTET_SOURCE_DIR, SEPTET_BINARY_DIR, command).c_str(), "r");
+  FILE* pipe =
+      ::popen(fmt::format("SEPTET_DATA={} {}/{} 2>&1", SEPTET_SOURCE_DIR, SEPTET_BINARY_DIR, command).c_str(), "r");
   REQUIRE(pipe != nullptr);
   std::string output;
   char buffer[256];
@@ -38,11 +39,15 @@ TEST_CASE("no program takes a number that is none, and each ends with status 2 f
   const TemporaryFolder folder;
   using Line = std::vector<std::string>;
   const std::string out = (folder / "out").string();
-  for (const Line& line : {Line{"septet", "drive", "--no-screens", "--seconds", "nan", "--out", out}, Line{"septet", "drive", "--no-screens", "--seed=-1", "--out", out},
-                           Line{"septet", "drive", "--no-screens", "--seed", "99999999999999999999", "--out", out}, Line{"septet", "replay", "x.sqlite", "--from", "nan"},
-                           Line{"septet", "vehicle", "test", "--manoeuvre", "stop", "--speed", "nan"}, Line{"septet", "film", "x.sqlite", "--fps", "nan"},
-                           Line{"septet-server", "--keys", "keys", "--seconds", "nan"}, Line{"septet-server", "--keys", "keys", "--wait-for-screens", "nan"},
-                           Line{"septet-server", "--nonsense"}, Line{"septet-screen", "--nonsense"}, Line{"septet-car", "--nonsense"}}) {
+  for (const Line& line :
+       {Line{"septet", "drive", "--no-screens", "--seconds", "nan", "--out", out},
+        Line{"septet", "drive", "--no-screens", "--seed=-1", "--out", out},
+        Line{"septet", "drive", "--no-screens", "--seed", "99999999999999999999", "--out", out},
+        Line{"septet", "replay", "x.sqlite", "--from", "nan"},
+        Line{"septet", "vehicle", "test", "--manoeuvre", "stop", "--speed", "nan"},
+        Line{"septet", "film", "x.sqlite", "--fps", "nan"}, Line{"septet-server", "--keys", "keys", "--seconds", "nan"},
+        Line{"septet-server", "--keys", "keys", "--wait-for-screens", "nan"}, Line{"septet-server", "--nonsense"},
+        Line{"septet-screen", "--nonsense"}, Line{"septet-car", "--nonsense"}}) {
     const Ended ended = run(line.front(), {line.begin() + 1, line.end()}, folder / "err");
     CAPTURE(line.front());
     CAPTURE(line.back());
@@ -57,7 +62,10 @@ TEST_CASE("a drive off-screen may be shorter than a second, and than a tick") {
   write_text(folder / "small.toml", small_rig(2));
   for (const auto& [seconds, tick] : {std::pair("0.25", 24), std::pair("0.001", 1)}) {
     const fs::path out = folder / seconds;
-    const Ended ended = run("septet", {"drive", "--virtual", "--seconds", seconds, "--rig", (folder / "small.toml").string(), "--out", out.string()}, folder / "err");
+    const Ended ended = run(
+        "septet",
+        {"drive", "--virtual", "--seconds", seconds, "--rig", (folder / "small.toml").string(), "--out", out.string()},
+        folder / "err");
     INFO(ended.error);
     CHECK(ended.code == 0);
     CHECK(fs::exists(out / "panorama.png"));
@@ -70,7 +78,8 @@ TEST_CASE("a drive into a folder where another one is going on is refused, and t
   const std::string out = (folder / "out").string();
   auto first = start("septet", {"drive", "--no-screens", "--seconds", "0", "--out", out}, folder / "first.err");
   REQUIRE(becomes_true([&] { return fs::exists(folder / "out" / "session.sqlite") || first.poll(); }));
-  const Ended second = run("septet", {"drive", "--no-screens", "--seconds", "0.5", "--out", out}, folder / "second.err");
+  const Ended second =
+      run("septet", {"drive", "--no-screens", "--seconds", "0.5", "--out", out}, folder / "second.err");
   CHECK(second.code == 1);
   CHECK(has(second.error, "another drive is going on in this folder"));
   CHECK(!fs::exists(folder / "out.1"));
@@ -83,9 +92,10 @@ TEST_CASE("a drive into a folder where another one is going on is refused, and t
 TEST_CASE("the help of a drive has the keys and every default") {
   const std::string help = output_of("septet drive --help");
   for (const auto& key : car_io::driving_keys()) CHECK(has(help, key.does));
-  for (const char* words : {"--rig TEXT=desktop with a display, else seven-screens", "=out/latest", "--scenario TEXT=motorway-ambulance",
-                            "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=whom the rig names", "--vehicle TEXT=the rig's",
-                            "--parameter NAME=VALUE", "--participant TEXT=none"}) {
+  for (const char* words :
+       {"--rig TEXT=desktop with a display, else seven-screens", "=out/latest", "--scenario TEXT=motorway-ambulance",
+        "--seed UINT=1", "--traffic TEXT=own", "--driver TEXT=whom the rig names", "--vehicle TEXT=the rig's",
+        "--parameter NAME=VALUE", "--participant TEXT=none"}) {
     CAPTURE(words);
     CHECK(has(help, words));
   }
@@ -107,8 +117,10 @@ TEST_CASE("septet list names what there is with a description each") {
 TEST_CASE("vehicle, parameters and participant of a drive are in its log, its summary and its report") {
   const TemporaryFolder folder;
   const fs::path session = folder / "out" / "session.sqlite";
-  const Ended driven = run("septet", {"drive", "--no-screens", "--seconds", "0.5", "--rig", "seven-screens", "--vehicle", "volvo-s80-manual",
-                                      "--parameter", "ego_speed=20", "--parameter", "vehicles=40", "--participant=-P07", "--out", (folder / "out").string()},
+  const Ended driven = run("septet",
+                           {"drive", "--no-screens", "--seconds", "0.5", "--rig", "seven-screens", "--vehicle",
+                            "volvo-s80-manual", "--parameter", "ego_speed=20", "--parameter", "vehicles=40",
+                            "--participant=-P07", "--out", (folder / "out").string()},
                            folder / "err");
   INFO(driven.error);
   REQUIRE(driven.code == 0);
@@ -123,8 +135,10 @@ TEST_CASE("vehicle, parameters and participant of a drive are in its log, its su
   const auto first = snapshots.next().value();
   REQUIRE(first.has_value());
   CHECK(first->driver_car.speed_mps == doctest::Approx(20.0).epsilon(0.01));
-  const std::string summary = text_of(folder / "out" / "summary.json"), report = text_of(folder / "out" / "report.html");
-  for (const char* words : {"\"participant\": \"-P07\"", "\"vehicle\": \"volvo-s80-manual\"", "\"ego_speed\": \"20\""}) {
+  const std::string summary = text_of(folder / "out" / "summary.json"),
+                    report = text_of(folder / "out" / "report.html");
+  for (const char* words :
+       {"\"participant\": \"-P07\"", "\"vehicle\": \"volvo-s80-manual\"", "\"ego_speed\": \"20\""}) {
     CAPTURE(words);
     CHECK(has(summary, words));
   }

@@ -40,24 +40,27 @@ inline bool becomes_true(const std::function<bool()>& condition, std::chrono::mi
 }
 
 /// Small screens side by side, called a, b, c …; `network` and `car` are further lines of those tables.
-inline std::string small_rig(int screens, const std::string& network = "", const std::string& car = "source = \"simulated-driver\"") {
-  std::string rig = fmt::format("name = \"small\"\neye_point_m = [1.35, 0.37, 1.17]\n\n[network]\n{}\n\n[car]\n{}\n", network, car);
+inline std::string small_rig(int screens, const std::string& network = "",
+                             const std::string& car = "source = \"simulated-driver\"") {
+  std::string rig =
+      fmt::format("name = \"small\"\neye_point_m = [1.35, 0.37, 1.17]\n\n[network]\n{}\n\n[car]\n{}\n", network, car);
   for (int i = 0; i < screens; ++i) {
     const double left = 0.37 + 0.8 * (0.5 * screens - i), right = left - 0.8;
-    rig += fmt::format("\n[[screen]]\nname = \"{}\"\nwidth_px = 160\nheight_px = 120\nlower_left_m = [2.15, {:.3f}, 0.87]\n"
-                       "lower_right_m = [2.15, {:.3f}, 0.87]\nupper_left_m = [2.15, {:.3f}, 1.47]\n",
-                       static_cast<char>('a' + i), left, right, left);
+    rig += fmt::format(
+        "\n[[screen]]\nname = \"{}\"\nwidth_px = 160\nheight_px = 120\nlower_left_m = [2.15, {:.3f}, 0.87]\n"
+        "lower_right_m = [2.15, {:.3f}, 0.87]\nupper_left_m = [2.15, {:.3f}, 1.47]\n",
+        static_cast<char>('a' + i), left, right, left);
   }
   return rig;
 }
 
 inline program::ChildProcess start(const std::string& program, std::vector<std::string> arguments, const fs::path& log,
-                                  std::map<std::string, std::string> environment = {}) {
+                                   std::map<std::string, std::string> environment = {}) {
   environment.insert({{"LP_NUM_THREADS", "0"}, {"SEPTET_DATA", SEPTET_SOURCE_DIR}});
   auto process = program::ChildProcess::start({.program = (fs::path(SEPTET_BINARY_DIR) / program).string(),
-                                              .arguments = std::move(arguments),
-                                              .environment = std::move(environment),
-                                              .log = log});
+                                               .arguments = std::move(arguments),
+                                               .environment = std::move(environment),
+                                               .log = log});
   REQUIRE(process.has_value());
   return std::move(*process);
 }
@@ -125,20 +128,26 @@ inline std::string ready_port(program::ChildProcess& server, const fs::path& log
   return line->substr(6);
 }
 
-inline program::ChildProcess start_screen(const std::string& name, const std::string& port, const fs::path& keys, const fs::path& pictures) {
+inline program::ChildProcess start_screen(const std::string& name, const std::string& port, const fs::path& keys,
+                                          const fs::path& pictures) {
   fs::create_directories(pictures);
-  return start("septet-screen", {"--name", name, "--server", "127.0.0.1:" + port, "--keys", keys.string(), "--virtual", "--pictures",
-                                 (pictures / name).string()}, pictures / (name + ".log"));
+  return start("septet-screen",
+               {"--name", name, "--server", "127.0.0.1:" + port, "--keys", keys.string(), "--virtual", "--pictures",
+                (pictures / name).string()},
+               pictures / (name + ".log"));
 }
 
 /// The newest tick of which a screen keeps a picture, 0 without one.
 inline long newest_picture(const fs::path& folder) {
   long newest = 0;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) newest = std::max(newest, std::strtol(entry.path().stem().c_str(), nullptr, 10));
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    newest = std::max(newest, std::strtol(entry.path().stem().c_str(), nullptr, 10));
   return newest;
 }
 
-inline double seconds_since(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+inline double seconds_since(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
 
 }  // namespace septet::pipeline

@@ -28,7 +28,9 @@ class BusyMachine {
 
 }  // namespace
 
-TEST_CASE("a real-time drive in a window on a busy machine logs its whole world so that it is verified and shown and filmed") {
+TEST_CASE(
+    "a real-time drive in a window on a busy machine logs its whole world so that it is verified and shown and "
+    "filmed") {
   const TemporaryFolder folder;
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1));
@@ -36,7 +38,8 @@ TEST_CASE("a real-time drive in a window on a busy machine logs its whole world 
   Ended driven;
   {
     const BusyMachine busy(4);
-    driven = run("septet", {"drive", "--seconds", "3", "--rig", rig.string(), "--out", out.string()}, folder / "err", display.environment());
+    driven = run("septet", {"drive", "--seconds", "3", "--rig", rig.string(), "--out", out.string()}, folder / "err",
+                 display.environment());
   }
   INFO(driven.error);
   REQUIRE(driven.code == 0);
@@ -64,13 +67,17 @@ TEST_CASE("a real-time drive in a window on a busy machine logs its whole world 
   }
   const Ended verified = run("septet", {"replay", "--verify", session.string()}, folder / "verify.err");
   CHECK_MESSAGE(verified.code == 0, verified.error);
-  const Ended shown = run("septet", {"replay", session.string(), "--virtual", "--seconds", "0.2", "--rig", rig.string(), "--out",
-                                     (folder / "shown").string()}, folder / "shown.err");
+  const Ended shown = run("septet",
+                          {"replay", session.string(), "--virtual", "--seconds", "0.2", "--rig", rig.string(), "--out",
+                           (folder / "shown").string()},
+                          folder / "shown.err");
   CHECK_MESSAGE(shown.code == 0, shown.error);
   CHECK(fs::exists(folder / "shown" / "panorama.png"));
   write_text(folder / "shots.toml", "[[shot]]\nfrom_s = 2\nto_s = 2.04\n");
-  const Ended filmed = run("septet", {"film", session.string(), "--shots", (folder / "shots.toml").string(), "--size", "160x120",
-                                      "--software", "--out", (folder / "film").string()}, folder / "film.err");
+  const Ended filmed = run("septet",
+                           {"film", session.string(), "--shots", (folder / "shots.toml").string(), "--size", "160x120",
+                            "--software", "--out", (folder / "film").string()},
+                           folder / "film.err");
   CHECK_MESSAGE(filmed.code == 0, filmed.error);
   CHECK(fs::exists(folder / "film" / "000001.png"));
 }

@@ -40,7 +40,9 @@ Presented present(SimulatedRig& rig, double seconds, const std::set<std::size_t>
       const double t = shown->snapshot.simulated_time_s;
       const Participant& p = shown->snapshot.participants.front();
       const double angle = 25.0 / 40.0 * t;
-      if (glm::length(p.world_from_vehicle.position_m - Vec3(40.0 * std::sin(angle), -40.0 * std::cos(angle), 0.0)) > 0.002) ++result.wrong;
+      if (glm::length(p.world_from_vehicle.position_m - Vec3(40.0 * std::sin(angle), -40.0 * std::cos(angle), 0.0)) >
+          0.002)
+        ++result.wrong;
     }
   }
   for (const auto& [number, ticks] : ticks_of_frame) result.skewed += ticks.size() > 1;
@@ -88,16 +90,19 @@ TEST_CASE("on a good network seven screens show the same tick in every frame") {
   check_flawless(present(rig, 3.0), 7 * 179);
 }
 
-TEST_CASE("every screen shows what the server means within two milliseconds of true time whatever its clock and its network do") {
+TEST_CASE(
+    "every screen shows what the server means within two milliseconds of true time whatever its clock and its network "
+    "do") {
   struct Case {
     std::string name;
     net::NetworkFaults faults;
     double screen_pump_s;
   };
-  const Case cases[] = {{"good network", {.latency_s = 0.0005}, 0.0},
-                        {"screens that draw", {.latency_s = 0.0005}, 1.0 / 60.0},
-                        {"loss and jitter", {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, 0.0},
-                        {"loss and jitter, screens that draw", {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, 1.0 / 60.0}};
+  const Case cases[] = {
+      {"good network", {.latency_s = 0.0005}, 0.0},
+      {"screens that draw", {.latency_s = 0.0005}, 1.0 / 60.0},
+      {"loss and jitter", {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, 0.0},
+      {"loss and jitter, screens that draw", {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, 1.0 / 60.0}};
   for (const Case& c : cases) {
     CAPTURE(c.name);
     SimulatedRig rig({.faults = c.faults, .seed = 5, .vehicles = 5, .screen_pump_s = c.screen_pump_s});
@@ -112,12 +117,16 @@ TEST_CASE("every screen shows what the server means within two milliseconds of t
   }
 }
 
-TEST_CASE("loss of five percent and twenty milliseconds of jitter and reordering freeze one frame in a thousand at most and make none wrong") {
+TEST_CASE(
+    "loss of five percent and twenty milliseconds of jitter and reordering freeze one frame in a thousand at most and "
+    "make none wrong") {
   for (const bool multicast : {true, false}) {
-    SimulatedRig rig({.faults = {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, .multicast = multicast, .seed = 3});
+    SimulatedRig rig(
+        {.faults = {.loss = 0.05, .latency_s = 0.0005, .jitter_s = 0.020}, .multicast = multicast, .seed = 3});
     rig.run_for(3.0);  // The play-out delay finds its length.
     const Presented seen = present(rig, 6.0);
-    MESSAGE("play-out delay " << 1e3 * rig.host().playout_delay_s() << " ms, tick " << rig.host().last_tick_bytes() << " bytes");
+    MESSAGE("play-out delay " << 1e3 * rig.host().playout_delay_s() << " ms, tick " << rig.host().last_tick_bytes()
+                              << " bytes");
     // Four datagrams in a row, a tick's and its neighbours', are lost too seldom for the play-out delay to expect it.
     CHECK(seen.held * 1000 <= seen.frames);
     check_flawless({.frames = seen.frames, .skewed = seen.skewed, .wrong = seen.wrong}, 7 * 355);
@@ -127,7 +136,9 @@ TEST_CASE("loss of five percent and twenty milliseconds of jitter and reordering
 TEST_CASE("whatever the play-out delay a tick published late by a millisecond skews no frame") {
   // The rig publishes on whole milliseconds, so every tick but each third is late by a part of one.
   for (const double delay_ticks : {2.0, 2.95, 3.02, 3.5}) {
-    SimulatedRig rig({.screens = 3, .faults = {.latency_s = 0.0005, .jitter_s = 0.002}, .least_playout_delay_s = delay_ticks * rig_tick_s});
+    SimulatedRig rig({.screens = 3,
+                      .faults = {.latency_s = 0.0005, .jitter_s = 0.002},
+                      .least_playout_delay_s = delay_ticks * rig_tick_s});
     rig.run_for(1.0);
     CAPTURE(delay_ticks);
     check_flawless(present(rig, 1.0), 3 * 59);
@@ -169,7 +180,9 @@ TEST_CASE("screens that do not hear the group get their ticks by unicast and sho
 
 TEST_CASE("a screen that joins late has a whole motorway within one simulated second") {
   for (const double loss : {0.0, 0.01}) {
-    SimulatedRig rig({.screens = 2, .faults = {.loss = loss, .latency_s = 0.0003}, .vehicles = 20,
+    SimulatedRig rig({.screens = 2,
+                      .faults = {.loss = loss, .latency_s = 0.0003},
+                      .vehicles = 20,
                       .world = replication::build_sample_world});
     rig.stop_screen(1);
     rig.run_for(3.0);

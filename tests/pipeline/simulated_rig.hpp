@@ -25,9 +25,10 @@ struct SimulatedRigOptions {
   std::size_t vehicles = 200;
   double least_playout_delay_s = 2.0 / 120.0;
   std::function<void(scene::SceneBuilder&)> world{};  ///< What the scene holds; some posts if empty.
-  std::set<std::size_t> deaf{};  ///< Screens that the group's datagrams do not reach.
-  double screen_pump_s = 0.0;    ///< How often a screen looks at its sockets: at every step, or once a frame as one that draws.
-  bool real_time = true;         ///< A tick is published whenever one is due; false: whoever drives the host publishes.
+  std::set<std::size_t> deaf{};                       ///< Screens that the group's datagrams do not reach.
+  double screen_pump_s =
+      0.0;  ///< How often a screen looks at its sockets: at every step, or once a frame as one that draws.
+  bool real_time = true;  ///< A tick is published whenever one is due; false: whoever drives the host publishes.
 };
 
 inline constexpr double rig_tick_s = 1.0 / 120.0;
@@ -38,10 +39,12 @@ inline Snapshot circling_vehicles(Tick tick, std::size_t vehicles) {
   snapshot.tick = tick;
   snapshot.simulated_time_s = static_cast<double>(tick) * rig_tick_s;
   for (std::size_t i = 0; i < vehicles; ++i) {
-    const double radius = 40.0 + 3.0 * static_cast<double>(i), rate = 25.0 / radius, angle = rate * snapshot.simulated_time_s;
+    const double radius = 40.0 + 3.0 * static_cast<double>(i), rate = 25.0 / radius,
+                 angle = rate * snapshot.simulated_time_s;
     Participant p;
     p.id = static_cast<ParticipantId>(i + 1);
-    p.world_from_vehicle = {Vec3(radius * std::sin(angle), -radius * std::cos(angle), 0.0), orientation_from_angles(angle, 0.0, 0.0)};
+    p.world_from_vehicle = {Vec3(radius * std::sin(angle), -radius * std::cos(angle), 0.0),
+                            orientation_from_angles(angle, 0.0, 0.0)};
     p.velocity_mps = Vec3(std::cos(angle), std::sin(angle), 0.0) * 25.0;
     p.acceleration_mps2 = Vec3(-std::sin(angle), std::cos(angle), 0.0) * (25.0 * rate);
     p.angular_velocity_radps = Vec3(0.0, 0.0, rate);
@@ -62,14 +65,16 @@ class SimulatedRig {
     bool hung = false;
   };
 
-  explicit SimulatedRig(const SimulatedRigOptions& options) : options_(options), network_(options.faults, options.seed) {
+  explicit SimulatedRig(const SimulatedRigOptions& options)
+      : options_(options), network_(options.faults, options.seed) {
     scene::SceneBuilder builder(store_);
     if (options.world)
       options.world(builder);
     else
       for (int i = 0; i < 40; ++i) builder.add_object("post " + std::to_string(i), {});
     for (std::size_t i = 0; i < options.screens; ++i)
-      screens_.push_back({.name = "screen-" + std::to_string(i), .identity = net::Identity::generate(),
+      screens_.push_back({.name = "screen-" + std::to_string(i),
+                          .identity = net::Identity::generate(),
                           .machine = net::machine_of_its_own(network_, ip_of(i), server_address_.ip, random_),
                           .next_pump_s = random_.uniform(0.0, options.screen_pump_s)});
     start_server();
@@ -80,7 +85,8 @@ class SimulatedRig {
     host_.reset();
     server_lane_ = server_machine_->open(server_address_.port);
     server_tick_ = server_machine_->open(4999);
-    server::ScreenHostOptions options{.identity = server_identity_, .session = net::random_session_id(),
+    server::ScreenHostOptions options{.identity = server_identity_,
+                                      .session = net::random_session_id(),
                                       .least_playout_delay_s = options_.least_playout_delay_s};
     for (const auto& screen : screens_) {
       options.allowed.push_back({screen.identity.public_key(), screen.name});
@@ -109,12 +115,16 @@ class SimulatedRig {
     screen.lane_socket = screen.machine->open(port);
     screen.tick_socket = screen.machine->open(static_cast<std::uint16_t>(port + 1));
     const bool deaf = options_.deaf.contains(i);
-    auto open_group = [machine = screen.machine.get(), port, deaf](const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
+    auto open_group = [machine = screen.machine.get(), port, deaf](
+                          const net::Address& group, std::uint32_t) -> Expected<std::unique_ptr<net::DatagramSocket>> {
       const net::Address heard = deaf ? net::Address{group.ip + 1, group.port} : group;
       return machine->open_group(heard, static_cast<std::uint16_t>(port + 2));
     };
-    screen::ScreenLinkOptions options{screen.name, static_cast<std::uint16_t>(port + 1), {server_address_, server_identity_.public_key(), screen.identity, {}}};
-    screen.link = std::make_unique<screen::ScreenLink>(*screen.lane_socket, *screen.tick_socket, open_group, std::move(options));
+    screen::ScreenLinkOptions options{screen.name,
+                                      static_cast<std::uint16_t>(port + 1),
+                                      {server_address_, server_identity_.public_key(), screen.identity, {}}};
+    screen.link =
+        std::make_unique<screen::ScreenLink>(*screen.lane_socket, *screen.tick_socket, open_group, std::move(options));
   }
   void stop_screen(std::size_t i) {
     screens_[i].link.reset();
@@ -130,7 +140,8 @@ class SimulatedRig {
       const double server_s = server_clock_s();
       host_->pump(server_s);
       while (options_.real_time && begun_s_ + static_cast<double>(next_tick_) * rig_tick_s <= server_s) {
-        host_->publish(std::make_shared<const TakenSnapshot>(circling_vehicles(next_tick_, options_.vehicles)), server_s);
+        host_->publish(std::make_shared<const TakenSnapshot>(circling_vehicles(next_tick_, options_.vehicles)),
+                       server_s);
         ++next_tick_;
       }
     }
@@ -159,7 +170,8 @@ class SimulatedRig {
     if (!link || link->history().empty()) return std::nullopt;
     const auto server_s = link->server_time_s(screens_[i].machine->clock_s(now_s_));
     if (!server_s) return std::nullopt;
-    return frame::show(link->history(), *frame::playout_time_s(link->history(), frame::frame_number(*server_s)), rig_tick_s);
+    return frame::show(link->history(), *frame::playout_time_s(link->history(), frame::frame_number(*server_s)),
+                       rig_tick_s);
   }
 
   /// By how much later than the server meant a screen shows, in true time, what it shows from now on: the server means the frame

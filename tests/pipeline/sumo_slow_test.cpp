@@ -34,7 +34,8 @@ int snapshots_in(const fs::path& session) {
   sqlite3_stmt* query = nullptr;
   int count = 0;
   if (sqlite3_open_v2(session.c_str(), &database, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK &&
-      sqlite3_prepare_v2(database, "SELECT COUNT(*) FROM snapshots", -1, &query, nullptr) == SQLITE_OK && sqlite3_step(query) == SQLITE_ROW)
+      sqlite3_prepare_v2(database, "SELECT COUNT(*) FROM snapshots", -1, &query, nullptr) == SQLITE_OK &&
+      sqlite3_step(query) == SQLITE_ROW)
     count = sqlite3_column_int(query, 0);
   sqlite3_finalize(query);
   sqlite3_close(database);
@@ -46,10 +47,12 @@ int snapshots_in(const fs::path& session) {
 TEST_CASE("without SUMO one message says what to install and nothing is left behind") {
   const TemporaryFolder folder;
   const auto log = folder / "err";
-  auto process = program::ChildProcess::start({.program = SEPTET_BINARY_DIR "/septet",
-                                              .arguments = {"drive", "--no-screens", "--seconds", "1", "--traffic", "sumo", "--out", (folder / "out").string()},
-                                              .environment = {{"SEPTET_DATA", SEPTET_SOURCE_DIR}, {"PATH", (folder / "empty").string()}},
-                                              .log = log});
+  auto process = program::ChildProcess::start(
+      {.program = SEPTET_BINARY_DIR "/septet",
+       .arguments = {"drive", "--no-screens", "--seconds", "1", "--traffic", "sumo", "--out",
+                     (folder / "out").string()},
+       .environment = {{"SEPTET_DATA", SEPTET_SOURCE_DIR}, {"PATH", (folder / "empty").string()}},
+       .log = log});
   REQUIRE(process.has_value());
   CHECK(exit_code(*process) == 1);
   const std::string error = text_of(log);
@@ -63,7 +66,9 @@ TEST_CASE("a drive with SUMO is the same drive when it is run again") {
   if (!has_sumo()) return;
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
-  const auto drive = run("septet", {"drive", "--no-screens", "--seconds", "4", "--traffic", "sumo", "--out", out.string()}, folder / "err");
+  const auto drive =
+      run("septet", {"drive", "--no-screens", "--seconds", "4", "--traffic", "sumo", "--out", out.string()},
+          folder / "err");
   INFO(drive.error);
   REQUIRE(drive.code == 0);
   CHECK(snapshots_in(out / "session.sqlite") == 4 * 120 + 1);
@@ -76,9 +81,13 @@ TEST_CASE("a SUMO that is killed ends the drive with one message and the log is 
   if (!has_sumo()) return;
   const TemporaryFolder folder;
   const fs::path out = folder / "out", keys = make_keys(folder / "keys", "");
-  auto drive = start("septet-server", {"--no-screens", "--seconds", "100000", "--traffic", "sumo", "--keys", keys.string(), "--out", out.string()}, folder / "err");
+  auto drive = start(
+      "septet-server",
+      {"--no-screens", "--seconds", "100000", "--traffic", "sumo", "--keys", keys.string(), "--out", out.string()},
+      folder / "err");
   int sumo = 0;
-  REQUIRE(becomes_true([&] { return (sumo = sumo_of(drive.process_id())) != 0 && snapshots_in(out / "session.sqlite") > 1; }));
+  REQUIRE(becomes_true(
+      [&] { return (sumo = sumo_of(drive.process_id())) != 0 && snapshots_in(out / "session.sqlite") > 1; }));
   REQUIRE(::kill(sumo, SIGKILL) == 0);
   CHECK(exit_code(drive) == 1);
   const std::string error = text_of(folder / "err");

@@ -11,7 +11,9 @@ namespace {
 /// Circles whose driver is ready with the first controls from a screen.
 class DrivenCircles final : public server::TickSource {
  public:
-  std::shared_ptr<const TakenSnapshot> first() const override { return std::make_shared<const TakenSnapshot>(circling_vehicles(0, 20)); }
+  std::shared_ptr<const TakenSnapshot> first() const override {
+    return std::make_shared<const TakenSnapshot>(circling_vehicles(0, 20));
+  }
   bool driver_is_ready(const std::optional<DriverInput>& controls, double) override { return controls.has_value(); }
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>&) override {
     return std::make_shared<const TakenSnapshot>(circling_vehicles(++tick, 20));
@@ -30,36 +32,39 @@ TEST_CASE("the world stands still and says so until the driver takes the control
   DrivenCircles circles;
   std::vector<std::string> messages;
   double ready_s = 0.0, joined_s = 0.0;
-  const server::ServeEnvironment environment{
-      [&] { return rig.server_clock_s(); },
-      [&](double) {
-        rig.advance_1ms();
-        auto& screen = rig.screen(0);
-        if (screen.link->finished()) {
-          for (std::size_t i = 0; i < rig.size(); ++i) rig.screen(i).link->report({});
-        } else if (ready_s == 0.0 && rig.now_s() < 4.0) {
-          CHECK(circles.tick == 0);
-          if (rig.now_s() > 1.0) {
-            CHECK(screen.link->notice().text == "Press any key to start");
-            REQUIRE(rig.shown(0));
-            CHECK(rig.shown(0)->tick == 0);
-          }
-          // Who comes while the world waits sees it too.
-          if (joined_s == 0.0 && rig.now_s() > 2.0) {
-            rig.stop_screen(1);
-            rig.start_screen(1);
-            joined_s = rig.now_s();
-          }
-        } else if (ready_s == 0.0) {
-          REQUIRE(rig.shown(1));
-          CHECK(rig.shown(1)->tick == 0);
-          CHECK(rig.screen(1).link->notice().text == "Press any key to start");
-          ready_s = rig.now_s();
-          screen.link->send(control::Controls{}, net::Reliability::unreliable);
-        }
-      },
-      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [&](const std::string& text) { messages.push_back(text); }};
-  const auto served = server::serve(circles, rig.host(), {.ticks = 240, .wait_for_driver = "Press any key to start"}, environment);
+  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
+                                             [&](double) {
+                                               rig.advance_1ms();
+                                               auto& screen = rig.screen(0);
+                                               if (screen.link->finished()) {
+                                                 for (std::size_t i = 0; i < rig.size(); ++i)
+                                                   rig.screen(i).link->report({});
+                                               } else if (ready_s == 0.0 && rig.now_s() < 4.0) {
+                                                 CHECK(circles.tick == 0);
+                                                 if (rig.now_s() > 1.0) {
+                                                   CHECK(screen.link->notice().text == "Press any key to start");
+                                                   REQUIRE(rig.shown(0));
+                                                   CHECK(rig.shown(0)->tick == 0);
+                                                 }
+                                                 // Who comes while the world waits sees it too.
+                                                 if (joined_s == 0.0 && rig.now_s() > 2.0) {
+                                                   rig.stop_screen(1);
+                                                   rig.start_screen(1);
+                                                   joined_s = rig.now_s();
+                                                 }
+                                               } else if (ready_s == 0.0) {
+                                                 REQUIRE(rig.shown(1));
+                                                 CHECK(rig.shown(1)->tick == 0);
+                                                 CHECK(rig.screen(1).link->notice().text == "Press any key to start");
+                                                 ready_s = rig.now_s();
+                                                 screen.link->send(control::Controls{}, net::Reliability::unreliable);
+                                               }
+                                             },
+                                             [] { return std::optional<logging::DriveEnd>(); },
+                                             [](const server::Progress&) {},
+                                             [&](const std::string& text) { messages.push_back(text); }};
+  const auto served =
+      server::serve(circles, rig.host(), {.ticks = 240, .wait_for_driver = "Press any key to start"}, environment);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.ticks == 240);
   CHECK(served.late_ticks == 0);
@@ -68,7 +73,9 @@ TEST_CASE("the world stands still and says so until the driver takes the control
   CHECK(rig.now_s() > ready_s + 1.9);
   CHECK(rig.screen(0).link->notice().text.empty());
   CHECK(rig.shown(0)->tick >= 236);  // Less the play-out delay.
-  CHECK(std::ranges::count_if(messages, [](const std::string& text) { return text.starts_with("the driver took the controls after"); }) == 1);
+  CHECK(std::ranges::count_if(messages, [](const std::string& text) {
+          return text.starts_with("the driver took the controls after");
+        }) == 1);
 }
 
 TEST_CASE("a screen that was silent for too long while the world waits shows it again, and its keys begin the drive") {
@@ -76,23 +83,24 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   rig.run_for(0.5);
   DrivenCircles circles;
   double ready_s = 0.0;
-  const server::ServeEnvironment environment{
-      [&] { return rig.server_clock_s(); },
-      [&](double) {
-        rig.advance_1ms();
-        auto& screen = rig.screen(0);
-        // It compiles its shaders for longer than the server waits for an answer.
-        screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
-        if (screen.link->finished()) screen.link->report({});
-        if (rig.now_s() < 12.0 || ready_s > 0.0) return;
-        REQUIRE(screen.link->welcomes() == 2);
-        REQUIRE(rig.shown(0));
-        CHECK(rig.shown(0)->tick == 0);
-        ready_s = rig.now_s();
-        screen.link->send(control::Controls{}, net::Reliability::unreliable);
-      },
-      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
-  const auto served = server::serve(circles, rig.host(), {.ticks = 120, .wait_for_driver = "Press any key to start"}, environment);
+  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
+                                             [&](double) {
+                                               rig.advance_1ms();
+                                               auto& screen = rig.screen(0);
+                                               // It compiles its shaders for longer than the server waits for an answer.
+                                               screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
+                                               if (screen.link->finished()) screen.link->report({});
+                                               if (rig.now_s() < 12.0 || ready_s > 0.0) return;
+                                               REQUIRE(screen.link->welcomes() == 2);
+                                               REQUIRE(rig.shown(0));
+                                               CHECK(rig.shown(0)->tick == 0);
+                                               ready_s = rig.now_s();
+                                               screen.link->send(control::Controls{}, net::Reliability::unreliable);
+                                             },
+                                             [] { return std::optional<logging::DriveEnd>(); },
+                                             [](const server::Progress&) {}, [](const std::string&) {}};
+  const auto served =
+      server::serve(circles, rig.host(), {.ticks = 120, .wait_for_driver = "Press any key to start"}, environment);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
@@ -107,7 +115,8 @@ TEST_CASE("a drive that waits for nobody begins at once") {
                                                rig.advance_1ms();
                                                if (rig.screen(0).link->finished()) rig.screen(0).link->report({});
                                              },
-                                             [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
+                                             [] { return std::optional<logging::DriveEnd>(); },
+                                             [](const server::Progress&) {}, [](const std::string&) {}};
   const auto served = server::serve(circles, rig.host(), {.ticks = 120}, environment);
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(served.wall_s < 1.1);  // Of the simulated clock.

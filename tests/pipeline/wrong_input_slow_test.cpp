@@ -26,7 +26,8 @@ TEST_CASE("wrong input ends with one message that says what and where and what t
   };
   check_refused(drive({"--rig", "no-such-rig"}), {"no-such-rig", "seven-screens"}, out);
   check_refused(with_rig("name = 3\n", "wrong.toml"), {"wrong.toml:1", "rig.name"}, out);
-  check_refused(drive({"--rig", rig.string(), "--scenario", "no-such-scenario"}), {"no-such-scenario", "motorway-ambulance"}, out);
+  check_refused(drive({"--rig", rig.string(), "--scenario", "no-such-scenario"}),
+                {"no-such-scenario", "motorway-ambulance"}, out);
   check_refused(with_scenario("<OpenSCENARIO>", ""), {"s.xosc:1"}, out);
   std::string scenario = text_of(fs::path(SEPTET_SOURCE_DIR) / "scenarios/motorway-ambulance/motorway-ambulance.xosc");
   const auto road = scenario.find("motorway.xodr");
@@ -41,7 +42,8 @@ TEST_CASE("wrong input ends with one message that says what and where and what t
   check_refused(with_rig(small_rig(2, "", "source = \"hid\"\nvendor_id = 0x1209\nproduct_id = 0xfffe"), "hid.toml"),
                 {"1209:fffe", "not plugged in", "check the cable"}, out);
   check_refused(run("septet", {"fly"}, folder / "fly.err"), {"\"fly\"", "drive"}, out);
-  check_refused(run("septet", {"replay", "--verify", rig.string()}, folder / "verify.err"), {"small.toml", "not an SQLite file"}, out);
+  check_refused(run("septet", {"replay", "--verify", rig.string()}, folder / "verify.err"),
+                {"small.toml", "not an SQLite file"}, out);
 }
 
 TEST_CASE("a folder that holds no earlier drive is left as it is") {
@@ -51,8 +53,10 @@ TEST_CASE("a folder that holds no earlier drive is left as it is") {
   write_text(folder / "letters" / "letter.txt", "Dear reader");
   write_text(folder / "file", "text");
   for (const char* name : {"letters", "file"}) {
-    const Ended ended = run("septet", {"drive", "--virtual", "--seconds", "1", "--rig", (folder / "small.toml").string(), "--out",
-                                       (folder / name).string()}, folder / (std::string(name) + ".err"));
+    const Ended ended = run("septet",
+                            {"drive", "--virtual", "--seconds", "1", "--rig", (folder / "small.toml").string(), "--out",
+                             (folder / name).string()},
+                            folder / (std::string(name) + ".err"));
     check_refused(ended, {name, "--out"}, folder / (std::string(name) + ".1"));
   }
   CHECK(text_of(folder / "letters" / "letter.txt") == "Dear reader");
@@ -64,8 +68,9 @@ TEST_CASE("an earlier drive comes back where the next one cannot begin") {
   write_text(folder / "hid.toml", small_rig(2, "", "source = \"hid\"\nproduct_id = 0xfffe"));
   fs::create_directories(folder / "out");
   write_text(folder / "out" / "session.sqlite", "an earlier drive");
-  const Ended ended = run("septet", {"drive", "--virtual", "--rig", (folder / "hid.toml").string(), "--out", (folder / "out").string()},
-                          folder / "err");
+  const Ended ended =
+      run("septet", {"drive", "--virtual", "--rig", (folder / "hid.toml").string(), "--out", (folder / "out").string()},
+          folder / "err");
   check_refused(ended, {"not plugged in"}, folder / "out.1");
   CHECK(text_of(folder / "out" / "session.sqlite") == "an earlier drive");
 }
@@ -76,8 +81,10 @@ TEST_CASE("a busy port is named and leaves no session file") {
   REQUIRE(busy.has_value());
   const std::string port = std::to_string(busy->local_address().port);
   write_text(folder / "small.toml", small_rig(2, "scene_port = " + port));
-  const Ended ended = run("septet-server", {"--rig", (folder / "small.toml").string(), "--keys", make_keys(folder / "keys", "ab").string(),
-                                            "--out", (folder / "out").string()}, folder / "err");
+  const Ended ended = run("septet-server",
+                          {"--rig", (folder / "small.toml").string(), "--keys",
+                           make_keys(folder / "keys", "ab").string(), "--out", (folder / "out").string()},
+                          folder / "err");
   check_refused(ended, {port}, folder / "out");
 }
 
@@ -89,8 +96,10 @@ TEST_CASE("a full disk ends the drive with one message and what was logged befor
     MESSAGE("no permission to mount a small disk: skipped");
     return;
   }
-  const Ended ended = run("septet", {"drive", "--virtual", "--seconds", "3", "--rig", (folder / "small.toml").string(), "--out",
-                                     (folder / "disk" / "out").string()}, folder / "err");
+  const Ended ended = run("septet",
+                          {"drive", "--virtual", "--seconds", "3", "--rig", (folder / "small.toml").string(), "--out",
+                           (folder / "disk" / "out").string()},
+                          folder / "err");
   INFO(ended.error);
   CHECK(ended.code == 1);
   const auto message = ended.error.find("session.sqlite");
@@ -104,7 +113,9 @@ TEST_CASE("a full disk ends the drive with one message and what was logged befor
 TEST_CASE("a folder that cannot be written is named") {
   const TemporaryFolder folder;
   write_text(folder / "small.toml", small_rig(1));
-  const Ended ended = run("septet", {"drive", "--virtual", "--rig", (folder / "small.toml").string(), "--out", "/proc/septet/out"}, folder / "err");
+  const Ended ended =
+      run("septet", {"drive", "--virtual", "--rig", (folder / "small.toml").string(), "--out", "/proc/septet/out"},
+          folder / "err");
   check_refused(ended, {"/proc/septet/out", "--out"}, "/proc/septet");
 }
 

@@ -12,10 +12,11 @@ namespace septet::pipeline {
 namespace {
 
 program::ChildProcess start_server() {
-  auto process = program::ChildProcess::start({.program = "/usr/bin/Xvfb",
-                                              .arguments = {"-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"},
-                                              .environment = {},
-                                              .log = "/dev/null"});
+  auto process =
+      program::ChildProcess::start({.program = "/usr/bin/Xvfb",
+                                    .arguments = {"-displayfd", "1", "-screen", "0", "640x480x24", "-nolisten", "tcp"},
+                                    .environment = {},
+                                    .log = "/dev/null"});
   REQUIRE(process.has_value());
   return std::move(*process);
 }

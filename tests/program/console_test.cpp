@@ -65,14 +65,18 @@ TEST_CASE("progress is one line on a terminal and a line every ten seconds elsew
 
 TEST_CASE("a full disk under standard error ends no program") {
   CHECK(status_with_error_to("/dev/full", [] {
-    say("nobody reads this");
-    return 7;
-  }) == 7);
+          say("nobody reads this");
+          return 7;
+        }) == 7);
 }
 
 TEST_CASE("an error and an exception are exit status 1 and what the work returns is the exit status otherwise") {
-  CHECK(status_with_error_to("/dev/null", [] { return run("p", []() -> Expected<int> { return failure("wrong", "here", ""); }); }) == failed_status);
-  CHECK(status_with_error_to("/dev/null", [] { return run("p", []() -> Expected<int> { throw std::runtime_error("a library's"); }); }) == failed_status);
+  CHECK(status_with_error_to("/dev/null", [] {
+          return run("p", []() -> Expected<int> { return failure("wrong", "here", ""); });
+        }) == failed_status);
+  CHECK(status_with_error_to("/dev/null", [] {
+          return run("p", []() -> Expected<int> { throw std::runtime_error("a library's"); });
+        }) == failed_status);
   CHECK(run("p", []() -> Expected<int> { return 3; }) == 3);
 }
 

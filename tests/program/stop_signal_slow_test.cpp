@@ -41,19 +41,20 @@ TEST_CASE("a program that looks ends as it likes and knows which signal it was")
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) {
     CAPTURE(signal);
     CHECK(end_of(signal, 3600, [] {
-      while (!stop_signal()) ::usleep(1000);
-      obey_stop_signal();
-      // What is under way is not cut off: no alarm is set any more.
-      return ::alarm(0) == 0 ? *stop_signal() : still_threatened;
-    }) == signal);
+            while (!stop_signal()) ::usleep(1000);
+            obey_stop_signal();
+            // What is under way is not cut off: no alarm is set any more.
+            return ::alarm(0) == 0 ? *stop_signal() : still_threatened;
+          }) == signal);
   }
 }
 
 TEST_CASE("a program that is stuck is ended after its patience") {
   CHECK(end_of(SIGTERM, 1, [] {
-    for (volatile bool stuck = true; stuck;) {}
-    return 0;
-  }) == -SIGALRM);
+          for (volatile bool stuck = true; stuck;) {
+          }
+          return 0;
+        }) == -SIGALRM);
 }
 
 }  // namespace septet::program

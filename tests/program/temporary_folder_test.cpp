@@ -30,7 +30,8 @@ struct Place {
 
 }  // namespace
 
-TEST_CASE("a folder is gone with its run and what a killed run has left is gone with the next one and those of others stay") {
+TEST_CASE(
+    "a folder is gone with its run and what a killed run has left is gone with the next one and those of others stay") {
   const Place place;
   fs::create_directories(place.folder / "septet-letters.run");
   fs::create_directories(place.folder / "other-AbCdEf");

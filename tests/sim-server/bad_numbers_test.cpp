@@ -28,7 +28,9 @@ class EmptyTraffic final : public traffic::TrafficEngine {
 
 }  // namespace
 
-TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes on") {
+TEST_CASE(
+    "a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes "
+    "on") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   auto state = simulation::initial_state(*drive.model, std::make_unique<EmptyTraffic>());
   REQUIRE(state.has_value());
@@ -36,9 +38,12 @@ TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is co
   const auto told = [&](const DriverInput& input) {
     events.clear();
     const Snapshot snapshot = simulation::server_step(*drive.model, input, *state, events);
-    for (const Participant& participant : snapshot.participants) CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
-    CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator + snapshot.driver_car.steering_wheel_rad));
-    const bool is_told = std::ranges::any_of(events, [](const simulation::Event& event) { return event.kind == "bad_number"; });
+    for (const Participant& participant : snapshot.participants)
+      CHECK(std::isfinite(glm::length(participant.world_from_vehicle.position_m)));
+    CHECK(std::isfinite(snapshot.driver_car.speed_mps + snapshot.driver_car.accelerator +
+                        snapshot.driver_car.steering_wheel_rad));
+    const bool is_told =
+        std::ranges::any_of(events, [](const simulation::Event& event) { return event.kind == "bad_number"; });
     return is_told ? snapshot.diagnostics.bad_numbers : 0;
   };
   CHECK(told({}) == 2);  // Traffic's.
@@ -47,7 +52,8 @@ TEST_CASE("a number gone bad in controls, car, scripted vehicle or traffic is co
   input.accelerator = std::nan("");
   input.steering_wheel_rad = INFINITY;
   CHECK(told(input) == 4);
-  const auto scripted = std::ranges::find_if(state->scenario.entities, [](const auto& entity) { return entity.active && !entity.external; });
+  const auto scripted = std::ranges::find_if(state->scenario.entities,
+                                             [](const auto& entity) { return entity.active && !entity.external; });
   REQUIRE(scripted != state->scenario.entities.end());
   scripted->speed_mps = std::nan("");
   CHECK(told({}) == 5);

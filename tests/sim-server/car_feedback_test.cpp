@@ -12,14 +12,17 @@ namespace septet::server {
 namespace {
 
 /// A drive whose driver sits at a device that is plugged in. `actuate_again` sets what its last tick has set.
-std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {}, std::function<void()>* actuate_again = nullptr) {
+std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::CarActuators& limits = {},
+                                     std::function<void()>* actuate_again = nullptr) {
   port.plug();
   DriverSeat seat;
   seat.actuators = limits;
   sit_at_device(seat, port.opener(), {});
   if (actuate_again) {
     const auto newest = std::make_shared<car_io::Actuators>();
-    seat.actuate = [newest, actuate = seat.actuate](Tick tick, const car_io::Actuators& actuators) { return actuate(tick, *newest = actuators); };
+    seat.actuate = [newest, actuate = seat.actuate](Tick tick, const car_io::Actuators& actuators) {
+      return actuate(tick, *newest = actuators);
+    };
     *actuate_again = [newest, actuate = seat.actuate] { actuate(0, car_io::Actuators(*newest)); };
   }
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");

@@ -28,7 +28,8 @@ Answer check(std::vector<std::string> files, bool json = false, bool strict = fa
 /// A file that is gone again after the test.
 struct Written {
   fs::path path;
-  Written(const std::string& name, const std::string& text) : path(fs::temp_directory_path() / (std::to_string(getpid()) + "-" + name)) {
+  Written(const std::string& name, const std::string& text)
+      : path(fs::temp_directory_path() / (std::to_string(getpid()) + "-" + name)) {
     std::ofstream(path) << text;
   }
   ~Written() { fs::remove(path); }
@@ -37,10 +38,11 @@ struct Written {
 }  // namespace
 
 TEST_CASE("every shipped file that check knows passes it as what it is") {
-  const std::pair<const char*, const char*> shipped[] = {{"vehicles/volvo-s80.toml", "vehicle"},
-                                                         {"rigs/desktop.toml", "rig"},
-                                                         {"scenarios/motorway-ambulance/motorway-ambulance.xosc", "scenario"},
-                                                         {"scenarios/motorway-ambulance/motorway.xodr", "road"}};
+  const std::pair<const char*, const char*> shipped[] = {
+      {"vehicles/volvo-s80.toml", "vehicle"},
+      {"rigs/desktop.toml", "rig"},
+      {"scenarios/motorway-ambulance/motorway-ambulance.xosc", "scenario"},
+      {"scenarios/motorway-ambulance/motorway.xodr", "road"}};
   for (const auto& row : shipped) {
     const char* const file = row.first;
     const char* const kind = row.second;
@@ -54,7 +56,8 @@ TEST_CASE("every shipped file that check knows passes it as what it is") {
 }
 
 TEST_CASE("a film script is checked as one") {
-  const Written good("good.toml", "[[shot]]\nfrom_s = 1\nto_s = 5\n"), bad("bad.toml", "[[shot]]\nfrom_s = 1\nto_s = 1\n");
+  const Written good("good.toml", "[[shot]]\nfrom_s = 1\nto_s = 5\n"),
+      bad("bad.toml", "[[shot]]\nfrom_s = 1\nto_s = 1\n");
   CHECK(check({good.path.string()}).text == "1 files, 0 errors, 0 warnings\n");
   const Answer answer = check({bad.path.string()}, true);
   CHECK(answer.status == 1);
@@ -64,8 +67,10 @@ TEST_CASE("a film script is checked as one") {
 }
 
 TEST_CASE("check answers in JSON what it says in lines") {
-  const std::string scenario = "<OpenSCENARIO>\n<FileHeader revMajor='1' revMinor='1'/>\n<RoadNetwork>\n<LogicFile filepath='none\xFF.xodr'/></RoadNetwork>"
-                               "<Entities/><Storyboard><Init><Actions/></Init></Storyboard></OpenSCENARIO>";
+  const std::string scenario =
+      "<OpenSCENARIO>\n<FileHeader revMajor='1' revMinor='1'/>\n<RoadNetwork>\n<LogicFile "
+      "filepath='none\xFF.xodr'/></RoadNetwork>"
+      "<Entities/><Storyboard><Init><Actions/></Init></Storyboard></OpenSCENARIO>";
   const Written file("s.xosc", scenario), odd("letter.txt", "Dear reader");
   const Answer answer = check({file.path.string(), odd.path.string()}, true);
   CHECK(answer.status == 1);

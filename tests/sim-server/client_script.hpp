@@ -20,18 +20,18 @@ namespace septet::server {
 
 /// What a script's bytes mean; each is followed by the number of a client.
 enum class ScriptStep : std::uint8_t {
-  end_of_pump,    ///< The server has read all there is and works; then u8 × 10 ms pass.
-  pump,           ///< The client receives, answers, sends.
-  restart,        ///< The client starts anew: at the same address, or (u8 odd) at another one.
-  hello,          ///< Hello under the name numbered u8.
-  control,        ///< A control message: u8 length, kind and fields.
-  replication,    ///< A scene message: u8 length, bytes.
-  scene_hello,    ///< A good hello of the scene.
-  raw,            ///< Any message: u8 length, bytes.
-  unreliable,     ///< The same, unreliable.
-  datagram,       ///< A datagram outside of any connection: u8 length, bytes.
-  goodbye,        ///< The client closes its connection.
-  revoke,         ///< The client's key is taken off the list, or (u8 odd) all are on it again.
+  end_of_pump,  ///< The server has read all there is and works; then u8 × 10 ms pass.
+  pump,         ///< The client receives, answers, sends.
+  restart,      ///< The client starts anew: at the same address, or (u8 odd) at another one.
+  hello,        ///< Hello under the name numbered u8.
+  control,      ///< A control message: u8 length, kind and fields.
+  replication,  ///< A scene message: u8 length, bytes.
+  scene_hello,  ///< A good hello of the scene.
+  raw,          ///< Any message: u8 length, bytes.
+  unreliable,   ///< The same, unreliable.
+  datagram,     ///< A datagram outside of any connection: u8 length, bytes.
+  goodbye,      ///< The client closes its connection.
+  revoke,       ///< The client's key is taken off the list, or (u8 odd) all are on it again.
   count
 };
 
@@ -93,7 +93,8 @@ class ClientScript {
     Socket(ClientScript& owner, net::Address own_address) : script(owner), own(own_address) {}
     bool send(const net::Address& to, std::span<const std::byte> bytes) override {
       // A bounded queue, as every socket's; what goes to nobody is lost.
-      if (const auto found = script.sockets_.find(to); found != script.sockets_.end() && found->second->waiting.size() < 64)
+      if (const auto found = script.sockets_.find(to);
+          found != script.sockets_.end() && found->second->waiting.size() < 64)
         found->second->waiting.emplace_back(own, Bytes(bytes.begin(), bytes.end()));
       return true;
     }
@@ -127,7 +128,8 @@ class ClientScript {
   static std::vector<net::AllowedClient> list(std::size_t without) {
     std::vector<net::AllowedClient> allowed;
     for (std::size_t who = 0; who < 3; ++who)
-      if (who != without % 3 || without == clients) allowed.push_back({client_identity(who).public_key(), name_of(who)});
+      if (who != without % 3 || without == clients)
+        allowed.push_back({client_identity(who).public_key(), name_of(who)});
     return allowed;
   }
 
@@ -135,10 +137,13 @@ class ClientScript {
     clients_[who].reset();
     if (client_sockets_[who]) sockets_.erase(client_sockets_[who]->own);
     const bool moves = elsewhere || !client_sockets_[who];
-    const net::Address own{0x0a000100 + static_cast<std::uint32_t>(who), moves ? ++ports_ : client_sockets_[who]->own.port};
+    const net::Address own{0x0a000100 + static_cast<std::uint32_t>(who),
+                           moves ? ++ports_ : client_sockets_[who]->own.port};
     client_sockets_[who] = std::make_unique<Socket>(*this, own);
     sockets_[own] = client_sockets_[who].get();
-    clients_[who] = std::make_unique<net::SecureClient>(*client_sockets_[who], net::SecureClientOptions{server_address, identity_of(0).public_key(), client_identity(who), {}});
+    clients_[who] = std::make_unique<net::SecureClient>(
+        *client_sockets_[who],
+        net::SecureClientOptions{server_address, identity_of(0).public_key(), client_identity(who), {}});
   }
 
   void send(std::size_t who, Bytes message, net::Reliability reliability = net::Reliability::reliable) {
@@ -157,7 +162,8 @@ class ClientScript {
   bool act() {
     if (!script_ || script_->at_end()) return false;
     ByteReader& script = *script_;
-    const auto step = static_cast<ScriptStep>(script.get<std::uint8_t>() % static_cast<std::uint8_t>(ScriptStep::count));
+    const auto step =
+        static_cast<ScriptStep>(script.get<std::uint8_t>() % static_cast<std::uint8_t>(ScriptStep::count));
     const std::size_t who = script.at_end() ? 0 : script.get<std::uint8_t>() % clients;
     const auto number = [&] { return script.at_end() ? std::uint8_t{0} : script.get<std::uint8_t>(); };
     const auto some = [&](Bytes before = {}) {
@@ -168,18 +174,42 @@ class ClientScript {
     };
     switch (step) {
       case ScriptStep::end_of_pump:
-      case ScriptStep::count: now_s_ += 0.01 * number(); return false;
-      case ScriptStep::pump: clients_[who]->pump(now_s_); break;
-      case ScriptStep::restart: restart(who, number() % 2 == 1); break;
-      case ScriptStep::hello: send(who, control::encode_control(control::Hello{name_of(number()), 5000, 1})); break;
-      case ScriptStep::control: send(who, some({std::byte{1}})); break;
-      case ScriptStep::replication: send(who, some({std::byte{0}})); break;
-      case ScriptStep::scene_hello: send(who, control::scene_message(replication::encode(replication::Hello{}))); break;
-      case ScriptStep::raw: send(who, some()); break;
-      case ScriptStep::unreliable: send(who, some(), net::Reliability::unreliable); break;
-      case ScriptStep::datagram: client_sockets_[who]->send(server_address, some()); break;
-      case ScriptStep::goodbye: clients_[who]->close(); break;
-      case ScriptStep::revoke: host_->set_allowed(list(number() % 2 == 1 ? clients : who)); break;
+      case ScriptStep::count:
+        now_s_ += 0.01 * number();
+        return false;
+      case ScriptStep::pump:
+        clients_[who]->pump(now_s_);
+        break;
+      case ScriptStep::restart:
+        restart(who, number() % 2 == 1);
+        break;
+      case ScriptStep::hello:
+        send(who, control::encode_control(control::Hello{name_of(number()), 5000, 1}));
+        break;
+      case ScriptStep::control:
+        send(who, some({std::byte{1}}));
+        break;
+      case ScriptStep::replication:
+        send(who, some({std::byte{0}}));
+        break;
+      case ScriptStep::scene_hello:
+        send(who, control::scene_message(replication::encode(replication::Hello{})));
+        break;
+      case ScriptStep::raw:
+        send(who, some());
+        break;
+      case ScriptStep::unreliable:
+        send(who, some(), net::Reliability::unreliable);
+        break;
+      case ScriptStep::datagram:
+        client_sockets_[who]->send(server_address, some());
+        break;
+      case ScriptStep::goodbye:
+        clients_[who]->close();
+        break;
+      case ScriptStep::revoke:
+        host_->set_allowed(list(number() % 2 == 1 ? clients : who));
+        break;
     }
     return true;
   }

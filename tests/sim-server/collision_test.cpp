@@ -13,9 +13,7 @@ TEST_CASE("a vehicle that the driver's car touches is one collision for as long 
   auto state = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
   REQUIRE(state.has_value());
   std::vector<simulation::Event> events;
-  const auto collisions = [&] {
-    return std::ranges::count(events, "collision", &simulation::Event::kind);
-  };
+  const auto collisions = [&] { return std::ranges::count(events, "collision", &simulation::Event::kind); };
   const Snapshot before = simulation::server_step(*drive.model, {}, *state, events);
   CHECK(collisions() == 0);
   CHECK(before.diagnostics.collisions == 0);
@@ -23,11 +21,13 @@ TEST_CASE("a vehicle that the driver's car touches is one collision for as long 
   const Participant* car = find_participant(before, simulation::driver_participant);
   REQUIRE(car != nullptr);
   const auto distance_m = [&](const Participant& p) {
-    return p.id == car->id ? INFINITY : glm::length(p.world_from_vehicle.position_m - car->world_from_vehicle.position_m);
+    return p.id == car->id ? INFINITY
+                           : glm::length(p.world_from_vehicle.position_m - car->world_from_vehicle.position_m);
   };
   const Participant other = *std::ranges::min_element(before.participants, {}, distance_m);
   // On a bridge above the other one nothing touches.
-  const Vec3 there_m = state->car.world_from_body.position_m + other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
+  const Vec3 there_m =
+      state->car.world_from_body.position_m + other.world_from_vehicle.position_m - car->world_from_vehicle.position_m;
   state->car.world_from_body.position_m = there_m + Vec3(0.0, 0.0, 6.0);
   state->car.velocity_mps = other.velocity_mps;
   CHECK(simulation::server_step(*drive.model, {}, *state, events).diagnostics.collisions == 0);

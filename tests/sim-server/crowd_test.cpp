@@ -53,10 +53,12 @@ struct Crowd {
     };
     host = std::make_unique<ScreenHost>(lane, *tick, store, std::move(options));
     for (std::size_t who = 1; who <= count; ++who) {
-      machines.push_back(net::machine_of_its_own(network, server_address.ip + static_cast<std::uint32_t>(who), server_address.ip, random));
+      machines.push_back(net::machine_of_its_own(network, server_address.ip + static_cast<std::uint32_t>(who),
+                                                 server_address.ip, random));
       sockets.push_back(machines.back()->open(5000));
       clients.push_back(std::make_unique<net::SecureClient>(
-          *sockets.back(), net::SecureClientOptions{server_address, identity_of(0).public_key(), identity_of(who), {}}));
+          *sockets.back(),
+          net::SecureClientOptions{server_address, identity_of(0).public_key(), identity_of(who), {}}));
     }
   }
 
@@ -66,8 +68,10 @@ struct Crowd {
       for (const net::ClientEvent& event : clients[i]->pump(machines[i]->clock_s(now_s)))
         if (event.kind == net::ClientEvent::Kind::connected) {
           ++connections;
-          clients[i]->send(net::share(control::encode_control(control::Hello{fmt::format("screen-{}", i + 1), 5000})), net::Reliability::reliable);
-          clients[i]->send(net::share(control::scene_message(replication::encode(replication::Hello{}))), net::Reliability::reliable);
+          clients[i]->send(net::share(control::encode_control(control::Hello{fmt::format("screen-{}", i + 1), 5000})),
+                           net::Reliability::reliable);
+          clients[i]->send(net::share(control::scene_message(replication::encode(replication::Hello{}))),
+                           net::Reliability::reliable);
         }
   }
 
@@ -87,7 +91,8 @@ struct Crowd {
   net::BadNetwork network{{}, 1};
   Random random{5};
   net::Address server_address{0x0a000001, 4750};
-  std::unique_ptr<net::SimulatedMachine> server_machine = net::machine_of_its_own(network, server_address.ip, server_address.ip, random);
+  std::unique_ptr<net::SimulatedMachine> server_machine =
+      net::machine_of_its_own(network, server_address.ip, server_address.ip, random);
   LaneSocket lane{server_machine->open(server_address.port)};
   std::unique_ptr<net::DatagramSocket> tick = server_machine->open(4999);
   scene::Store store;

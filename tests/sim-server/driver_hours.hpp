@@ -16,13 +16,13 @@
 #include <fmt/core.h>
 
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/simulation/effects/crashes.hpp"
+#include "engine/simulation/effects/effect_surroundings.hpp"
 #include "logging/measures/glances.hpp"
 #include "logging/measures/lane_changes.hpp"
 #include "logging/measures/lateral_position.hpp"
 #include "logging/records.hpp"
-#include "engine/simulation/effects/crashes.hpp"
 #include "sim-server/drive/driver_seat.hpp"
-#include "engine/simulation/effects/effect_surroundings.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
@@ -31,16 +31,16 @@ namespace septet::server {
 /// What is counted over one or many drives.
 struct DrivingRecord {
   double time_s = 0.0, way_m = 0.0;
-  int hard_brakings = 0;        ///< Times that the car slowed by more than 5 m/s² over a tenth of a second.
+  int hard_brakings = 0;  ///< Times that the car slowed by more than 5 m/s² over a tenth of a second.
   double hardest_mps2 = 0.0;
-  int own_collisions = 0;       ///< That the driver made.
-  int other_collisions = 0;     ///< That others made.
-  int stops = 0;                ///< Times at a standstill.
-  double off_lanes_s = 0.0;     ///< With the front axle off every lane for driving.
+  int own_collisions = 0;    ///< That the driver made.
+  int other_collisions = 0;  ///< That others made.
+  int stops = 0;             ///< Times at a standstill.
+  double off_lanes_s = 0.0;  ///< With the front axle off every lane for driving.
   int lane_changes = 0;
-  int unseen_changes = 0;       ///< Without a glance at that side's mirror in the six seconds before the line is crossed.
-  int glances = 0;              ///< Those for lane changes included.
-  double glance_s = 0.0;        ///< All of them together…
+  int unseen_changes = 0;  ///< Without a glance at that side's mirror in the six seconds before the line is crossed.
+  int glances = 0;         ///< Those for lane changes included.
+  double glance_s = 0.0;   ///< All of them together…
   double longest_glance_s = 0.0;
   /// Sums over samples of the lateral position and its square, without lane changes; and of the time headway of those below 4 s.
   double lateral_samples = 0.0, lateral_m = 0.0, lateral_m2 = 0.0;
@@ -72,15 +72,20 @@ struct DrivingRecord {
 };
 
 inline std::string describe(const DrivingRecord& r) {
-  const double hours = r.time_s / 3600.0, lateral = std::max(r.lateral_samples, 1.0), following = std::max(r.headway_samples, 1.0);
+  const double hours = r.time_s / 3600.0, lateral = std::max(r.lateral_samples, 1.0),
+               following = std::max(r.headway_samples, 1.0);
   const double mean_m = r.lateral_m / lateral;
-  return fmt::format("{:.3f} h, {:.1f} km; braked harder than 5 m/s2 {} times, {:.1f} at most; collisions: own {}, others' {}; stops {}; off the lanes "
-                     "{:.1f} s; lane changes {:.0f} an hour, {} without a look; a glance every {:.1f} s, mean {:.2f} s, longest {:.1f} s; lateral position {:+.2f} m, SD "
-                     "{:.3f} m; time headway below 4 s: mean {:.2f} s, below 1 s {:.1f} %",
-                     hours, r.way_m / 1000.0, r.hard_brakings, r.hardest_mps2, r.own_collisions, r.other_collisions, r.stops, r.off_lanes_s,
-                     r.lane_changes / std::max(hours, 1e-9), r.unseen_changes, r.time_s / std::max(1, r.glances), r.glance_s / std::max(1, r.glances), r.longest_glance_s,
-                     mean_m, std::sqrt(std::max(0.0, r.lateral_m2 / lateral - mean_m * mean_m)), r.headway_s / following,
-                     100.0 * r.short_headways / following);
+  return fmt::format(
+      "{:.3f} h, {:.1f} km; braked harder than 5 m/s2 {} times, {:.1f} at most; collisions: own {}, others' {}; stops "
+      "{}; off the lanes "
+      "{:.1f} s; lane changes {:.0f} an hour, {} without a look; a glance every {:.1f} s, mean {:.2f} s, longest "
+      "{:.1f} s; lateral position {:+.2f} m, SD "
+      "{:.3f} m; time headway below 4 s: mean {:.2f} s, below 1 s {:.1f} %",
+      hours, r.way_m / 1000.0, r.hard_brakings, r.hardest_mps2, r.own_collisions, r.other_collisions, r.stops,
+      r.off_lanes_s, r.lane_changes / std::max(hours, 1e-9), r.unseen_changes, r.time_s / std::max(1, r.glances),
+      r.glance_s / std::max(1, r.glances), r.longest_glance_s, mean_m,
+      std::sqrt(std::max(0.0, r.lateral_m2 / lateral - mean_m * mean_m)), r.headway_s / following,
+      100.0 * r.short_headways / following);
 }
 
 /// Watches the snapshots of one drive.
@@ -88,7 +93,8 @@ class DriveWatch {
  public:
   static constexpr double hard_mps2 = 5.0, noted_mps2 = 4.0, history_s = 3.0;
 
-  DriveWatch(std::string name, std::shared_ptr<const simulation::Model> model) : name_(std::move(name)), model_(std::move(model)) {}
+  DriveWatch(std::string name, std::shared_ptr<const simulation::Model> model)
+      : name_(std::move(name)), model_(std::move(model)) {}
 
   void see(const Snapshot& snapshot) {
     if (!logging::is_sample_due(snapshot.tick, simulation::tick_rate_hz)) return;
@@ -130,8 +136,8 @@ class DriveWatch {
     const auto glances = logging::find_glances(samples);
     for (const logging::LaneChange& change : changes)
       record.unseen_changes += std::ranges::none_of(glances, [&](const logging::Glance& glance) {
-        return glance.area == (change.lanes_to_left > 0 ? "left mirror" : "right mirror") && glance.start_s < change.simulated_time_s &&
-               glance.start_s > change.simulated_time_s - 6.0;
+        return glance.area == (change.lanes_to_left > 0 ? "left mirror" : "right mirror") &&
+               glance.start_s < change.simulated_time_s && glance.start_s > change.simulated_time_s - 6.0;
       });
     for (const logging::Glance& glance : glances) {
       ++record.glances;
@@ -143,7 +149,8 @@ class DriveWatch {
     record.lateral_m = record.lateral_samples * lateral.mean_m;
     record.lateral_m2 = record.lateral_samples * (lateral.sd_m * lateral.sd_m + lateral.mean_m * lateral.mean_m);
     for (const logging::Sample& sample : samples) {
-      const double headway_s = sample.leader ? sample.leader->distance_headway_m / std::max(sample.speed_mps, 1.0) : 1e9;
+      const double headway_s =
+          sample.leader ? sample.leader->distance_headway_m / std::max(sample.speed_mps, 1.0) : 1e9;
       if (headway_s > 4.0) continue;
       record.headway_samples += 1.0;
       record.headway_s += headway_s;
@@ -163,15 +170,17 @@ class DriveWatch {
   };
 
   static Vec2 seen_from(const Participant& car, const Participant& other) {
-    const Vec3 away = glm::conjugate(car.world_from_vehicle.orientation) *
-                      (simulation::body_box(other).world_from_box.position_m - simulation::body_box(car).world_from_box.position_m);
+    const Vec3 away =
+        glm::conjugate(car.world_from_vehicle.orientation) *
+        (simulation::body_box(other).world_from_box.position_m - simulation::body_box(car).world_from_box.position_m);
     return {away.x, away.y};
   }
 
   void remember(const Snapshot& snapshot, const Participant& car) {
     Instant now{snapshot.simulated_time_s, snapshot.driver_car, {}};
     for (const Participant& other : snapshot.participants)
-      if (other.id != car.id && glm::distance(other.world_from_vehicle.position_m, car.world_from_vehicle.position_m) < 40.0)
+      if (other.id != car.id &&
+          glm::distance(other.world_from_vehicle.position_m, car.world_from_vehicle.position_m) < 40.0)
         now.others.emplace_back(other.id, seen_from(car, other));
     past_.push_back(std::move(now));
     while (past_.front().time_s < snapshot.simulated_time_s - history_s) past_.pop_front();
@@ -179,15 +188,19 @@ class DriveWatch {
 
   void look_for_collisions(const Snapshot& snapshot, const Participant& car) {
     for (const Participant& other : snapshot.participants) {
-      if (other.id == car.id || glm::distance(other.world_from_vehicle.position_m, car.world_from_vehicle.position_m) > 40.0) continue;
+      if (other.id == car.id ||
+          glm::distance(other.world_from_vehicle.position_m, car.world_from_vehicle.position_m) > 40.0)
+        continue;
       const auto contact = simulation::contact_of(simulation::body_box(car), simulation::body_box(other));
       if (!contact || has_collided()) continue;
       const bool own_fault = is_own_fault(snapshot, car, other);
       ++(own_fault ? record.own_collisions : record.other_collisions);
       const Vec2 away = seen_from(car, other);
-      note(snapshot, fmt::format("{} collision with {} ({}), {:.1f} m ahead, {:.1f} m to the left, its speed {:.1f} m/s, {:.2f} m deep",
-                                 own_fault ? "own" : "another's", other.id, vehicle_models()[other.model].name, away.x, away.y,
-                                 glm::length(other.velocity_mps), contact->depth_m));
+      note(snapshot,
+           fmt::format(
+               "{} collision with {} ({}), {:.1f} m ahead, {:.1f} m to the left, its speed {:.1f} m/s, {:.2f} m deep",
+               own_fault ? "own" : "another's", other.id, vehicle_models()[other.model].name, away.x, away.y,
+               glm::length(other.velocity_mps), contact->depth_m));
     }
   }
 
@@ -200,7 +213,9 @@ class DriveWatch {
     };
     if (!in_lane(snapshot.driver_car)) return true;
     for (const Instant& instant : past_)
-      if (instant.time_s > snapshot.simulated_time_s - 2.0 && (!in_lane(instant.own) || instant.own.lane != snapshot.driver_car.lane)) return true;
+      if (instant.time_s > snapshot.simulated_time_s - 2.0 &&
+          (!in_lane(instant.own) || instant.own.lane != snapshot.driver_car.lane))
+        return true;
     if (seen_from(car, other).x < 0.0) return false;
     const double apart_m = half_width_m + vehicle_models()[other.model].width_m / 2.0 + 0.2;
     for (const Instant& instant : past_)
@@ -218,11 +233,12 @@ class DriveWatch {
       const Vec2 away = seen_from(*car, other);
       if (other.id == car->id || away.x < -30.0 || away.x > 80.0 || std::abs(away.y) > 6.0) continue;
       const Vec3 heads = other.world_from_vehicle.orientation * Vec3(1, 0, 0);
-      around += fmt::format(" {} ({:.0f} {:.1f} m, {:.1f} m/s, {:.1f} m/s2)", other.id, away.x, away.y, glm::dot(other.velocity_mps, heads),
-                            glm::dot(other.acceleration_mps2, heads));
+      around += fmt::format(" {} ({:.0f} {:.1f} m, {:.1f} m/s, {:.1f} m/s2)", other.id, away.x, away.y,
+                            glm::dot(other.velocity_mps, heads), glm::dot(other.acceleration_mps2, heads));
     }
-    record.incidents.push_back(fmt::format("{}, {:.1f} s: {}; {:.1f} m/s in lane {}, {:.2f} m left of its middle, s {:.0f} m; around:{}", name_,
-                                           snapshot.simulated_time_s, what, own.speed_mps, own.lane, own.lateral_position_m, own.road_s_m, around));
+    record.incidents.push_back(fmt::format(
+        "{}, {:.1f} s: {}; {:.1f} m/s in lane {}, {:.2f} m left of its middle, s {:.0f} m; around:{}", name_,
+        snapshot.simulated_time_s, what, own.speed_mps, own.lane, own.lateral_position_m, own.road_s_m, around));
   }
 
   std::string name_;
@@ -233,7 +249,8 @@ class DriveWatch {
 };
 
 /// One drive, for as long as given or until a collision.
-inline DriveWatch watch_drive(const std::string& scenario, const std::string& driver, std::uint64_t seed, double seconds) {
+inline DriveWatch watch_drive(const std::string& scenario, const std::string& driver, std::uint64_t seed,
+                              double seconds) {
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
   auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
   REQUIRE(seat.has_value());

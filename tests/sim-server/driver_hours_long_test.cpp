@@ -85,7 +85,9 @@ void check_hours(const std::string& driver) {
 
 TEST_CASE("the plain driver spends hours on the motorway without an accident of its making") { check_hours("plain"); }
 TEST_CASE("the novice spends hours on the motorway without an accident of its making") { check_hours("novice"); }
-TEST_CASE("the experienced driver spends hours on the motorway without an accident of its making") { check_hours("experienced"); }
+TEST_CASE("the experienced driver spends hours on the motorway without an accident of its making") {
+  check_hours("experienced");
+}
 TEST_CASE("the tired driver spends hours on the motorway without an accident of its making") { check_hours("tired"); }
 
 }  // namespace septet::server

@@ -26,7 +26,8 @@ TEST_CASE("the first half minute lies no farther to one side of the lane than th
     const std::span<const logging::Sample> samples(watch.samples);
     const double first = logging::compute_lateral_position_statistics(samples.first(300), {}).mean_m;
     const double later = logging::compute_lateral_position_statistics(samples.last(300), {}).mean_m;
-    MESSAGE("seed " << seed << ": mean lateral position in the first 30 s " << first << " m, in the next " << later << " m");
+    MESSAGE("seed " << seed << ": mean lateral position in the first 30 s " << first << " m, in the next " << later
+                    << " m");
     first_m += first / drives;
     later_m += later / drives;
     largest_later_m = std::max(largest_later_m, std::abs(later));

@@ -9,7 +9,10 @@ namespace {
 using enum ScriptStep;
 
 /// A script from steps and numbers.
-template <class... Parts> Bytes script(Parts... parts) { return {static_cast<std::byte>(parts)...}; }
+template <class... Parts>
+Bytes script(Parts... parts) {
+  return {static_cast<std::byte>(parts)...};
+}
 
 bool is_live(ClientScript& rig, std::string_view name) {
   for (const auto& screen : rig.host().screens())
@@ -35,8 +38,9 @@ TEST_CASE("a screen that connects twice while the server is busy is there once")
     ClientScript rig;
     // All of it waits in the server's socket, or comes while it reads: Hello and a scene message under one connection, then another
     // one is confirmed that takes its place.
-    rig.play(script(pump, a, pump, a, end_of_pump, a, 0, pump, a, hello, a, a, scene_hello, a, pump, a, raw, a, 2, 0, 1, pump, a, restart, a, where,
-                    pump, a, pump, a, pump, a, pump, a, hello, a, a, pump, a, end_of_pump, a, 0));
+    rig.play(script(pump, a, pump, a, end_of_pump, a, 0, pump, a, hello, a, a, scene_hello, a, pump, a, raw, a, 2, 0, 1,
+                    pump, a, restart, a, where, pump, a, pump, a, pump, a, pump, a, hello, a, a, pump, a, end_of_pump,
+                    a, 0));
     // From another address it was refused while the first one was alive; that one sent what nobody can read, and is out.
     for (int turn = 0; turn < 3; ++turn) rig.play(script(end_of_pump, a, 100, pump, a, pump, a, pump, a));
     rig.play(script(hello, a, a, pump, a, end_of_pump, a, 0));
@@ -71,8 +75,9 @@ TEST_CASE("a screen that comes and goes all day fills no memory") {
   ClientScript rig;
   rig.connect_all();
   // Each message of the handshake is a pump of its own.
-  const Bytes come_back = script(goodbye, a, end_of_pump, a, 100, restart, a, here, pump, a, end_of_pump, a, 1, pump, a, end_of_pump, a, 1,
-                                 pump, a, end_of_pump, a, 1, pump, a, hello, a, a, pump, a, end_of_pump, a, 1);
+  const Bytes come_back =
+      script(goodbye, a, end_of_pump, a, 100, restart, a, here, pump, a, end_of_pump, a, 1, pump, a, end_of_pump, a, 1,
+             pump, a, end_of_pump, a, 1, pump, a, hello, a, a, pump, a, end_of_pump, a, 1);
   for (int i = 0; i < 300; ++i) rig.play(come_back);
   const auto& screen = rig.host().screens().front();
   CHECK(screen.joined > 200);
@@ -86,7 +91,8 @@ TEST_CASE("whatever clients of the list send in whatever order the host goes on"
   for (int round = 0; round < 300; ++round) {
     Bytes bytes(600);
     // Steps of a script rather than noise, as far as a byte can be one.
-    for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(random.next_bits() % (random.uniform() < 0.7 ? 13 : 256));
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      bytes[i] = static_cast<std::byte>(random.next_bits() % (random.uniform() < 0.7 ? 13 : 256));
     ClientScript rig;
     if (round % 2 == 0) rig.connect_all();
     CAPTURE(round);

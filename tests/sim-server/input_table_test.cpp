@@ -14,7 +14,8 @@ std::string error_of(std::string_view text) {
 }  // namespace
 
 TEST_CASE("a table of inputs names its columns in any order") {
-  const auto rows = read_input_table("# a lane change\nbrake, time_s ,steering_wheel_deg\r\n0,0,0\n\n0.5,1.5,-90\n", "in.csv");
+  const auto rows =
+      read_input_table("# a lane change\nbrake, time_s ,steering_wheel_deg\r\n0,0,0\n\n0.5,1.5,-90\n", "in.csv");
   REQUIRE(rows.has_value());
   REQUIRE(rows->size() == 2);
   CHECK((*rows)[1].time_s == 1.5);

@@ -12,7 +12,9 @@
 
 namespace septet::server {
 
-TEST_CASE("a car that is more than ten metres beyond the last road's end is beyond it and one at a joint of two roads is not") {
+TEST_CASE(
+    "a car that is more than ten metres beyond the last road's end is beyond it and one at a joint of two roads is "
+    "not") {
   const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
   const road::RoadNetwork& roads = drive.model->roads;
   int open_ends = 0, joints = 0;
@@ -60,8 +62,9 @@ TEST_CASE("a drive ends where the car leaves the end of the road and where the s
     simulation::server_step(*drive.model, {}, *state, events);
     state->scenario.finished = false;  // The storyboard stops near the road's end too.
   }
-  INFO("on road " << (state->car_road ? static_cast<int>(state->car_road->road) : -1) << " of " << index << " at " << (state->car_road ? state->car_road->s_m : 0.0) << " of "
-                  << road.length_m << ", ahead " << glm::dot(Vec2(state->car.world_from_body.position_m) - end.position_m, end.direction));
+  INFO("on road " << (state->car_road ? static_cast<int>(state->car_road->road) : -1) << " of " << index << " at "
+                  << (state->car_road ? state->car_road->s_m : 0.0) << " of " << road.length_m << ", ahead "
+                  << glm::dot(Vec2(state->car.world_from_body.position_m) - end.position_m, end.direction));
   CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::road_end);
   state->scenario.finished = true;
   CHECK(natural_end(*drive.model, *state) == logging::DriveEnd::stop_trigger);

@@ -43,11 +43,13 @@ Outing let_loose(const Vec3& origin_m, double heading_rad, double speed_mps, dou
   REQUIRE(state.has_value());
   Outing outing{std::move(*state), {}, {}};
   outing.state.traffic->stop();
-  outing.state.car = vehicle::standstill(model().car, {origin_m, orientation_from_angles(heading_rad, 0.0, 0.0)}, speed_mps);
+  outing.state.car =
+      vehicle::standstill(model().car, {origin_m, orientation_from_angles(heading_rad, 0.0, 0.0)}, speed_mps);
   outing.state.car_road.reset();
   DriverInput input;
   input.accelerator = accelerator;
-  for (int tick = 0; tick < static_cast<int>(time_s * simulation::tick_rate_hz); ++tick) outing.last = simulation::server_step(model(), input, outing.state, outing.events);
+  for (int tick = 0; tick < static_cast<int>(time_s * simulation::tick_rate_hz); ++tick)
+    outing.last = simulation::server_step(model(), input, outing.state, outing.events);
   CHECK(outing.state.diagnostics.bad_numbers == 0);
   return outing;
 }
@@ -73,7 +75,8 @@ TEST_CASE("the car hits each kind of thing beside the road and the log says what
     if (kind == ObstacleKind::portal || kind == ObstacleKind::marker_post) continue;
     // Where the road file has a road: beyond its ends the scenery goes on alone.
     const auto found = std::ranges::find_if(listed, [&](const Obstacle& o) {
-      return o.kind == kind && road::locate(model().roads, o.from_m, nullptr, kind == ObstacleKind::house ? 300.0 : 40.0).has_value();
+      return o.kind == kind &&
+             road::locate(model().roads, o.from_m, nullptr, kind == ObstacleKind::house ? 300.0 : 40.0).has_value();
     });
     REQUIRE(found != listed.end());
     const Obstacle& obstacle = *found;
@@ -89,7 +92,8 @@ TEST_CASE("the car hits each kind of thing beside the road and the log says what
       CHECK(hit.front().find("delta_v_mps=") != std::string::npos);
       CHECK(outing.state.diagnostics.collisions == hit.size());
       if (!yields) CHECK(glm::length(outing.state.car.velocity_mps) < 0.7 * speed);
-      if (!yields && speed > 20.0) CHECK(outing.state.effects.debris.pieces.size() + outing.state.effects.debris.shards.size() > 0);
+      if (!yields && speed > 20.0)
+        CHECK(outing.state.effects.debris.pieces.size() + outing.state.effects.debris.shards.size() > 0);
     }
   }
 }
@@ -122,10 +126,13 @@ TEST_CASE("nobody drives through a wood however fast and at whatever angle") {
     for (double s = 300.0; s < 9000.0 && woods < 1; s += 100.0)
       for (const double side : {-1.0, 1.0}) {
         // From the edge of a wood that is sixty metres deep that way: at full throttle for twenty seconds.
-        const Vec2 edge = road::evaluate(model().roads, {0, s, side * 60.0}).position_m, deep = road::evaluate(model().roads, {0, s, side * 160.0}).position_m;
+        const Vec2 edge = road::evaluate(model().roads, {0, s, side * 60.0}).position_m,
+                   deep = road::evaluate(model().roads, {0, s, side * 160.0}).position_m;
         const double heading = std::atan2(deep.y - edge.y, deep.x - edge.x) + entry.across_rad;
         const Vec2 into(std::cos(heading), std::sin(heading));
-        if (woods == 1 || !std::ranges::all_of(std::array{40.0, 60.0, 80.0, 100.0}, [&](double way_m) { return is_wood(edge + way_m * into); })) continue;
+        if (woods == 1 || !std::ranges::all_of(std::array{40.0, 60.0, 80.0, 100.0},
+                                               [&](double way_m) { return is_wood(edge + way_m * into); }))
+          continue;
         ++woods;
         const double height = road::world_from_road(road::evaluate(model().roads, {0, s, side * 60.0})).position_m.z;
         const Outing outing = let_loose(Vec3(edge, height), heading, entry.speed_mps, 20.0, 1.0);

@@ -38,7 +38,8 @@ TEST_CASE("a key that was carried away and deleted here keeps its place in the l
   rig::Rig rig = two_machines();
   auto said = write_rig_keys(rig, folder.path());
   REQUIRE(said.has_value());
-  CHECK(std::ranges::count_if(*said, [](const std::string& line) { return line.find("new keys of") != std::string::npos; }) == 3);
+  CHECK(std::ranges::count_if(
+            *said, [](const std::string& line) { return line.find("new keys of") != std::string::npos; }) == 3);
   const std::string before = text_of(list);
   fs::remove(folder.path() / "pc-1" / "left.key");
 

@@ -56,7 +56,8 @@ struct SavedDrive {
 };
 
 /// Saves at each of `at`; each is driven on for four seconds.
-std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::string& driver, std::uint64_t seed, std::vector<Tick> at) {
+std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::string& driver, std::uint64_t seed,
+                                       std::vector<Tick> at) {
   constexpr Tick further = 480;
   Drive drive = begin(scenario, seed);
   auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, drive.loaded.model);
@@ -70,7 +71,8 @@ std::vector<SavedDrive> drive_and_save(const std::string& scenario, const std::s
       auto bytes = save_state(*drive.loaded.model, drive.state);
       REQUIRE(bytes.has_value());
       MESSAGE(scenario << " tick " << now.tick << ": " << bytes->size() << " bytes");
-      saved.push_back({now.tick, std::move(*bytes), keyframes(now, smoke::keyframe_kind), keyframes(now, debris::keyframe_kind)});
+      saved.push_back(
+          {now.tick, std::move(*bytes), keyframes(now, smoke::keyframe_kind), keyframes(now, debris::keyframe_kind)});
     }
     if (seat->look) seat->look(now);
     const DriverInput input = seat->car->poll(drive.state.time_s()).input;
@@ -92,7 +94,8 @@ void check_that_it_goes_on(const std::string& scenario, std::uint64_t seed, cons
   CHECK(*save_state(*fresh.model, *state) == saved.bytes);
   std::vector<simulation::Event> events;
   std::vector<std::uint64_t> hashes;
-  for (const DriverInput& input : saved.inputs) hashes.push_back(simulation::server_step(*fresh.model, input, *state, events).state_hash);
+  for (const DriverInput& input : saved.inputs)
+    hashes.push_back(simulation::server_step(*fresh.model, input, *state, events).state_hash);
   CHECK(hashes == saved.hashes);
   // More than the hash: everything that is kept.
   CHECK(*save_state(*fresh.model, *state) == saved.end);
@@ -109,8 +112,10 @@ void sign(Bytes& bytes) {
 }  // namespace
 
 TEST_CASE("a drive on the motorway that is saved and restored goes on as if nothing had been") {
-  for (const SavedDrive& saved : drive_and_save("motorway-ambulance", "plain", 1, {0, 1, 1111})) check_that_it_goes_on("motorway-ambulance", 1, saved);
-  for (const SavedDrive& saved : drive_and_save("rescue-lane", "tired", 2, {1500})) check_that_it_goes_on("rescue-lane", 2, saved);
+  for (const SavedDrive& saved : drive_and_save("motorway-ambulance", "plain", 1, {0, 1, 1111}))
+    check_that_it_goes_on("motorway-ambulance", 1, saved);
+  for (const SavedDrive& saved : drive_and_save("rescue-lane", "tired", 2, {1500}))
+    check_that_it_goes_on("rescue-lane", 2, saved);
 }
 
 TEST_CASE("a drive that is saved in the middle of smoke goes on as if nothing had been") {
@@ -128,11 +133,14 @@ TEST_CASE("a drive that is saved in the middle of breaking ice goes on as if not
 TEST_CASE("no shipped scenario is without a drive that is saved") {
   std::set<std::string> shipped;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEPTET_SOURCE_DIR) / "scenarios"))
-    if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc"))) shipped.insert(entry.path().filename().string());
+    if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
+      shipped.insert(entry.path().filename().string());
   CHECK(shipped == std::set<std::string>{"motorway-ambulance", "rescue-lane", "tunnel-fire", "winter-lorry"});
 }
 
-TEST_CASE("a state of another drive, of another build and one that another program's traffic belongs to are refused, each in so many words") {
+TEST_CASE(
+    "a state of another drive, of another build and one that another program's traffic belongs to are refused, each in "
+    "so many words") {
   Drive drive = begin("winter-lorry", 1);
   const Bytes bytes = *save_state(*drive.loaded.model, drive.state);
   const auto why_not = [](const simulation::Model& model, const Bytes& what) {
@@ -157,8 +165,11 @@ TEST_CASE("a state of another drive, of another build and one that another progr
   };
   auto with_other = simulation::initial_state(*drive.loaded.model, std::make_unique<Elsewhere>());
   REQUIRE(with_other.has_value());
-  CHECK(save_state(*drive.loaded.model, *with_other).error().what.find("another program moves the traffic") != std::string::npos);
-  CHECK(restore_state(*drive.loaded.model, std::make_unique<Elsewhere>(), bytes, "test").error().what.find("another program") != std::string::npos);
+  CHECK(save_state(*drive.loaded.model, *with_other).error().what.find("another program moves the traffic") !=
+        std::string::npos);
+  CHECK(restore_state(*drive.loaded.model, std::make_unique<Elsewhere>(), bytes, "test")
+            .error()
+            .what.find("another program") != std::string::npos);
 }
 
 TEST_CASE("a state that was cut off or in which a bit was turned is refused") {

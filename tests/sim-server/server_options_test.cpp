@@ -28,7 +28,8 @@ TEST_CASE("a name that nobody bears is told before a file is read") {
 TEST_CASE("a participant's code is a hundred printable characters at most") {
   std::string longest;
   for (int i = 0; i < 100; ++i) longest += "ä";
-  for (const std::string& code : {std::string(), std::string("P 07, Müller"), longest}) CHECK(check_names({.participant = code}).has_value());
+  for (const std::string& code : {std::string(), std::string("P 07, Müller"), longest})
+    CHECK(check_names({.participant = code}).has_value());
   for (const std::string& code : {longest + "ä", std::string("P\n7"), std::string("\x1b[2J"), std::string("\xff")}) {
     const Error error = refusal_of({.participant = code});
     CHECK(error.where == "--participant");

@@ -11,7 +11,8 @@ namespace septet::server {
 
 inline LoadedDrive shipped_drive(const std::string& scenario, const std::string& rig, std::uint64_t seed = 1) {
   const std::string root = SEPTET_SOURCE_DIR;
-  auto drive = load_drive(DriveFiles{root + "/scenarios/" + scenario + "/" + scenario + ".xosc", root + "/rigs/" + rig + ".toml", seed});
+  auto drive = load_drive(
+      DriveFiles{root + "/scenarios/" + scenario + "/" + scenario + ".xosc", root + "/rigs/" + rig + ".toml", seed});
   REQUIRE_MESSAGE(drive.has_value(), describe(drive.error()));
   return std::move(*drive);
 }

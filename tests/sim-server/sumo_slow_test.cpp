@@ -11,9 +11,9 @@
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/resources.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
-#include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
 namespace {
@@ -90,7 +90,8 @@ TEST_CASE("SUMO moves the swarm that the scenario asks for and every tick follow
       }
       const auto before = last.find(p.id);
       if (before == last.end()) continue;
-      const Vec3 expected = before->second.world_from_vehicle.position_m + 0.5 / simulation::tick_rate_hz * (before->second.velocity_mps + p.velocity_mps);
+      const Vec3 expected = before->second.world_from_vehicle.position_m +
+                            0.5 / simulation::tick_rate_hz * (before->second.velocity_mps + p.velocity_mps);
       const double off_m = glm::length(p.world_from_vehicle.position_m - expected);
       if (off_m > 50.0) {
         ++recycled;  // Out of the swarm at its rim, in again at the other or, where the car stands, at the same one.
@@ -98,14 +99,16 @@ TEST_CASE("SUMO moves the swarm that the scenario asks for and every tick follow
       }
       rough += off_m > 0.05;
       worst_m = std::max(worst_m, off_m);
-      worst_turn_rad = std::max(worst_turn_rad, std::abs(road::wrap_angle(heading_rad(p.world_from_vehicle.orientation) -
-                                                                         heading_rad(before->second.world_from_vehicle.orientation))));
+      worst_turn_rad = std::max(worst_turn_rad,
+                                std::abs(road::wrap_angle(heading_rad(p.world_from_vehicle.orientation) -
+                                                          heading_rad(before->second.world_from_vehicle.orientation))));
     }
     last = std::move(now);
   }
   const double mean = static_cast<double>(count) / ticks;
-  MESSAGE(mean << " vehicles, at least " << least << ", recycled " << recycled << "; worst step " << worst_m << " m, above 5 cm " << rough
-               << ", turn " << worst_turn_rad << " rad; braking " << braking << ", indicating " << indicating << " of " << count);
+  MESSAGE(mean << " vehicles, at least " << least << ", recycled " << recycled << "; worst step " << worst_m
+               << " m, above 5 cm " << rough << ", turn " << worst_turn_rad << " rad; braking " << braking
+               << ", indicating " << indicating << " of " << count);
   CHECK(mean > 100.0);
   CHECK(worst_outside_m == 0.0);
   CHECK(worst_m < 0.5);

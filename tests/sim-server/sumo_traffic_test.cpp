@@ -20,7 +20,8 @@ class StraightSumo final : public SumoClient {
 
   Expected<void> define_type(const SumoVehicleType&) override { return {}; }
   Expected<void> add_vehicle(const SumoDeparture& departure) override {
-    if (departure.watched) vehicles[departure.id] = {departure.id, {departure.along_m, -2.0}, 0.0, 20.0, 0.0, sumo_signal::brake_light};
+    if (departure.watched)
+      vehicles[departure.id] = {departure.id, {departure.along_m, -2.0}, 0.0, 20.0, 0.0, sumo_signal::brake_light};
     return {};
   }
   Expected<void> remove_vehicle(ParticipantId id) override {
@@ -84,7 +85,8 @@ TEST_CASE("between the steps of SUMO every tick is where the speed says") {
     REQUIRE(now.size() == before.size());
     for (std::size_t i = 0; i < now.size(); ++i) {
       CHECK(now[i].id == before[i].id);
-      CHECK(now[i].world_from_vehicle.position_m.x - before[i].world_from_vehicle.position_m.x == doctest::Approx(20.0 / 120.0).epsilon(1e-6));
+      CHECK(now[i].world_from_vehicle.position_m.x - before[i].world_from_vehicle.position_m.x ==
+            doctest::Approx(20.0 / 120.0).epsilon(1e-6));
       CHECK(now[i].velocity_mps.x == doctest::Approx(20.0));
       CHECK(now[i].lamps.has(Lamp::brake));
     }
@@ -118,7 +120,8 @@ TEST_CASE("a SUMO that goes away is one error and the traffic stands still from 
   const auto before = scene.tick(), after = scene.tick();
   CHECK_FALSE(scene.traffic.take_error().has_value());
   REQUIRE(before.size() == after.size());
-  for (std::size_t i = 0; i < after.size(); ++i) CHECK(after[i].world_from_vehicle.position_m == before[i].world_from_vehicle.position_m);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    CHECK(after[i].world_from_vehicle.position_m == before[i].world_from_vehicle.position_m);
 }
 
 TEST_CASE("a road becomes one edge a direction whose lanes begin with the right-most") {

@@ -72,8 +72,10 @@ TEST_CASE("an ambulance stops behind a car that stands in its way and goes on wh
   road.drive_for(25.0);
   CHECK_FALSE(road.touched);
   CHECK(road.entity().speed_mps < 0.5);
-  const auto& p = find_participant(road.now, simulation::first_scripted_participant + road.ambulance)->world_from_vehicle.position_m;
-  const double away_m = glm::distance(p, find_participant(road.now, simulation::driver_participant)->world_from_vehicle.position_m);
+  const auto& p = find_participant(road.now, simulation::first_scripted_participant + road.ambulance)
+                      ->world_from_vehicle.position_m;
+  const double away_m =
+      glm::distance(p, find_participant(road.now, simulation::driver_participant)->world_from_vehicle.position_m);
   CHECK(away_m > 6.0);
   CHECK(away_m < 12.0);
   road.put_car(8.0, 4.5);  // Aside.
@@ -92,9 +94,11 @@ TEST_CASE("an ambulance passes a car that leaves it room without braking") {
   CHECK(road.entity().speed_mps > before_mps - 0.1);
 }
 
-TEST_CASE("an ambulance does not move over into a car beside it nor brake hard for it but waits until that place is free") {
+TEST_CASE(
+    "an ambulance does not move over into a car beside it nor brake hard for it but waits until that place is free") {
   EmptyRoad road("motorway-ambulance");
-  while (!road.entity().lateral_control.active || road.now.simulated_time_s < 10.0) {  // Between the lanes first; then back.
+  while (!road.entity().lateral_control.active ||
+         road.now.simulated_time_s < 10.0) {  // Between the lanes first; then back.
     road.drive_for(1.0 / simulation::tick_rate_hz);
     REQUIRE(road.now.simulated_time_s < 60.0);
   }
@@ -131,7 +135,8 @@ TEST_CASE("an ambulance drives over what lies on the road at walking pace and hu
   lane.s_m += 90.0;
   RigidTransform pose = scenario::lane_pose(road.drive.model->roads, lane, true, 0.0, 0.0);
   pose.position_m.z += 0.045;
-  debris::spawn_part(road.state.effects.debris, debris::Part::ice_slab, pose, Vec3(0.0), Vec3(0.0), road.state.effects.random);
+  debris::spawn_part(road.state.effects.debris, debris::Part::ice_slab, pose, Vec3(0.0), Vec3(0.0),
+                     road.state.effects.random);
   const double before_m = road.entity().travelled_m;
   double slowest_mps = 1e9;
   while (road.entity().travelled_m < before_m + 95.0) {

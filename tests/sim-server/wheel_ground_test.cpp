@@ -19,8 +19,10 @@ road::RoadNetwork straight_road(const std::string& objects) {
   const std::string lane = "type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
   auto network = road::read_opendrive(
       "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection s=\"0\"><left>"
-      "<lane id=\"1\" " + lane + "</left><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" " + lane +
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection "
+      "s=\"0\"><left>"
+      "<lane id=\"1\" " +
+          lane + "</left><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" " + lane +
           "</right></laneSection></lanes><objects>" + objects + "</objects></road></OpenDRIVE>",
       "test.xodr");
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
@@ -53,7 +55,8 @@ struct EmptyMotorway {
 
 TEST_CASE("a patch of ice lies under one wheel and not under the others") {
   const auto roads = straight_road(
-      "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\"><material surface=\"ice\"/></object>");
+      "<object id=\"1\" type=\"patch\" s=\"50\" t=\"-1\" length=\"2\" width=\"0.8\" hdg=\"0\"><material "
+      "surface=\"ice\"/></object>");
   const simulation::RoadWeather frost{.temperature_k = 268.15};
   const double ice = vehicle::peak_friction(vehicle::SurfaceKind::ice, frost.temperature_k);
   CHECK(friction_at(roads, frost, 50.0, -1.0) == doctest::Approx(ice));
@@ -84,10 +87,12 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
   const auto roads = road::read_opendrive(
       "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"R\" length=\"200\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection s=\"0\">"
-      "<center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\">" + width +
-          "</lane><lane id=\"-2\" type=\"sidewalk\">" + width +
-          "<height sOffset=\"0\" inner=\"0.12\" outer=\"0.12\"/></lane></right></laneSection></lanes></road></OpenDRIVE>",
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"200\"><line/></geometry></planView><lanes><laneSection "
+      "s=\"0\">"
+      "<center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\">" +
+          width + "</lane><lane id=\"-2\" type=\"sidewalk\">" + width +
+          "<height sOffset=\"0\" inner=\"0.12\" "
+          "outer=\"0.12\"/></lane></right></laneSection></lanes></road></OpenDRIVE>",
       "kerb.xodr");
   REQUIRE(roads.has_value());
   const auto edge = [&](const Vec3& centre_m, const Vec2& ahead) {
@@ -107,7 +112,7 @@ TEST_CASE("a wheel that comes to a kerb is told where its edge is and on the roa
   CHECK(across->y == doctest::Approx(-3.5).epsilon(0.001));
   const auto backwards = edge({50.0, -3.3, 0.3}, {0.0, 1.0});  // The car rolls back at it.
   REQUIRE(backwards.has_value());
-  CHECK_FALSE(edge({50.0, -3.3, 0.3}, {1.0, 0.0}).has_value());  // Along the kerb.
+  CHECK_FALSE(edge({50.0, -3.3, 0.3}, {1.0, 0.0}).has_value());   // Along the kerb.
   CHECK_FALSE(edge({50.0, -3.7, 0.4}, {0.0, -1.0}).has_value());  // Up on it the way goes on level.
 }
 
@@ -120,8 +125,10 @@ TEST_CASE("an island and a kerb stone that are objects are met as kerbs and pain
       "<cornerRoad s=\"55\" t=\"2\" dz=\"0\" height=\"0.12\"/><cornerRoad s=\"50\" t=\"2\" dz=\"0\" height=\"0.12\"/>"
       "</outline></outlines><borders><border outlineId=\"0\" type=\"curb\" width=\"0.1\"/></borders></object>"
       "<object id=\"2\" type=\"barrier\" name=\"Curb\" s=\"80\" t=\"-2\" height=\"0.1\" width=\"0.15\">"
-      "<repeat s=\"80\" length=\"30\" distance=\"0\" tStart=\"-2\" tEnd=\"-2\" heightStart=\"0.1\" heightEnd=\"0.1\" widthStart=\"0.15\" widthEnd=\"0.15\"/></object>"
-      "<object id=\"3\" type=\"none\" name=\"kerb at a bus stop\" s=\"130\" t=\"2\" height=\"0.2\" length=\"4\" width=\"1\" hdg=\"1.5707963\"/>"
+      "<repeat s=\"80\" length=\"30\" distance=\"0\" tStart=\"-2\" tEnd=\"-2\" heightStart=\"0.1\" heightEnd=\"0.1\" "
+      "widthStart=\"0.15\" widthEnd=\"0.15\"/></object>"
+      "<object id=\"3\" type=\"none\" name=\"kerb at a bus stop\" s=\"130\" t=\"2\" height=\"0.2\" length=\"4\" "
+      "width=\"1\" hdg=\"1.5707963\"/>"
       "<object id=\"4\" type=\"roadMark\" name=\"curb\" s=\"20\" t=\"2\" height=\"0.1\" length=\"4\" width=\"1\"/>"
       "<object id=\"5\" type=\"trafficIsland\" s=\"30\" t=\"2\" height=\"0.8\" length=\"4\" width=\"1\"/>");
   const roadside::RaisedAreas raised(roads);
@@ -169,8 +176,11 @@ TEST_CASE("an island of more corners than can be met in a tick is left out and s
     CAPTURE(corners);
     std::string round;
     for (int i = 0; i < corners; ++i)
-      round += fmt::format("<cornerLocal u=\"{:.6f}\" v=\"{:.6f}\" z=\"0\" height=\"0.1\"/>", 2.0 * std::cos(6.2831853 * i / corners), 2.0 * std::sin(6.2831853 * i / corners));
-    const auto roads = straight_road("<object id=\"1\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\">" + round + "</outline></outlines></object>");
+      round += fmt::format("<cornerLocal u=\"{:.6f}\" v=\"{:.6f}\" z=\"0\" height=\"0.1\"/>",
+                           2.0 * std::cos(6.2831853 * i / corners), 2.0 * std::sin(6.2831853 * i / corners));
+    const auto roads =
+        straight_road("<object id=\"1\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\">" + round +
+                      "</outline></outlines></object>");
     const roadside::RaisedAreas raised(roads);
     CHECK(raised.complete() == (corners == 1'000));
     CHECK(raised.ground_at({50.0, 0.0}, 0.0) == (corners == 1'000 ? doctest::Approx(0.1) : doctest::Approx(0.0)));
@@ -192,12 +202,19 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
     if (as_object) {
       const auto place = road::locate(model.roads, Vec2(start.position_m));
       REQUIRE(place.has_value());
-      const double edge_t_m = place->position.t_m - now.driver_car.lateral_position_m - 0.5 * now.driver_car.lane_width_m;
+      const double edge_t_m =
+          place->position.t_m - now.driver_car.lateral_position_m - 0.5 * now.driver_car.lane_width_m;
       road::RoadObject kerb;
       kerb.type = "none";
       kerb.name = "kerb";
-      kerb.repeats = {{.s_m = place->position.s_m - 10.0, .length_m = 100.0, .t_start_m = edge_t_m - 3.0, .t_end_m = edge_t_m - 3.0,
-                       .width_start_m = 6.0, .width_end_m = 6.0, .height_start_m = 0.1, .height_end_m = 0.1}};
+      kerb.repeats = {{.s_m = place->position.s_m - 10.0,
+                       .length_m = 100.0,
+                       .t_start_m = edge_t_m - 3.0,
+                       .t_end_m = edge_t_m - 3.0,
+                       .width_start_m = 6.0,
+                       .width_end_m = 6.0,
+                       .height_start_m = 0.1,
+                       .height_end_m = 0.1}};
       road.objects.push_back(kerb);
       model.raised = std::make_shared<const roadside::RaisedAreas>(model.roads);
     } else {
@@ -216,7 +233,8 @@ TEST_CASE("a car that crosses a kerb climbs it and the log has each wheel's touc
     REQUIRE(touches.size() >= 4);
     CHECK(touches[0].find("wheel=front_right height_m=0.1") == 0);
     for (const char* wheel : {"front_left", "rear_right", "rear_left"})
-      CHECK(std::ranges::any_of(touches, [&](const std::string& text) { return text.find(wheel) != std::string::npos; }));
+      CHECK(
+          std::ranges::any_of(touches, [&](const std::string& text) { return text.find(wheel) != std::string::npos; }));
     CHECK(touches[0].find("speed_mps=7.") != std::string::npos);
     CHECK(now.diagnostics.bad_numbers == 0);
     CHECK(now.driver_car.lane < lane);
@@ -237,17 +255,26 @@ TEST_CASE("a kerb struck square at 15 m/s damages both front wheels and the log 
     road::RoadObject kerb;  // Across the whole road, its edge some metres before the front axle.
     kerb.type = "none";
     kerb.name = "kerb";
-    kerb.repeats = {{.s_m = place->position.s_m + 8.0, .length_m = 100.0, .t_start_m = place->position.t_m, .t_end_m = place->position.t_m,
-                     .width_start_m = 12.0, .width_end_m = 12.0, .height_start_m = 0.12, .height_end_m = 0.12}};
+    kerb.repeats = {{.s_m = place->position.s_m + 8.0,
+                     .length_m = 100.0,
+                     .t_start_m = place->position.t_m,
+                     .t_end_m = place->position.t_m,
+                     .width_start_m = 12.0,
+                     .width_end_m = 12.0,
+                     .height_start_m = 0.12,
+                     .height_end_m = 0.12}};
     model.roads.roads[place->position.road].objects.push_back(kerb);
     model.raised = std::make_shared<const roadside::RaisedAreas>(model.roads);
     state.car = vehicle::standstill(model.car, start, speed_mps);
     DriverInput rolling;
     rolling.selector = GearSelector::neutral;
     std::vector<simulation::Event> events;
-    for (int tick = 0; tick < (speed_mps > 10.0 ? 120 : 480); ++tick) simulation::server_step(model, rolling, state, events);
+    for (int tick = 0; tick < (speed_mps > 10.0 ? 120 : 480); ++tick)
+      simulation::server_step(model, rolling, state, events);
     const auto told = [&](const std::string& text) {
-      return std::ranges::count_if(events, [&](const simulation::Event& event) { return (event.kind + " " + event.detail).find(text) != std::string::npos; });
+      return std::ranges::count_if(events, [&](const simulation::Event& event) {
+        return (event.kind + " " + event.detail).find(text) != std::string::npos;
+      });
     };
     CHECK(told("kerb wheel=front_") >= 2);
     CHECK(told("closing_speed_mps=") >= 2);

@@ -9,8 +9,8 @@
 
 #include "engine/effects/debris/blow.hpp"
 #include "engine/effects/debris/contacts.hpp"
-#include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/fracture.hpp"
+#include "engine/effects/debris/piece.hpp"
 #include "engine/effects/debris/shards.hpp"
 #include "engine/math/gravity.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
@@ -23,8 +23,7 @@ namespace {
 constexpr double calm_speed_mps = 0.03, calm_time_s = 1.0;
 
 void update_sleep(Piece& piece, double step_s) {
-  const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) /
-                                 elastic::total_mass_kg(piece.body));
+  const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) / elastic::total_mass_kg(piece.body));
   piece.calm_s = speed < calm_speed_mps ? piece.calm_s + step_s : 0.0;
   if (piece.calm_s < calm_time_s) return;
   piece.asleep = true;
@@ -37,11 +36,9 @@ int substeps_for(const Piece& piece, const std::vector<FoundContact>& contacts, 
   constexpr double share_of_element = 0.15;
   constexpr int most = 24;
   double size = INFINITY, closing = 0.0;
-  for (const auto& e : piece.body.elements)
-    size = std::min(size, std::cbrt(6.0 * e.rest_volume_m3));
+  for (const auto& e : piece.body.elements) size = std::min(size, std::cbrt(6.0 * e.rest_volume_m3));
   for (const FoundContact& f : contacts) {
-    const Eigen::Vector3d relative =
-        piece.body.velocity_mps[f.contact.node] - f.contact.surface_velocity_mps;
+    const Eigen::Vector3d relative = piece.body.velocity_mps[f.contact.node] - f.contact.surface_velocity_mps;
     closing = std::max(closing, relative.norm());
   }
   const double wanted = closing * step_s / (share_of_element * size);
@@ -90,8 +87,8 @@ void bound_energy(Piece& piece, const Frame& frame) {
   const double elastic_j = elastic::elastic_energy_j(body);
   const double mass = elastic::total_mass_kg(body);
   const double turning_j = 0.5 * motion.angular_momentum_nms.dot(motion.angular_velocity_radps);
-  const double moving_j = std::max(
-      0.0, elastic::kinetic_energy_j(body) - 0.5 * mass * motion.velocity_mps.squaredNorm() - turning_j);
+  const double moving_j =
+      std::max(0.0, elastic::kinetic_energy_j(body) - 0.5 * mass * motion.velocity_mps.squaredNorm() - turning_j);
   const double rigid_j = 0.5 * mass * (motion.velocity_mps - frame.velocity_mps).squaredNorm() + turning_j;
   const double budget = std::max(0.0, frame.allowed_j - rigid_j);
   const double excess = elastic_j + moving_j;
@@ -102,25 +99,21 @@ void bound_energy(Piece& piece, const Frame& frame) {
   for (int i = 0; i < body.node_count(); ++i)
     rest_centre += body.mass_kg[i] * body.rest_position_m[i] / elastic::total_mass_kg(body);
   for (int i = 0; i < body.node_count(); ++i)
-    correlation += body.mass_kg[i] * (body.position_m[i] - motion.centre_m) *
-                   (body.rest_position_m[i] - rest_centre).transpose();
+    correlation +=
+        body.mass_kg[i] * (body.position_m[i] - motion.centre_m) * (body.rest_position_m[i] - rest_centre).transpose();
   Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant());
   const Eigen::Matrix3d turn = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   for (int i = 0; i < body.node_count(); ++i) {
-    const Eigen::Vector3d home =
-        motion.centre_m + turn * (body.rest_position_m[i] - rest_centre);
+    const Eigen::Vector3d home = motion.centre_m + turn * (body.rest_position_m[i] - rest_centre);
     if (elastic_j > budget) body.position_m[i] = home + keep * (body.position_m[i] - home);
     const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
-    const Eigen::Vector3d rigid =
-        motion.velocity_mps + motion.angular_velocity_radps.cross(arm);
+    const Eigen::Vector3d rigid = motion.velocity_mps + motion.angular_velocity_radps.cross(arm);
     body.velocity_mps[i] = rigid + keep * (body.velocity_mps[i] - rigid);
   }
   const auto now = elastic::rigid_motion(body);
-  const Eigen::Vector3d change =
-      now.inertia_kgm2.inverse() * (motion.angular_momentum_nms - now.angular_momentum_nms);
-  for (int i = 0; i < body.node_count(); ++i)
-    body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
+  const Eigen::Vector3d change = now.inertia_kgm2.inverse() * (motion.angular_momentum_nms - now.angular_momentum_nms);
+  for (int i = 0; i < body.node_count(); ++i) body.velocity_mps[i] += change.cross(body.position_m[i] - now.centre_m);
 }
 
 /// Two surfaces that close on a piece ask of it what no velocity can do, and the step answers with more than either gives.
@@ -149,7 +142,8 @@ void bound_blow(Piece& piece, const Frame& frame, double step_s, std::span<const
 
 /// Adds what the boxes received. What two of them press on each other through the piece is left out: their own collision has
 /// it already, and between boxes that cannot yield it has no bound.
-void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic::NodeContact> contacts, ContactWorld& world) {
+void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic::NodeContact> contacts,
+                   ContactWorld& world) {
   std::map<int, Vec3> given_ns;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i].box >= 0) given_ns[found[i].box] -= from_eigen(contacts[i].impulse_ns);
@@ -167,14 +161,13 @@ void give_to_boxes(std::span<const FoundContact> found, std::span<const elastic:
 
 /// What is gone of the energy, as the surfaces see it: it pays for flow, cracks and scatter.
 double lost_j(const Piece& piece, const Frame& frame) {
-  return std::max(0.0, frame.allowed_j - kinetic_energy_j(piece, frame.velocity_mps) -
-                           elastic::elastic_energy_j(piece.body));
+  return std::max(
+      0.0, frame.allowed_j - kinetic_energy_j(piece, frame.velocity_mps) - elastic::elastic_energy_j(piece.body));
 }
 
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds what the boxes
 /// received, and returns what the contacts did to the piece.
-Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s,
-                     Report& report) {
+Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, Report& report) {
   auto found = find_contacts(piece, world, step_s, ahead_s);
   const Frame frame = frame_of(piece, found, step_s);
   const auto closing_mps = add_restitution(piece, found, step_s);
@@ -199,8 +192,8 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
 
 /// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of
 /// the tick by itself; all that is left at its end is appended to `done`.
-void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s,
-                Report& report, std::vector<Piece>& done) {
+void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s, Report& report,
+                std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
     const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
     FractureResult result = fracture(piece, blow);
@@ -210,8 +203,7 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
     std::ranges::stable_sort(result.pieces, std::ranges::greater{},
                              [](const Piece& p) { return p.body.elements.size(); });
     result.pieces.front().id = piece.id;
-    for (Piece& part : result.pieces)
-      step_piece(std::move(part), world, k + 1, count, substep_s, report, done);
+    for (Piece& part : result.pieces) step_piece(std::move(part), world, k + 1, count, substep_s, report, done);
     return;
   }
   done.push_back(std::move(piece));
@@ -219,9 +211,8 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
 
 }  // namespace
 
-std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
-                         const Vec3& velocity_mps, const Vec3& angular_velocity_radps,
-                         Random& random) {
+std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
+                         const Vec3& angular_velocity_radps, Random& random) {
   Piece piece = make_part(part, world_from_part, velocity_mps, angular_velocity_radps, random);
   piece.id = state.next_id++;
   state.pieces.push_back(std::move(piece));
@@ -265,15 +256,13 @@ Report advance_debris(State& state, ContactWorld& world, double step_s) {
   return report;
 }
 
-std::optional<double> highest_debris_m(const State& state, double x_m, double y_m,
-                                       double radius_m) {
+std::optional<double> highest_debris_m(const State& state, double x_m, double y_m, double radius_m) {
   std::optional<double> highest;
   for (const Piece& piece : state.pieces) {
     Eigen::AlignedBox3d bounds;
     for (const auto& x : piece.body.position_m) bounds.extend(x);
-    if (x_m < bounds.min().x() - radius_m || x_m > bounds.max().x() + radius_m ||
-        y_m < bounds.min().y() - radius_m || y_m > bounds.max().y() + radius_m ||
-        bounds.diagonal().z() < 0.01)
+    if (x_m < bounds.min().x() - radius_m || x_m > bounds.max().x() + radius_m || y_m < bounds.min().y() - radius_m ||
+        y_m > bounds.max().y() + radius_m || bounds.diagonal().z() < 0.01)
       continue;
     for (const auto& x : piece.body.position_m) {
       const double dx = x.x() - x_m, dy = x.y() - y_m;

@@ -10,8 +10,7 @@
 
 namespace septet::debris {
 
-std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact>& contacts,
-                                    double step_s) {
+std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact>& contacts, double step_s) {
   std::vector<double> closing_mps;
   for (FoundContact& found : contacts) {
     auto& c = found.contact;
@@ -25,8 +24,8 @@ std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact
   return closing_mps;
 }
 
-Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts,
-             std::span<const double> closing_mps, double step_s) {
+Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts, std::span<const double> closing_mps,
+             double step_s) {
   Blow blow;
   const double e = piece.material.restitution;
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
@@ -82,8 +81,7 @@ void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, doubl
       second_moment += p.body.mass_kg[i] * r * r.transpose();
     }
   }
-  const Eigen::Matrix3d inertia =
-      second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
+  const Eigen::Matrix3d inertia = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
   const Eigen::Vector3d turn = inertia.ldlt().solve(-spin);
   const auto field = [&](std::size_t k, int i) -> Eigen::Vector3d {
     return away[k] + turn.cross(fragments[k].body.position_m[i] - centre);
@@ -98,11 +96,9 @@ void scatter(std::vector<Piece>& fragments, const Eigen::Vector3d& normal, doubl
     }
   if (!(square > 0.0)) return;
   const double root = std::sqrt(linear * linear + 4.0 * square * energy_j);
-  const double speed =
-      linear > 0.0 ? 2.0 * energy_j / (root + linear) : (root - linear) / (2.0 * square);
+  const double speed = linear > 0.0 ? 2.0 * energy_j / (root + linear) : (root - linear) / (2.0 * square);
   for (std::size_t k = 0; k < fragments.size(); ++k)
-    for (int i = 0; i < fragments[k].body.node_count(); ++i)
-      fragments[k].body.velocity_mps[i] += speed * field(k, i);
+    for (int i = 0; i < fragments[k].body.node_count(); ++i) fragments[k].body.velocity_mps[i] += speed * field(k, i);
 }
 
 }  // namespace septet::debris

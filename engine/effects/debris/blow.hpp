@@ -26,7 +26,7 @@ struct Blow {
   Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< Mean direction of the impulse on the piece.
   double stress_factor = 1.0;             ///< Of ElasticBody::step_stress_pa.
   double lost_j = 0.0;                    ///< Taken by the contact.
-  double pressed_j = 0.0;  ///< Work of what goes on pressing: pays for cracks, scatters nothing.
+  double pressed_j = 0.0;                 ///< Work of what goes on pressing: pays for cracks, scatters nothing.
 };
 
 /// Closing speed below which a contact is pressure and no blow, and returns nothing.
@@ -37,12 +37,11 @@ inline constexpr double scatter_share = 0.2;
 
 /// Makes the contacts that close fast return `restitution` of their speed, for one step of
 /// `step_s`. Answers each contact's closing speed, 0 where it is no blow.
-std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact>& contacts,
-                                    double step_s);
+std::vector<double> add_restitution(const Piece& piece, std::vector<FoundContact>& contacts, double step_s);
 
 /// What the contacts of a step did, from their impulses and closing speeds.
-Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts,
-             std::span<const double> closing_mps, double step_s);
+Blow blow_of(const Piece& piece, std::span<const elastic::NodeContact> contacts, std::span<const double> closing_mps,
+             double step_s);
 
 /// Lets fragments fly apart across the blow's normal with `energy_j` more than they have. Momentum
 /// and angular momentum of all together stay.

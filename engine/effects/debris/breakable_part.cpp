@@ -31,10 +31,8 @@ const PartRecipe& part_recipe(Part part) {
 MaterialData spread_material(const PartRecipe& recipe) {
   MaterialData data = material_data(recipe.material);
   const double mean_width = 0.5 * (1.0 + recipe.taper);
-  const double area_factor = recipe.taper == 1.0
-                                 ? 1.0
-                                 : mean_width * mean_width +
-                                       (1.0 - recipe.taper) * (1.0 - recipe.taper) / 12.0;
+  const double area_factor =
+      recipe.taper == 1.0 ? 1.0 : mean_width * mean_width + (1.0 - recipe.taper) * (1.0 - recipe.taper) / 12.0;
   const double density = recipe.mass_kg / (recipe.size_m.x * recipe.size_m.y * recipe.size_m.z * area_factor);
   const double fill = density / data.elastic.density_kgpm3;
   data.elastic.density_kgpm3 = density;

@@ -20,28 +20,26 @@ inline constexpr int material_count = 6;
 
 struct MaterialData {
   elastic::ElasticMaterial elastic;
-  double strength_pa;  ///< Largest tensile stress across a face before it opens.
+  double strength_pa;              ///< Largest tensile stress across a face before it opens.
   double compressive_strength_pa;  ///< Unconfined: beyond it faces along the pressure open.
-  double yield_pa;     ///< Von Mises stress from which it flows; 0: it does not.
-  double friction;     ///< On dry asphalt.
-  double fracture_energy_jpm2;  ///< That a crack takes for each square metre of its area.
-  double restitution;           ///< Share of the closing speed that a blow returns.
+  double yield_pa;                 ///< Von Mises stress from which it flows; 0: it does not.
+  double friction;                 ///< On dry asphalt.
+  double fracture_energy_jpm2;     ///< That a crack takes for each square metre of its area.
+  double restitution;              ///< Share of the closing speed that a blow returns.
 };
 const MaterialData& material_data(Material material);
 
-enum class Part : std::uint8_t {
-  bumper, door, lamp, windscreen, traffic_cone, barrier_post, ice_slab
-};
+enum class Part : std::uint8_t { bumper, door, lamp, windscreen, traffic_cone, barrier_post, ice_slab };
 inline constexpr int part_count = 7;
 
 struct PartRecipe {
   Material material;
-  glm::ivec3 cells;          ///< Lattice cubes along x, y, z; five tetrahedra each.
-  Vec3 size_m;               ///< Outer box; x forward, y left, z up, centred on the part's origin.
+  glm::ivec3 cells;  ///< Lattice cubes along x, y, z; five tetrahedra each.
+  Vec3 size_m;       ///< Outer box; x forward, y left, z up, centred on the part's origin.
   double mass_kg;
-  int splinters;             ///< Voronoi cells that it can fall into.
-  double taper;              ///< Width of the top over that of the foot.
-  bool shards;               ///< Splinters fly on as rigid shards and not as elastic pieces.
+  int splinters;  ///< Voronoi cells that it can fall into.
+  double taper;   ///< Width of the top over that of the foot.
+  bool shards;    ///< Splinters fly on as rigid shards and not as elastic pieces.
 };
 const PartRecipe& part_recipe(Part part);
 

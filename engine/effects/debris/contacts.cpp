@@ -43,8 +43,7 @@ void exchange(Piece& hitter, Piece& target, const Bounds& target_bounds, double 
       if (outer[k] == 0) continue;
       const auto& e = b.elements[k];
       Eigen::Matrix3d edges;
-      for (int c = 0; c < 3; ++c)
-        edges.col(c) = b.position_m[e.nodes[c + 1]] - b.position_m[e.nodes[0]];
+      for (int c = 0; c < 3; ++c) edges.col(c) = b.position_m[e.nodes[c + 1]] - b.position_m[e.nodes[0]];
       const Eigen::Matrix3d inverse = edges.inverse();
       const Eigen::Vector3d last = inverse * (point - b.position_m[e.nodes[0]]);
       const Eigen::Vector4d weight(1.0 - last.sum(), last[0], last[1], last[2]);
@@ -54,8 +53,8 @@ void exchange(Piece& hitter, Piece& target, const Bounds& target_bounds, double 
       Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
       for (int f = 0; f < 4; ++f) {
         if (!(outer[k] & (1u << f))) continue;
-        const Eigen::Vector3d gradient = f == 0 ? (-inverse.colwise().sum()).transpose().eval()
-                                                : inverse.row(f - 1).transpose().eval();
+        const Eigen::Vector3d gradient =
+            f == 0 ? (-inverse.colwise().sum()).transpose().eval() : inverse.row(f - 1).transpose().eval();
         const double d = weight[f] / gradient.norm();
         if (d < depth) depth = d, normal = -gradient.normalized();
       }
@@ -63,8 +62,7 @@ void exchange(Piece& hitter, Piece& target, const Bounds& target_bounds, double 
       double inverse_mass = a.fixed[i] ? 0.0 : 1.0 / a.mass_kg[i];
       for (int c = 0; c < 4; ++c) {
         surface_velocity += weight[c] * b.velocity_mps[e.nodes[c]];
-        if (!b.fixed[e.nodes[c]])
-          inverse_mass += weight[c] * weight[c] / b.mass_kg[e.nodes[c]];
+        if (!b.fixed[e.nodes[c]]) inverse_mass += weight[c] * weight[c] / b.mass_kg[e.nodes[c]];
       }
       if (inverse_mass == 0.0) break;
       const Eigen::Vector3d relative = a.velocity_mps[i] - surface_velocity;
@@ -73,15 +71,13 @@ void exchange(Piece& hitter, Piece& target, const Bounds& target_bounds, double 
       const double pressing = wanted / inverse_mass;
       const Eigen::Vector3d slide = relative - relative.dot(normal) * normal;
       const double friction =
-          std::min(0.5 * (hitter.material.friction + target.material.friction) * pressing,
-                   slide.norm() / inverse_mass);
+          std::min(0.5 * (hitter.material.friction + target.material.friction) * pressing, slide.norm() / inverse_mass);
       const Eigen::Vector3d impulse =
-          pressing * normal - (slide.norm() > 0 ? Eigen::Vector3d(friction * slide.normalized())
-                                                : Eigen::Vector3d::Zero().eval());
+          pressing * normal -
+          (slide.norm() > 0 ? Eigen::Vector3d(friction * slide.normalized()) : Eigen::Vector3d::Zero().eval());
       if (!a.fixed[i]) a.velocity_mps[i] += impulse / a.mass_kg[i];
       for (int c = 0; c < 4; ++c)
-        if (!b.fixed[e.nodes[c]])
-          b.velocity_mps[e.nodes[c]] -= weight[c] * impulse / b.mass_kg[e.nodes[c]];
+        if (!b.fixed[e.nodes[c]]) b.velocity_mps[e.nodes[c]] -= weight[c] * impulse / b.mass_kg[e.nodes[c]];
       if (wanted > 0.05) hitter.asleep = target.asleep = false;
       break;
     }
@@ -146,8 +142,7 @@ BoxGap gap_to_box(const Box& box, const Vec3& point_m) {
   return {gap, box.world_from_box.orientation * normal};
 }
 
-std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world,
-                                        double step_s, double ahead_s) {
+std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world, double step_s, double ahead_s) {
   const std::vector<NearBox> boxes = boxes_within_reach(piece, world, step_s, ahead_s);
   std::vector<FoundContact> result;
   for (int i = 0; i < piece.body.node_count(); ++i) {
@@ -172,11 +167,9 @@ std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& 
       const Vec3 arm = seen - box.world_from_box.position_m;
       const double far = near.radius_m + reach + step_s * near.speed_mps;
       if (glm::dot(arm, arm) > far * far) continue;
-      const Vec3 surface_velocity =
-          box.velocity_mps + glm::cross(box.angular_velocity_radps, arm);
+      const Vec3 surface_velocity = box.velocity_mps + glm::cross(box.angular_velocity_radps, arm);
       const BoxGap gap = gap_to_box(box, seen);
-      if (gap.gap_m > 0.02 + step_s * (glm::length(velocity - surface_velocity) + 10.0 * step_s))
-        continue;
+      if (gap.gap_m > 0.02 + step_s * (glm::length(velocity - surface_velocity) + 10.0 * step_s)) continue;
       FoundContact found;
       found.contact.node = i;
       found.contact.normal = to_eigen(gap.normal);

@@ -16,8 +16,8 @@ struct FoundContact {
 
 /// Nodes of the piece that touch ground or boxes or may do so within the step. The boxes are where
 /// their velocity has taken them after `ahead_s`.
-std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world,
-                                        double step_s, double ahead_s = 0.0);
+std::vector<FoundContact> find_contacts(const Piece& piece, const ContactWorld& world, double step_s,
+                                        double ahead_s = 0.0);
 
 /// Whether a box moves close to the piece.
 bool box_near(const Piece& piece, const ContactWorld& world, double step_s);

@@ -17,8 +17,7 @@ namespace septet::debris {
 namespace {
 
 Vec3 velocity_at(const Box& box, const Vec3& point_m) {
-  return box.velocity_mps +
-         glm::cross(box.angular_velocity_radps, point_m - box.world_from_box.position_m);
+  return box.velocity_mps + glm::cross(box.angular_velocity_radps, point_m - box.world_from_box.position_m);
 }
 
 double part_radius_m(Part part) {
@@ -38,8 +37,7 @@ void squeeze_out(Piece& piece, const std::vector<Box>& boxes, const Vec3& normal
   across = glm::length(across) > 0.1 ? glm::normalize(across) * side : Vec3(0, side, 0);
   const auto centre = [&] { return from_eigen(elastic::centre_of_mass_m(piece.body)); };
   const auto is_free = [&](const Vec3& point) {
-    return std::ranges::none_of(
-        boxes, [&](const Box& box) { return gap_to_box(box, point).gap_m < 0.15; });
+    return std::ranges::none_of(boxes, [&](const Box& box) { return gap_to_box(box, point).gap_m < 0.15; });
   };
   constexpr double stride_m = 0.1;
   const Vec3 start = centre();
@@ -63,8 +61,7 @@ struct Context {
 void lift_above_ground(Piece& piece, const ContactWorld& world) {
   if (!world.ground) return;
   double deepest = 0.0;
-  for (const auto& x : piece.body.position_m)
-    deepest = std::max(deepest, world.ground(x.x(), x.y()).height_m - x.z());
+  for (const auto& x : piece.body.position_m) deepest = std::max(deepest, world.ground(x.x(), x.y()).height_m - x.z());
   if (deepest > 0.0) move(piece, {0, 0, deepest + 0.01});
 }
 
@@ -80,13 +77,12 @@ std::vector<Piece> crushed(Piece piece, const Vec3& push, double crush_m, double
   }
   for (const auto& e : piece.body.elements) volume_m3 += e.rest_volume_m3;
   const double strain = std::min(1.0, crush_m / (high - low));
-  piece.body.step_stress_pa.assign(
-      piece.body.elements.size(),
-      -strain * m.elastic.young_modulus_pa * normal * normal.transpose());
+  piece.body.step_stress_pa.assign(piece.body.elements.size(),
+                                   -strain * m.elastic.young_modulus_pa * normal * normal.transpose());
   Blow blow;
   blow.normal = normal;
-  blow.lost_j = 0.5 * elastic::total_mass_kg(piece.body) * closing_mps * closing_mps *
-                (1.0 - m.restitution * m.restitution);
+  blow.lost_j =
+      0.5 * elastic::total_mass_kg(piece.body) * closing_mps * closing_mps * (1.0 - m.restitution * m.restitution);
   blow.pressed_j = strain * volume_m3 * (m.yield_pa > 0.0 ? m.yield_pa : m.compressive_strength_pa);
   flow(piece, blow);
   FractureResult result = fracture(piece, blow);
@@ -119,8 +115,8 @@ void release(Context& context, std::vector<Piece> pieces, const Vec3& push) {
   }
 }
 
-void break_off(Context& context, const Crash& crash, CrashBody& body, const CrashBody& other,
-               double lost_speed_mps, const Vec3& push) {
+void break_off(Context& context, const Crash& crash, CrashBody& body, const CrashBody& other, double lost_speed_mps,
+               const Vec3& push) {
   const double closing = context.report.closing_speed_mps;
   const double frequency_radps = passenger_car_crush().frequency_radps;
   const double crush_m = closing / frequency_radps;
@@ -128,8 +124,8 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
   for (const MountedPart& mounted : body.parts) {
     const RigidTransform place = body.box.world_from_box * mounted.box_from_part;
     const double mass = part_recipe(mounted.part).mass_kg;
-    const bool struck = gap_to_box(other.box, place.position_m).gap_m <
-                        lost_speed_mps / frequency_radps + part_radius_m(mounted.part);
+    const bool struck =
+        gap_to_box(other.box, place.position_m).gap_m < lost_speed_mps / frequency_radps + part_radius_m(mounted.part);
     const double peak_n = mass * lost_speed_mps * frequency_radps;
     if (!struck && peak_n <= mounted.mount_strength_n) {
       left.push_back(mounted);
@@ -139,11 +135,9 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     Vec3 velocity = before;
     if (struck) {
       // Carried along by the crush to the common speed, and out with what the blow returns.
-      const double returned =
-          material_data(part_recipe(mounted.part).material).restitution * closing;
-      velocity +=
-          lost_speed_mps * push + returned * std::sqrt(context.random.uniform()) *
-                                      way_out(context, place.position_m - crash.point_m, push);
+      const double returned = material_data(part_recipe(mounted.part).material).restitution * closing;
+      velocity += lost_speed_mps * push + returned * std::sqrt(context.random.uniform()) *
+                                              way_out(context, place.position_m - crash.point_m, push);
       ++context.report.struck;
     } else {
       const double sine = mounted.mount_strength_n / peak_n;
@@ -152,14 +146,12 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
     }
     // Which mount holds longest is not known; the part turns about it.
     Vec3 spin = body.box.angular_velocity_radps;
-    for (int c = 0; c < 3; ++c)
-      spin[c] += 0.15 * glm::length(velocity - before) * context.random.normal();
+    for (int c = 0; c < 3; ++c) spin[c] += 0.15 * glm::length(velocity - before) * context.random.normal();
     std::vector<Piece> pieces;
     pieces.push_back(make_part(mounted.part, place, velocity, spin, context.random));
     if (struck) pieces = crushed(std::move(pieces.front()), push, crush_m, closing);
     context.report.fragments += static_cast<int>(pieces.size());
-    for (const Piece& piece : pieces)
-      body.impulse_ns -= from_eigen(elastic::momentum_ns(piece.body));
+    for (const Piece& piece : pieces) body.impulse_ns -= from_eigen(elastic::momentum_ns(piece.body));
     body.impulse_ns += mass * before;
     release(context, std::move(pieces), push);
   }
@@ -170,8 +162,7 @@ void break_off(Context& context, const Crash& crash, CrashBody& body, const Cras
 
 CrashReport crash(State& state, Crash& crash, const ContactWorld& world, Random& random) {
   CrashReport report;
-  const Vec3 relative =
-      velocity_at(crash.first.box, crash.point_m) - velocity_at(crash.second.box, crash.point_m);
+  const Vec3 relative = velocity_at(crash.first.box, crash.point_m) - velocity_at(crash.second.box, crash.point_m);
   report.closing_speed_mps = -glm::dot(relative, crash.normal);
   if (!(report.closing_speed_mps >= least_crash_speed_mps)) return report;
   const double first = 1.0 / crash.first.mass_kg, second = 1.0 / crash.second.mass_kg;

@@ -20,8 +20,8 @@ Place quantised(const Vec3& p) {
   Place result;
   for (int c = 0; c < 3; ++c) {
     SEPTET_CHECK(std::isfinite(p[c]), "coordinate {}", p[c]);
-    result[c] = std::clamp<std::int64_t>(
-        std::llround(std::clamp(p[c] / position_quantum_m, -1e9, 1e9)), -furthest, furthest);
+    result[c] =
+        std::clamp<std::int64_t>(std::llround(std::clamp(p[c] / position_quantum_m, -1e9, 1e9)), -furthest, furthest);
   }
   return result;
 }
@@ -38,10 +38,8 @@ Keyframe keyframe_of(const std::vector<Shard>& shards) {
     if (keyframe.triangles.size() == max_vertices / 3) break;
     const auto first = static_cast<std::uint16_t>(keyframe.vertices_m.size());
     for (const Vec3& corner : {Vec3(1.0, 0.0, 0.0), Vec3(-0.5, 0.7, 0.1), Vec3(-0.4, -0.8, 0.0)})
-      keyframe.vertices_m.push_back(shard.position_m +
-                                    shard.orientation * (shard.size_m * corner));
-    keyframe.triangles.push_back({first, static_cast<std::uint16_t>(first + 1),
-                                  static_cast<std::uint16_t>(first + 2)});
+      keyframe.vertices_m.push_back(shard.position_m + shard.orientation * (shard.size_m * corner));
+    keyframe.triangles.push_back({first, static_cast<std::uint16_t>(first + 1), static_cast<std::uint16_t>(first + 2)});
     keyframe.asleep = keyframe.asleep && shard.velocity_mps == Vec3(0.0);
   }
   return keyframe;
@@ -56,17 +54,15 @@ Keyframe keyframe_of(const Piece& piece) {
   for (const auto& triangle : piece.surface) {
     std::array<std::uint16_t, 3> corners{};
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto [found, fresh] = place.try_emplace(
-          triangle.nodes[c], static_cast<std::uint16_t>(keyframe.vertices_m.size()));
-      if (fresh)
-        keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
+      const auto [found, fresh] =
+          place.try_emplace(triangle.nodes[c], static_cast<std::uint16_t>(keyframe.vertices_m.size()));
+      if (fresh) keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
       corners[c] = found->second;
     }
     keyframe.triangles.push_back(corners);
   }
-  SEPTET_CHECK(keyframe.vertices_m.size() <= max_vertices &&
-                   keyframe.triangles.size() <= max_triangles,
-               "{} vertices", keyframe.vertices_m.size());
+  SEPTET_CHECK(keyframe.vertices_m.size() <= max_vertices && keyframe.triangles.size() <= max_triangles, "{} vertices",
+               keyframe.vertices_m.size());
   return keyframe;
 }
 
@@ -121,12 +117,10 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
       const std::int64_t step = reader.get_signed_varint(), limit = i == 0 ? furthest : widest;
       if (!reader.ok() || step < -limit || step > limit) return refuse("coordinate out of bounds");
       place[c] += step;
-      if (place[c] < -2 * furthest || place[c] > 2 * furthest)
-        return refuse("coordinate out of bounds");
+      if (place[c] < -2 * furthest || place[c] > 2 * furthest) return refuse("coordinate out of bounds");
     }
     keyframe.vertices_m.emplace_back(
-        Vec3(static_cast<double>(place[0]), static_cast<double>(place[1]),
-             static_cast<double>(place[2])) *
+        Vec3(static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2])) *
         position_quantum_m);
   }
   const std::size_t triangles = reader.get_count(std::min(max_triangles, reader.remaining() / 3));
@@ -138,8 +132,7 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
       const std::int64_t step = reader.get_signed_varint();
       if (!reader.ok() || step < -65536 || step > 65536) return refuse("index out of bounds");
       index += step;
-      if (index < 0 || index >= static_cast<std::int64_t>(vertices))
-        return refuse("index out of bounds");
+      if (index < 0 || index >= static_cast<std::int64_t>(vertices)) return refuse("index out of bounds");
       corner = static_cast<std::uint16_t>(index);
     }
     keyframe.triangles.push_back(corners);
@@ -150,11 +143,9 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
 
 std::vector<EffectKeyframe> effect_keyframes(const State& state) {
   std::vector<EffectKeyframe> result;
-  if (!state.shards.empty())
-    result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of(state.shards))});
+  if (!state.shards.empty()) result.push_back({first_effect_id, keyframe_kind, encode(keyframe_of(state.shards))});
   for (const Piece& piece : state.pieces)
-    result.push_back({first_effect_id + (piece.id & 0xffffff), keyframe_kind,
-                      encode(keyframe_of(piece))});
+    result.push_back({first_effect_id + (piece.id & 0xffffff), keyframe_kind, encode(keyframe_of(piece))});
   return result;
 }
 

@@ -57,10 +57,10 @@ struct Box {
   RigidTransform world_from_box;  ///< Origin at the centre.
   Vec3 half_size_m{1.0};
   std::vector<HullPlane> cuts;
-  Vec3 velocity_mps{0.0};         ///< Of the centre.
+  Vec3 velocity_mps{0.0};  ///< Of the centre.
   Vec3 angular_velocity_radps{0.0};
   double friction = 0.4;
-  Vec3 impulse_ns{0.0};           ///< Out: what the debris gave to the box during the tick.
+  Vec3 impulse_ns{0.0};  ///< Out: what the debris gave to the box during the tick.
 };
 
 struct ContactWorld {
@@ -69,8 +69,8 @@ struct ContactWorld {
 };
 
 struct Report {
-  int fractures = 0;       ///< Faces that opened.
-  int awake = 0;           ///< Pieces stepped.
+  int fractures = 0;  ///< Faces that opened.
+  int awake = 0;      ///< Pieces stepped.
   int bad_numbers = 0;
 };
 
@@ -79,15 +79,13 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
                 const Vec3& angular_velocity_radps, Random& random);
 
 /// Adds a part in one piece; the splinters are drawn from `random`. Answers its id.
-std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part,
-                         const Vec3& velocity_mps, const Vec3& angular_velocity_radps,
-                         Random& random);
+std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
+                         const Vec3& angular_velocity_radps, Random& random);
 
 Report advance_debris(State& state, ContactWorld& world, double step_s);
 
 /// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces
 /// thinner than a centimetre and shards are no obstacle.
-std::optional<double> highest_debris_m(const State& state, double x_m, double y_m,
-                                       double radius_m);
+std::optional<double> highest_debris_m(const State& state, double x_m, double y_m, double radius_m);
 
 }  // namespace septet::debris

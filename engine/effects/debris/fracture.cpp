@@ -21,9 +21,7 @@ using elastic::Element;
 /// Sets with a representative (path halving; the smaller index represents).
 struct DisjointSets {
   std::vector<int> parent;
-  explicit DisjointSets(std::size_t count) : parent(count) {
-    std::iota(parent.begin(), parent.end(), 0);
-  }
+  explicit DisjointSets(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
   int find(int i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
@@ -54,8 +52,7 @@ std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
 }
 
 /// By how much a stress passes the strength of a face with this normal; below one it holds.
-double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa,
-                        const Eigen::Vector3d& normal) {
+double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
   if (stress.norm() < strength_pa) return 0.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(stress, Eigen::EigenvaluesOnly);
@@ -64,8 +61,7 @@ double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa,
   return across ? greatest / strength_pa : 0.0;
 }
 
-double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa,
-                          const Eigen::Vector3d& normal) {
+double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
   if (stress.norm() < strength_pa) return 0.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(stress);
@@ -100,17 +96,16 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
   Overload most;
   const auto& m = piece.material;
   // Pressure splits a brittle material where it bulges by more than its strength allows.
-  const double splitting_pa = m.yield_pa > 0.0 ? m.compressive_strength_pa
-                                               : std::min(m.compressive_strength_pa,
-                                                          m.strength_pa / m.elastic.poisson_ratio);
+  const double splitting_pa = m.yield_pa > 0.0
+                                  ? m.compressive_strength_pa
+                                  : std::min(m.compressive_strength_pa, m.strength_pa / m.elastic.poisson_ratio);
   const auto struck = [&](const Eigen::Matrix3d& peak) {
-    most.blow = std::max({most.blow, tensile_overload(peak, m.strength_pa, normal),
-                          splitting_overload(peak, splitting_pa, normal)});
+    most.blow = std::max(
+        {most.blow, tensile_overload(peak, m.strength_pa, normal), splitting_overload(peak, splitting_pa, normal)});
   };
   for (const int element : {face.first, face.second}) {
-    most.lasting = std::max(
-        most.lasting,
-        tensile_overload(elastic::cauchy_stress_pa(piece.body, element), m.strength_pa, normal));
+    most.lasting =
+        std::max(most.lasting, tensile_overload(elastic::cauchy_stress_pa(piece.body, element), m.strength_pa, normal));
     if (piece.body.step_stress_pa.empty()) continue;
     const Eigen::Matrix3d& carried = piece.body.step_stress_pa[element];
     most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal));
@@ -125,8 +120,8 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
 }
 
 /// Which of the inner faces open, and what the cracks leave of the energy that the blow lost.
-std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>& faces,
-                               const Blow& blow, double& left_j) {
+std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>& faces, const Blow& blow,
+                               double& left_j) {
   const auto& x = piece.body.position_m;
   std::vector<bool> opened(faces.size(), false);
   struct Candidate {
@@ -139,8 +134,7 @@ std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>&
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
-    const Eigen::Vector3d normal =
-        (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
+    const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
     const double area = 0.5 * normal.norm();
     const Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
     opened[k] = overload.lasting >= 1.0;
@@ -161,8 +155,7 @@ std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>&
 /// The part of the rest shape that has flowed: edges(rest) · rest_inverse = Fp⁻¹.
 Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e) {
   Eigen::Matrix3d edges;
-  for (int a = 0; a < 3; ++a)
-    edges.col(a) = body.rest_position_m[e.nodes[a + 1]] - body.rest_position_m[e.nodes[0]];
+  for (int a = 0; a < 3; ++a) edges.col(a) = body.rest_position_m[e.nodes[a + 1]] - body.rest_position_m[e.nodes[0]];
   return edges * e.rest_inverse;
 }
 
@@ -176,8 +169,7 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements,
   for (const int e : elements) {
     elastic::Tetrahedron t;
     for (std::size_t a = 0; a < 4; ++a) {
-      const auto [place, fresh] =
-          node_of_group.try_emplace(corner_group[e][a], static_cast<int>(mesh.nodes_m.size()));
+      const auto [place, fresh] = node_of_group.try_emplace(corner_group[e][a], static_cast<int>(mesh.nodes_m.size()));
       if (fresh) {
         source.push_back(old.elements[e].nodes[a]);
         mesh.nodes_m.push_back(old.rest_position_m[source.back()]);
@@ -218,8 +210,7 @@ FractureResult fracture(const Piece& piece, const Blow& blow) {
   const auto strained = [&](int e) {
     const double strength = piece.material.strength_pa;
     return elastic::cauchy_stress_pa(body, e).norm() >= strength ||
-           (!body.step_stress_pa.empty() &&
-            blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
+           (!body.step_stress_pa.empty() && blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
   };
   bool any_strained = false;
   for (int e = 0; e < static_cast<int>(body.elements.size()); ++e) any_strained = any_strained || strained(e);
@@ -251,8 +242,7 @@ FractureResult fracture(const Piece& piece, const Blow& blow) {
     for (int a = 0; a < 4; ++a) group[e][a] = corners.find(4 * e + a);
     members[islands.find(e)].push_back(e);
   }
-  for (const auto& [representative, elements] : members)
-    result.pieces.push_back(cut_out(piece, elements, group));
+  for (const auto& [representative, elements] : members) result.pieces.push_back(cut_out(piece, elements, group));
   scatter(result.pieces, blow.normal, scatter_share * left_j);
   return result;
 }
@@ -273,8 +263,7 @@ int flow(Piece& piece, const Blow& blow) {
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
     if (f.determinant() <= 0.0 || piece.plastic_strain[k] >= most_plastic_strain) continue;
     if (blow.lost_j > 0.0 && !piece.body.step_stress_pa.empty() &&
-        std::sqrt(1.5) * blow.stress_factor * deviator_of(piece.body.step_stress_pa[k]).norm() >
-            yield) {
+        std::sqrt(1.5) * blow.stress_factor * deviator_of(piece.body.step_stress_pa[k]).norm() > yield) {
       struck.push_back(k);
       struck_volume_m3 += e.rest_volume_m3;
     }
@@ -286,18 +275,16 @@ int flow(Piece& piece, const Blow& blow) {
     const Eigen::Vector3d stretch = eigen.eigenvalues().cwiseMax(1e-6).cwiseSqrt();
     const double volume_root = std::cbrt(stretch.prod());
     const Eigen::Vector3d undone = (stretch / volume_root).array().pow(-share);
-    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() *
-                     eigen.eigenvectors().transpose();
+    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() * eigen.eigenvectors().transpose();
     piece.plastic_strain[k] += share * deviator.norm();
     ++count;
   }
   // A blow's work is the yield stress times the strain over what it overloads. The shape takes the
   // strain as well, for the stress was there and gone within the step; what that stores springs
   // back later and is no more than half of what the blow lost.
-  const double strain =
-      struck.empty() ? 0.0
-                     : std::min({most_per_step, blow.lost_j / (yield * struck_volume_m3),
-                                 std::sqrt(0.5 * blow.lost_j / (lame.mu_pa * struck_volume_m3))});
+  const double strain = struck.empty() ? 0.0
+                                       : std::min({most_per_step, blow.lost_j / (yield * struck_volume_m3),
+                                                   std::sqrt(0.5 * blow.lost_j / (lame.mu_pa * struck_volume_m3))});
   for (const std::size_t k : struck) {
     Element& e = piece.body.elements[k];
     const Eigen::Matrix3d f = elastic::deformation_gradient(e, piece.body.position_m);
@@ -306,8 +293,7 @@ int flow(Piece& piece, const Blow& blow) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(deviator_of(at_rest));
     const Eigen::Vector3d way = eigen.eigenvalues().normalized();
     const Eigen::Vector3d undone = (-strain * way).array().exp();
-    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() *
-                     eigen.eigenvectors().transpose();
+    e.rest_inverse = e.rest_inverse * eigen.eigenvectors() * undone.asDiagonal() * eigen.eigenvectors().transpose();
     piece.plastic_strain[k] += strain;
     ++count;
   }

@@ -14,7 +14,8 @@ constexpr std::size_t tetrahedra_per_cube = 5;  // One after the other in lattic
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                 const Vec3& angular_velocity_radps, Random& random) {
   const PartRecipe& recipe = part_recipe(part);
-  elastic::TetrahedralMesh mesh = elastic::lattice_mesh({recipe.cells.x, recipe.cells.y, recipe.cells.z}, to_eigen(recipe.size_m));
+  elastic::TetrahedralMesh mesh =
+      elastic::lattice_mesh({recipe.cells.x, recipe.cells.y, recipe.cells.z}, to_eigen(recipe.size_m));
   for (auto& x : mesh.nodes_m) {
     x -= 0.5 * to_eigen(recipe.size_m);
     const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z + 0.5);

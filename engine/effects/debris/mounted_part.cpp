@@ -14,9 +14,7 @@ struct Mounts {
 #define SEPTET_ENTRY(name, ...) constexpr Mounts name __VA_ARGS__;
 #include "engine/effects/debris/mounts.toml.inc"
 
-double clip_strength_n(Part part) {
-  return passenger_car.clips_hold_g * gravity_mps2 * part_recipe(part).mass_kg;
-}
+double clip_strength_n(Part part) { return passenger_car.clips_hold_g * gravity_mps2 * part_recipe(part).mass_kg; }
 
 }  // namespace
 
@@ -28,22 +26,17 @@ std::vector<MountedPart> passenger_car_parts(const Vec3& half_size_m) {
   const Vec3 bumper = half(Part::bumper), lamp = half(Part::lamp), door = half(Part::door);
   for (const double end : {1.0, -1.0}) {
     const Quat turn = end > 0 ? straight : backwards;
-    parts.push_back({Part::bumper,
-                     {{end * (h.x - bumper.x), 0, -0.35 * h.z}, turn},
-                     clip_strength_n(Part::bumper)});
+    parts.push_back({Part::bumper, {{end * (h.x - bumper.x), 0, -0.35 * h.z}, turn}, clip_strength_n(Part::bumper)});
     for (const double side : {1.0, -1.0})
-      parts.push_back({Part::lamp,
-                       {{end * (h.x - lamp.x), side * (h.y - lamp.y), 0.05 * h.z}, turn},
-                       clip_strength_n(Part::lamp)});
+      parts.push_back(
+          {Part::lamp, {{end * (h.x - lamp.x), side * (h.y - lamp.y), 0.05 * h.z}, turn}, clip_strength_n(Part::lamp)});
   }
   const bool four_doors = h.x > 2.0;
   for (int row = 0; row < (four_doors ? 2 : 1); ++row)
     for (const double side : {1.0, -1.0})
-      parts.push_back(
-          {Part::door,
-           {{0.15 * h.x - row * (2.0 * door.x + 0.02), side * (h.y - door.y), -0.15 * h.z},
-            straight},
-           passenger_car.door_strength_n});
+      parts.push_back({Part::door,
+                       {{0.15 * h.x - row * (2.0 * door.x + 0.02), side * (h.y - door.y), -0.15 * h.z}, straight},
+                       passenger_car.door_strength_n});
   parts.push_back({Part::windscreen,
                    {{0.35 * h.x, 0, 0.5 * h.z}, glm::angleAxis(-0.6, Vec3(0, 1, 0))},
                    passenger_car.windscreen_strength_n});

@@ -18,13 +18,13 @@ namespace septet::debris {
 struct Piece {
   std::uint32_t id = 0;
   Part part = Part::bumper;
-  MaterialData material;               ///< Spread over the lattice (breakable_part.hpp).
+  MaterialData material;  ///< Spread over the lattice (breakable_part.hpp).
   elastic::ElasticBody body;
   std::vector<int> splinter;           ///< Of each element; faces between two may open.
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.
   std::vector<elastic::SurfaceTriangle> surface;
-  double calm_s = 0.0;                 ///< For how long it has hardly moved.
-  bool asleep = false;                 ///< Neither stepped nor broken until something touches it.
+  double calm_s = 0.0;  ///< For how long it has hardly moved.
+  bool asleep = false;  ///< Neither stepped nor broken until something touches it.
 };
 
 inline Eigen::Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }

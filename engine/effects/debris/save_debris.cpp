@@ -35,7 +35,9 @@ void restore_piece(StateReader& reader, Piece& piece) {
   piece.material = spread_material(recipe);
   piece.body.material = piece.material.elastic;
   constexpr int tetrahedra_per_cube = 5;
-  elastic::restore_body(reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube), piece.body);
+  elastic::restore_body(
+      reader, static_cast<std::size_t>(recipe.cells.x * recipe.cells.y * recipe.cells.z * tetrahedra_per_cube),
+      piece.body);
   const std::size_t elements = piece.body.elements.size();
   reader.require(piece.splinter.size() == elements && piece.plastic_strain.size() == elements, wrong);
   for (const int splinter : piece.splinter) reader.require(splinter >= 0 && splinter < recipe.splinters, wrong);

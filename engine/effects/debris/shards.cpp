@@ -55,15 +55,14 @@ void advance_shards(State& state, const ContactWorld& world, double step_s) {
       const BoxGap gap = gap_to_box(box, shard.position_m);
       if (gap.gap_m > 0.0) continue;
       const Vec3 arm = shard.position_m - box.world_from_box.position_m;
-      bounce(shard, gap.normal, box.velocity_mps + glm::cross(box.angular_velocity_radps, arm),
-             box.friction);
+      bounce(shard, gap.normal, box.velocity_mps + glm::cross(box.angular_velocity_radps, arm), box.friction);
       shard.position_m -= std::max(gap.gap_m, -0.5) * gap.normal;
     }
     shard.position_m += step_s * shard.velocity_mps;
     const double rate = glm::length(shard.angular_velocity_radps);
     if (rate > 1e-6)
-      shard.orientation = glm::normalize(
-          glm::angleAxis(rate * step_s, shard.angular_velocity_radps / rate) * shard.orientation);
+      shard.orientation =
+          glm::normalize(glm::angleAxis(rate * step_s, shard.angular_velocity_radps / rate) * shard.orientation);
     if (!world.ground) continue;
     const GroundPoint ground = world.ground(shard.position_m.x, shard.position_m.y);
     if (shard.position_m.z > ground.height_m) continue;

@@ -74,8 +74,7 @@ void fill_steps(const CellVelocity* cells, const std::uint32_t* numbers, const M
   }
   std::array<std::uint16_t, Block::most> crowded;
   const auto crowding = [&](std::size_t n) { return cells[block.cell[n]].crowding; };
-  const int count =
-      list_of(block.count, crowded, [&](int n) { return crowding(static_cast<std::size_t>(n)) > 0; });
+  const int count = list_of(block.count, crowded, [&](int n) { return crowding(static_cast<std::size_t>(n)) > 0; });
   for (int c = 0; c < count; ++c) {
     const std::size_t n = crowded[static_cast<std::size_t>(c)];
     const auto u = uniform_of(motion.key, (motion.counter + numbers[block.first + n]) << 1);
@@ -91,17 +90,15 @@ void count_extinction(State& state) {
   };
   std::vector<Look> looks;
   for (const Emitter& e : state.emitters)
-    looks.push_back({static_cast<float>(e.extinction_area_m2),
-                     e.lifetime_s > 0.0 ? static_cast<float>(1.0 / e.lifetime_s) : 0.0f});
+    looks.push_back(
+        {static_cast<float>(e.extinction_area_m2), e.lifetime_s > 0.0 ? static_cast<float>(1.0 / e.lifetime_s) : 0.0f});
   std::fill(state.extinction_area_m2.begin(), state.extinction_area_m2.end(), 0.0f);
   for (std::size_t n = 0; n < particles.size(); ++n) {
     const Look& look = looks[particles.emitter[n]];
-    const int cell = state.grid.index(static_cast<int>(particles.x[n]),
-                                      static_cast<int>(particles.y[n]),
+    const int cell = state.grid.index(static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]),
                                       static_cast<int>(particles.z[n]));
     state.extinction_area_m2[cell] +=
-        look.area_m2 *
-        static_cast<float>(remaining_extinction(particles.age_s[n] * look.per_lifetime));
+        look.area_m2 * static_cast<float>(remaining_extinction(particles.age_s[n] * look.per_lifetime));
   }
 }
 
@@ -137,20 +134,19 @@ std::vector<std::uint32_t> cells_beside_walls(const Grid& grid) {
   for (int k = 0; k < grid.nz; ++k)
     for (int j = 0; j < grid.ny; ++j)
       for (int i = 0; i < grid.nx; ++i)
-        if (!is_wall(i, j, k) &&
-            (is_wall(i - 1, j, k) || is_wall(i + 1, j, k) || is_wall(i, j - 1, k) ||
-             is_wall(i, j + 1, k) || is_wall(i, j, k - 1) || is_wall(i, j, k + 1)))
+        if (!is_wall(i, j, k) && (is_wall(i - 1, j, k) || is_wall(i + 1, j, k) || is_wall(i, j - 1, k) ||
+                                  is_wall(i, j + 1, k) || is_wall(i, j, k - 1) || is_wall(i, j, k + 1)))
           cells.push_back(static_cast<std::uint32_t>(grid.index(i, j, k)));
   return cells;
 }
 
 }  // namespace
 
-State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t seed,
-                 std::size_t capacity, const Parameters& parameters) {
+State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t seed, std::size_t capacity,
+                 const Parameters& parameters) {
   SEPTET_CHECK(emitters.size() <= max_emitters, "{} emitters", emitters.size());
-  SEPTET_CHECK(parameters.crowd > 0.0 && parameters.steepness > 0.0, "crowd {}, steepness {}",
-               parameters.crowd, parameters.steepness);
+  SEPTET_CHECK(parameters.crowd > 0.0 && parameters.steepness > 0.0, "crowd {}, steepness {}", parameters.crowd,
+               parameters.steepness);
   State state;
   state.grid = grid;
   state.parameters = parameters;
@@ -166,8 +162,7 @@ State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t 
   return state;
 }
 
-StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles,
-                         double step_s) {
+StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles, double step_s) {
   SEPTET_CHECK(step_s > 0.0 && step_s <= 0.1, "step of {} s", step_s);
   const int pushed = mark_full(state, obstacles) ? push_out_of_full_cells(state) : 0;
   const int born = emit(state, step_s);
@@ -176,17 +171,15 @@ StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obs
   update_velocity_field(state, table, state.field);
   Motion motion;
   motion.scale = static_cast<float>(step_s) * velocity_quantum;
-  motion.drift = glm::vec3(glm::conjugate(state.grid.world_from_grid.orientation) * wind_mps *
-                           (step_s / state.grid.cell_m));
+  motion.drift =
+      glm::vec3(glm::conjugate(state.grid.world_from_grid.orientation) * wind_mps * (step_s / state.grid.cell_m));
   // Uniform steps in ±a have the deviation a/√3.
-  motion.jitter = static_cast<float>(state.parameters.jitter_cells * 2.0 * std::sqrt(3.0 * step_s) *
-                                     velocity_quantum);
+  motion.jitter = static_cast<float>(state.parameters.jitter_cells * 2.0 * std::sqrt(3.0 * step_s) * velocity_quantum);
   motion.key = mixed(state.seed + 1);
   motion.counter = state.tick * max_particles;
   const CellVelocity* const cells = state.field.cells.data();
-  StepReport report = move_particles(state, step_s, [&](Block& block) {
-    fill_steps(cells, state.particles.number.data(), motion, block);
-  });
+  StepReport report = move_particles(
+      state, step_s, [&](Block& block) { fill_steps(cells, state.particles.number.data(), motion, block); });
   report.pushed = pushed;
   report.born = born;
   if (state.tick % extinction_ticks == 0) count_extinction(state);

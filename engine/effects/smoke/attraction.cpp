@@ -37,14 +37,12 @@ double attraction(double density, const Parameters& parameters) {
 std::vector<float> attraction_table(const Parameters& parameters) {
   std::vector<float> table;
   const int full = std::max(1, static_cast<int>(std::ceil(2.0 * parameters.crowd)));
-  for (int density = 0; density < full; ++density)
-    table.push_back(static_cast<float>(attraction(density, parameters)));
+  for (int density = 0; density < full; ++density) table.push_back(static_cast<float>(attraction(density, parameters)));
   table.push_back(-1.0f);
   return table;
 }
 
-Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j, int k,
-                 double bias) {
+Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j, int k, double bias) {
   const Grid& grid = state.grid;
   Vec3 sum(0.0);
   double magnitude = 0.0;
@@ -53,8 +51,7 @@ Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j,
     double f = -1.0;
     if (grid.inside(x, y, z)) {
       const int cell = grid.index(x, y, z);
-      if (!state.full[cell])
-        f = table[std::min<std::size_t>(state.density[cell], table.size() - 1)];
+      if (!state.full[cell]) f = table[std::min<std::size_t>(state.density[cell], table.size() - 1)];
     } else if (is_open(grid, x, y, z)) {
       f = 1.0;
     }

@@ -26,8 +26,7 @@ std::vector<float> attraction_table(const Parameters& parameters);
 
 /// Figure 1 for one particle in a cell, read sample by sample from the densities; `bias` multiplies what lies above.
 /// In cells; times Parameters::speed_cells_per_s it is the particle's velocity.
-Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j, int k,
-                 double bias);
+Vec3 mean_sample(const State& state, std::span<const float> table, int i, int j, int k, double bias);
 
 /// One tick as published: no jitter, wind, obstacles or soot. To compare with; set `most_in_cell` to 65535 for it.
 StepReport advance_smoke_literally(State& state, double step_s);

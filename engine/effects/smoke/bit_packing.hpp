@@ -17,8 +17,7 @@ class BitWriter {
   /// The low `count` bits of `value`, which has no others; count at most 32.
   void put(std::uint32_t value, int count) {
     bits_ |= static_cast<std::uint64_t>(value) << held_;
-    for (held_ += count; held_ >= 8; held_ -= 8, bits_ >>= 8)
-      out_.push_back(static_cast<std::byte>(bits_ & 0xff));
+    for (held_ += count; held_ >= 8; held_ -= 8, bits_ >>= 8) out_.push_back(static_cast<std::byte>(bits_ & 0xff));
   }
 
  private:

@@ -63,18 +63,18 @@ void locate(const State& state, const Ageing& ageing, Block& block) {
   for (int n = 0; n < count; ++n)
     cell[n] = (static_cast<int>(z[n]) * ny + static_cast<int>(y[n])) * nx + static_cast<int>(x[n]);
   for (int n = 0; n < count; ++n)
-    bias[n] = 1.0f + ageing.heat[emitter[n]] *
-                         std::max(0.0f, 1.0f - age_s[n] * ageing.per_cooling[emitter[n]]);
+    bias[n] = 1.0f + ageing.heat[emitter[n]] * std::max(0.0f, 1.0f - age_s[n] * ageing.per_cooling[emitter[n]]);
 }
 
 /// Moves those that stay in their cell, which are most, and answers for each whether it did not.
-void move_within_cells(int count, const float* __restrict step, float* __restrict x, float* __restrict y, float* __restrict z,
-                       int* __restrict crosses) {
+void move_within_cells(int count, const float* __restrict step, float* __restrict x, float* __restrict y,
+                       float* __restrict z, int* __restrict crosses) {
   for (int n = 0; n < count; ++n) {
     const float from_x = x[n], from_y = y[n], from_z = z[n];
     const float to_x = from_x + step[4 * n], to_y = from_y + step[4 * n + 1], to_z = from_z + step[4 * n + 2];
     // Conversion rounds towards zero: below it, −1 would look like 0, but for its sign.
-    const int changes = (static_cast<int>(to_x) ^ static_cast<int>(from_x)) | (static_cast<int>(to_y) ^ static_cast<int>(from_y)) |
+    const int changes = (static_cast<int>(to_x) ^ static_cast<int>(from_x)) |
+                        (static_cast<int>(to_y) ^ static_cast<int>(from_y)) |
                         (static_cast<int>(to_z) ^ static_cast<int>(from_z));
     const float least = std::min(std::min(to_x, to_y), to_z);
     const int crossing = changes | (least < 0.0f ? 1 : 0);
@@ -94,8 +94,8 @@ bool move_between_cells(State& state, std::size_t at, int cell, const float* ste
   float &x = state.particles.x[at], &y = state.particles.y[at], &z = state.particles.z[at];
   float to_x = x, to_y = y, to_z = z;
   int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
-  const auto along = [&](float& place, int& index, float by, int count, std::uint8_t low,
-                         std::uint8_t high, int others, int stride) {
+  const auto along = [&](float& place, int& index, float by, int count, std::uint8_t low, std::uint8_t high, int others,
+                         int stride) {
     const float to = place + std::min(std::max(by, -furthest), furthest);
     const int next = to < 0.0f ? -1 : static_cast<int>(to);
     if (next != index) {

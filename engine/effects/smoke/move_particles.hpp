@@ -16,9 +16,10 @@ struct Block {
   static constexpr int most = 256;
   std::size_t first = 0;  ///< Of the particles.
   int count = 0;
-  std::array<int, most> cell;                     ///< Where the particles are.
-  std::array<float, most> bias;                   ///< Of the samples above them.
-  alignas(32) std::array<float, 4 * most> step;   ///< To be filled: x, y, z and one unused for each; cells in the whole step.
+  std::array<int, most> cell;    ///< Where the particles are.
+  std::array<float, most> bias;  ///< Of the samples above them.
+  alignas(32)
+      std::array<float, 4 * most> step;  ///< To be filled: x, y, z and one unused for each; cells in the whole step.
 };
 
 /// Those of 0 … count − 1 for which `chosen` holds, in their order. No branch depends on it.

@@ -17,9 +17,7 @@ const std::vector<CellPlace>& offsets_by_distance() {
       for (int j = -reach; j <= reach; ++j)
         for (int i = -reach; i <= reach; ++i)
           if (i * i + j * j + k * k <= reach * reach) all.push_back({i, j, k});
-    std::ranges::stable_sort(all, {}, [](const CellPlace& o) {
-      return o.i * o.i + o.j * o.j + o.k * o.k;
-    });
+    std::ranges::stable_sort(all, {}, [](const CellPlace& o) { return o.i * o.i + o.j * o.j + o.k * o.k; });
     return all;
   }();
   return offsets;
@@ -53,9 +51,8 @@ void sort_by_cell(State& state) {
   const std::size_t count = particles.size();
   std::vector<std::uint32_t> first(static_cast<std::size_t>(state.grid.cells()) + 1, 0), to(count);
   for (std::size_t n = 0; n < count; ++n) {
-    to[n] = static_cast<std::uint32_t>(
-        state.grid.index(static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]),
-                         static_cast<int>(particles.z[n])));
+    to[n] = static_cast<std::uint32_t>(state.grid.index(
+        static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]), static_cast<int>(particles.z[n])));
     ++first[to[n] + 1];
   }
   for (std::size_t cell = 1; cell < first.size(); ++cell) first[cell] += first[cell - 1];
@@ -109,9 +106,8 @@ int emit(State& state, double step_s) {
       // Uniform in the ball: cosine of the polar angle, azimuth, cube root of the radius.
       const double z = 2.0 * u[0] - 1.0, azimuth = 2.0 * 3.14159265358979323846 * u[1];
       const double r = radius * std::cbrt(u[2]), across = r * std::sqrt(1.0 - z * z);
-      born += add_particle(
-          state, centre + Vec3(across * std::cos(azimuth), across * std::sin(azimuth), r * z),
-          static_cast<std::uint8_t>(e));
+      born += add_particle(state, centre + Vec3(across * std::cos(azimuth), across * std::sin(azimuth), r * z),
+                           static_cast<std::uint8_t>(e));
     }
   }
   return born;

@@ -7,7 +7,8 @@
 namespace septet::smoke {
 
 SEPTET_MEMBERS(Parameters, steepness, crowd, speed_cells_per_s, jitter_cells, most_in_cell, soot_per_s)
-SEPTET_MEMBERS(Emitter, position_m, radius_m, rate_per_s, heat, cooling_s, lifetime_s, albedo, extinction_area_m2, glow, owed)
+SEPTET_MEMBERS(Emitter, position_m, radius_m, rate_per_s, heat, cooling_s, lifetime_s, albedo, extinction_area_m2, glow,
+               owed)
 SEPTET_MEMBERS(Particles, x, y, z, age_s, emitter, number, free_numbers, numbers)
 SEPTET_MEMBERS(Grid, world_from_grid, cell_m, nx, ny, nz, open_faces, wall)
 SEPTET_MEMBERS(KeyframeTrack, first_chunk, chunks)
@@ -16,17 +17,23 @@ SEPTET_MEMBERS(KeyframeTrack::Chunk, time_s, place, known, data)
 /// All but the densities, which are counted again, and the memory of a step.
 template <SameButForConst<State> S>
 auto members(S& state) {
-  auto& [grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot, density, extinction_area_m2, full, field] = state;
-  return std::tie(grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot, extinction_area_m2, full);
+  auto& [grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot, density,
+         extinction_area_m2, full, field] = state;
+  return std::tie(grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot,
+                  extinction_area_m2, full);
 }
 
 namespace {
 
 void require_whole(const Grid& grid, StateReader& reader) {
-  for (const int n : {grid.nx, grid.ny, grid.nz}) reader.require(n >= 1 && n <= max_cells_along, "the smoke's box in it is none");
-  reader.require(std::int64_t{grid.nx} * grid.ny * grid.nz <= max_cells && std::isfinite(grid.cell_m) && grid.cell_m > 0.0,
-                 "the smoke's box in it is none");
-  if (reader.ok()) reader.require(grid.wall.size() == static_cast<std::size_t>(grid.cells()), "the smoke's walls in it are not its box's");
+  for (const int n : {grid.nx, grid.ny, grid.nz})
+    reader.require(n >= 1 && n <= max_cells_along, "the smoke's box in it is none");
+  reader.require(
+      std::int64_t{grid.nx} * grid.ny * grid.nz <= max_cells && std::isfinite(grid.cell_m) && grid.cell_m > 0.0,
+      "the smoke's box in it is none");
+  if (reader.ok())
+    reader.require(grid.wall.size() == static_cast<std::size_t>(grid.cells()),
+                   "the smoke's walls in it are not its box's");
 }
 
 void require_whole(const State& state, StateReader& reader) {
@@ -35,16 +42,22 @@ void require_whole(const State& state, StateReader& reader) {
   const auto cells = static_cast<std::size_t>(state.grid.cells());
   const std::size_t count = particles.size();
   const Parameters& parameters = state.parameters;
-  reader.require(parameters.crowd > 0.0 && std::isfinite(parameters.crowd) && parameters.crowd < 1e4 && parameters.steepness > 0.0 &&
-                     state.emitters.size() <= max_emitters && state.capacity <= max_particles && count <= state.capacity &&
-                     particles.numbers <= max_particles && state.extinction_area_m2.size() == cells && state.full.size() == cells &&
+  reader.require(parameters.crowd > 0.0 && std::isfinite(parameters.crowd) && parameters.crowd < 1e4 &&
+                     parameters.steepness > 0.0 && state.emitters.size() <= max_emitters &&
+                     state.capacity <= max_particles && count <= state.capacity && particles.numbers <= max_particles &&
+                     state.extinction_area_m2.size() == cells && state.full.size() == cells &&
                      state.soot.size() == state.beside_wall.size(),
                  wrong);
-  for (const auto* values : {&particles.y, &particles.z, &particles.age_s}) reader.require(values->size() == count, wrong);
-  reader.require(particles.emitter.size() == count && particles.number.size() == count && particles.free_numbers.size() + count == particles.numbers, wrong);
+  for (const auto* values : {&particles.y, &particles.z, &particles.age_s})
+    reader.require(values->size() == count, wrong);
+  reader.require(particles.emitter.size() == count && particles.number.size() == count &&
+                     particles.free_numbers.size() + count == particles.numbers,
+                 wrong);
   for (const std::uint32_t cell : state.beside_wall) reader.require(cell < cells, wrong);
   for (const Emitter& emitter : state.emitters)
-    reader.require(std::abs(emitter.rate_per_s) <= 1e6 && emitter.owed >= 0.0 && emitter.owed <= 1e6 && std::isfinite(emitter.radius_m), wrong);
+    reader.require(std::abs(emitter.rate_per_s) <= 1e6 && emitter.owed >= 0.0 && emitter.owed <= 1e6 &&
+                       std::isfinite(emitter.radius_m),
+                   wrong);
   if (!reader.ok()) return;
   std::vector<bool> taken(particles.numbers, false);
   const auto take = [&](std::uint32_t number) {
@@ -52,8 +65,9 @@ void require_whole(const State& state, StateReader& reader) {
   };
   for (std::size_t n = 0; n < count && reader.ok(); ++n) {
     const auto is_within = [](float value, int limit) { return value >= 0.0f && value < static_cast<float>(limit); };
-    reader.require(is_within(particles.x[n], state.grid.nx) && is_within(particles.y[n], state.grid.ny) && is_within(particles.z[n], state.grid.nz) &&
-                       particles.emitter[n] < state.emitters.size() && particles.age_s[n] >= 0.0f && std::isfinite(particles.age_s[n]),
+    reader.require(is_within(particles.x[n], state.grid.nx) && is_within(particles.y[n], state.grid.ny) &&
+                       is_within(particles.z[n], state.grid.nz) && particles.emitter[n] < state.emitters.size() &&
+                       particles.age_s[n] >= 0.0f && std::isfinite(particles.age_s[n]),
                    wrong);
     take(particles.number[n]);
   }
@@ -61,11 +75,13 @@ void require_whole(const State& state, StateReader& reader) {
 }
 
 void require_whole(const KeyframeTrack& track, const State& state, StateReader& reader) {
-  reader.require(track.first_chunk + track.chunks.size() <= max_chunks && track.chunks.size() * chunk_slots < state.particles.numbers + chunk_slots &&
+  reader.require(track.first_chunk + track.chunks.size() <= max_chunks &&
+                     track.chunks.size() * chunk_slots < state.particles.numbers + chunk_slots &&
                      (state.particles.numbers + chunk_slots - 1) / chunk_slots + track.first_chunk <= max_chunks,
                  "keyframes in it are not its smoke's");
   for (const auto& chunk : track.chunks)
-    reader.require(chunk.place.size() == chunk.known.size() && chunk.place.size() <= chunk_slots, "keyframes in it are not its smoke's");
+    reader.require(chunk.place.size() == chunk.known.size() && chunk.place.size() <= chunk_slots,
+                   "keyframes in it are not its smoke's");
   for (const auto& chunk : track.chunks)
     for (const auto& place : chunk.place)
       for (const std::int32_t along : place)
@@ -91,7 +107,8 @@ void restore_smoke(StateReader& reader, State& state, KeyframeTrack& track) {
   const Particles& particles = state.particles;
   state.density.assign(cells, 0);
   for (std::size_t n = 0; n < particles.size(); ++n)
-    ++state.density[state.grid.index(static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]), static_cast<int>(particles.z[n]))];
+    ++state.density[state.grid.index(static_cast<int>(particles.x[n]), static_cast<int>(particles.y[n]),
+                                     static_cast<int>(particles.z[n]))];
 }
 
 }  // namespace septet::smoke

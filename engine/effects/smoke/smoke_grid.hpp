@@ -18,7 +18,12 @@ namespace septet::smoke {
 inline constexpr int max_cells_along = 4096, max_cells = 1 << 23;
 
 enum OpenFace : std::uint8_t {
-  open_x_low = 1, open_x_high = 2, open_y_low = 4, open_y_high = 8, open_z_low = 16, open_z_high = 32
+  open_x_low = 1,
+  open_x_high = 2,
+  open_y_low = 4,
+  open_y_high = 8,
+  open_z_low = 16,
+  open_z_high = 32
 };
 
 struct Grid {
@@ -30,12 +35,8 @@ struct Grid {
 
   int cells() const { return nx * ny * nz; }
   int index(int i, int j, int k) const { return (k * ny + j) * nx + i; }
-  bool inside(int i, int j, int k) const {
-    return i >= 0 && j >= 0 && k >= 0 && i < nx && j < ny && k < nz;
-  }
-  Vec3 grid_from_world(const Vec3& world_m) const {
-    return inverse(world_from_grid) * world_m / cell_m;
-  }
+  bool inside(int i, int j, int k) const { return i >= 0 && j >= 0 && k >= 0 && i < nx && j < ny && k < nz; }
+  Vec3 grid_from_world(const Vec3& world_m) const { return inverse(world_from_grid) * world_m / cell_m; }
   Vec3 world_from_cells(const Vec3& grid) const { return world_from_grid * (grid * cell_m); }
 };
 
@@ -49,15 +50,14 @@ inline bool is_open(const Grid& grid, int i, int j, int k) {
 }
 
 /// A box without walls. Sizes must be 1 to `max_cells_along` and `max_cells` in all (checked).
-Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int ny, int nz,
-               std::uint8_t open_faces);
+Grid make_grid(const RigidTransform& world_from_grid, double cell_m, int nx, int ny, int nz, std::uint8_t open_faces);
 
 /// Makes a wall of every cell whose centre `is_wall` says is one (world frame).
 void add_walls(Grid& grid, const std::function<bool(const Vec3& world_m)>& is_wall);
 
 /// A tunnel along x of the grid: a box of this length whose cells outside the arch (half width, height of the side walls,
 /// height of the crown over the floor; metres) are wall. Both portals are open.
-Grid make_tunnel_grid(const RigidTransform& world_from_floor_start, double cell_m, double length_m,
-                      double half_width_m, double side_height_m, double crown_height_m);
+Grid make_tunnel_grid(const RigidTransform& world_from_floor_start, double cell_m, double length_m, double half_width_m,
+                      double side_height_m, double crown_height_m);
 
 }  // namespace septet::smoke

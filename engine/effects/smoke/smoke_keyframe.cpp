@@ -21,9 +21,7 @@ struct Range {
   int bits = 0;
 };
 
-float age_step_s(float lifetime_s) {
-  return lifetime_s > 0.0f ? lifetime_s / 255.0f : endless_age_step_s;
-}
+float age_step_s(float lifetime_s) { return lifetime_s > 0.0f ? lifetime_s / 255.0f : endless_age_step_s; }
 
 std::uint8_t in_255ths(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
@@ -66,8 +64,7 @@ void put_header(ByteWriter& writer, const State& state, std::uint32_t chunk, dou
   }
 }
 
-Bytes encode(const State& state, std::uint32_t chunk, double duration_s,
-             const std::vector<Entry>& entries) {
+Bytes encode(const State& state, std::uint32_t chunk, double duration_s, const std::vector<Entry>& entries) {
   Bytes bytes;
   ByteWriter writer(bytes);
   put_header(writer, state, chunk, duration_s);
@@ -91,9 +88,7 @@ Bytes encode(const State& state, std::uint32_t chunk, double duration_s,
     const std::uint8_t look = state.particles.emitter[e.particle];
     const float step = age_step_s(static_cast<float>(state.emitters[look].lifetime_s));
     packed.put(look, look_bits);
-    packed.put(static_cast<std::uint32_t>(
-                   std::min(255.0f, std::round(state.particles.age_s[e.particle] / step))),
-               8);
+    packed.put(static_cast<std::uint32_t>(std::min(255.0f, std::round(state.particles.age_s[e.particle] / step))), 8);
     packed.put(e.newborn, 1);
   }
   return bytes;
@@ -102,8 +97,7 @@ Bytes encode(const State& state, std::uint32_t chunk, double duration_s,
 constexpr std::uint32_t nobody = 0xffffffff;
 
 /// `particle_of` has for each number the place of its particle, or nobody.
-void renew(KeyframeTrack& track, const State& state, std::size_t number,
-           std::span<const std::uint32_t> particle_of) {
+void renew(KeyframeTrack& track, const State& state, std::size_t number, std::span<const std::uint32_t> particle_of) {
   const Particles& particles = state.particles;
   KeyframeTrack::Chunk& chunk = track.chunks[number];
   const std::size_t first = number * chunk_slots;
@@ -116,19 +110,20 @@ void renew(KeyframeTrack& track, const State& state, std::size_t number,
     const bool known = chunk.known[slot] != 0;
     chunk.known[slot] = n != nobody;
     if (n == nobody) continue;
-    const auto quantised = [](float value) {
-      return static_cast<std::int32_t>(std::lround(value * steps_per_cell));
-    };
-    Entry e{slot, n, {}, {quantised(particles.x[n]), quantised(particles.y[n]), quantised(particles.z[n])},
+    const auto quantised = [](float value) { return static_cast<std::int32_t>(std::lround(value * steps_per_cell)); };
+    Entry e{slot,
+            n,
+            {},
+            {quantised(particles.x[n]), quantised(particles.y[n]), quantised(particles.z[n])},
             !known || particles.age_s[n] < duration_s};
     e.from = e.newborn ? e.to : chunk.place[slot];
     chunk.place[slot] = e.to;
     entries.push_back(e);
   }
   chunk.time_s = state.time_s;
-  chunk.data = entries.empty() ? Bytes{}
-                               : encode(state, track.first_chunk + static_cast<std::uint32_t>(number),
-                                        duration_s, entries);
+  chunk.data = entries.empty()
+                   ? Bytes{}
+                   : encode(state, track.first_chunk + static_cast<std::uint32_t>(number), duration_s, entries);
 }
 
 tl::unexpected<Error> refuse(const char* what) {
@@ -182,16 +177,15 @@ std::vector<EffectKeyframe> advance_keyframes(KeyframeTrack& track, const State&
   std::vector<EffectKeyframe> effects;
   for (std::size_t n = 0; n < count; ++n)
     if (!track.chunks[n].data.empty())
-      effects.push_back({first_effect_id + track.first_chunk + static_cast<std::uint32_t>(n),
-                         keyframe_kind, track.chunks[n].data});
+      effects.push_back(
+          {first_effect_id + track.first_chunk + static_cast<std::uint32_t>(n), keyframe_kind, track.chunks[n].data});
   return effects;
 }
 
 Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   Keyframe keyframe;
-  if (auto header = read_header(reader, keyframe); !header)
-    return tl::unexpected(std::move(header).error());
+  if (auto header = read_header(reader, keyframe); !header) return tl::unexpected(std::move(header).error());
   std::array<Range, 6> ranges;
   for (Range& range : ranges) {
     const std::int64_t low = reader.get_signed_varint();
@@ -206,21 +200,18 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   const int look_bits = std::bit_width(keyframe.looks.size() - 1);
   std::size_t bits = look_bits + 8 + 1;
   for (const Range& range : ranges) bits += range.bits;
-  if (!reader.ok() || reader.remaining() != (count * bits + 7) / 8)
-    return refuse("length does not fit");
+  if (!reader.ok() || reader.remaining() != (count * bits + 7) / 8) return refuse("length does not fit");
   BitReader packed(reader.take(reader.remaining()));
   keyframe.particles.reserve(count);
   for (std::size_t slot = 0; slot < chunk_slots; ++slot) {
     if ((alive[slot / 8] >> (slot % 8) & 1) == 0) continue;
     std::array<std::int32_t, 6> value;
-    for (int n = 0; n < 6; ++n)
-      value[n] = ranges[n].low + static_cast<std::int32_t>(packed.get(ranges[n].bits));
+    for (int n = 0; n < 6; ++n) value[n] = ranges[n].low + static_cast<std::int32_t>(packed.get(ranges[n].bits));
     Keyframe::Particle particle;
     particle.slot = static_cast<std::uint16_t>(slot);
     particle.look = static_cast<std::uint8_t>(packed.get(look_bits));
     if (particle.look >= keyframe.looks.size()) return refuse("look out of bounds");
-    particle.age_s = static_cast<float>(packed.get(8)) *
-                     age_step_s(keyframe.looks[particle.look].lifetime_s);
+    particle.age_s = static_cast<float>(packed.get(8)) * age_step_s(keyframe.looks[particle.look].lifetime_s);
     particle.newborn = packed.get(1) != 0;
     for (int c = 0; c < 3; ++c) {
       particle.to[c] = static_cast<float>(value[c]) / steps_per_cell;

@@ -30,8 +30,8 @@ struct KeyframeTrack {
   struct Chunk {
     double time_s = 0.0;
     std::vector<std::array<std::int32_t, 3>> place;  ///< Of each slot, quantised.
-    std::vector<std::uint8_t> known;                ///< 1 where the slot's particle was in the last keyframe.
-    Bytes data;  ///< Empty where no particle is alive.
+    std::vector<std::uint8_t> known;                 ///< 1 where the slot's particle was in the last keyframe.
+    Bytes data;                                      ///< Empty where no particle is alive.
   };
   std::uint32_t first_chunk = 0;  ///< Where a world has several smokes, each numbers its chunks from its own first.
   std::vector<Chunk> chunks;
@@ -49,16 +49,16 @@ struct Keyframe {
     float lifetime_s = 0.0f;  ///< 0: it does not thin out.
   };
   struct Particle {
-    std::uint16_t slot = 0;   ///< Within the chunk.
+    std::uint16_t slot = 0;  ///< Within the chunk.
     std::uint8_t look = 0;
-    bool newborn = false;     ///< Since the last keyframe: fades in.
-    float age_s = 0.0f;       ///< At `time_s`; steps of lifetime/255, or of a quarter second up to 64 s.
+    bool newborn = false;            ///< Since the last keyframe: fades in.
+    float age_s = 0.0f;              ///< At `time_s`; steps of lifetime/255, or of a quarter second up to 64 s.
     glm::vec3 from{0.0f}, to{0.0f};  ///< Grid coordinates, cells.
   };
   RigidTransform world_from_grid;
   float cell_m = 0.5f;
   double time_s = 0.0;      ///< When `to` was taken and `from` is shown.
-  float duration_s = 0.0f;   ///< After which `to` is shown.
+  float duration_s = 0.0f;  ///< After which `to` is shown.
   std::uint32_t chunk = 0;
   std::vector<Look> looks;
   std::vector<Particle> particles;
@@ -73,15 +73,14 @@ struct Puff {
   float radius_m = 0.5f;            ///< Standard deviation of the density.
   float extinction_area_m2 = 0.0f;  ///< Optical depth through its middle is this over 2π radius².
   glm::vec3 albedo{0.25f};
-  float glow = 0.0f;                ///< Of the flame, 1 at birth.
-  std::uint32_t seed = 0;           ///< Stays with the particle: which way its texture is turned.
+  float glow = 0.0f;       ///< Of the flame, 1 at birth.
+  std::uint32_t seed = 0;  ///< Stays with the particle: which way its texture is turned.
 };
 
 /// Appends the puffs of a keyframe as they stand at a simulated time (clamped to the keyframe's span).
 void add_puffs(const Keyframe& keyframe, double time_s, std::vector<Puff>& puffs);
 
 /// All smoke of a snapshot at a time. Keyframes that cannot be read are left out and counted in `refused`.
-std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s,
-                           std::uint32_t* refused = nullptr);
+std::vector<Puff> puffs_of(std::span<const EffectKeyframe> effects, double time_s, std::uint32_t* refused = nullptr);
 
 }  // namespace septet::smoke

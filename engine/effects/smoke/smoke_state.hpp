@@ -24,8 +24,8 @@ inline constexpr std::size_t max_particles = 1'000'000;
 inline constexpr std::uint64_t extinction_ticks = 4;
 
 struct Parameters {
-  double steepness = 1.0;        ///< k of the logistic function of the density.
-  double crowd = 5.0;            ///< Particles in a cell from which it repels.
+  double steepness = 1.0;           ///< k of the logistic function of the density.
+  double crowd = 5.0;               ///< Particles in a cell from which it repels.
   double speed_cells_per_s = 20.0;  ///< Of a particle whose mean sample vector (figure 1) is one cell long.
   /// Random walk out of crowded cells: the steps of a second along an axis add up to this standard deviation for each ½
   /// by which the cell's attraction is below ½.
@@ -39,16 +39,16 @@ struct Parameters {
 
 /// What gives off smoke. The scenario moves it and sets its rate; 0 stops it.
 struct Emitter {
-  Vec3 position_m{0.0};          ///< World frame.
-  double radius_m = 0.5;         ///< Particles are born anywhere within.
+  Vec3 position_m{0.0};   ///< World frame.
+  double radius_m = 0.5;  ///< Particles are born anywhere within.
   double rate_per_s = 0.0;
-  double heat = 0.5;             ///< Excess of the bias of the samples above a newborn particle; 0 is cold.
-  double cooling_s = 10.0;       ///< Heat falls to nothing within.
-  double lifetime_s = 60.0;      ///< After which a particle has thinned out; 0: it stays for ever.
+  double heat = 0.5;         ///< Excess of the bias of the samples above a newborn particle; 0 is cold.
+  double cooling_s = 10.0;   ///< Heat falls to nothing within.
+  double lifetime_s = 60.0;  ///< After which a particle has thinned out; 0: it stays for ever.
   std::array<float, 3> albedo{0.25f, 0.24f, 0.23f};  ///< Linear Rec. 709: of the light it scatters.
   double extinction_area_m2 = 0.25;  ///< Cross-section of one particle: density per m³ times this is extinction per m.
-  double glow = 0.0;             ///< 0 to 1: how much a newborn particle shines like the flame that it left.
-  double owed = 0.0;             ///< Part of a particle not yet born.
+  double glow = 0.0;                 ///< 0 to 1: how much a newborn particle shines like the flame that it left.
+  double owed = 0.0;                 ///< Part of a particle not yet born.
 };
 
 /// A vehicle or another box that smoke goes around.
@@ -61,10 +61,10 @@ struct Obstacle {
 /// in memory. A particle keeps its number until it dies, so that a screen can follow it.
 struct Particles {
   std::vector<float> x, y, z, age_s;
-  std::vector<std::uint8_t> emitter;   ///< Index of the emitter it came from.
+  std::vector<std::uint8_t> emitter;  ///< Index of the emitter it came from.
   std::vector<std::uint32_t> number;
   std::vector<std::uint32_t> free_numbers;  ///< The last one is used first.
-  std::uint32_t numbers = 0;           ///< All those ever used are below.
+  std::uint32_t numbers = 0;                ///< All those ever used are below.
 
   std::size_t size() const { return x.size(); }
 };
@@ -82,15 +82,15 @@ struct State {
   std::vector<std::uint32_t> beside_wall;  ///< Free cells that touch a wall, ascending.
   std::vector<float> soot;                 ///< Left on those walls, 0 to 1; as many.
   // Follow from the above and the obstacles of the last step.
-  std::vector<std::uint16_t> density;      ///< Particles in each cell.
-  std::vector<float> extinction_area_m2;   ///< Their cross-sections in each cell, every `extinction_ticks` ticks.
-  std::vector<std::uint8_t> full;          ///< Walls and vehicles: 1 where nothing can be.
-  VelocityField field;                     ///< Memory of the step.
+  std::vector<std::uint16_t> density;     ///< Particles in each cell.
+  std::vector<float> extinction_area_m2;  ///< Their cross-sections in each cell, every `extinction_ticks` ticks.
+  std::vector<std::uint8_t> full;         ///< Walls and vehicles: 1 where nothing can be.
+  VelocityField field;                    ///< Memory of the step.
 };
 
 /// Smoke without a particle in it.
-State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t seed,
-                 std::size_t capacity = 20'000, const Parameters& parameters = {});
+State make_smoke(const Grid& grid, std::vector<Emitter> emitters, std::uint64_t seed, std::size_t capacity = 20'000,
+                 const Parameters& parameters = {});
 
 struct StepReport {
   int born = 0, died = 0, left = 0;  ///< Left: through an open face.
@@ -98,8 +98,7 @@ struct StepReport {
 };
 
 /// One tick. `wind_mps` is the draught (world frame); obstacles may move between ticks.
-StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles,
-                         double step_s);
+StepReport advance_smoke(State& state, const Vec3& wind_mps, std::span<const Obstacle> obstacles, double step_s);
 
 /// Puts a particle into the nearest cell that is not full. False: at capacity, or nothing free within reach.
 /// Its extinction is not counted before the next tick.

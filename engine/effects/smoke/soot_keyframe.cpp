@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::uint8_t version = 1;
 
-std::uint8_t level_of(float soot) { return static_cast<std::uint8_t>(std::lround(std::sqrt(soot) * (soot_levels - 1))); }
+std::uint8_t level_of(float soot) {
+  return static_cast<std::uint8_t>(std::lround(std::sqrt(soot) * (soot_levels - 1)));
+}
 
 /// The box of all cells with soot; empty (high below low) where there is none.
 struct CellBox {
@@ -54,7 +56,8 @@ Bytes encode_soot(const State& state) {
     const std::uint8_t value = level_of(state.soot[n]);
     if (value == 0) continue;
     const auto [i, j, k] = place_of(grid, state.beside_wall[n]);
-    level[(static_cast<std::size_t>(k - box.low[2]) * box.size(1) + (j - box.low[1])) * box.size(0) + (i - box.low[0])] = value;
+    level[(static_cast<std::size_t>(k - box.low[2]) * box.size(1) + (j - box.low[1])) * box.size(0) +
+          (i - box.low[0])] = value;
   }
   Bytes bytes;
   ByteWriter writer(bytes);
@@ -84,13 +87,17 @@ Expected<SootKeyframe> decode_soot(std::span<const std::byte> bytes) {
   for (double* part : {&q.w, &q.x, &q.y, &q.z}) *part = reader.get_double();
   keyframe.cell_m = reader.get_float();
   good = good && within(glm::length(q), 0.999, 1.001) && within(keyframe.cell_m, 1e-3, 1e3);
-  for (int* size : {&keyframe.nx, &keyframe.ny, &keyframe.nz}) *size = static_cast<int>(reader.get_count(max_cells_along));
+  for (int* size : {&keyframe.nx, &keyframe.ny, &keyframe.nz})
+    *size = static_cast<int>(reader.get_count(max_cells_along));
   const std::int64_t cells = std::int64_t{keyframe.nx} * keyframe.ny * keyframe.nz;
-  if (!reader.ok() || !good || cells < 1 || cells > static_cast<std::int64_t>(max_soot_cells)) return refuse("header out of bounds");
+  if (!reader.ok() || !good || cells < 1 || cells > static_cast<std::int64_t>(max_soot_cells))
+    return refuse("header out of bounds");
   while (!reader.at_end()) {
     const std::uint64_t run = reader.get_varint(), length = run / soot_levels;
-    if (!reader.ok() || length == 0 || length > static_cast<std::uint64_t>(cells) - keyframe.level.size()) return refuse("run out of bounds");
-    keyframe.level.insert(keyframe.level.end(), static_cast<std::size_t>(length), static_cast<std::uint8_t>(run % soot_levels));
+    if (!reader.ok() || length == 0 || length > static_cast<std::uint64_t>(cells) - keyframe.level.size())
+      return refuse("run out of bounds");
+    keyframe.level.insert(keyframe.level.end(), static_cast<std::size_t>(length),
+                          static_cast<std::uint8_t>(run % soot_levels));
   }
   if (keyframe.level.size() != static_cast<std::size_t>(cells)) return refuse("length does not fit");
   return keyframe;

@@ -13,13 +13,10 @@ constexpr int pad = 3;
 
 struct Padded {
   int nx, ny, nz;
-  explicit Padded(const Grid& grid)
-      : nx(grid.nx + 2 * pad), ny(grid.ny + 2 * pad), nz(grid.nz + 2 * pad) {}
+  explicit Padded(const Grid& grid) : nx(grid.nx + 2 * pad), ny(grid.ny + 2 * pad), nz(grid.nz + 2 * pad) {}
   std::size_t size() const { return static_cast<std::size_t>(nx) * ny * nz; }
   /// Of the grid's cell (0, j, k).
-  std::ptrdiff_t row(int j, int k) const {
-    return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j);
-  }
+  std::ptrdiff_t row(int j, int k) const { return static_cast<std::ptrdiff_t>(k + pad) * ny * nx + in_layer(j); }
   std::ptrdiff_t in_layer(int j) const { return static_cast<std::ptrdiff_t>(j + pad) * nx + pad; }
 };
 
@@ -32,8 +29,9 @@ void fill_outside(const Grid& grid, const Padded& padded, std::vector<float>& at
 }
 
 /// From sums over 3 cells of a row (differences, sums, magnitudes) and of those beside it, `y` numbers apart, to 3 × 3.
-void add_rows(int count, std::ptrdiff_t y, const float* __restrict d, const float* __restrict s, const float* __restrict m,
-              float* __restrict along_x, float* __restrict along_y, float* __restrict sum, float* __restrict magnitude) {
+void add_rows(int count, std::ptrdiff_t y, const float* __restrict d, const float* __restrict s,
+              const float* __restrict m, float* __restrict along_x, float* __restrict along_y, float* __restrict sum,
+              float* __restrict magnitude) {
   for (int i = 0; i < count; ++i) {
     along_x[i] = d[i - y] + d[i] + d[i + y];
     along_y[i] = s[i + y] - s[i - y];
@@ -86,8 +84,8 @@ struct Around {
 };
 
 /// The convolution along a span of a row of cells, in multiples of velocity_quantum.
-void convolve(int count, const Padded& padded, const float* attraction, const Around& around,
-              float speed, Span& __restrict out) {
+void convolve(int count, const Padded& padded, const float* attraction, const Around& around, float speed,
+              Span& __restrict out) {
   const std::ptrdiff_t y = padded.nx, z = y * padded.ny;
   const float* __restrict f = attraction;
   const auto of = [&](const std::vector<float>& sums) { return sums.data() + around.first; };
@@ -110,27 +108,24 @@ void convolve(int count, const Padded& padded, const float* attraction, const Ar
     // The quincunxes two cells away.
     const float* __restrict top = f + 2 * z;
     const float* __restrict low = f - 2 * z;
-    const float a = top[i - 2 - 2 * y], b = top[i + 2 - 2 * y], c = top[i - 2 + 2 * y],
-                e = top[i + 2 + 2 * y];
+    const float a = top[i - 2 - 2 * y], b = top[i + 2 - 2 * y], c = top[i - 2 + 2 * y], e = top[i + 2 + 2 * y];
     above_x += 2.0f * (b + e - a - c);
     above_y += 2.0f * (c + e - a - b);
     above_z += 2.0f * (a + b + c + e + top[i]);
-    const float g = low[i - 2 - 2 * y], h = low[i + 2 - 2 * y], p = low[i - 2 + 2 * y],
-                q = low[i + 2 + 2 * y];
+    const float g = low[i - 2 - 2 * y], h = low[i + 2 - 2 * y], p = low[i - 2 + 2 * y], q = low[i + 2 + 2 * y];
     rest_x += 2.0f * (h + q - g - p + f[i + 2] - f[i - 2]);
     rest_y += 2.0f * (p + q - g - h + f[i + 2 * y] - f[i - 2 * y]);
     rest_z -= 2.0f * (g + h + p + q + low[i]);
-    magnitude += std::abs(a) + std::abs(b) + std::abs(c) + std::abs(e) + std::abs(g) +
-                 std::abs(h) + std::abs(p) + std::abs(q) + std::abs(top[i]) + std::abs(low[i]) +
-                 std::abs(f[i - 2]) + std::abs(f[i + 2]) + std::abs(f[i - 2 * y]) +
-                 std::abs(f[i + 2 * y]);
+    magnitude += std::abs(a) + std::abs(b) + std::abs(c) + std::abs(e) + std::abs(g) + std::abs(h) + std::abs(p) +
+                 std::abs(q) + std::abs(top[i]) + std::abs(low[i]) + std::abs(f[i - 2]) + std::abs(f[i + 2]) +
+                 std::abs(f[i - 2 * y]) + std::abs(f[i + 2 * y]);
     // The six samples three cells away.
     above_z += 3.0f * f[i + 3 * z];
     rest_x += 3.0f * (f[i + 3] - f[i - 3]);
     rest_y += 3.0f * (f[i + 3 * y] - f[i - 3 * y]);
     rest_z -= 3.0f * f[i - 3 * z];
-    magnitude += std::abs(f[i - 3]) + std::abs(f[i + 3]) + std::abs(f[i - 3 * y]) +
-                 std::abs(f[i + 3 * y]) + std::abs(f[i - 3 * z]) + std::abs(f[i + 3 * z]);
+    magnitude += std::abs(f[i - 3]) + std::abs(f[i + 3]) + std::abs(f[i - 3 * y]) + std::abs(f[i + 3 * y]) +
+                 std::abs(f[i - 3 * z]) + std::abs(f[i + 3 * z]);
     const float scale = speed / (velocity_quantum * (magnitude + 1e-6f));
     out.rest_x[i] = rest_x * scale;
     out.rest_y[i] = rest_y * scale;
@@ -190,16 +185,14 @@ void look_up(const State& state, std::span<const float> table, const Padded& pad
 
 }  // namespace
 
-void update_velocity_field(const State& state, std::span<const float> table,
-                           VelocityField& field) {
+void update_velocity_field(const State& state, std::span<const float> table, VelocityField& field) {
   const Grid& grid = state.grid;
   const Padded padded(grid);
   if (field.attraction.size() != padded.size()) {
     field.attraction.assign(padded.size(), 0.0f);
     const std::size_t layer = padded.size() / static_cast<std::size_t>(padded.nz);
     for (LayerSums* sums : {&field.rows, &field.layers[0], &field.layers[1], &field.layers[2]})
-      for (auto* memory : {&sums->along_x, &sums->along_y, &sums->sum, &sums->magnitude})
-        memory->assign(layer, 0.0f);
+      for (auto* memory : {&sums->along_x, &sums->along_y, &sums->sum, &sums->magnitude}) memory->assign(layer, 0.0f);
     field.cells.assign(static_cast<std::size_t>(grid.cells()), {});
     field.row_used.assign(static_cast<std::size_t>(grid.ny) * grid.nz, 0);
     fill_outside(grid, padded, field.attraction);
@@ -216,7 +209,8 @@ void update_velocity_field(const State& state, std::span<const float> table,
       for (int i = 0; i < grid.nx && field.row_used[static_cast<std::size_t>(k * grid.ny + j)]; i += span_cells) {
         const int count = std::min(span_cells, grid.nx - i);
         const float* const attraction = field.attraction.data() + padded.row(j, k) + i;
-        convolve(count, padded, attraction, {layer(k + 1), layer(k), layer(k - 1), padded.in_layer(j) + i}, speed, span);
+        convolve(count, padded, attraction, {layer(k + 1), layer(k), layer(k - 1), padded.in_layer(j) + i}, speed,
+                 span);
         pack(count, span, attraction, field.cells.data() + grid.index(i, j, k));
       }
   }

@@ -9,8 +9,7 @@ namespace septet::smoke {
 double extinction_per_m(const State& state, const Vec3& world_m) {
   const Grid& grid = state.grid;
   const Vec3 p = glm::floor(grid.grid_from_world(world_m));
-  if (!(p.x >= 0.0 && p.y >= 0.0 && p.z >= 0.0 && p.x < grid.nx && p.y < grid.ny && p.z < grid.nz))
-    return 0.0;
+  if (!(p.x >= 0.0 && p.y >= 0.0 && p.z >= 0.0 && p.x < grid.nx && p.y < grid.ny && p.z < grid.nz)) return 0.0;
   const int cell = grid.index(static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z));
   return state.extinction_area_m2[cell] / (grid.cell_m * grid.cell_m * grid.cell_m);
 }
@@ -40,15 +39,13 @@ double transmittance(const State& state, const Vec3& from_m, const Vec3& to_m) {
     step[axis] = way[axis] > 0.0 ? 1 : -1;
     const double face = cell[axis] + (step[axis] > 0 ? 1 : 0);
     per_cell[axis] = way[axis] == 0.0 ? 0.0 : 1.0 / std::abs(way[axis]);
-    next[axis] = way[axis] == 0.0 ? std::numeric_limits<double>::infinity()
-                                  : (face - from[axis]) / way[axis];
+    next[axis] = way[axis] == 0.0 ? std::numeric_limits<double>::infinity() : (face - from[axis]) / way[axis];
   }
   double sum = 0.0, at = enter;
   while (at < leave) {
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
     const double until = std::min(next[axis], leave);
-    sum += std::max(0.0, until - at) *
-           state.extinction_area_m2[grid.index(cell[0], cell[1], cell[2])];
+    sum += std::max(0.0, until - at) * state.extinction_area_m2[grid.index(cell[0], cell[1], cell[2])];
     at = until;
     cell[axis] += step[axis];
     if (cell[axis] < 0 || cell[axis] >= count[axis]) break;

@@ -34,9 +34,7 @@ inline LaneVector times(const LaneMatrix& m, const LaneVector& v) {
 inline LaneMatrix times(const LaneMatrix& a, const LaneMatrix& b) {
   return {{times(a, b.column[0]), times(a, b.column[1]), times(a, b.column[2])}};
 }
-inline Lanes dot(const LaneVector& a, const LaneVector& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+inline Lanes dot(const LaneVector& a, const LaneVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline LaneVector minus_sum(const LaneVector& a, const LaneVector& b, const LaneVector& c) {
   return {-(a.x + b.x + c.x), -(a.y + b.y + c.y), -(a.z + b.z + c.z)};
 }
@@ -54,8 +52,7 @@ inline LaneMatrix transposed(const LaneMatrix& a) {
   return r;
 }
 inline Lanes squared_norm(const LaneMatrix& a) {
-  return dot(a.column[0], a.column[0]) + dot(a.column[1], a.column[1]) +
-         dot(a.column[2], a.column[2]);
+  return dot(a.column[0], a.column[0]) + dot(a.column[1], a.column[1]) + dot(a.column[2], a.column[2]);
 }
 
 /// The vector of each of the four elements, padded with a zero.
@@ -80,11 +77,9 @@ struct Batch {
 Batch load(const std::vector<Element>& elements, std::size_t first) {
   Batch b;
   b.count = static_cast<int>(std::min<std::size_t>(lanes, elements.size() - first));
-  for (int k = 0; k < lanes; ++k)
-    b.element[k] = &elements[first + static_cast<std::size_t>(std::min(k, b.count - 1))];
+  for (int k = 0; k < lanes; ++k) b.element[k] = &elements[first + static_cast<std::size_t>(std::min(k, b.count - 1))];
   for (int c = 0; c < 9; ++c)
-    for (int k = 0; k < lanes; ++k)
-      b.rest_inverse(c % 3, c / 3)[k] = b.element[k]->rest_inverse.data()[c];
+    for (int k = 0; k < lanes; ++k) b.rest_inverse(c % 3, c / 3)[k] = b.element[k]->rest_inverse.data()[c];
   for (int k = 0; k < lanes; ++k) b.volume[k] = k < b.count ? b.element[k]->rest_volume_m3 : 0.0;
   return b;
 }
@@ -128,15 +123,14 @@ LaneMatrix tensile_bound(const LaneMatrix& stress, const Lanes& norm) {
 /// Shape gradients of the four nodes.
 std::array<LaneVector, 4> gradients(const LaneMatrix& rest_inverse) {
   std::array<LaneVector, 4> g;
-  for (int a = 0; a < 3; ++a)
-    g[a + 1] = {rest_inverse(a, 0), rest_inverse(a, 1), rest_inverse(a, 2)};
+  for (int a = 0; a < 3; ++a) g[a + 1] = {rest_inverse(a, 0), rest_inverse(a, 1), rest_inverse(a, 2)};
   g[0] = minus_sum(g[1], g[2], g[3]);
   return g;
 }
 
 /// Adds V·scale·(λ h_a h_bᵀ + μ h_b h_aᵀ + μ (g_a·g_b) F Fᵀ + (g_aᵀ T g_b) I) for all node pairs.
-void add_stiffness_blocks(const Batch& b, const LaneMatrix& f, const LaneMatrix* tension,
-                          const LameConstants& lame, double scale, BlockMatrix& matrix) {
+void add_stiffness_blocks(const Batch& b, const LaneMatrix& f, const LaneMatrix* tension, const LameConstants& lame,
+                          double scale, BlockMatrix& matrix) {
   const auto g = gradients(b.rest_inverse);
   const Lanes volume = scale * b.volume, lambda = lame.lambda_pa * volume, mu = lame.mu_pa * volume;
   const LaneMatrix fft = gram(transposed(f));
@@ -155,8 +149,7 @@ void add_stiffness_blocks(const Batch& b, const LaneMatrix& f, const LaneMatrix*
     std::array<std::array<Lanes, lanes>, 3> columns;
     for (int c = 0; c < 3; ++c) {
       LaneVector v;
-      for (int r = 0; r < 3; ++r)
-        v[r] = lambda_h[p][r] * h[q][c] + mu_h[q][r] * h[p][c] + shear * fft(r, c);
+      for (int r = 0; r < 3; ++r) v[r] = lambda_h[p][r] * h[q][c] + mu_h[q][r] * h[p][c] + shear * fft(r, c);
       if (tension) v[c] += volume * dot(g[p], pull_g[q]);
       columns[c] = by_element(v);
     }
@@ -176,8 +169,8 @@ void add_stiffness_blocks(const Batch& b, const LaneMatrix& f, const LaneMatrix*
 
 /// Adds one vector to each of the last three nodes and their negative sum to the first.
 void add_forces(const Batch& b, const LaneMatrix& force, BlockVector& right_side) {
-  const std::array<std::array<Lanes, lanes>, 3> columns{
-      by_element(force.column[0]), by_element(force.column[1]), by_element(force.column[2])};
+  const std::array<std::array<Lanes, lanes>, 3> columns{by_element(force.column[0]), by_element(force.column[1]),
+                                                        by_element(force.column[2])};
   for (int k = 0; k < b.count; ++k) {
     const auto& nodes = b.element[k]->nodes;
     right_side[nodes[0]] -= columns[0][k] + columns[1][k] + columns[2][k];
@@ -186,23 +179,20 @@ void add_forces(const Batch& b, const LaneMatrix& force, BlockVector& right_side
 }
 
 /// Elements that are flat or inverted, one by one: stiffness and stress of their determinant.
-void add_volume_constraint(const ElasticBody& body, const Element& e, double dt, double scale,
-                           StepWorkspace& w) {
+void add_volume_constraint(const ElasticBody& body, const Element& e, double dt, double scale, StepWorkspace& w) {
   const LameConstants lame = lame_constants(body.material);
   const double stiffness_pa = lame.lambda_pa + 2.0 * lame.mu_pa;
   const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
   add_volume_stiffness(e, f, scale * stiffness_pa, w.matrix);
-  const Eigen::Matrix3d impulse = -dt * e.rest_volume_m3 * stiffness_pa *
-                                  (f.determinant() - least_determinant) * cofactor(f) *
-                                  e.rest_inverse.transpose();
+  const Eigen::Matrix3d impulse = -dt * e.rest_volume_m3 * stiffness_pa * (f.determinant() - least_determinant) *
+                                  cofactor(f) * e.rest_inverse.transpose();
   w.right_side[e.nodes[0]] -= padded(impulse.rowwise().sum());
   for (int a = 0; a < 3; ++a) w.right_side[e.nodes[a + 1]] += padded(impulse.col(a));
 }
 
 }  // namespace
 
-void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deformation,
-              StepReport& report) {
+void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deformation, StepReport& report) {
   StepWorkspace& w = body.workspace;
   const double dt = settings.step_s, scale = dt * dt / gamma_of(settings);
   const LameConstants lame = lame_constants(body.material);
@@ -212,8 +202,7 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
   for (int i = 0; i < n; ++i) {
     const double m = body.mass_kg[i];
     for (int c = 0; c < 3; ++c) w.matrix.diagonal[i].column[c][c] = m;
-    w.right_side[i] =
-        padded(m * body.velocity_mps[i] + dt * (body.force_n[i] + m * settings.gravity_mps2));
+    w.right_side[i] = padded(m * body.velocity_mps[i] + dt * (body.force_n[i] + m * settings.gravity_mps2));
   }
   if (mean_deformation) w.mean_deformation.assign(static_cast<std::size_t>(n), zero_block());
   const double limit_factor = tension_limit * body.material.density_kgpm3 / (dt * dt);
@@ -221,8 +210,7 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     const Batch b = load(body.elements, first);
     const LaneMatrix f = times(edges(b, body.position_m), b.rest_inverse);
     LaneMatrix stress = gram(f);  // S = λ tr(E) I + μ (FᵀF − I).
-    const Lanes trace =
-        0.5 * lame.lambda_pa * (stress(0, 0) + stress(1, 1) + stress(2, 2) - 3.0) - lame.mu_pa;
+    const Lanes trace = 0.5 * lame.lambda_pa * (stress(0, 0) + stress(1, 1) + stress(2, 2) - 3.0) - lame.mu_pa;
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) stress(r, c) *= lame.mu_pa;
       stress(c, c) += trace;
@@ -251,8 +239,7 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     for (int c = 0; c < 9; ++c) impulse(c % 3, c / 3) *= -dt * b.volume;
     if (with_tension) {
       // K_g acts on the change of velocity, so that a body that spins under tension is not slowed.
-      const LaneMatrix kept =
-          times(times(times(edges(b, body.velocity_mps), b.rest_inverse), tension), gradient);
+      const LaneMatrix kept = times(times(times(edges(b, body.velocity_mps), b.rest_inverse), tension), gradient);
       for (int c = 0; c < 9; ++c) impulse(c % 3, c / 3) += scale * b.volume * kept(c % 3, c / 3);
     }
     add_forces(b, impulse, w.right_side);
@@ -265,9 +252,8 @@ void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deforma
     if (!mean_deformation) continue;
     LaneMatrix weighted = f;
     for (int c = 0; c < 9; ++c) weighted(c % 3, c / 3) *= b.volume;
-    const std::array<std::array<Lanes, lanes>, 3> columns{by_element(weighted.column[0]),
-                                                          by_element(weighted.column[1]),
-                                                          by_element(weighted.column[2])};
+    const std::array<std::array<Lanes, lanes>, 3> columns{
+        by_element(weighted.column[0]), by_element(weighted.column[1]), by_element(weighted.column[2])};
     for (int k = 0; k < b.count; ++k)
       for (const int node : b.element[k]->nodes) add(w.mean_deformation[node], columns, k);
   }

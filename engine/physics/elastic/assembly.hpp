@@ -7,7 +7,6 @@ namespace septet::elastic {
 
 /// Fills the workspace's matrix and right side, and with `mean_deformation` also each node's mean
 /// deformation gradient. Counts inverted elements and those under tension in the report.
-void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deformation,
-              StepReport& report);
+void assemble(ElasticBody& body, const StepSettings& settings, bool mean_deformation, StepReport& report);
 
 }  // namespace septet::elastic

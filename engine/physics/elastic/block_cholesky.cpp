@@ -57,8 +57,7 @@ FactorPattern factor_pattern(const BlockPattern& pattern) {
         result.row_column.push_back(j);
         ++column_count[j];
       }
-    std::sort(result.row_column.begin() + static_cast<std::ptrdiff_t>(begin),
-              result.row_column.end());
+    std::sort(result.row_column.begin() + static_cast<std::ptrdiff_t>(begin), result.row_column.end());
     result.row_start[k + 1] = static_cast<int>(result.row_column.size());
   }
   result.column_start.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -98,21 +97,19 @@ bool invert_cholesky(const Block& a, Block& inverse) {
 /// y −= a · bᵀ.
 inline void subtract_outer(Block& y, const Block& a, const Block& b) {
   for (int c = 0; c < 3; ++c)
-    y.column[c] -= a.column[0] * b.column[0][c] + a.column[1] * b.column[1][c] +
-                   a.column[2] * b.column[2][c];
+    y.column[c] -= a.column[0] * b.column[0][c] + a.column[1] * b.column[1][c] + a.column[2] * b.column[2][c];
 }
 
 }  // namespace
 
-bool factorise(const BlockPattern& pattern, const FactorPattern& structure,
-               const BlockMatrix& matrix, BlockFactor<double>& factor) {
+bool factorise(const BlockPattern& pattern, const FactorPattern& structure, const BlockMatrix& matrix,
+               BlockFactor<double>& factor) {
   const int n = pattern.node_count;
   factor.inverse_diagonal.resize(static_cast<std::size_t>(n));
   factor.lower.resize(structure.row.size());
   std::vector<Block> row(static_cast<std::size_t>(n), zero_block());  // Row k, scattered.
   for (int k = 0; k < n; ++k) {
-    for (int s = pattern.row_start[k]; s < pattern.row_start[k + 1]; ++s)
-      row[pattern.column[s]] = matrix.lower[s];
+    for (int s = pattern.row_start[k]; s < pattern.row_start[k + 1]; ++s) row[pattern.column[s]] = matrix.lower[s];
     Block diagonal = matrix.diagonal[k];
     for (int s = structure.row_start[k]; s < structure.row_start[k + 1]; ++s) {
       const int j = structure.row_column[s], place = structure.place[s];
@@ -123,10 +120,9 @@ bool factorise(const BlockPattern& pattern, const FactorPattern& structure,
       Block l;
       l.column[0] = y.column[0] * inverse.column[0][0];
       l.column[1] = y.column[0] * inverse.column[0][1] + y.column[1] * inverse.column[1][1];
-      l.column[2] = y.column[0] * inverse.column[0][2] + y.column[1] * inverse.column[1][2] +
-                    y.column[2] * inverse.column[2][2];
-      for (int p = structure.column_start[j]; p < place; ++p)
-        subtract_outer(row[structure.row[p]], l, factor.lower[p]);
+      l.column[2] =
+          y.column[0] * inverse.column[0][2] + y.column[1] * inverse.column[1][2] + y.column[2] * inverse.column[2][2];
+      for (int p = structure.column_start[j]; p < place; ++p) subtract_outer(row[structure.row[p]], l, factor.lower[p]);
       subtract_outer(diagonal, l, l);
       factor.lower[place] = l;
     }
@@ -162,21 +158,17 @@ void solve(const FactorPattern& structure, const BlockFactor<Scalar>& factor,
     }
     const Array4 b = vector[j] - Array4(s0.sum(), s1.sum(), s2.sum(), Scalar(0));
     const auto& d = factor.inverse_diagonal[j];
-    vector[j] = Array4((d.column[0] * b).sum(), (d.column[1] * b).sum(), (d.column[2] * b).sum(),
-                       Scalar(0));
+    vector[j] = Array4((d.column[0] * b).sum(), (d.column[1] * b).sum(), (d.column[2] * b).sum(), Scalar(0));
   }
 }
 
-template void solve(const FactorPattern&, const BlockFactor<double>&,
-                    std::vector<Eigen::Array<double, 4, 1>>&);
-template void solve(const FactorPattern&, const BlockFactor<float>&,
-                    std::vector<Eigen::Array<float, 4, 1>>&);
+template void solve(const FactorPattern&, const BlockFactor<double>&, std::vector<Eigen::Array<double, 4, 1>>&);
+template void solve(const FactorPattern&, const BlockFactor<float>&, std::vector<Eigen::Array<float, 4, 1>>&);
 
 BlockFactor<float> to_single(const BlockFactor<double>& factor) {
   BlockFactor<float> result;
   const auto convert = [](const Block& b) {
-    return PaddedBlock<float>{
-        {b.column[0].cast<float>(), b.column[1].cast<float>(), b.column[2].cast<float>()}};
+    return PaddedBlock<float>{{b.column[0].cast<float>(), b.column[1].cast<float>(), b.column[2].cast<float>()}};
   };
   for (const Block& b : factor.inverse_diagonal) result.inverse_diagonal.push_back(convert(b));
   result.lower.reserve(factor.lower.size());

@@ -22,7 +22,7 @@ BlockPattern block_pattern(int node_count, std::span<const std::pair<int, int>> 
 
 /// Where the factor's blocks are: by columns for the solve, and by rows for the factorisation.
 struct FactorPattern {
-  std::vector<int> column_start, row;            ///< Strictly lower blocks by column.
+  std::vector<int> column_start, row;             ///< Strictly lower blocks by column.
   std::vector<int> row_start, row_column, place;  ///< Row k: its columns, and their place above.
 };
 FactorPattern factor_pattern(const BlockPattern& pattern);
@@ -35,8 +35,8 @@ struct BlockFactor {
 };
 
 /// Answers false where the matrix is not positive definite (then the factor is unusable).
-bool factorise(const BlockPattern& pattern, const FactorPattern& structure,
-               const BlockMatrix& matrix, BlockFactor<double>& factor);
+bool factorise(const BlockPattern& pattern, const FactorPattern& structure, const BlockMatrix& matrix,
+               BlockFactor<double>& factor);
 
 /// Overwrites the right-hand side with the solution.
 template <class Scalar>

@@ -18,8 +18,7 @@ void BlockMatrix::set_zero(const BlockPattern& pattern) {
   lower.assign(pattern.column.size(), zero_block());
 }
 
-void multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const BlockVector& vector,
-              BlockVector& result) {
+void multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const BlockVector& vector, BlockVector& result) {
   result.resize(vector.size());
   for (int i = 0; i < pattern.node_count; ++i) {
     const Eigen::Array4d x = vector[i];

@@ -21,9 +21,7 @@ using Block = PaddedBlock<double>;
 /// One vector of three numbers and a zero per node.
 using BlockVector = std::vector<Eigen::Array4d>;
 
-inline Block zero_block() {
-  return {{Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()}};
-}
+inline Block zero_block() { return {{Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()}}; }
 inline Eigen::Array4d padded(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(), 0.0}; }
 
 /// Where the strictly lower blocks are.
@@ -44,7 +42,6 @@ struct BlockMatrix {
 };
 
 /// result = matrix · vector.
-void multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const BlockVector& vector,
-              BlockVector& result);
+void multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const BlockVector& vector, BlockVector& result);
 
 }  // namespace septet::elastic

@@ -17,8 +17,7 @@ double total_mass_kg(const ElasticBody& body) {
 
 double kinetic_energy_j(const ElasticBody& body) {
   double energy = 0.0;
-  for (int i = 0; i < body.node_count(); ++i)
-    energy += 0.5 * body.mass_kg[i] * body.velocity_mps[i].squaredNorm();
+  for (int i = 0; i < body.node_count(); ++i) energy += 0.5 * body.mass_kg[i] * body.velocity_mps[i].squaredNorm();
   return energy;
 }
 
@@ -28,8 +27,8 @@ double elastic_energy_j(const ElasticBody& body) {
   for (const Element& e : body.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
     const double missing = std::max(0.0, least_determinant - f.determinant());
-    energy += e.rest_volume_m3 * (energy_density(green_strain(f), lame) +
-                                  0.5 * (lame.lambda_pa + 2 * lame.mu_pa) * missing * missing);
+    energy += e.rest_volume_m3 *
+              (energy_density(green_strain(f), lame) + 0.5 * (lame.lambda_pa + 2 * lame.mu_pa) * missing * missing);
   }
   return energy;
 }
@@ -48,8 +47,7 @@ Eigen::Vector3d momentum_ns(const ElasticBody& body) {
 
 Eigen::Vector3d angular_momentum_nms(const ElasticBody& body) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int i = 0; i < body.node_count(); ++i)
-    sum += body.mass_kg[i] * body.position_m[i].cross(body.velocity_mps[i]);
+  for (int i = 0; i < body.node_count(); ++i) sum += body.mass_kg[i] * body.position_m[i].cross(body.velocity_mps[i]);
   return sum;
 }
 
@@ -62,8 +60,7 @@ RigidMotion rigid_motion(const ElasticBody& body) {
   for (int i = 0; i < body.node_count(); ++i) {
     const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
     second_moment += body.mass_kg[i] * arm * arm.transpose();
-    motion.angular_momentum_nms +=
-        body.mass_kg[i] * arm.cross(body.velocity_mps[i] - motion.velocity_mps);
+    motion.angular_momentum_nms += body.mass_kg[i] * arm.cross(body.velocity_mps[i] - motion.velocity_mps);
   }
   motion.inertia_kgm2 = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
   motion.angular_velocity_radps = motion.inertia_kgm2.inverse() * motion.angular_momentum_nms;
@@ -99,8 +96,7 @@ std::vector<Eigen::Vector3d> internal_forces_n(const ElasticBody& body) {
     Eigen::Matrix3d first_piola = f * s;
     const double determinant = f.determinant();
     if (determinant < least_determinant)
-      first_piola += (lame.lambda_pa + 2 * lame.mu_pa) * (determinant - least_determinant) *
-                     cofactor(f);
+      first_piola += (lame.lambda_pa + 2 * lame.mu_pa) * (determinant - least_determinant) * cofactor(f);
     const Eigen::Matrix3d forces = -e.rest_volume_m3 * first_piola * e.rest_inverse.transpose();
     force[e.nodes[0]] -= forces.rowwise().sum();
     for (int a = 0; a < 3; ++a) force[e.nodes[a + 1]] += forces.col(a);

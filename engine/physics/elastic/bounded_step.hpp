@@ -15,8 +15,8 @@
 namespace septet::elastic {
 
 struct BoundedStepReport {
-  int steps = 0;          ///< Made, those that were taken back included.
-  bool bounded = true;    ///< False: even the shortest step gained more.
+  int steps = 0;        ///< Made, those that were taken back included.
+  bool bounded = true;  ///< False: even the shortest step gained more.
   int bad_numbers = 0;
 };
 

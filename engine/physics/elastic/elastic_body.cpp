@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 namespace septet::elastic {
 namespace {
@@ -17,8 +17,7 @@ Expected<void> validate(const ElasticMaterial& m) {
     return failure(fmt::format("Poisson's ratio is {}", m.poisson_ratio), "elastic material",
                    "give a number from 0 to below 0.5");
   if (!(m.density_kgpm3 > 0) || !std::isfinite(m.density_kgpm3))
-    return failure(fmt::format("density is {} kg/m³", m.density_kgpm3), "elastic material",
-                   "give a positive number");
+    return failure(fmt::format("density is {} kg/m³", m.density_kgpm3), "elastic material", "give a positive number");
   return {};
 }
 
@@ -35,8 +34,7 @@ std::vector<std::pair<int, int>> edges_of(const std::vector<Tetrahedron>& tetrah
 
 }  // namespace
 
-Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh,
-                                        const ElasticMaterial& material) {
+Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh, const ElasticMaterial& material) {
   if (const auto valid = validate(mesh); !valid) return tl::unexpected(valid.error());
   if (const auto valid = validate(material); !valid) return tl::unexpected(valid.error());
   ElasticBody body;
@@ -67,8 +65,7 @@ Expected<ElasticBody> make_elastic_body(const TetrahedralMesh& mesh,
     edges << x[t[1]] - x[t[0]], x[t[2]] - x[t[0]], x[t[3]] - x[t[0]];
     element.rest_inverse = edges.inverse();
     element.rest_volume_m3 = std::abs(edges.determinant()) / 6.0;
-    for (const int node : t)
-      body.mass_kg[node] += element.rest_volume_m3 * material.density_kgpm3 / 4.0;
+    for (const int node : t) body.mass_kg[node] += element.rest_volume_m3 * material.density_kgpm3 / 4.0;
     body.elements.push_back(element);
   }
   derive_structure(body);
@@ -84,7 +81,8 @@ void derive_structure(ElasticBody& body) {
     std::size_t slot = 0;
     for (int a = 1; a < 4; ++a)
       for (int b = 0; b < a; ++b)
-        element.slots[slot++] = body.pattern.slot(element.nodes[static_cast<std::size_t>(a)], element.nodes[static_cast<std::size_t>(b)]);
+        element.slots[slot++] =
+            body.pattern.slot(element.nodes[static_cast<std::size_t>(a)], element.nodes[static_cast<std::size_t>(b)]);
   }
   invalidate_rest_factor(body);
 }
@@ -94,8 +92,7 @@ void invalidate_rest_factor(ElasticBody& body) { body.rest_factor.valid = false;
 void fix_nodes(ElasticBody& body, const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {
   for (int i = 0; i < body.node_count(); ++i) {
     const auto& x = body.rest_position_m[i];
-    if ((x.array() >= low_m.array()).all() && (x.array() <= high_m.array()).all())
-      body.fixed[i] = 1;
+    if ((x.array() >= low_m.array()).all() && (x.array() <= high_m.array()).all()) body.fixed[i] = 1;
   }
   invalidate_rest_factor(body);
 }

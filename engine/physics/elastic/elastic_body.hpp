@@ -48,8 +48,8 @@ struct StepWorkspace {
 struct ElasticBody {
   // State.
   std::vector<Eigen::Vector3d> position_m, velocity_mps;
-  std::vector<Eigen::Vector3d> force_n;   ///< External, besides gravity; stays until changed.
-  std::vector<std::uint8_t> fixed;        ///< 1: the node keeps its velocity, whatever pulls at it.
+  std::vector<Eigen::Vector3d> force_n;    ///< External, besides gravity; stays until changed.
+  std::vector<std::uint8_t> fixed;         ///< 1: the node keeps its velocity, whatever pulls at it.
   std::vector<double> contact_impulse_ns;  ///< Normal impulse of the last step, for friction.
 
   /// Cauchy stress that carried the last step's impulses, of each element; filled where

@@ -15,8 +15,7 @@ struct LameConstants {
 };
 
 inline LameConstants lame_constants(const ElasticMaterial& m) {
-  return {m.young_modulus_pa * m.poisson_ratio /
-              ((1.0 + m.poisson_ratio) * (1.0 - 2.0 * m.poisson_ratio)),
+  return {m.young_modulus_pa * m.poisson_ratio / ((1.0 + m.poisson_ratio) * (1.0 - 2.0 * m.poisson_ratio)),
           m.young_modulus_pa / (2.0 * (1.0 + m.poisson_ratio))};
 }
 

@@ -21,12 +21,11 @@ namespace septet::elastic {
 
 inline std::array<Eigen::Vector3d, 4> shape_gradients(const Element& e) {
   const auto& b = e.rest_inverse;
-  return {-(b.row(0) + b.row(1) + b.row(2)).transpose(), b.row(0).transpose(),
-          b.row(1).transpose(), b.row(2).transpose()};
+  return {-(b.row(0) + b.row(1) + b.row(2)).transpose(), b.row(0).transpose(), b.row(1).transpose(),
+          b.row(2).transpose()};
 }
 
-inline Eigen::Matrix3d deformation_gradient(const Element& e,
-                                            const std::vector<Eigen::Vector3d>& x) {
+inline Eigen::Matrix3d deformation_gradient(const Element& e, const std::vector<Eigen::Vector3d>& x) {
   const Eigen::Vector3d& origin = x[e.nodes[0]];
   Eigen::Matrix3d edges;
   edges.col(0) = x[e.nodes[1]] - origin;
@@ -77,21 +76,19 @@ void for_each_block(const Element& e, BlockMatrix& matrix, const Value& value) {
 
 /// Adds scale·V·(λ h_a h_bᵀ + μ h_b h_aᵀ + μ (g_a·g_b) F Fᵀ) to the matrix, for all node pairs of
 /// the element. The stepper does the same for four elements at a time (assembly.cpp).
-inline void add_stiffness(const Element& e, const Eigen::Matrix3d& f, const LameConstants& m,
-                          double scale, BlockMatrix& matrix) {
+inline void add_stiffness(const Element& e, const Eigen::Matrix3d& f, const LameConstants& m, double scale,
+                          BlockMatrix& matrix) {
   const auto g = shape_gradients(e);
   const double v = scale * e.rest_volume_m3;
   const Eigen::Matrix3d fft = f * f.transpose();
   for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
     const Eigen::Vector3d ha = f * g[a], hb = f * g[b];
-    return v * (m.lambda_pa * ha * hb.transpose() + m.mu_pa * hb * ha.transpose() +
-                m.mu_pa * g[a].dot(g[b]) * fft);
+    return v * (m.lambda_pa * ha * hb.transpose() + m.mu_pa * hb * ha.transpose() + m.mu_pa * g[a].dot(g[b]) * fft);
   });
 }
 
 /// Adds stiffness·V·c_a c_bᵀ, the stiffness of the determinant, with c_a = cof(F) g_a.
-inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, double stiffness_pa,
-                                 BlockMatrix& matrix) {
+inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, double stiffness_pa, BlockMatrix& matrix) {
   const auto g = shape_gradients(e);
   const Eigen::Matrix3d cof = cofactor(f);
   for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
@@ -100,8 +97,7 @@ inline void add_volume_stiffness(const Element& e, const Eigen::Matrix3d& f, dou
 }
 
 /// Adds V (g_aᵀ S g_b) I, the geometric stiffness of a stress.
-inline void add_geometric_stiffness(const Element& e, const Eigen::Matrix3d& stress_pa,
-                                    BlockMatrix& matrix) {
+inline void add_geometric_stiffness(const Element& e, const Eigen::Matrix3d& stress_pa, BlockMatrix& matrix) {
   const auto g = shape_gradients(e);
   for_each_block(e, matrix, [&](int a, int b) -> Eigen::Matrix3d {
     return e.rest_volume_m3 * g[a].dot(stress_pa * g[b]) * Eigen::Matrix3d::Identity();

@@ -18,8 +18,7 @@ BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
   for (const Element& e : body.elements) {
     const Eigen::Matrix3d f = deformation_gradient(e, body.position_m);
     add_stiffness(e, f, lame, 1.0, matrix);
-    if (f.determinant() < least_determinant)
-      add_volume_stiffness(e, f, lame.lambda_pa + 2 * lame.mu_pa, matrix);
+    if (f.determinant() < least_determinant) add_volume_stiffness(e, f, lame.lambda_pa + 2 * lame.mu_pa, matrix);
     if (geometric) add_geometric_stiffness(e, second_piola_stress(green_strain(f), lame), matrix);
   }
   for (int i = 0; i < body.node_count(); ++i) {
@@ -40,15 +39,13 @@ BlockMatrix stiffness(const ElasticBody& body, bool geometric) {
 double potential_j(const ElasticBody& body, const Eigen::Vector3d& gravity) {
   double energy = elastic_energy_j(body);
   for (int i = 0; i < body.node_count(); ++i)
-    energy -= (body.force_n[i] + body.mass_kg[i] * gravity)
-                  .dot(body.position_m[i] - body.rest_position_m[i]);
+    energy -= (body.force_n[i] + body.mass_kg[i] * gravity).dot(body.position_m[i] - body.rest_position_m[i]);
   return energy;
 }
 
 }  // namespace
 
-EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2,
-                                   int max_iterations) {
+EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2, int max_iterations) {
   EquilibriumReport report;
   std::ranges::fill(body.velocity_mps, Eigen::Vector3d::Zero());
   BlockFactor<double> factor;
@@ -58,8 +55,7 @@ EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gra
     const auto internal = internal_forces_n(body);
     BlockVector move(body.position_m.size(), Eigen::Array4d::Zero());
     for (int i = 0; i < body.node_count(); ++i)
-      if (!body.fixed[i])
-        move[i] = padded(internal[i] + body.force_n[i] + body.mass_kg[i] * gravity_mps2);
+      if (!body.fixed[i]) move[i] = padded(internal[i] + body.force_n[i] + body.mass_kg[i] * gravity_mps2);
     if (!factorise(body.pattern, body.factor_structure, stiffness(body, true), factor) &&
         !factorise(body.pattern, body.factor_structure, stiffness(body, false), factor))
       return report;
@@ -73,8 +69,7 @@ EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gra
     if (report.iterations == 1) first_change = largest;
     double part = 1.0;
     for (int halving = 0; halving < 20; ++halving, part *= 0.5) {
-      for (int i = 0; i < body.node_count(); ++i)
-        body.position_m[i] = start[i] + part * move[i].head<3>().matrix();
+      for (int i = 0; i < body.node_count(); ++i) body.position_m[i] = start[i] + part * move[i].head<3>().matrix();
       if (potential_j(body, gravity_mps2) <= before + 1e-9 * std::abs(before)) break;
     }
     report.converged = part == 1.0 && largest <= 1e-8 * first_change;

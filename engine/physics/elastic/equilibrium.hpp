@@ -15,7 +15,6 @@ struct EquilibriumReport {
 
 /// Moves the free nodes until `force_n`, gravity and the internal forces balance. The nodes'
 /// velocities become zero.
-EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2,
-                                   int max_iterations = 40);
+EquilibriumReport find_equilibrium(ElasticBody& body, const Eigen::Vector3d& gravity_mps2, int max_iterations = 40);
 
 }  // namespace septet::elastic

@@ -23,13 +23,11 @@ void prepare_rest_factor(ElasticBody& body, const StepSettings& settings) {
   BlockMatrix matrix;
   matrix.set_zero(body.pattern);
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  for (const Element& e : body.elements)
-    add_stiffness(e, identity, lame, scale, matrix);
+  for (const Element& e : body.elements) add_stiffness(e, identity, lame, scale, matrix);
   double stiffest = 0.0;
   for (int i = 0; i < body.node_count(); ++i) {
     Block& d = matrix.diagonal[i];
-    stiffest = std::max(stiffest,
-                        (d.column[0][0] + d.column[1][1] + d.column[2][2]) / body.mass_kg[i]);
+    stiffest = std::max(stiffest, (d.column[0][0] + d.column[1][1] + d.column[2][2]) / body.mass_kg[i]);
     for (int c = 0; c < 3; ++c) d.column[c][c] += body.mass_kg[i];
   }
   for (int i = 0; i < body.node_count(); ++i) {
@@ -39,8 +37,7 @@ void prepare_rest_factor(ElasticBody& body, const StepSettings& settings) {
     matrix.diagonal[i] = zero_block();
     for (int c = 0; c < 3; ++c) matrix.diagonal[i].column[c][c] = body.mass_kg[i];
   }
-  const bool definite =
-      factorise(body.pattern, body.factor_structure, matrix, rest.in_double);
+  const bool definite = factorise(body.pattern, body.factor_structure, matrix, rest.in_double);
   SEPTET_CHECK(definite, "the rest shape of {} elements has no factor", body.elements.size());
   rest.single_precision = stiffest < single_precision_limit;
   if (rest.single_precision) {
@@ -62,16 +59,13 @@ void precondition(ElasticBody& body) {
     }
     solve(body.factor_structure, body.rest_factor.in_single, w.single);
     for (int i = 0; i < n; ++i)
-      w.preconditioned[i] =
-          padded(body.rotation[i] * w.single[i].head<3>().matrix().cast<double>());
+      w.preconditioned[i] = padded(body.rotation[i] * w.single[i].head<3>().matrix().cast<double>());
     return;
   }
   for (int i = 0; i < n; ++i)
-    w.preconditioned[i] =
-        padded(body.rotation[i].transpose() * w.residual[i].head<3>().matrix());
+    w.preconditioned[i] = padded(body.rotation[i].transpose() * w.residual[i].head<3>().matrix());
   solve(body.factor_structure, body.rest_factor.in_double, w.preconditioned);
-  for (int i = 0; i < n; ++i)
-    w.preconditioned[i] = padded(body.rotation[i] * w.preconditioned[i].head<3>().matrix());
+  for (int i = 0; i < n; ++i) w.preconditioned[i] = padded(body.rotation[i] * w.preconditioned[i].head<3>().matrix());
 }
 
 double dot(const BlockVector& a, const BlockVector& b) {
@@ -85,8 +79,7 @@ double dot(const BlockVector& a, const BlockVector& b) {
 void follow_rotations(ElasticBody& body) {
   for (int i = 0; i < body.node_count(); ++i) {
     Eigen::Matrix3d mean;
-    for (int c = 0; c < 3; ++c)
-      mean.col(c) = body.workspace.mean_deformation[i].column[c].head<3>().matrix();
+    for (int c = 0; c < 3; ++c) mean.col(c) = body.workspace.mean_deformation[i].column[c].head<3>().matrix();
     const double size = std::cbrt(std::abs(mean.determinant()));
     if (!(mean.determinant() > 0.0) || !(size > 0.2 * mean.norm() / std::sqrt(3.0)))
       continue;  // Flattened or inverted: yesterday's rotation is the better guess.
@@ -118,8 +111,8 @@ SolveReport preconditioned_solve(ElasticBody& body, const StepSettings& settings
   precondition(body);
   w.direction = w.preconditioned;
   double error2 = dot(w.residual, w.preconditioned);
-  const double enough = std::max(settings.tolerance * settings.tolerance * error2,
-                                 mass * speed_tolerance_mps * speed_tolerance_mps);
+  const double enough =
+      std::max(settings.tolerance * settings.tolerance * error2, mass * speed_tolerance_mps * speed_tolerance_mps);
   while (error2 > enough && report.iterations < settings.max_iterations) {
     ++report.iterations;
     multiply(body.pattern, w.matrix, w.direction, w.image);
@@ -130,8 +123,7 @@ SolveReport preconditioned_solve(ElasticBody& body, const StepSettings& settings
     }
     precondition(body);
     const double next = dot(w.residual, w.preconditioned), ratio = next / error2;
-    for (std::size_t i = 0; i < n; ++i)
-      w.direction[i] = w.preconditioned[i] + ratio * w.direction[i];
+    for (std::size_t i = 0; i < n; ++i) w.direction[i] = w.preconditioned[i] + ratio * w.direction[i];
     error2 = next;
   }
   report.converged = error2 <= enough;

@@ -13,10 +13,10 @@ auto members(S& element) {
 /// All but the material and what follows from the elements; the factor at rest is made again when it is wanted.
 template <SameButForConst<ElasticBody> S>
 auto members(S& body) {
-  auto& [position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, material, rest_position_m, mass_kg, elements,
-         body_node_of_mesh_node, pattern, factor_structure, rotation, rest_factor, workspace] = body;
-  return std::tie(position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, rest_position_m, mass_kg, elements,
-                  body_node_of_mesh_node, rotation);
+  auto& [position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, material, rest_position_m,
+         mass_kg, elements, body_node_of_mesh_node, pattern, factor_structure, rotation, rest_factor, workspace] = body;
+  return std::tie(position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, rest_position_m,
+                  mass_kg, elements, body_node_of_mesh_node, rotation);
 }
 
 namespace {
@@ -35,20 +35,25 @@ void require_whole(const ElasticBody& body, std::size_t most_elements, StateRead
   constexpr auto wrong = "an elastic body in it does not fit together";
   const std::size_t nodes = body.position_m.size(), elements = body.elements.size();
   reader.require(elements >= 1 && elements <= most_elements && nodes <= 4 * elements, wrong);
-  for (const auto* vectors : {&body.velocity_mps, &body.force_n, &body.rest_position_m}) reader.require(vectors->size() == nodes, wrong);
+  for (const auto* vectors : {&body.velocity_mps, &body.force_n, &body.rest_position_m})
+    reader.require(vectors->size() == nodes, wrong);
   for (const auto* numbers : {&body.contact_impulse_ns, &body.mass_kg}) reader.require(numbers->size() == nodes, wrong);
-  reader.require(body.fixed.size() == nodes && body.rotation.size() == nodes && body.body_node_of_mesh_node.size() == nodes &&
+  reader.require(body.fixed.size() == nodes && body.rotation.size() == nodes &&
+                     body.body_node_of_mesh_node.size() == nodes &&
                      (body.step_stress_pa.empty() || body.step_stress_pa.size() == elements),
                  wrong);
-  reader.require(is_bounded(body.position_m) && is_bounded(body.velocity_mps) && is_bounded(body.force_n) && is_bounded(body.rest_position_m) &&
-                     is_bounded(body.rotation),
+  reader.require(is_bounded(body.position_m) && is_bounded(body.velocity_mps) && is_bounded(body.force_n) &&
+                     is_bounded(body.rest_position_m) && is_bounded(body.rotation),
                  wrong);
   for (const double mass : body.mass_kg) reader.require(mass > 1.0 / most && mass < most, wrong);
   for (const double impulse : body.contact_impulse_ns) reader.require(std::abs(impulse) < most, wrong);
   for (const Element& element : body.elements) {
-    reader.require(element.rest_volume_m3 > 0.0 && element.rest_volume_m3 < most && element.rest_inverse.cwiseAbs().maxCoeff() <= most, wrong);
+    reader.require(element.rest_volume_m3 > 0.0 && element.rest_volume_m3 < most &&
+                       element.rest_inverse.cwiseAbs().maxCoeff() <= most,
+                   wrong);
     const Tetrahedron& t = element.nodes;
-    reader.require(0 <= t[0] && t[0] < t[1] && t[1] < t[2] && t[2] < t[3] && static_cast<std::size_t>(t[3]) < nodes, wrong);
+    reader.require(0 <= t[0] && t[0] < t[1] && t[1] < t[2] && t[2] < t[3] && static_cast<std::size_t>(t[3]) < nodes,
+                   wrong);
   }
 }
 

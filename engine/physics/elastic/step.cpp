@@ -29,13 +29,12 @@ void add_centrifugal_force(ElasticBody& body, const RigidMotion& motion, double 
 }
 
 /// Angular momentum about the centre that the forces and contacts of this step leave to the body.
-Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before,
-                                          double dt, std::span<const NodeContact> contacts) {
+Eigen::Vector3d expected_angular_momentum(const ElasticBody& body, const RigidMotion& before, double dt,
+                                          std::span<const NodeContact> contacts) {
   Eigen::Vector3d result = before.angular_momentum_nms;
   for (int i = 0; i < body.node_count(); ++i)
     result += dt * (body.position_m[i] - before.centre_m).cross(body.force_n[i]);
-  for (const NodeContact& c : contacts)
-    result += (body.position_m[c.node] - before.centre_m).cross(c.impulse_ns);
+  for (const NodeContact& c : contacts) result += (body.position_m[c.node] - before.centre_m).cross(c.impulse_ns);
   return result;
 }
 
@@ -46,8 +45,7 @@ void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angula
   const Eigen::Vector3d spin = motion.angular_velocity_radps;
   const double angle = spin.norm() * dt;
   const Eigen::Matrix3d turn =
-      angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
-                : Eigen::Matrix3d::Identity().eval();
+      angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix() : Eigen::Matrix3d::Identity().eval();
   const Eigen::Vector3d centre = motion.centre_m + dt * motion.velocity_mps;
   for (int i = 0; i < body.node_count(); ++i) {
     const Eigen::Vector3d arm = body.position_m[i] - motion.centre_m;
@@ -57,8 +55,7 @@ void move_along_arcs(ElasticBody& body, double dt, const Eigen::Vector3d& angula
     body.velocity_mps[i] = motion.velocity_mps + turn * relative;
   }
   motion = rigid_motion(body);
-  const Eigen::Vector3d change =
-      motion.inertia_kgm2.ldlt().solve(angular_momentum_nms - motion.angular_momentum_nms);
+  const Eigen::Vector3d change = motion.inertia_kgm2.ldlt().solve(angular_momentum_nms - motion.angular_momentum_nms);
   for (int i = 0; i < body.node_count(); ++i)
     body.velocity_mps[i] += change.cross(body.position_m[i] - motion.centre_m);
 }
@@ -94,16 +91,13 @@ std::vector<ActiveContact> add_contacts(ElasticBody& body, const StepSettings& s
     a.normal_rate_kg = contact_stiffness * m / gamma;
     a.normal_impulse_ns = -contact_stiffness * m * gap / dt;
     const Eigen::Vector3d slide = relative - normal_speed * c.normal;
-    const double pressing =
-        std::max(known_impulse[c.node], m * std::max(0.0, -predicted.dot(c.normal)));
+    const double pressing = std::max(known_impulse[c.node], m * std::max(0.0, -predicted.dot(c.normal)));
     a.tangent_rate_kg = c.friction * pressing / std::max(slide.norm(), creep_speed_mps);
     const Eigen::Matrix3d normal_part = c.normal * c.normal.transpose();
     const Eigen::Matrix3d rate =
-        a.normal_rate_kg * normal_part +
-        a.tangent_rate_kg * (Eigen::Matrix3d::Identity() - normal_part);
+        a.normal_rate_kg * normal_part + a.tangent_rate_kg * (Eigen::Matrix3d::Identity() - normal_part);
     for (int k = 0; k < 3; ++k) w.matrix.diagonal[c.node].column[k] += padded(rate.col(k));
-    w.right_side[c.node] +=
-        padded(rate * c.surface_velocity_mps + a.normal_impulse_ns * c.normal);
+    w.right_side[c.node] += padded(rate * c.surface_velocity_mps + a.normal_impulse_ns * c.normal);
     active.push_back(a);
   }
   return active;
@@ -121,11 +115,9 @@ void hold_fixed_nodes(ElasticBody& body) {
       const Eigen::Vector3d& vi = body.velocity_mps[i];
       const Eigen::Vector3d& vj = body.velocity_mps[j];
       if (!body.fixed[i])
-        w.right_side[i] -=
-            block.column[0] * vj[0] + block.column[1] * vj[1] + block.column[2] * vj[2];
+        w.right_side[i] -= block.column[0] * vj[0] + block.column[1] * vj[1] + block.column[2] * vj[2];
       if (!body.fixed[j])
-        for (int c = 0; c < 3; ++c)
-          w.right_side[j][c] -= (block.column[c] * padded(vi)).sum();
+        for (int c = 0; c < 3; ++c) w.right_side[j][c] -= (block.column[c] * padded(vi)).sum();
       block = zero_block();
     }
   for (int i = 0; i < body.node_count(); ++i) {
@@ -141,9 +133,7 @@ int reset_bad_nodes(ElasticBody& body) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), rest_centre = centre, drift = centre;
   double mass = 0.0;
   int bad = 0;
-  const auto is_bad = [&](int i) {
-    return !body.position_m[i].allFinite() || !body.velocity_mps[i].allFinite();
-  };
+  const auto is_bad = [&](int i) { return !body.position_m[i].allFinite() || !body.velocity_mps[i].allFinite(); };
   for (int i = 0; i < body.node_count(); ++i) {
     if (is_bad(i)) {
       ++bad;
@@ -185,19 +175,16 @@ void keep_step_stress(ElasticBody& body, const StepSettings& settings) {
 
 }  // namespace
 
-StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
-                        std::span<NodeContact> contacts) {
-  SEPTET_CHECK(settings.step_s > 0 && settings.damping_ratio >= 0, "step {} s, damping {}",
-               settings.step_s, settings.damping_ratio);
+StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts) {
+  SEPTET_CHECK(settings.step_s > 0 && settings.damping_ratio >= 0, "step {} s, damping {}", settings.step_s,
+               settings.damping_ratio);
   StepReport report;
   report.bad_numbers = reset_bad_nodes(body);
   const bool direct =
       settings.solver == Solver::direct ||
-      (settings.solver == Solver::automatic &&
-       static_cast<int>(body.elements.size()) <= settings.direct_limit);
+      (settings.solver == Solver::automatic && static_cast<int>(body.elements.size()) <= settings.direct_limit);
   assemble(body, settings, !direct, report);
-  const bool follow_spin = settings.follow_spin &&
-                           std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end();
+  const bool follow_spin = settings.follow_spin && std::ranges::find(body.fixed, std::uint8_t{1}) == body.fixed.end();
   const RigidMotion before = rigid_motion(body);
   if (follow_spin) add_centrifugal_force(body, before, settings.step_s);
   const auto active = add_contacts(body, settings, contacts);
@@ -216,8 +203,7 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
     for (int i = 0; i < body.node_count(); ++i)
       w.solution[i] =
           padded(body.velocity_mps[i] + (body.fixed[i] ? Eigen::Vector3d::Zero().eval()
-                                                       : Eigen::Vector3d(settings.step_s *
-                                                                         settings.gravity_mps2)));
+                                                       : Eigen::Vector3d(settings.step_s * settings.gravity_mps2)));
     follow_rotations(body);
     const SolveReport result = preconditioned_solve(body, settings);
     report.iterations = result.iterations;
@@ -236,17 +222,14 @@ StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
     const Eigen::Vector3d relative = body.velocity_mps[c.node] - c.surface_velocity_mps;
     const double normal_speed = relative.dot(c.normal);
     const double normal_impulse = a.normal_impulse_ns - a.normal_rate_kg * normal_speed;
-    a.contact->impulse_ns = normal_impulse * c.normal -
-                            a.tangent_rate_kg * (relative - normal_speed * c.normal);
+    a.contact->impulse_ns = normal_impulse * c.normal - a.tangent_rate_kg * (relative - normal_speed * c.normal);
     body.contact_impulse_ns[c.node] += std::max(0.0, normal_impulse);
   }
   if (settings.keep_stress) keep_step_stress(body, settings);
   if (follow_spin)
-    move_along_arcs(body, settings.step_s,
-                    expected_angular_momentum(body, before, settings.step_s, contacts));
+    move_along_arcs(body, settings.step_s, expected_angular_momentum(body, before, settings.step_s, contacts));
   else
-    for (int i = 0; i < body.node_count(); ++i)
-      body.position_m[i] += settings.step_s * body.velocity_mps[i];
+    for (int i = 0; i < body.node_count(); ++i) body.position_m[i] += settings.step_s * body.velocity_mps[i];
   report.bad_numbers += reset_bad_nodes(body);  // Whoever looks at the body now is to see none.
   return report;
 }

@@ -37,7 +37,7 @@ struct StepSettings {
   double damping_ratio = 0.2;  ///< β/Δt; 0 conserves, 0.5 damps stiff modes within one step.
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -septet::gravity_mps2};
   bool tension_stiffness = true;
-  bool follow_spin = true;  ///< Of bodies without fixed nodes; false is the published update.
+  bool follow_spin = true;   ///< Of bodies without fixed nodes; false is the published update.
   bool keep_stress = false;  ///< Fill ElasticBody::step_stress_pa.
   Solver solver = Solver::automatic;
   int direct_limit = 400;
@@ -51,21 +51,20 @@ struct NodeContact {
   Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< Unit length, away from the surface.
   double gap_m = 0.0;
   Eigen::Vector3d surface_velocity_mps{0.0, 0.0, 0.0};
-  double friction = 0.0;  ///< Coulomb's coefficient.
+  double friction = 0.0;                      ///< Coulomb's coefficient.
   Eigen::Vector3d impulse_ns{0.0, 0.0, 0.0};  ///< Out: what the surface gave to the node.
 };
 
 struct StepReport {
-  int iterations = 0;      ///< Of the conjugate gradients; 0 where the solve was direct.
+  int iterations = 0;  ///< Of the conjugate gradients; 0 where the solve was direct.
   bool converged = true;
-  int bad_numbers = 0;     ///< Nodes whose numbers went bad and were reset.
-  int inverted = 0;        ///< Elements with det F ≤ 0 at the start of the step.
-  int under_tension = 0;   ///< Elements that got geometric stiffness.
+  int bad_numbers = 0;    ///< Nodes whose numbers went bad and were reset.
+  int inverted = 0;       ///< Elements with det F ≤ 0 at the start of the step.
+  int under_tension = 0;  ///< Elements that got geometric stiffness.
 };
 
 /// Advances the body by one step. Contacts have at most one entry per node and surface.
-StepReport step_elastic(ElasticBody& body, const StepSettings& settings,
-                        std::span<NodeContact> contacts = {});
+StepReport step_elastic(ElasticBody& body, const StepSettings& settings, std::span<NodeContact> contacts = {});
 
 inline double gamma_of(const StepSettings& s) { return 1.0 / (0.5 + s.damping_ratio); }
 

@@ -3,25 +3,21 @@
 #include <algorithm>
 #include <map>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "engine/core/check.hpp"
 
 namespace septet::elastic {
 
 TetrahedralMesh lattice_mesh(const Eigen::Vector3i& cells, const Eigen::Vector3d& size_m) {
-  SEPTET_CHECK(cells.minCoeff() > 0 && size_m.minCoeff() > 0, "cells {} {} {}", cells.x(),
-               cells.y(), cells.z());
+  SEPTET_CHECK(cells.minCoeff() > 0 && size_m.minCoeff() > 0, "cells {} {} {}", cells.x(), cells.y(), cells.z());
   TetrahedralMesh mesh;
-  const auto node = [&](int i, int j, int k) {
-    return (k * (cells.y() + 1) + j) * (cells.x() + 1) + i;
-  };
+  const auto node = [&](int i, int j, int k) { return (k * (cells.y() + 1) + j) * (cells.x() + 1) + i; };
   for (int k = 0; k <= cells.z(); ++k)
     for (int j = 0; j <= cells.y(); ++j)
       for (int i = 0; i <= cells.x(); ++i)
-        mesh.nodes_m.push_back(
-            Eigen::Array3d(i, j, k) * size_m.array() / cells.cast<double>().array());
+        mesh.nodes_m.push_back(Eigen::Array3d(i, j, k) * size_m.array() / cells.cast<double>().array());
   for (int k = 0; k < cells.z(); ++k)
     for (int j = 0; j < cells.y(); ++j)
       for (int i = 0; i < cells.x(); ++i) {
@@ -31,16 +27,15 @@ TetrahedralMesh lattice_mesh(const Eigen::Vector3i& cells, const Eigen::Vector3d
           const int x = (c & 1) ^ (mirrored ? 1 : 0);
           return node(i + x, j + ((c >> 1) & 1), k + ((c >> 2) & 1));
         };
-        for (const auto& t : {Tetrahedron{0, 1, 2, 4}, Tetrahedron{3, 1, 2, 7},
-                              Tetrahedron{5, 1, 4, 7}, Tetrahedron{6, 2, 4, 7},
-                              Tetrahedron{1, 2, 4, 7}})
+        for (const auto& t : {Tetrahedron{0, 1, 2, 4}, Tetrahedron{3, 1, 2, 7}, Tetrahedron{5, 1, 4, 7},
+                              Tetrahedron{6, 2, 4, 7}, Tetrahedron{1, 2, 4, 7}})
           mesh.tetrahedra.push_back({corner(t[0]), corner(t[1]), corner(t[2]), corner(t[3])});
       }
   return mesh;
 }
 
-double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
+double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                        const Eigen::Vector3d& d) {
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
 
@@ -51,29 +46,24 @@ Expected<void> validate(const TetrahedralMesh& mesh) {
   std::vector<bool> used(mesh.nodes_m.size(), false);
   for (int i = 0; i < node_count; ++i)
     if (!mesh.nodes_m[i].allFinite())
-      return failure("a coordinate is not a finite number", fmt::format("node {}", i),
-                     "give metres");
+      return failure("a coordinate is not a finite number", fmt::format("node {}", i), "give metres");
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     const auto& tetrahedron = mesh.tetrahedra[t];
     const auto where = fmt::format("tetrahedron {}", t);
     for (const int i : tetrahedron) {
       if (i < 0 || i >= node_count)
-        return failure(fmt::format("node {} of {} does not exist", i, node_count), where,
-                       "count nodes from zero");
+        return failure(fmt::format("node {} of {} does not exist", i, node_count), where, "count nodes from zero");
       used[i] = true;
     }
     const auto& x = mesh.nodes_m;
     const auto [a, b, c, d] = tetrahedron;
-    const double longest =
-        std::max({(x[b] - x[a]).norm(), (x[c] - x[a]).norm(), (x[d] - x[a]).norm(),
-                  (x[c] - x[b]).norm(), (x[d] - x[b]).norm(), (x[d] - x[c]).norm()});
+    const double longest = std::max({(x[b] - x[a]).norm(), (x[c] - x[a]).norm(), (x[d] - x[a]).norm(),
+                                     (x[c] - x[b]).norm(), (x[d] - x[b]).norm(), (x[d] - x[c]).norm()});
     if (std::abs(signed_volume_m3(x[a], x[b], x[c], x[d])) <= 1e-7 * longest * longest * longest)
       return failure("the tetrahedron is flat", where, "move its nodes apart or leave it out");
   }
   for (int i = 0; i < node_count; ++i)
-    if (!used[i])
-      return failure("the node belongs to no tetrahedron", fmt::format("node {}", i),
-                     "leave it out");
+    if (!used[i]) return failure("the node belongs to no tetrahedron", fmt::format("node {}", i), "leave it out");
   return {};
 }
 
@@ -93,8 +83,7 @@ std::vector<SurfaceTriangle> surface_triangles(const std::vector<Eigen::Vector3d
       const auto& f = tetrahedron_faces[opposite];
       std::array<int, 3> face{t[f[0]], t[f[1]], t[f[2]]};
       if (count[key(face)] != 1) continue;
-      if (signed_volume_m3(nodes_m[face[0]], nodes_m[face[1]], nodes_m[face[2]],
-                           nodes_m[t[opposite]]) > 0)
+      if (signed_volume_m3(nodes_m[face[0]], nodes_m[face[1]], nodes_m[face[2]], nodes_m[t[opposite]]) > 0)
         std::swap(face[1], face[2]);
       result.push_back({face, static_cast<int>(index)});
     }

@@ -27,8 +27,8 @@ TetrahedralMesh lattice_mesh(const Eigen::Vector3i& cells, const Eigen::Vector3d
 Expected<void> validate(const TetrahedralMesh& mesh);
 
 /// Signed volume: positive where the fourth node is on the side of (b−a) × (c−a).
-double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c, const Eigen::Vector3d& d);
+double signed_volume_m3(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                        const Eigen::Vector3d& d);
 
 /// One triangle of the outer surface, counter-clockwise seen from outside.
 struct SurfaceTriangle {
@@ -41,7 +41,6 @@ std::vector<SurfaceTriangle> surface_triangles(const std::vector<Eigen::Vector3d
                                                const std::vector<Tetrahedron>& tetrahedra);
 
 /// The four faces of a tetrahedron as places in it; face f is opposite to node f.
-inline constexpr std::array<std::array<int, 3>, 4> tetrahedron_faces{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<int, 3>, 4> tetrahedron_faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 }  // namespace septet::elastic

@@ -12,9 +12,8 @@ constexpr double damping_nspm = 8e3;
 constexpr double body_friction = 0.5;
 }  // namespace
 
-void add_body_contact(const VehicleParameters& parameters, const Ground& ground,
-                      const VehicleState& state, const Vec3& velocity_mps, Vec3& force_n,
-                      Vec3& moment_nm) {
+void add_body_contact(const VehicleParameters& parameters, const Ground& ground, const VehicleState& state,
+                      const Vec3& velocity_mps, Vec3& force_n, Vec3& moment_nm) {
   const BodyParameters& body = parameters.body;
   const Quat body_from_world = glm::conjugate(state.world_from_body.orientation);
   for (int corner = 0; corner < 8; ++corner) {
@@ -24,10 +23,9 @@ void add_body_contact(const VehicleParameters& parameters, const Ground& ground,
     const double inset_m = top ? 0.25 : 0.0;
     const double rear_m = -body.rear_overhang_m + (top ? 0.25 * body.length_m : 0.0);
     const double front_m = body.length_m - body.rear_overhang_m - (top ? 0.3 * body.length_m : 0.0);
-    const Vec3 point_m =
-        Vec3(front ? front_m : rear_m, (left ? 1.0 : -1.0) * (0.5 * body.width_m - inset_m),
-             top ? body.height_m : bumper_clearance_m) -
-        Vec3(body.mass_centre_x_m, 0.0, body.mass_centre_z_m);
+    const Vec3 point_m = Vec3(front ? front_m : rear_m, (left ? 1.0 : -1.0) * (0.5 * body.width_m - inset_m),
+                              top ? body.height_m : bumper_clearance_m) -
+                         Vec3(body.mass_centre_x_m, 0.0, body.mass_centre_z_m);
     const double depth_m = -glm::dot(below.normal, state.world_from_body * point_m - below.point_m);
     if (depth_m <= 0.0) continue;
     const Vec3 normal = body_from_world * below.normal;
@@ -36,8 +34,7 @@ void add_body_contact(const VehicleParameters& parameters, const Ground& ground,
     const double push_n = std::max(0.0, stiffness_npm * depth_m + damping_nspm * approach_mps);
     const Vec3 sliding_mps = speed_mps + approach_mps * normal;
     const double slide_mps = glm::length(sliding_mps);
-    const Vec3 push =
-        push_n * normal - body_friction * push_n / std::max(slide_mps, 0.1) * sliding_mps;
+    const Vec3 push = push_n * normal - body_friction * push_n / std::max(slide_mps, 0.1) * sliding_mps;
     force_n += push;
     moment_nm += glm::cross(point_m, push);
   }

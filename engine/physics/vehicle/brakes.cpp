@@ -28,8 +28,7 @@ void advance_anti_lock(const VehicleParameters& parameters, const Vec3& velocity
                        VehicleState& state) {
   const bool fast = std::abs(velocity_mps.x) > control_from_mps;
   for (int i = 0; i < wheel_count; ++i) {
-    const double over =
-        braking_slip(parameters, state, i, velocity_mps) - parameters.brakes.anti_lock_slip;
+    const double over = braking_slip(parameters, state, i, velocity_mps) - parameters.brakes.anti_lock_slip;
     const double rate = fast ? std::clamp(60.0 * over, -4.0, 25.0) : -20.0;
     double& release = state.brakes.release[i];
     release = std::clamp(release + dt_s * rate, 0.0, 0.98);
@@ -53,13 +52,13 @@ void delay_yaw_moment(double yaw_rate_radps, double dt_s, BrakeState& brakes) {
   }
   const double towards_high_radps = high == 0 ? yaw_rate_radps : -yaw_rate_radps;
   const double rate = gain_per_rad * (bearable_radps - towards_high_radps);
-  brakes.front_difference = std::clamp(brakes.front_difference + dt_s * std::clamp(rate, -fall_per_s, rise_per_s), least, 1.0);
+  brakes.front_difference =
+      std::clamp(brakes.front_difference + dt_s * std::clamp(rate, -fall_per_s, rise_per_s), least, 1.0);
   brakes.release[high] = std::max(brakes.release[high], brakes.release[1 - high] - brakes.front_difference);
 }
 
 /// Share of the engine's torque to take away: what the fastest driven wheel turns too fast.
-double traction_cut(const VehicleParameters& parameters, const VehicleState& state,
-                    const Vec3& velocity_mps) {
+double traction_cut(const VehicleParameters& parameters, const VehicleState& state, const Vec3& velocity_mps) {
   const double speed_mps = std::max(std::abs(velocity_mps.x), 1.0);
   double over_mps = 0.0;
   for (int i = 0; i < wheel_count; ++i)
@@ -70,8 +69,8 @@ double traction_cut(const VehicleParameters& parameters, const VehicleState& sta
 /// One wheel is braked when the car turns more (outer front) or less (inner rear) than the driver
 /// steers.
 /// Answers whether it acts.
-bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps,
-                               double dt_s, VehicleState& state) {
+bool advance_stability_control(const VehicleParameters& parameters, const Vec3& velocity_mps, double dt_s,
+                               VehicleState& state) {
   bool acts = false;
   const double speed = velocity_mps.x;
   const double yaw_rate = state.angular_velocity_radps.z;
@@ -81,8 +80,7 @@ bool advance_stability_control(const VehicleParameters& parameters, const Vec3& 
     const double lateral_mps2 = std::abs(yaw_rate * speed);
     const double most = (std::max(lateral_mps2, 2.0) + 1.5) / speed;
     const double asked = std::clamp(
-        speed * steer_rad /
-            (parameters.body.wheelbase_m + parameters.brakes.understeer_radps2pm * speed * speed),
+        speed * steer_rad / (parameters.body.wheelbase_m + parameters.brakes.understeer_radps2pm * speed * speed),
         -most, most);
     const double error = yaw_rate - asked;
     const double direction = yaw_rate >= 0.0 ? 1.0 : -1.0;
@@ -101,9 +99,8 @@ bool advance_stability_control(const VehicleParameters& parameters, const Vec3& 
 
 }  // namespace
 
-std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters,
-                                               const DriverInput& input, const Vec3& velocity_mps,
-                                               double dt_s, VehicleState& state) {
+std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters, const DriverInput& input,
+                                               const Vec3& velocity_mps, double dt_s, VehicleState& state) {
   const BrakeParameters& brakes = parameters.brakes;
   BrakeState& controls = state.brakes;
   controls.pedal += (input.brake - controls.pedal) * dt_s / (brakes.lag_s + dt_s);
@@ -111,8 +108,7 @@ std::array<double, wheel_count> advance_brakes(const VehicleParameters& paramete
   if (brakes.anti_lock && brakes.stability_control && velocity_mps.x > control_from_mps)
     delay_yaw_moment(state.angular_velocity_radps.z, dt_s, controls);
   double cut = brakes.traction_control ? traction_cut(parameters, state, velocity_mps) : 0.0;
-  if (brakes.stability_control && advance_stability_control(parameters, velocity_mps, dt_s, state))
-    cut = 1.0;
+  if (brakes.stability_control && advance_stability_control(parameters, velocity_mps, dt_s, state)) cut = 1.0;
   controls.torque_cut += (cut - controls.torque_cut) * dt_s / (0.06 + dt_s);
 
   const bool pawl = input.selector == GearSelector::park && std::abs(velocity_mps.x) < 1.0;
@@ -121,8 +117,8 @@ std::array<double, wheel_count> advance_brakes(const VehicleParameters& paramete
     const double pressure = std::clamp(controls.pedal + controls.stabilising[i], 0.0, 1.0);
     torque_nm[i] = brakes.full_torque_nm[axle_of(i)] * pressure * (1.0 - controls.release[i]);
     if (input.parking_brake && axle_of(i) == 1) torque_nm[i] += brakes.parking_torque_nm;
-    const bool driven = axle_of(i) == 0 ? parameters.powertrain.front_share > 0.0
-                                        : parameters.powertrain.front_share < 1.0;
+    const bool driven =
+        axle_of(i) == 0 ? parameters.powertrain.front_share > 0.0 : parameters.powertrain.front_share < 1.0;
     if (pawl && driven) torque_nm[i] += brakes.full_torque_nm[0];
   }
   return torque_nm;

@@ -33,8 +33,8 @@ struct WheelLoad {
 double square(double x) { return x * x; }
 
 /// Spin after one step. The brake holds up to its torque and never turns the wheel.
-double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double inertia_kgm2,
-                  double dt_s, double& brake_used_nm) {
+double spin_wheel(double spin_radps, double torque_nm, double brake_nm, double inertia_kgm2, double dt_s,
+                  double& brake_used_nm) {
   const double free_radps = spin_radps + dt_s * torque_nm / inertia_kgm2;
   const double most_radps = dt_s * brake_nm / inertia_kgm2;
   const double taken_radps = std::clamp(free_radps, -most_radps, most_radps);
@@ -61,9 +61,8 @@ WheelGround carrying_plane(const WheelGround& ground, const Vec3& centre_m, cons
 }
 
 /// Contact, tyre force and new spin of one wheel.
-WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& known, int index,
-                        const ChassisInput& input, const WheelGround& ground, double dt_s,
-                        const VehicleState& state, const Vec3& velocity_mps,
+WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& known, int index, const ChassisInput& input,
+                        const WheelGround& ground, double dt_s, const VehicleState& state, const Vec3& velocity_mps,
                         double opposite_rate_mps, WheelState& wheel) {
   const TyreParameters& tyre = parameters.tyre;
   const Quat world_from_body = state.world_from_body.orientation;
@@ -73,17 +72,15 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const Vec3& axis = load.place.spin_axis;
   const Vec3& centre_m = load.place.centre_m;
 
-  const WheelGround met = carrying_plane(ground, state.world_from_body * centre_m,
-                                         world_from_body * glm::cross(axis, Vec3(0.0, 0.0, 1.0)));
+  const WheelGround met =
+      carrying_plane(ground, state.world_from_body * centre_m, world_from_body * glm::cross(axis, Vec3(0.0, 0.0, 1.0)));
   const Vec3 normal = glm::conjugate(world_from_body) * met.normal;
   // The published height of an axle leaves out that its centre moves sideways under a leaning body.
   const Vec3 measured_m =
       parameters.as_published
-          ? Vec3(centre_m.x, side_of(index) * 0.5 * parameters.suspension[axle_of(index)].track_m,
-                 centre_m.z)
+          ? Vec3(centre_m.x, side_of(index) * 0.5 * parameters.suspension[axle_of(index)].track_m, centre_m.z)
           : centre_m;
-  const double height_m =
-      glm::dot(met.normal, state.world_from_body * measured_m - met.point_m);
+  const double height_m = glm::dot(met.normal, state.world_from_body * measured_m - met.point_m);
   // Deeper than that the rim would be flat; the force stays what it is there.
   const double deflection_m = std::min(tyre.radius_m - height_m, 0.6 * tyre.radius_m);
   const Vec3 across = glm::cross(axis, normal);
@@ -116,13 +113,13 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     if (suspension.rigid_axle) {
       // Its joint hangs on the axle: the lower the wheel's centre, the deeper the joint lies under the contact, which moves only
       // as the axle leans.
-      load.place.contact_slope.y += side_of(index) * (height_m - known.centre_z_m[axle_of(index)]) / (0.5 * suspension.track_m);
+      load.place.contact_slope.y +=
+          side_of(index) * (height_m - known.centre_z_m[axle_of(index)]) / (0.5 * suspension.track_m);
       path_mps.y = 0.5 * (wheel.travel_rate_mps - opposite_rate_mps) * load.place.contact_slope.y;
     }
     const Vec3 patch_mps = velocity_mps + glm::cross(state.angular_velocity_radps, load.contact_m) + path_mps;
-    const double load_n =
-        std::max(0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) -
-                          tyre.vertical_damping_nspm * glm::dot(patch_mps, normal));
+    const double load_n = std::max(0.0, radial_force_n(tyre, wheel.damage, deflection_m, ground.yields) -
+                                            tyre.vertical_damping_nspm * glm::dot(patch_mps, normal));
     TyreContact contact;
     contact.load_n = load_n;
     contact.friction = ground.friction * wheel.damage.grip();
@@ -132,7 +129,8 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
     contact.sliding_mps = {contact.forward_mps - contact.rolling_mps, glm::dot(patch_mps, left)};
     contact.inclination_rad = glm::dot(axis, normal);
     if (parameters.as_published) {
-      const Vec2 published_mps = published_contact_velocity_mps(parameters, known, index, state, velocity_mps, normal, height_m);
+      const Vec2 published_mps =
+          published_contact_velocity_mps(parameters, known, index, state, velocity_mps, normal, height_m);
       contact.forward_mps = published_mps.x;
       contact.sliding_mps = {published_mps.x - contact.rolling_mps, published_mps.y};
       contact.inclination_rad = published_inclination_rad(axis, normal);
@@ -149,12 +147,10 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
       load.force_n = force_n.x * forward + force_n.y * left + load_n * normal;
       load.rolling_n = force_n.x * forward;
       load.rolling_torque_nm = force_n.x * effective_radius_m;
-      load.lean_nm =
-          load_n * force_n.y * suspension.contact_by_lateral_force_mpn;
+      load.lean_nm = load_n * force_n.y * suspension.contact_by_lateral_force_mpn;
       load.aligning_nm = wheel.aligning_nm * normal;
-      rolling_nm =
-          ground.rolling_resistance * wheel.damage.rolling_resistance() * load_n * effective_radius_m *
-          (tyre.rolling_resistance + tyre.rolling_resistance_s2pm2 * square(contact.rolling_mps));
+      rolling_nm = ground.rolling_resistance * wheel.damage.rolling_resistance() * load_n * effective_radius_m *
+                   (tyre.rolling_resistance + tyre.rolling_resistance_s2pm2 * square(contact.rolling_mps));
     }
   }
   if (wheel.force_n.z <= 0.0) {
@@ -165,9 +161,8 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
   const double drive_nm = input.drive_torque_nm[index];
   const double brake_nm = std::max(0.0, input.brake_torque_nm[index]);
   double friction_nm = 0.0;
-  wheel.spin_radps =
-      spin_wheel(wheel.spin_radps, drive_nm - load.rolling_torque_nm, brake_nm + rolling_nm,
-                 parameters.suspension[axle_of(index)].wheel_inertia_kgm2, dt_s, friction_nm);
+  wheel.spin_radps = spin_wheel(wheel.spin_radps, drive_nm - load.rolling_torque_nm, brake_nm + rolling_nm,
+                                parameters.suspension[axle_of(index)].wheel_inertia_kgm2, dt_s, friction_nm);
   load.brake_torque_nm = friction_nm * brake_nm / std::max(brake_nm + rolling_nm, 1e-12);
   load.shaft_torque_nm = drive_nm + load.brake_torque_nm;
   wheel.spin_rad += dt_s * wheel.spin_radps;
@@ -177,8 +172,8 @@ WheelLoad advance_wheel(const VehicleParameters& parameters, const Statics& know
 }
 
 /// Drag and lift at the axles; the wind stands still.
-void add_aerodynamics(const BodyParameters& body, const Statics& known, const Vec3& velocity_mps,
-                      Vec3& force_n, Vec3& moment_nm) {
+void add_aerodynamics(const BodyParameters& body, const Statics& known, const Vec3& velocity_mps, Vec3& force_n,
+                      Vec3& moment_nm) {
   const double speed_mps = glm::length(velocity_mps);
   const double pressure_pa = 0.5 * air_density_kgpm3;
   force_n -= pressure_pa * body.drag_area_m2 * speed_mps * velocity_mps;
@@ -191,8 +186,8 @@ void add_aerodynamics(const BodyParameters& body, const Statics& known, const Ve
 
 }  // namespace
 
-void advance_chassis(const VehicleParameters& parameters, const ChassisInput& input,
-                     const Ground& ground, double dt_s, VehicleState& state) {
+void advance_chassis(const VehicleParameters& parameters, const ChassisInput& input, const Ground& ground, double dt_s,
+                     VehicleState& state) {
   const Statics known = statics(parameters);
   const BodyParameters& body = parameters.body;
   const Quat world_from_body = state.world_from_body.orientation;
@@ -202,8 +197,7 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
   const Vec3& omega = state.angular_velocity_radps;
 
   std::array<double, wheel_count> spring_n{};
-  for (int i = 0; i < wheel_count; ++i)
-    spring_n[i] = suspension_force_n(parameters, known, i, state.wheels);
+  for (int i = 0; i < wheel_count; ++i) spring_n[i] = suspension_force_n(parameters, known, i, state.wheels);
 
   std::array<WheelLoad, wheel_count> loads;
   std::array<WheelPlace, wheel_count> places;
@@ -224,7 +218,8 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     moment_nm += load.aligning_nm;
     moment_nm.x += contact.y * tyre_n.z - contact.z * tyre_n.y + load.lean_nm;
     moment_nm.y += contact.z * tyre_n.x - contact.x * tyre_n.z;
-    if (!parameters.as_published) moment_nm.y += load.rolling_torque_nm - load.shaft_torque_nm;  // What spins the wheel.
+    if (!parameters.as_published)
+      moment_nm.y += load.rolling_torque_nm - load.shaft_torque_nm;  // What spins the wheel.
     moment_nm.z += parameters.as_published ? published_yaw_moment_nm(parameters, known, i, up, tyre_n)
                                            : contact.x * tyre_n.y - contact.y * tyre_n.x;
 
@@ -234,23 +229,19 @@ void advance_chassis(const VehicleParameters& parameters, const ChassisInput& in
     double sideways_n = tyre_n.y * place.contact_slope.y;
     if (suspension.rigid_axle) {
       const Vec3& opposite_n = loads[i ^ 1].force_n;
-      const double lean = side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) /
-                          suspension.track_m;
+      const double lean = side_of(i) * (state.wheels[i ^ 1].travel_m - state.wheels[i].travel_m) / suspension.track_m;
       sideways_n = 0.5 * (tyre_n.y * place.contact_slope.y - opposite_n.y * places[i ^ 1].contact_slope.y);
       sideways_n += 0.5 * (tyre_n.y - opposite_n.y) * lean;
       sideways_n += side_of(i) * (load.lean_nm + loads[i ^ 1].lean_nm) / suspension.track_m;
     } else {
-      sideways_n -=
-          side_of(i) * suspension.camber_rad.slope(state.wheels[i].travel_m) * load.lean_nm;
+      sideways_n -= side_of(i) * suspension.camber_rad.slope(state.wheels[i].travel_m) * load.lean_nm;
     }
     // Virtual work along the wheel's path: longitudinal forces act at the centre, as the wheel
     // turns freely, and the brake turns with the carrier.
     const double radius_m = std::max(0.1, place.centre_m.z - contact.z);
-    generalised[5 + i] =
-        tyre_n.z - spring_n[i] + load.rolling_n.x * place.centre_slope.x +
-        (tyre_n.x - load.rolling_n.x) * place.contact_slope.x +
-        load.brake_torque_nm / radius_m * (place.contact_slope.x - place.centre_slope.x) +
-        sideways_n;
+    generalised[5 + i] = tyre_n.z - spring_n[i] + load.rolling_n.x * place.centre_slope.x +
+                         (tyre_n.x - load.rolling_n.x) * place.contact_slope.x +
+                         load.brake_torque_nm / radius_m * (place.contact_slope.x - place.centre_slope.x) + sideways_n;
 
     // Yaw takes the centres of the sprung mass and of the whole car to coincide in plan, so the
     // wheels' weight on a leaning car must not turn it either.

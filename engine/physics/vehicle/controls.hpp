@@ -8,13 +8,12 @@ namespace septet::vehicle {
 
 /// Moves the steering column on and returns the mean road-wheel angle. Also sets the torque that
 /// the driver feels.
-double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad,
-                        double speed_mps, double dt_s, VehicleState& state);
+double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad, double speed_mps, double dt_s,
+                        VehicleState& state);
 
 /// Engine, converter or clutch, gearbox and differential: torque at each wheel, N m.
-std::array<double, wheel_count> advance_powertrain(const VehicleParameters& parameters,
-                                                   const DriverInput& input, double speed_mps,
-                                                   double dt_s, VehicleState& state);
+std::array<double, wheel_count> advance_powertrain(const VehicleParameters& parameters, const DriverInput& input,
+                                                   double speed_mps, double dt_s, VehicleState& state);
 
 /// Speed of the gearbox's output shaft before the final drive, rad/s, from the driven wheels.
 double output_shaft_radps(const VehicleParameters& parameters, const VehicleState& state);
@@ -24,8 +23,7 @@ int cruising_gear(const PowertrainParameters& powertrain, double output_radps);
 
 /// Pedal, parking brake, anti-lock, traction and stability control: friction torque at each wheel,
 /// N m.
-std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters,
-                                               const DriverInput& input, const Vec3& velocity_mps,
-                                               double dt_s, VehicleState& state);
+std::array<double, wheel_count> advance_brakes(const VehicleParameters& parameters, const DriverInput& input,
+                                               const Vec3& velocity_mps, double dt_s, VehicleState& state);
 
 }  // namespace septet::vehicle

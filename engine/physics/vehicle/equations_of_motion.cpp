@@ -41,8 +41,7 @@ std::array<Coordinates, 3> centre_jacobian(const WheelPlace& place, int wheel) {
 }
 
 Coordinates accelerations(const VehicleParameters& parameters, const Statics& statics,
-                          const std::array<WheelPlace, wheel_count>& places,
-                          const Coordinates& force) {
+                          const std::array<WheelPlace, wheel_count>& places, const Coordinates& force) {
   // A travel meets the body's coordinates and no other travel: the four are eliminated one by one,
   // and five equations are left (the Schur complement of the travels).
   std::array<BodyCoordinates, body_count> mass{};

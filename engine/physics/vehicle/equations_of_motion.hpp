@@ -23,7 +23,6 @@ std::array<Coordinates, 3> centre_jacobian(const WheelPlace& place, int wheel);
 
 /// Solves M · acceleration = force.
 Coordinates accelerations(const VehicleParameters& parameters, const Statics& statics,
-                          const std::array<WheelPlace, wheel_count>& places,
-                          const Coordinates& force);
+                          const std::array<WheelPlace, wheel_count>& places, const Coordinates& force);
 
 }  // namespace septet::vehicle

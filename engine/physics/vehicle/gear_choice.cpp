@@ -9,27 +9,21 @@ namespace {
 
 constexpr double least_time_between_shifts_s = 0.7;
 
-double between(double closed, double open, double pedal) {
-  return closed + pedal * (open - closed);
-}
+double between(double closed, double open, double pedal) { return closed + pedal * (open - closed); }
 
 /// One gear up or down where the input shaft runs outside its band for this pedal.
-int automatic_gear(const PowertrainParameters& powertrain, int gear, double pedal,
-                   double output_radps) {
+int automatic_gear(const PowertrainParameters& powertrain, int gear, double pedal, double output_radps) {
   if (gear < 1) return 1;
-  const double up =
-      between(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal * pedal);
-  const double down =
-      between(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal * pedal);
+  const double up = between(powertrain.upshift_closed_radps, powertrain.upshift_open_radps, pedal * pedal);
+  const double down = between(powertrain.downshift_closed_radps, powertrain.downshift_open_radps, pedal * pedal);
   const double input_radps = output_radps * powertrain.gear_ratio[gear - 1];
   if (gear < powertrain.gear_count && input_radps > up) return gear + 1;
-  if (gear > 1 && input_radps < down && output_radps * powertrain.gear_ratio[gear - 2] < 0.93 * up)
-    return gear - 1;
+  if (gear > 1 && input_radps < down && output_radps * powertrain.gear_ratio[gear - 2] < 0.93 * up) return gear - 1;
   return gear;
 }
 
-int wanted_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal,
-                double output_radps, const PowertrainState& state) {
+int wanted_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal, double output_radps,
+                const PowertrainState& state) {
   switch (input.selector) {
     case GearSelector::park:
     case GearSelector::neutral:
@@ -62,9 +56,8 @@ int direct_gear(const DriverInput& input) {
   return input.gear > 0 ? 1 : input.gear < 0 ? -1 : 0;
 }
 
-void advance_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal,
-                  double output_radps, bool reverse_allowed, bool forward_allowed, double dt_s,
-                  PowertrainState& state) {
+void advance_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal, double output_radps,
+                  bool reverse_allowed, bool forward_allowed, double dt_s, PowertrainState& state) {
   state.since_shift_s = std::min(state.since_shift_s + dt_s, 10.0);
   if (state.next_gear != state.gear) {
     state.shift_s += dt_s;
@@ -79,11 +72,10 @@ void advance_gear(const PowertrainParameters& powertrain, const DriverInput& inp
   if (fresh && ((gear < 0 && !reverse_allowed) || (gear > 0 && !forward_allowed))) gear = 0;
   // A gear that would run the engine past its limit is refused, and so is one with the clutch
   // closed.
-  if (gear >= 1 && output_radps * powertrain.gear_ratio[gear - 1] > powertrain.most_radps &&
-      gear < state.gear)
+  if (gear >= 1 && output_radps * powertrain.gear_ratio[gear - 1] > powertrain.most_radps && gear < state.gear)
     gear = state.gear;
-  const bool clutch_needed = powertrain.transmission == Transmission::manual &&
-                             input.selector == GearSelector::manual && gear != 0;
+  const bool clutch_needed =
+      powertrain.transmission == Transmission::manual && input.selector == GearSelector::manual && gear != 0;
   if (clutch_needed && input.clutch < 0.5) gear = state.gear;
   if (gear == state.gear) return;
   // In and out of neutral without delay; between two gears the shift takes its time.
@@ -97,8 +89,7 @@ void advance_gear(const PowertrainParameters& powertrain, const DriverInput& inp
 
 int cruising_gear(const PowertrainParameters& powertrain, double output_radps) {
   int gear = 1;
-  for (int next = 2; next <= powertrain.gear_count; ++next)
-    gear = automatic_gear(powertrain, gear, 0.1, output_radps);
+  for (int next = 2; next <= powertrain.gear_count; ++next) gear = automatic_gear(powertrain, gear, 0.1, output_radps);
   return gear;
 }
 

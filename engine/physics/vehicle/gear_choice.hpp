@@ -10,9 +10,8 @@ namespace septet::vehicle {
 /// Moves a shift in progress on, or begins one. `pedal` is the accelerator; `output_radps` the
 /// speed of the gearbox's output. A direction that is not allowed (the car rolls the other way)
 /// engages neutral.
-void advance_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal,
-                  double output_radps, bool reverse_allowed, bool forward_allowed, double dt_s,
-                  PowertrainState& state);
+void advance_gear(const PowertrainParameters& powertrain, const DriverInput& input, double pedal, double output_radps,
+                  bool reverse_allowed, bool forward_allowed, double dt_s, PowertrainState& state);
 
 /// −1, 0 or 1 for a car without gears.
 int direct_gear(const DriverInput& input);

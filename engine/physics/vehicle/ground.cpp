@@ -38,12 +38,10 @@ double peak_friction(SurfaceKind kind, double temperature_k) {
   return dry_friction;
 }
 
-double given_friction(SurfaceKind kind, double coefficient, double wetness, double snow_cover,
-                      double temperature_k) {
+double given_friction(SurfaceKind kind, double coefficient, double wetness, double snow_cover, double temperature_k) {
   if (kind == SurfaceKind::dry)
     return coefficient * weather_friction(wetness, snow_cover, temperature_k) / dry_friction;
-  return coefficient * peak_friction(kind, temperature_k) /
-         peak_friction(kind, reference_surface_k);
+  return coefficient * peak_friction(kind, temperature_k) / peak_friction(kind, reference_surface_k);
 }
 
 double weather_friction(double wetness, double snow_cover, double temperature_k) {

@@ -25,10 +25,9 @@ struct WheelGround {
   /// deeper, plane or edge: so it meets a kerb before its centre is over it, and climbs it along its own roundness (rigid ring
   /// enveloping: Zegelaar 1998, The dynamic response of tyres to brake torque variations and road unevennesses, ch. 4).
   std::optional<Vec3> edge_m;
-  bool yields = false;         ///< Gives way before a rim does: debris.
-  double friction = 0.9;       ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
-  double rolling_resistance =
-      1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.
+  bool yields = false;              ///< Gives way before a rim does: debris.
+  double friction = 0.9;            ///< Peak friction coefficient of this surface; dry asphalt is 0.9.
+  double rolling_resistance = 1.0;  ///< Multiplies the tyre's rolling resistance: 1 asphalt, about 5 loose snow.
 };
 using Ground = std::array<WheelGround, wheel_count>;
 
@@ -52,8 +51,7 @@ double peak_friction(SurfaceKind kind, double temperature_k);
 /// that of wet ground, snow and ice holds at `reference_surface_k` and changes with temperature as
 /// ours does.
 inline constexpr double reference_surface_k = 268.15;
-double given_friction(SurfaceKind kind, double coefficient, double wetness, double snow_cover,
-                      double temperature_k);
+double given_friction(SurfaceKind kind, double coefficient, double wetness, double snow_cover, double temperature_k);
 
 /// Friction of a road that is `wetness` wet and `snow_cover` covered (both 0 to 1; Environment of
 /// the snapshot). A wet road below −1 °C freezes over.

@@ -11,9 +11,9 @@
 namespace septet::vehicle {
 namespace {
 
-constexpr double blow_s = 0.25;             // The blow itself is over by then; what follows is sliding.
+constexpr double blow_s = 0.25;  // The blow itself is over by then; what follows is sliding.
 constexpr double let_go_s = 0.1, forgotten_s = 0.5;
-constexpr double joint_m = 0.15;            // By so much more than before a next stretch may enter.
+constexpr double joint_m = 0.15;  // By so much more than before a next stretch may enter.
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 Vec2 left_of(const Vec2& v) { return {-v.y, v.x}; }
@@ -57,7 +57,8 @@ Plan plan_of(const BodyParameters& body, const VehicleState& state) {
   const double level = std::hypot(forward.x, forward.y);
   plan.forward = level > 0.1 ? Vec2(forward) / level : Vec2(1.0, 0.0);
   plan.mass_centre_m = Vec2(state.world_from_body.position_m);
-  plan.centre_m = plan.mass_centre_m + (0.5 * body.length_m - body.rear_overhang_m - body.mass_centre_x_m) * plan.forward;
+  plan.centre_m =
+      plan.mass_centre_m + (0.5 * body.length_m - body.rear_overhang_m - body.mass_centre_x_m) * plan.forward;
   plan.half_m = {0.5 * body.length_m, 0.5 * body.width_m};
   const double ground_m = state.world_from_body.position_m.z - body.mass_centre_z_m;
   plan.low_m = ground_m + 0.2;  // Lower is what the wheels climb.
@@ -81,7 +82,8 @@ std::optional<Contact> round_contact(const Plan& plan, const Vec2& middle_m, dou
   if (distance_m > 1e-9) {
     const bool front = std::abs(outwards.x) > std::abs(outwards.y);
     face = front ? Vec2(outwards.x > 0.0 ? 1.0 : -1.0, 0.0) : Vec2(0.0, outwards.y > 0.0 ? 1.0 : -1.0);
-    return Contact{plan.to_world(nearest), -plan.direction_to_world(outwards / distance_m), radius_m - distance_m, plan.zone(nearest)};
+    return Contact{plan.to_world(nearest), -plan.direction_to_world(outwards / distance_m), radius_m - distance_m,
+                   plan.zone(nearest)};
   }
   if (face == Vec2(0.0)) {
     const Vec2 to_side = plan.half_m - glm::abs(local);
@@ -110,14 +112,21 @@ void for_each_line_contact(const Plan& plan, const Obstacle& line, double side, 
 class Step {
  public:
   Step(const VehicleParameters& parameters, double dt_s, VehicleState& state, HullState& hull, HullReport& report)
-      : body_(parameters.body), dt_s_(dt_s), state_(state), hull_(hull), report_(report), plan_(plan_of(body_, state)) {}
+      : body_(parameters.body),
+        dt_s_(dt_s),
+        state_(state),
+        hull_(hull),
+        report_(report),
+        plan_(plan_of(body_, state)) {}
 
   void meet(const Obstacle& obstacle) {
     if (obstacle.high_m < plan_.low_m || obstacle.low_m > plan_.high_m) return;
     const bool line = obstacle.from_m != obstacle.to_m;
     if (line) {
       const HullTouch* known = find(obstacle.run);
-      const double side = known ? known->side : cross(obstacle.to_m - obstacle.from_m, plan_.mass_centre_m - obstacle.from_m) < 0.0 ? -1.0 : 1.0;
+      const double side = known ? known->side
+                          : cross(obstacle.to_m - obstacle.from_m, plan_.mass_centre_m - obstacle.from_m) < 0.0 ? -1.0
+                                                                                                                : 1.0;
       const double most_m = joint_m + (known ? known->depth_m : 0.0);
       for_each_line_contact(plan_, obstacle, side, [&](const Contact& contact) {
         if (contact.depth_m <= most_m) press(contact, obstacle, side, Vec2(0.0));
@@ -203,7 +212,8 @@ class Step {
 
   void push(const Vec2& impulse_ns, const Vec2& arm, HullTouch& touch) {
     const Vec3 change(impulse_ns / body_.mass_kg, 0.0);
-    const Vec3 turn = glm::conjugate(state_.world_from_body.orientation) * Vec3(0.0, 0.0, cross(arm, impulse_ns) / body_.inertia_kgm2.z);
+    const Vec3 turn = glm::conjugate(state_.world_from_body.orientation) *
+                      Vec3(0.0, 0.0, cross(arm, impulse_ns) / body_.inertia_kgm2.z);
     state_.velocity_mps += change;
     state_.angular_velocity_radps += turn;
     state_.acceleration_mps2 += change / dt_s_;
@@ -233,8 +243,8 @@ double hull_reach_m(const VehicleParameters& parameters) {
   return std::hypot(std::max(front_m, body.length_m - front_m), 0.5 * body.width_m);
 }
 
-void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s, VehicleState& state,
-                  HullState& hull, HullReport& report) {
+void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
+                  VehicleState& state, HullState& hull, HullReport& report) {
   if (obstacles.empty() && hull.touches.empty()) return;
   Step step(parameters, dt_s, state, hull, report);
   for (const Obstacle& obstacle : obstacles) step.meet(obstacle);
@@ -245,7 +255,8 @@ void hash_hull(StateHash& hash, const HullState& hull) {
   for (const double crush : hull.crush_m) hash.add(crush);
   for (const HullTouch& touch : hull.touches) {
     hash.add(touch.run);
-    for (const double part : {touch.delta_v_mps.x, touch.delta_v_mps.y, touch.age_s, touch.free_s, touch.depth_m, touch.side})
+    for (const double part :
+         {touch.delta_v_mps.x, touch.delta_v_mps.y, touch.age_s, touch.free_s, touch.depth_m, touch.side})
       hash.add(part);
   }
 }

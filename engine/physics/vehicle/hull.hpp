@@ -50,15 +50,15 @@ struct HullState {
 
 struct HullReport {
   std::vector<HullTouch> begun;  ///< Touched in this step for the first time.
-  std::vector<HullTouch> over;   ///< Of these the blow is over, a quarter of a second after its beginning at the latest.
+  std::vector<HullTouch> over;  ///< Of these the blow is over, a quarter of a second after its beginning at the latest.
 };
 
 /// Radius round the centre of mass that holds the hull.
 double hull_reach_m(const VehicleParameters& parameters);
 
 /// Pushes the car off the obstacles that it has entered. `obstacles`: all within hull_reach_m. Appends to `report`.
-void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s, VehicleState& state,
-                  HullState& hull, HullReport& report);
+void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle> obstacles, double dt_s,
+                  VehicleState& state, HullState& hull, HullReport& report);
 
 void hash_hull(StateHash& hash, const HullState& hull);
 

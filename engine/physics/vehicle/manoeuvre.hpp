@@ -47,9 +47,8 @@ struct ManoeuvreReport {
 struct ManoeuvreOptions {
   double speed_mps = 0.0;  ///< 0: the manoeuvre's usual speed.
   double friction = 0.0;   ///< 0: that of the surface for which the tyre is given.
-  double steer_rad =
-      0.0;  ///< Amplitude of step steer and sine with dwell; 0: found by the manoeuvre.
-  double settle_s = 8.0;  ///< Straight running before the manoeuvre begins.
+  double steer_rad = 0.0;  ///< Amplitude of step steer and sine with dwell; 0: found by the manoeuvre.
+  double settle_s = 8.0;   ///< Straight running before the manoeuvre begins.
   /// Unset: on for the sine with dwell, which is its test, and for given inputs; off otherwise. Only
   /// where the car has one.
   std::optional<bool> stability_control;
@@ -65,13 +64,11 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters, const Manoeuv
 ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// ISO 3888-1: double lane change (80 km/h) behind a driver who looks 0.6 s ahead, throttle frozen.
-ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
-                                   const ManoeuvreOptions& options);
+ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// ISO 19365: sine with dwell, 0.7 Hz, 0.5 s, at 80 km/h in neutral throttle; amplitude 5 times the
 /// angle for 0.3 g.
-ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
-                                const ManoeuvreOptions& options);
+ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters, const ManoeuvreOptions& options);
 
 /// ISO 21994: full stop (100 km/h) with the anti-lock system, or without one with every wheel held
 /// at its best slip.

@@ -5,12 +5,10 @@
 
 namespace septet::vehicle {
 
-ManoeuvreCar::ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options,
-                           double speed_mps)
+ManoeuvreCar::ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options, double speed_mps)
     : parameters_(parameters), state_(standstill(parameters, {}, speed_mps)) {
   parameters_.brakes.stability_control &= options.stability_control.value_or(false);
-  ground_ = level_ground(
-      0.0, options.friction > 0.0 ? options.friction : parameters.tyre.reference_friction);
+  ground_ = level_ground(0.0, options.friction > 0.0 ? options.friction : parameters.tyre.reference_friction);
   if (speed_mps <= 0.0) return;
   const int settling = static_cast<int>(options.settle_s / manoeuvre_step_s + 0.5);
   for (int i = 0; i < settling; ++i) {

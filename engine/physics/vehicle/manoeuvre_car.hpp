@@ -15,8 +15,7 @@ inline constexpr double sample_interval_s = 0.01;
 class ManoeuvreCar {
  public:
   /// Rolls straight ahead at this speed, settled for options.settle_s with the speed held.
-  ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options,
-               double speed_mps);
+  ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreOptions& options, double speed_mps);
 
   /// One step with these road-wheel angle; pedals as left by hold_speed, freeze or input().
   void advance(double steer_rad);

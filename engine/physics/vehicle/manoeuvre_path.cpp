@@ -25,8 +25,7 @@ double lane_change_path_m(double x_m, double width_m) {
 
 }  // namespace
 
-ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
-                                   const ManoeuvreOptions& options) {
+ManoeuvreReport double_lane_change(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
   constexpr double preview_s = 0.6, lag_s = 0.05, most_rate_radps = 0.4;
   constexpr double driver_understeer = 0.0025;  // What the driver expects, rad per m/s².
   constexpr double run_up_m = 60.0, length_m = 140.0;
@@ -55,11 +54,9 @@ ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
     const double target_x_m = x_m + ahead_m * std::cos(now.heading_rad);
     const double target_y_m = now.y_m + ahead_m * std::sin(now.heading_rad);
     const double error_m = lane_change_path_m(target_x_m, width_m) - target_y_m;
-    const double wanted_rad =
-        2.0 * error_m / (ahead_m * ahead_m) *
-        (parameters.body.wheelbase_m + driver_understeer * now.speed_mps * now.speed_mps);
-    const double rate =
-        std::clamp((wanted_rad - steer_rad) / lag_s, -most_rate_radps, most_rate_radps);
+    const double wanted_rad = 2.0 * error_m / (ahead_m * ahead_m) *
+                              (parameters.body.wheelbase_m + driver_understeer * now.speed_mps * now.speed_mps);
+    const double rate = std::clamp((wanted_rad - steer_rad) / lag_s, -most_rate_radps, most_rate_radps);
     steer_rad += rate * manoeuvre_step_s;
     car.advance(steer_rad);
   }
@@ -77,8 +74,7 @@ ManoeuvreReport double_lane_change(const VehicleParameters& parameters,
           car.series()};
 }
 
-ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
-                                const ManoeuvreOptions& options) {
+ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
   constexpr double frequency_hz = 0.7, dwell_s = 0.5;
   constexpr double amplitude_factor = 5.0;
   const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 80.0 / 3.6;
@@ -88,10 +84,9 @@ ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
     slow.speed_mps = speed_mps;
     const ManoeuvreReport circle = steady_circle(parameters, slow);
     amplitude_rad =
-        amplitude_factor *
-        first_crossing(
-            circle.series, [](const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; },
-            0.3 * gravity_mps2, [](const ManoeuvreSample& s) { return s.steer_rad; });
+        amplitude_factor * first_crossing(
+                               circle.series, [](const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; },
+                               0.3 * gravity_mps2, [](const ManoeuvreSample& s) { return s.steer_rad; });
   }
   ManoeuvreOptions with_control = options;
   with_control.stability_control = options.stability_control.value_or(true);
@@ -109,8 +104,7 @@ ManoeuvreReport sine_with_dwell(const VehicleParameters& parameters,
     car.advance(t < end_s ? amplitude_rad * std::sin(2.0 * pi * frequency_hz * phase_s) : 0.0);
     const ManoeuvreSample now = car.sample();
     // The second peak, to the right, is the reference of the yaw rate ratios (ISO 19365, 9).
-    if (t > 0.5 / frequency_hz && t < end_s)
-      peak_yaw_radps = std::min(peak_yaw_radps, now.yaw_rate_radps);
+    if (t > 0.5 / frequency_hz && t < end_s) peak_yaw_radps = std::min(peak_yaw_radps, now.yaw_rate_radps);
     peak_sideslip_rad = std::max(peak_sideslip_rad, std::abs(now.sideslip_rad));
     if (t < 1.07) displacement_m = now.y_m;
     if (t < end_s + 1.0) yaw_after_1_s = now.yaw_rate_radps;

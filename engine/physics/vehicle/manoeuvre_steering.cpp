@@ -15,8 +15,7 @@ double lateral(const ManoeuvreSample& s) { return s.lateral_acceleration_mps2; }
 double steer(const ManoeuvreSample& s) { return s.steer_rad; }
 
 /// Slope of a quantity over lateral acceleration by least squares, between 1 and 3 m/s².
-double slope(const std::vector<ManoeuvreSample>& series,
-             double (*quantity)(const ManoeuvreSample&)) {
+double slope(const std::vector<ManoeuvreSample>& series, double (*quantity)(const ManoeuvreSample&)) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const ManoeuvreSample& s : series) {
     const double x = lateral(s), y = quantity(s);
@@ -32,8 +31,7 @@ double slope(const std::vector<ManoeuvreSample>& series,
 }
 
 template <class Quantity>
-double mean_over(const std::vector<ManoeuvreSample>& series, double from_s, double to_s,
-                 const Quantity& quantity) {
+double mean_over(const std::vector<ManoeuvreSample>& series, double from_s, double to_s, const Quantity& quantity) {
   double sum = 0.0, n = 0.0;
   for (const ManoeuvreSample& s : series)
     if (s.time_s >= from_s && s.time_s <= to_s) {
@@ -45,8 +43,7 @@ double mean_over(const std::vector<ManoeuvreSample>& series, double from_s, doub
 
 }  // namespace
 
-ManoeuvreReport steady_circle(const VehicleParameters& parameters,
-                              const ManoeuvreOptions& options) {
+ManoeuvreReport steady_circle(const VehicleParameters& parameters, const ManoeuvreOptions& options) {
   constexpr double most_steer_rad = 0.12;
   const double speed_mps = options.speed_mps > 0.0 ? options.speed_mps : 100.0 / 3.6;
   // Lateral acceleration grows by about 0.1 m/s² a second, the standard's limit.
@@ -61,8 +58,8 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
     car.advance(car.time_s() * rate_radps);
     const ManoeuvreSample now = car.sample();
     peak_mps2 = std::max(peak_mps2, now.lateral_acceleration_mps2);
-    const bool sliding = (peak_mps2 > 2.0 && now.lateral_acceleration_mps2 < peak_mps2 - 1.0) ||
-                         std::abs(now.sideslip_rad) > 0.3;
+    const bool sliding =
+        (peak_mps2 > 2.0 && now.lateral_acceleration_mps2 < peak_mps2 - 1.0) || std::abs(now.sideslip_rad) > 0.3;
     if (now.least_wheel_load_n <= 0.0 || sliding) break;
   }
   const auto& series = car.series();
@@ -81,15 +78,13 @@ ManoeuvreReport steady_circle(const VehicleParameters& parameters,
        {"yaw gain at 4 m/s2", at(4.0, yaw_gain), "1/s"},
        {"steer at 4 m/s2", at(4.0, steer), "rad"},
        {"sideslip gradient",
-        slope(series, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian,
-        "deg/(m/s2)"},
-       {"sideslip at 4 m/s2",
-        at(4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian, "deg"},
+        slope(series, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian, "deg/(m/s2)"},
+       {"sideslip at 4 m/s2", at(4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian,
+        "deg"},
        {"roll gradient",
         slope(series, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian * gravity_mps2,
         "deg/g"},
-       {"hand wheel torque at 4 m/s2",
-        at(4.0, [](const ManoeuvreSample& s) { return s.steering_torque_nm; }), "N m"},
+       {"hand wheel torque at 4 m/s2", at(4.0, [](const ManoeuvreSample& s) { return s.steering_torque_nm; }), "N m"},
        {"peak lateral acceleration", peak_mps2, "m/s2"}},
       series};
   if (peak_mps2 < 4.0)
@@ -108,7 +103,8 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
     slow.speed_mps = speed_mps;
     steer_rad = steady_circle(parameters, slow).figure("steer at 4 m/s2");
   }
-  const double side = steer_rad < 0.0 ? -1.0 : 1.0;  // Response times and overshoots are those of the side that is steered to.
+  const double side =
+      steer_rad < 0.0 ? -1.0 : 1.0;  // Response times and overshoots are those of the side that is steered to.
   const double steered_s = std::abs(steer_rad) / rate_radps;
   ManoeuvreCar car(parameters, options, speed_mps);
   car.begin();
@@ -139,20 +135,18 @@ ManoeuvreReport step_steer(const VehicleParameters& parameters, const ManoeuvreO
        {"steady lateral acceleration", side * lateral_steady, "m/s2"},
        {"yaw rate t90", first_crossing(series, yaw, 0.9 * yaw_steady, time) - half_s, "s"},
        {"yaw rate overshoot", (yaw_peak / yaw_steady - 1.0) * 100.0, "%"},
-       {"lateral acceleration t90",
-        first_crossing(series, sideways, 0.9 * lateral_steady, time) - half_s, "s"},
+       {"lateral acceleration t90", first_crossing(series, sideways, 0.9 * lateral_steady, time) - half_s, "s"},
        {"lateral acceleration overshoot", (lateral_peak / lateral_steady - 1.0) * 100.0, "%"},
        {"steady sideslip",
-        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) *
-            degrees_per_radian,
+        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.sideslip_rad; }) * degrees_per_radian,
         "deg"},
        {"steady roll",
-        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian,
-        "deg"}},
+        mean_over(series, 3.0, 4.0, [](const ManoeuvreSample& s) { return s.roll_rad; }) * degrees_per_radian, "deg"}},
       series};
   if (steered_s > 2.0)
     report.faults.push_back(fmt::format(
-        "the steering takes {:.1f} s to its end: what is called steady is not, and response times say nothing", steered_s));
+        "the steering takes {:.1f} s to its end: what is called steady is not, and response times say nothing",
+        steered_s));
   return report;
 }
 

@@ -43,9 +43,9 @@ ChassisInput ideal_braking(const ManoeuvreCar& car, double best_slip, double spe
     const WheelState& wheel = car.state().wheels[i];
     const double radius_m = parameters.tyre.radius_m;
     const double wanted_radps = (1.0 - slip) * speed_mps / radius_m;
-    chassis.brake_torque_nm[i] = std::max(
-        0.0, -wheel.force_n.x * radius_m + parameters.suspension[axle_of(i)].wheel_inertia_kgm2 *
-                                               rate_per_s * (wheel.spin_radps - wanted_radps));
+    chassis.brake_torque_nm[i] =
+        std::max(0.0, -wheel.force_n.x * radius_m + parameters.suspension[axle_of(i)].wheel_inertia_kgm2 * rate_per_s *
+                                                        (wheel.spin_radps - wanted_radps));
   }
   return chassis;
 }
@@ -88,12 +88,10 @@ ManoeuvreReport stop(const VehicleParameters& parameters, const ManoeuvreOptions
   }
   const ManoeuvreSample last = car.sample();
   // Mean fully developed deceleration, from 80 to 10 % of the speed (UNECE R13-H).
-  const double developed_mps2 = (0.64 - 0.01) * entry_mps * entry_mps /
-                                (2.0 * std::max(distance_from_10_m - distance_from_80_m, 1e-9));
-  ManoeuvreReport report{"stop",
-                         "ISO 21994",
-                         {{"speed", entry_mps * 3.6, "km/h"}, {"friction", car.friction(), ""}},
-                         car.series()};
+  const double developed_mps2 =
+      (0.64 - 0.01) * entry_mps * entry_mps / (2.0 * std::max(distance_from_10_m - distance_from_80_m, 1e-9));
+  ManoeuvreReport report{
+      "stop", "ISO 21994", {{"speed", entry_mps * 3.6, "km/h"}, {"friction", car.friction(), ""}}, car.series()};
   if (last.speed_mps < 0.02) {
     report.figures.push_back({"stopping distance", last.x_m, "m"});
     report.figures.push_back({"stopping time", car.time_s(), "s"});
@@ -129,8 +127,9 @@ ManoeuvreReport coast_down(const VehicleParameters& parameters, const ManoeuvreO
     report.figures.push_back({"time", car.time_s(), "s"});
     report.figures.push_back({"distance", car.sample().x_m, "m"});
   } else {
-    report.faults.push_back(fmt::format("20 km/h was not reached in {:.0f} s: the car still goes at {:.1f} km/h, as one without drag does",
-                                        car.time_s(), car.sample().speed_mps * 3.6));
+    report.faults.push_back(
+        fmt::format("20 km/h was not reached in {:.0f} s: the car still goes at {:.1f} km/h, as one without drag does",
+                    car.time_s(), car.sample().speed_mps * 3.6));
   }
   require_straight(report);
   return report;
@@ -151,12 +150,14 @@ ManoeuvreReport acceleration(const VehicleParameters& parameters, const Manoeuvr
   ManoeuvreReport report{"acceleration", "full throttle from rest", {}, car.series()};
   const auto speed = [](const ManoeuvreSample& s) { return s.speed_mps; };
   const auto time = [](const ManoeuvreSample& s) { return s.time_s; };
-  const double fastest_mps = std::ranges::max(car.series(), {}, speed).speed_mps, last_mps = car.series().back().speed_mps;
+  const double fastest_mps = std::ranges::max(car.series(), {}, speed).speed_mps,
+               last_mps = car.series().back().speed_mps;
   const auto reach = [&](const char* figure, const char* name, double speed_mps) {
     if (fastest_mps >= speed_mps)
       report.figures.push_back({figure, first_crossing(car.series(), speed, speed_mps, time), "s"});
     else
-      report.faults.push_back(fmt::format("{} was not reached in {:.0f} s: the fastest was {:.1f} km/h", name, car.time_s(), fastest_mps * 3.6));
+      report.faults.push_back(fmt::format("{} was not reached in {:.0f} s: the fastest was {:.1f} km/h", name,
+                                          car.time_s(), fastest_mps * 3.6));
   };
   reach("0-60 mph", "60 mph", sixty_mph_mps);
   reach("0-100 km/h", "100 km/h", 100.0 / 3.6);
@@ -165,8 +166,9 @@ ManoeuvreReport acceleration(const VehicleParameters& parameters, const Manoeuvr
     report.figures.push_back({"top speed", last_mps * 3.6, "km/h"});
     report.figures.push_back({"top speed in mph", last_mps * 2.2369362920544, "mph"});
   } else {
-    report.faults.push_back(fmt::format("there is no top speed: after {:.0f} s at {:.1f} km/h the speed still changes by {:.2f} m/s2",
-                                        car.time_s(), last_mps * 3.6, gained_mps2));
+    report.faults.push_back(
+        fmt::format("there is no top speed: after {:.0f} s at {:.1f} km/h the speed still changes by {:.2f} m/s2",
+                    car.time_s(), last_mps * 3.6, gained_mps2));
   }
   require_straight(report);
   return report;

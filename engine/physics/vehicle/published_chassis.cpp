@@ -6,7 +6,8 @@
 namespace septet::vehicle {
 
 Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const Statics& known, int wheel,
-                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal, double height_m) {
+                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal,
+                                    double height_m) {
   const Vec3& omega = state.angular_velocity_radps;
   const double track_m = parameters.suspension[axle_of(wheel)].track_m, side = side_of(wheel);
   const double heading_radps = (normal.y * omega.y + normal.z * omega.z) / (normal.y * normal.y + normal.z * normal.z);
@@ -25,8 +26,8 @@ double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal) {
   return std::sqrt(1.0 - spin_axis.z * spin_axis.z) * normal.y + spin_axis.z * normal.z;
 }
 
-double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel,
-                               const Vec3& up, const Vec3& tyre_n) {
+double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel, const Vec3& up,
+                               const Vec3& tyre_n) {
   const Vec3 forward = level_forward(up);
   const Vec3 left = glm::cross(up, forward);
   const int axle = axle_of(wheel);
@@ -35,7 +36,8 @@ double published_yaw_moment_nm(const VehicleParameters& parameters, const Static
 }
 
 double published_yaw_acceleration(double yaw_radps2, const Vec3& up, const Vec3& omega_radps, double pitch_radps2) {
-  const double turned_radps2 = omega_radps.x * (up.z * omega_radps.y - up.y * omega_radps.z);  // By the turning of `up`.
+  const double turned_radps2 =
+      omega_radps.x * (up.z * omega_radps.y - up.y * omega_radps.z);  // By the turning of `up`.
   return (yaw_radps2 - turned_radps2 - up.y * pitch_radps2) / std::max(up.z, 0.1);
 }
 
@@ -55,15 +57,14 @@ void add_upright_axles(const VehicleParameters& parameters, const std::array<dou
 void add_yawing_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places,
                       double yaw_radps2, Coordinates& generalised) {
   for (int i = 0; i < wheel_count; ++i) {
-    const double force_n =
-        -parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.x * yaw_radps2;
+    const double force_n = -parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.x * yaw_radps2;
     const Coordinates sideways = centre_jacobian(places[i], i)[1];
     for (int k = 0; k < coordinate_count; ++k) generalised[k] += sideways[k] * force_n;
   }
 }
 
-void add_weightless_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places, const Vec3& up,
-                          const Vec3& force_n, Coordinates& generalised) {
+void add_weightless_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places,
+                          const Vec3& up, const Vec3& force_n, Coordinates& generalised) {
   const double forward_mps2 = glm::dot(force_n, level_forward(up)) / parameters.body.mass_kg;
   for (int i = 0; i < wheel_count; ++i)
     generalised[4] += parameters.suspension[axle_of(i)].unsprung_mass_kg * places[i].centre_m.z * forward_mps2;

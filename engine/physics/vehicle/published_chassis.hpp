@@ -13,24 +13,23 @@
 namespace septet::vehicle {
 
 /// The car's heading on a ground with this normal: forward along the body, level.
-inline Vec3 level_forward(const Vec3& normal) {
-  return glm::normalize(Vec3(1.0, 0.0, 0.0) - normal.x * normal);
-}
+inline Vec3 level_forward(const Vec3& normal) { return glm::normalize(Vec3(1.0, 0.0, 0.0) - normal.x * normal); }
 
 /// Velocity of one wheel's contact over the ground, along the wheel's heading and to its left: the sideways and forward velocity of
 /// the sprung mass, yaw about the vertical, and the rolling of the axle. That a pitched body carries its wheels forward or back,
 /// pushes them along the ground as it pitches, and that yaw then turns it about its roll axis, is left out. `height_m`: of the
 /// wheel's centre.
 Vec2 published_contact_velocity_mps(const VehicleParameters& parameters, const Statics& known, int wheel,
-                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal, double height_m);
+                                    const VehicleState& state, const Vec3& velocity_mps, const Vec3& normal,
+                                    double height_m);
 
 /// Of a wheel's spin axis against the ground, steer not counted: a steered wheel does not lean with a pitched body.
 double published_inclination_rad(const Vec3& spin_axis, const Vec3& normal);
 
 /// Yaw moment of one wheel's force: the wheels stand where they stand on an upright car, although a body that leans carries its
 /// mass centre sideways over them, and braking forces turn it about that centre.
-double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel,
-                               const Vec3& up, const Vec3& tyre_n);
+double published_yaw_moment_nm(const VehicleParameters& parameters, const Statics& known, int wheel, const Vec3& up,
+                               const Vec3& tyre_n);
 
 /// Yaw acceleration about the body's axis: the moment turns the heading, and a body that pitches or rolls about its leaning axes
 /// does not.
@@ -48,7 +47,7 @@ void add_yawing_axles(const VehicleParameters& parameters, const std::array<Whee
 
 /// The wheels' longitudinal forces pitch the body with their full height under its mass centre, as if the axles and the wheels'
 /// spin needed no part of them.
-void add_weightless_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places, const Vec3& up,
-                          const Vec3& force_n, Coordinates& generalised);
+void add_weightless_axles(const VehicleParameters& parameters, const std::array<WheelPlace, wheel_count>& places,
+                          const Vec3& up, const Vec3& force_n, Coordinates& generalised);
 
 }  // namespace septet::vehicle

@@ -26,11 +26,9 @@ class Entries {
     const toml::table* entry = find(path);
     if (!entry) return;
     const auto value = (*entry)["value"].value<double>();
-    if (!value || !std::isfinite(*value))
-      return fail("has no number", path, "write { value = 1.0, source = \"…\" }");
+    if (!value || !std::isfinite(*value)) return fail("has no number", path, "write { value = 1.0, source = \"…\" }");
     if (*value < low || *value > high)
-      return fail(fmt::format("is {}, outside {} to {}", *value, low, high), path,
-                  "correct the value or its unit");
+      return fail(fmt::format("is {}, outside {} to {}", *value, low, high), path, "correct the value or its unit");
     out = *value;
   }
   void whole(std::string_view path, int& out, int low, int high) {
@@ -42,8 +40,7 @@ class Entries {
     const toml::table* entry = find(path);
     if (!entry) return;
     const auto value = (*entry)["value"].value<bool>();
-    if (!value)
-      return fail("is neither true nor false", path, "write { value = true, source = \"…\" }");
+    if (!value) return fail("is neither true nor false", path, "write { value = true, source = \"…\" }");
     out = *value;
   }
   std::string word(std::string_view path) {
@@ -75,12 +72,10 @@ class Entries {
       out.x[i] = *x;
       out.y[i] = *y;
       if (i > 0 && out.x[i] <= out.x[i - 1])
-        return fail(fmt::format("x does not increase at point {}", i + 1), path,
-                    "sort the points by x");
+        return fail(fmt::format("x does not increase at point {}", i + 1), path, "sort the points by x");
     }
   }
-  void list(std::string_view path, std::array<double, PowertrainParameters::most_gears>& out,
-            int& count) {
+  void list(std::string_view path, std::array<double, PowertrainParameters::most_gears>& out, int& count) {
     Table gears;
     table(path, gears, 0.1, 30);
     count = static_cast<int>(std::min(gears.count, out.size()));
@@ -88,7 +83,8 @@ class Entries {
   }
   void fail(std::string what, std::string_view path, std::string remedy) {
     if (!error_)
-      error_ = Error{std::move(what), fmt::format("{}, {}", document::place_of(nearest(path), name_), path), std::move(remedy)};
+      error_ = Error{std::move(what), fmt::format("{}, {}", document::place_of(nearest(path), name_), path),
+                     std::move(remedy)};
   }
   /// Every entry that has a value or points and was not asked for is a misspelling.
   void refuse_unknown() { refuse_unknown(root_, ""); }
@@ -103,8 +99,7 @@ class Entries {
     }
     const auto source = (*entry)["source"].value<std::string>().value_or("");
     bool good = false;
-    for (const char* kind : {"sourced: ", "derived: ", "assumed: "})
-      good |= source.starts_with(kind);
+    for (const char* kind : {"sourced: ", "derived: ", "assumed: "}) good |= source.starts_with(kind);
     if (!good || source.size() < 12) {
       fail("has no source", path, "add source = \"sourced: …\", \"derived: …\" or \"assumed: …\"");
       return nullptr;
@@ -184,8 +179,7 @@ void read_curve(Entries& in, const std::string& path, SlipCurve& curve) {
   in.number(path + ".sliding_force_n", curve.sliding_force_n, 100, 1e6);
   // Otherwise the rational rise has a pole or overshoots its own maximum.
   if (curve.slope_n * curve.peak_slip < 1.5 * curve.peak_force_n)
-    in.fail("rises too slowly to its peak", path,
-            "keep slope × peak slip at 1.5 times the peak force or more");
+    in.fail("rises too slowly to its peak", path, "keep slope × peak slip at 1.5 times the peak force or more");
   if (curve.sliding_slip <= curve.peak_slip)
     in.fail("slides before its peak", path, "give a sliding slip beyond the peak slip");
 }
@@ -207,16 +201,14 @@ void read_load_sensitive(Entries& in, LoadSensitiveTyre& tyre) {
 
 void read_published(Entries& in, PublishedTyre& p) {
   const std::pair<const char*, double*> coefficients[] = {
-      {"p_cx1", &p.p_cx1}, {"p_dx1", &p.p_dx1}, {"p_dx3", &p.p_dx3}, {"p_ex1", &p.p_ex1},
-      {"p_kx1", &p.p_kx1}, {"p_hx1", &p.p_hx1}, {"p_vx1", &p.p_vx1}, {"r_bx1", &p.r_bx1},
-      {"r_bx2", &p.r_bx2}, {"r_cx1", &p.r_cx1}, {"r_ex1", &p.r_ex1}, {"r_hx1", &p.r_hx1},
-      {"p_cy1", &p.p_cy1}, {"p_dy1", &p.p_dy1}, {"p_dy3", &p.p_dy3}, {"p_ey1", &p.p_ey1},
-      {"p_ky1", &p.p_ky1}, {"p_hy1", &p.p_hy1}, {"p_hy3", &p.p_hy3}, {"p_vy1", &p.p_vy1},
-      {"p_vy3", &p.p_vy3}, {"r_by1", &p.r_by1}, {"r_by2", &p.r_by2}, {"r_by3", &p.r_by3},
-      {"r_cy1", &p.r_cy1}, {"r_ey1", &p.r_ey1}, {"r_hy1", &p.r_hy1}, {"r_vy1", &p.r_vy1},
-      {"r_vy3", &p.r_vy3}, {"r_vy4", &p.r_vy4}, {"r_vy5", &p.r_vy5}, {"r_vy6", &p.r_vy6}};
-  for (const auto& [name, value] : coefficients)
-    in.number(std::string("tyre.") + name, *value, -100, 100);
+      {"p_cx1", &p.p_cx1}, {"p_dx1", &p.p_dx1}, {"p_dx3", &p.p_dx3}, {"p_ex1", &p.p_ex1}, {"p_kx1", &p.p_kx1},
+      {"p_hx1", &p.p_hx1}, {"p_vx1", &p.p_vx1}, {"r_bx1", &p.r_bx1}, {"r_bx2", &p.r_bx2}, {"r_cx1", &p.r_cx1},
+      {"r_ex1", &p.r_ex1}, {"r_hx1", &p.r_hx1}, {"p_cy1", &p.p_cy1}, {"p_dy1", &p.p_dy1}, {"p_dy3", &p.p_dy3},
+      {"p_ey1", &p.p_ey1}, {"p_ky1", &p.p_ky1}, {"p_hy1", &p.p_hy1}, {"p_hy3", &p.p_hy3}, {"p_vy1", &p.p_vy1},
+      {"p_vy3", &p.p_vy3}, {"r_by1", &p.r_by1}, {"r_by2", &p.r_by2}, {"r_by3", &p.r_by3}, {"r_cy1", &p.r_cy1},
+      {"r_ey1", &p.r_ey1}, {"r_hy1", &p.r_hy1}, {"r_vy1", &p.r_vy1}, {"r_vy3", &p.r_vy3}, {"r_vy4", &p.r_vy4},
+      {"r_vy5", &p.r_vy5}, {"r_vy6", &p.r_vy6}};
+  for (const auto& [name, value] : coefficients) in.number(std::string("tyre.") + name, *value, -100, 100);
   in.number("tyre.relaxation_length_m", p.relaxation_length_m, 0.04, 2);
 }
 
@@ -232,7 +224,8 @@ void read_tyre(Entries& in, TyreParameters& tyre) {
   in.number("tyre.reference_friction", tyre.reference_friction, 0.05, 2);
   in.number("tyre.radius_m", tyre.radius_m, 0.15, 1);
   in.number("tyre.rim_radius_m", tyre.rim_radius_m, 0.1, 0.9);
-  if (sidewall_m(tyre) < 0.02) in.fail("leaves the tyre no sidewall", "tyre.rim_radius_m", "keep it 40 mm below tyre.radius_m or more");
+  if (sidewall_m(tyre) < 0.02)
+    in.fail("leaves the tyre no sidewall", "tyre.rim_radius_m", "keep it 40 mm below tyre.radius_m or more");
   in.number("tyre.vertical_stiffness_npm", tyre.vertical_stiffness_npm, 5e4, 2e6);
   in.number("tyre.vertical_damping_nspm", tyre.vertical_damping_nspm, 0, 5e3);
   in.number("tyre.rolling_resistance", tyre.rolling_resistance, 0, 0.1);
@@ -287,8 +280,7 @@ void read_powertrain(Entries& in, PowertrainParameters& p) {
     return;
   }
   if (word != "automatic" && word != "manual")
-    return in.fail("is not a transmission", "powertrain.transmission",
-                   "write \"automatic\", \"manual\" or \"direct\"");
+    return in.fail("is not a transmission", "powertrain.transmission", "write \"automatic\", \"manual\" or \"direct\"");
   p.transmission = word == "manual" ? Transmission::manual : Transmission::automatic;
   read_engine(in, p);
 }

@@ -10,8 +10,8 @@ constexpr double bore_lever_m = 0.04;
 constexpr double parking_speed_mps = 1.0;
 }  // namespace
 
-double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad,
-                        double speed_mps, double dt_s, VehicleState& state) {
+double advance_steering(const VehicleParameters& parameters, double steering_wheel_rad, double speed_mps, double dt_s,
+                        VehicleState& state) {
   const SteeringParameters& steering = parameters.steering;
   SteeringState& column = state.steering;
   const double hand_rad = std::clamp(steering_wheel_rad, -steering.lock_rad, steering.lock_rad);
@@ -28,16 +28,14 @@ double advance_steering(const VehicleParameters& parameters, double steering_whe
                   outward * steering.scrub_radius_m * front.force_n.x;
     parking_nm += bore_lever_m * front.force_n.z / (1.0 + std::abs(speed_mps) / parking_speed_mps);
   }
-  const double unassisted =
-      1.0 - std::clamp(steering.assistance.held(std::abs(speed_mps)), 0.0, 1.0);
+  const double unassisted = 1.0 - std::clamp(steering.assistance.held(std::abs(speed_mps)), 0.0, 1.0);
   const double tyre_nm = unassisted * kingpin_nm / steering.ratio;
 
   const double before_rad = column.column_rad;
   if (steering.column_stiffness_nmprad > 0.0) {
     const double mobility = dt_s / steering.rack_damping_nmsprad;
-    column.column_rad =
-        (before_rad + mobility * (steering.column_stiffness_nmprad * hand_rad + tyre_nm)) /
-        (1.0 + mobility * steering.column_stiffness_nmprad);
+    column.column_rad = (before_rad + mobility * (steering.column_stiffness_nmprad * hand_rad + tyre_nm)) /
+                        (1.0 + mobility * steering.column_stiffness_nmprad);
   } else {
     column.column_rad = hand_rad;
   }

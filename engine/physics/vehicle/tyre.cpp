@@ -18,8 +18,8 @@ double between(double at_nominal, double at_double, double load_ratio) {
   return at_nominal + (at_double - at_nominal) * (load_ratio - 1.0);
 }
 
-SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load_ratio,
-                   double friction_ratio, double firmness) {
+SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load_ratio, double friction_ratio,
+                   double firmness) {
   // Beyond two and a half times the nominal load the parabola is no longer trusted: proportional
   // from there.
   const double q = std::min(load_ratio, 2.5);
@@ -29,24 +29,20 @@ SlipCurve curve_at(const SlipCurve& nominal, const SlipCurve& twice, double load
   return {
       .slope_n = firmness * beyond * over_load(nominal.slope_n, twice.slope_n, q),
       .peak_slip = slip_scale * between(nominal.peak_slip, twice.peak_slip, slip_load),
-      .peak_force_n =
-          beyond * friction_ratio * over_load(nominal.peak_force_n, twice.peak_force_n, q),
+      .peak_force_n = beyond * friction_ratio * over_load(nominal.peak_force_n, twice.peak_force_n, q),
       .sliding_slip = slip_scale * between(nominal.sliding_slip, twice.sliding_slip, slip_load),
-      .sliding_force_n =
-          beyond * friction_ratio * over_load(nominal.sliding_force_n, twice.sliding_force_n, q),
+      .sliding_force_n = beyond * friction_ratio * over_load(nominal.sliding_force_n, twice.sliding_force_n, q),
   };
 }
 
 double force_at(const SlipCurve& curve, double slip) {
   if (slip < curve.peak_slip) {
     const double part = slip / curve.peak_slip;
-    return curve.slope_n * slip /
-           (1.0 + part * (part + curve.slope_n * curve.peak_slip / curve.peak_force_n - 2.0));
+    return curve.slope_n * slip / (1.0 + part * (part + curve.slope_n * curve.peak_slip / curve.peak_force_n - 2.0));
   }
   if (slip < curve.sliding_slip) {
     const double part = (slip - curve.peak_slip) / (curve.sliding_slip - curve.peak_slip);
-    return curve.peak_force_n -
-           (curve.peak_force_n - curve.sliding_force_n) * part * part * (3.0 - 2.0 * part);
+    return curve.peak_force_n - (curve.peak_force_n - curve.sliding_force_n) * part * part * (3.0 - 2.0 * part);
   }
   return curve.sliding_force_n;
 }
@@ -67,8 +63,7 @@ SlipCurve join(const SlipCurve& x, const SlipCurve& y, Vec2 unit, Vec2 direction
   };
 }
 
-double trail(const LoadSensitiveTyre& tyre, double length_m, double friction_ratio,
-             double lateral_slip) {
+double trail(const LoadSensitiveTyre& tyre, double length_m, double friction_ratio, double lateral_slip) {
   const double zero = tyre.trail_zero_slip * friction_ratio;
   const double part = std::min(std::abs(lateral_slip) / zero, 1.0);
   // Falls to zero and stays a little negative past it, as the sliding patch's force moves in front
@@ -85,8 +80,7 @@ TyreForce load_sensitive_force(const TyreParameters& parameters, const TyreConta
   const double friction_ratio = std::max(contact.friction / parameters.reference_friction, 0.01);
   const SlipCurve x =
       curve_at(tyre.longitudinal_nominal, tyre.longitudinal_double, load_ratio, friction_ratio, contact.firmness);
-  const SlipCurve y =
-      curve_at(tyre.lateral_nominal, tyre.lateral_double, load_ratio, friction_ratio, contact.firmness);
+  const SlipCurve y = curve_at(tyre.lateral_nominal, tyre.lateral_double, load_ratio, friction_ratio, contact.firmness);
 
   TyreForce result;
   result.transport_mps = std::abs(contact.rolling_mps) + smallest_transport_mps;
@@ -95,9 +89,8 @@ TyreForce load_sensitive_force(const TyreParameters& parameters, const TyreConta
   const Vec2 slip{result.slip.x, result.slip.y - tyre.camber_slip * contact.inclination_rad};
 
   const double force_slip_x = x.peak_force_n / x.slope_n, force_slip_y = y.peak_force_n / y.slope_n;
-  const Vec2 unit{
-      x.peak_slip / (x.peak_slip + y.peak_slip) + force_slip_x / (force_slip_x + force_slip_y),
-      y.peak_slip / (x.peak_slip + y.peak_slip) + force_slip_y / (force_slip_x + force_slip_y)};
+  const Vec2 unit{x.peak_slip / (x.peak_slip + y.peak_slip) + force_slip_x / (force_slip_x + force_slip_y),
+                  y.peak_slip / (x.peak_slip + y.peak_slip) + force_slip_y / (force_slip_x + force_slip_y)};
   const Vec2 normalised = slip / unit;
   const double size = std::sqrt(normalised.x * normalised.x + normalised.y * normalised.y);
   result.stiffness_npm = contact.firmness * Vec2(tyre.longitudinal_stiffness_npm, tyre.lateral_stiffness_npm);
@@ -118,13 +111,12 @@ TyreForce load_sensitive_force(const TyreParameters& parameters, const TyreConta
 Vec2 relax(const TyreForce& steady, double most_force_n, double dt_s, Vec2& deflection_m) {
   Vec2 force_n{0.0};
   for (int i = 0; i < 2; ++i) {
-    const double mobility =
-        steady.transport_mps / (steady.damping_nspm[i] * steady.transport_mps + steady.secant_n[i]);
+    const double mobility = steady.transport_mps / (steady.damping_nspm[i] * steady.transport_mps + steady.secant_n[i]);
     const double before_m = deflection_m[i];
-    deflection_m[i] = (before_m + dt_s * mobility * steady.force_n[i]) /
-                      (1.0 + dt_s * mobility * steady.stiffness_npm[i]);
-    force_n[i] = steady.stiffness_npm[i] * deflection_m[i] +
-                 steady.damping_nspm[i] * (deflection_m[i] - before_m) / dt_s;
+    deflection_m[i] =
+        (before_m + dt_s * mobility * steady.force_n[i]) / (1.0 + dt_s * mobility * steady.stiffness_npm[i]);
+    force_n[i] =
+        steady.stiffness_npm[i] * deflection_m[i] + steady.damping_nspm[i] * (deflection_m[i] - before_m) / dt_s;
   }
   const double size_n = std::sqrt(force_n.x * force_n.x + force_n.y * force_n.y);
   if (size_n > most_force_n) {

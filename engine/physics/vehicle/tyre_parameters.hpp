@@ -20,11 +20,9 @@ struct LoadSensitiveTyre {
   SlipCurve longitudinal_nominal,
       longitudinal_double;  ///< At the nominal load and at twice the nominal load.
   SlipCurve lateral_nominal, lateral_double;
-  double trail_over_length =
-      0.0;  ///< Pneumatic trail over contact length at zero slip and nominal load.
-  double trail_zero_slip = 0.2;  ///< Lateral slip at which the trail vanishes.
-  double camber_slip =
-      0.0;  ///< Lateral slip that gives the same force as one radian of inclination.
+  double trail_over_length = 0.0;  ///< Pneumatic trail over contact length at zero slip and nominal load.
+  double trail_zero_slip = 0.2;    ///< Lateral slip at which the trail vanishes.
+  double camber_slip = 0.0;        ///< Lateral slip that gives the same force as one radian of inclination.
   double longitudinal_stiffness_npm =
       0.0;  ///< Of the standing contact patch against the rim; sets the relaxation length.
   double lateral_stiffness_npm = 0.0;
@@ -38,12 +36,10 @@ struct LoadSensitiveTyre {
 struct PublishedTyre {
   double p_cx1 = 0, p_dx1 = 0, p_dx3 = 0, p_ex1 = 0, p_kx1 = 0, p_hx1 = 0, p_vx1 = 0;
   double r_bx1 = 0, r_bx2 = 0, r_cx1 = 0, r_ex1 = 0, r_hx1 = 0;
-  double p_cy1 = 0, p_dy1 = 0, p_dy3 = 0, p_ey1 = 0, p_ky1 = 0, p_hy1 = 0, p_hy3 = 0, p_vy1 = 0,
-         p_vy3 = 0;
+  double p_cy1 = 0, p_dy1 = 0, p_dy3 = 0, p_ey1 = 0, p_ky1 = 0, p_hy1 = 0, p_hy3 = 0, p_vy1 = 0, p_vy3 = 0;
   double r_by1 = 0, r_by2 = 0, r_by3 = 0, r_cy1 = 0, r_ey1 = 0, r_hy1 = 0;
   double r_vy1 = 0, r_vy3 = 0, r_vy4 = 0, r_vy5 = 0, r_vy6 = 0;
-  double relaxation_length_m =
-      0.05;  ///< Not published; short against every manoeuvre, long enough for a step of 1 ms.
+  double relaxation_length_m = 0.05;  ///< Not published; short against every manoeuvre, long enough for a step of 1 ms.
 };
 
 struct TyreParameters {

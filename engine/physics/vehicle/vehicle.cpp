@@ -18,8 +18,7 @@ double bounded(double value, double low, double high) {
 /// Controls within their bounds, whatever the device sent.
 DriverInput bounded(DriverInput input) {
   input.steering_wheel_rad = bounded(input.steering_wheel_rad, -50.0, 50.0);
-  for (double* pedal : {&input.accelerator, &input.brake, &input.clutch})
-    *pedal = bounded(*pedal, 0.0, 1.0);
+  for (double* pedal : {&input.accelerator, &input.brake, &input.clutch}) *pedal = bounded(*pedal, 0.0, 1.0);
   return input;
 }
 
@@ -30,10 +29,10 @@ bool finite(const VehicleState& state) {
   double sum = q.w + q.x + q.y + q.z + state.steering.column_rad + state.powertrain.engine_radps +
                state.powertrain.engine_torque_nm + state.brakes.pedal + state.brakes.torque_cut;
   for (const WheelState& wheel : state.wheels)
-    sum += wheel.travel_m + wheel.travel_rate_mps + wheel.spin_rad + wheel.spin_radps +
-           wheel.deflection_m.x + wheel.deflection_m.y + wheel.damage.rim_bend_m + wheel.damage.lost_air;
-  return std::isfinite(sum) && finite(state.world_from_body.position_m) &&
-         finite(state.velocity_mps) && finite(state.angular_velocity_radps);
+    sum += wheel.travel_m + wheel.travel_rate_mps + wheel.spin_rad + wheel.spin_radps + wheel.deflection_m.x +
+           wheel.deflection_m.y + wheel.damage.rim_bend_m + wheel.damage.lost_air;
+  return std::isfinite(sum) && finite(state.world_from_body.position_m) && finite(state.velocity_mps) &&
+         finite(state.angular_velocity_radps);
 }
 
 bool finite(const Ground& ground) {
@@ -56,24 +55,20 @@ VehicleState halted(const VehicleState& state) {
   return result;
 }
 
-Vec3 origin_from_mass_centre(const BodyParameters& body) {
-  return {-body.mass_centre_x_m, 0.0, -body.mass_centre_z_m};
-}
+Vec3 origin_from_mass_centre(const BodyParameters& body) { return {-body.mass_centre_x_m, 0.0, -body.mass_centre_z_m}; }
 
 }  // namespace
 
-VehicleState standstill(const VehicleParameters& parameters,
-                        const RigidTransform& world_from_vehicle, double speed_mps) {
+VehicleState standstill(const VehicleParameters& parameters, const RigidTransform& world_from_vehicle,
+                        double speed_mps) {
   VehicleState state;
   const Quat& orientation = world_from_vehicle.orientation;
-  state.world_from_body = {world_from_vehicle * -origin_from_mass_centre(parameters.body),
-                           orientation};
+  state.world_from_body = {world_from_vehicle * -origin_from_mass_centre(parameters.body), orientation};
   state.velocity_mps = orientation * Vec3(speed_mps, 0.0, 0.0);
   const Statics known = statics(parameters);
   for (int i = 0; i < wheel_count; ++i) {
     const double deflection_m = parameters.tyre.radius_m - known.centre_z_m[axle_of(i)];
-    const double effective_m =
-        parameters.tyre.radius_m - (parameters.tyre.published ? 0.0 : deflection_m / 3.0);
+    const double effective_m = parameters.tyre.radius_m - (parameters.tyre.published ? 0.0 : deflection_m / 3.0);
     state.wheels[i].spin_radps = speed_mps / effective_m;
     state.wheels[i].squeeze_m = deflection_m;
     state.wheels[i].force_n.z = deflection_m * parameters.tyre.vertical_stiffness_npm;
@@ -84,36 +79,33 @@ VehicleState standstill(const VehicleParameters& parameters,
     const double output_radps = output_shaft_radps(parameters, state);
     const int gear = cruising_gear(powertrain, output_radps);
     state.powertrain.gear = state.powertrain.next_gear = static_cast<std::int8_t>(gear);
-    state.powertrain.engine_radps = std::clamp(output_radps * powertrain.gear_ratio[gear - 1],
-                                               powertrain.idle_radps, powertrain.most_radps);
+    state.powertrain.engine_radps =
+        std::clamp(output_radps * powertrain.gear_ratio[gear - 1], powertrain.idle_radps, powertrain.most_radps);
   }
   state.powertrain.since_shift_s = 10.0;
   return state;
 }
 
-void advance_vehicle(const VehicleParameters& parameters, const DriverInput& given,
-                     const Ground& ground, double dt_s, VehicleState& state) {
+void advance_vehicle(const VehicleParameters& parameters, const DriverInput& given, const Ground& ground, double dt_s,
+                     VehicleState& state) {
   SEPTET_CHECK(dt_s > 0.0 && dt_s <= longest_step_s, "dt_s {}", dt_s);
   const VehicleState before = state;
   const DriverInput input = bounded(given);
   const Vec3 velocity_mps = glm::conjugate(state.world_from_body.orientation) * state.velocity_mps;
   ChassisInput chassis;
-  chassis.steer_rad =
-      advance_steering(parameters, input.steering_wheel_rad, velocity_mps.x, dt_s, state);
+  chassis.steer_rad = advance_steering(parameters, input.steering_wheel_rad, velocity_mps.x, dt_s, state);
   chassis.drive_torque_nm = advance_powertrain(parameters, input, velocity_mps.x, dt_s, state);
   chassis.brake_torque_nm = advance_brakes(parameters, input, velocity_mps, dt_s, state);
   advance_chassis(parameters, chassis, ground, dt_s, state);
   if (!finite(ground) || !finite(state)) state = halted(before);
 }
 
-std::array<Vec3, wheel_count> wheel_centres_m(const VehicleParameters& parameters,
-                                              const VehicleState& state) {
+std::array<Vec3, wheel_count> wheel_centres_m(const VehicleParameters& parameters, const VehicleState& state) {
   const Statics known = statics(parameters);
   std::array<Vec3, wheel_count> result;
   for (int i = 0; i < wheel_count; ++i)
     result[i] =
-        state.world_from_body *
-        place_wheel(parameters, known, i, state.wheels[i], state.wheels[i].steer_rad).centre_m;
+        state.world_from_body * place_wheel(parameters, known, i, state.wheels[i], state.wheels[i].steer_rad).centre_m;
   return result;
 }
 
@@ -125,9 +117,8 @@ VehicleOutputs outputs(const VehicleParameters& parameters, const VehicleState& 
   result.world_from_vehicle = {state.world_from_body * origin_m, world_from_body};
   result.velocity_mps = state.velocity_mps + world_from_body * glm::cross(omega, origin_m);
   result.acceleration_mps2 =
-      state.acceleration_mps2 +
-      world_from_body * (glm::cross(state.angular_acceleration_radps2, origin_m) +
-                         glm::cross(omega, glm::cross(omega, origin_m)));
+      state.acceleration_mps2 + world_from_body * (glm::cross(state.angular_acceleration_radps2, origin_m) +
+                                                   glm::cross(omega, glm::cross(omega, origin_m)));
   result.angular_velocity_radps = world_from_body * omega;
 
   const Vec3 forward = world_from_body * Vec3(1, 0, 0);
@@ -144,8 +135,8 @@ VehicleOutputs outputs(const VehicleParameters& parameters, const VehicleState& 
       glm::conjugate(world_from_body) * (state.acceleration_mps2 + Vec3(0.0, 0.0, gravity_mps2));
   const Vec2 level_mps{state.velocity_mps};
   if (glm::length(level_mps) > 1.0)
-    result.sideslip_rad = std::atan2(ahead.x * level_mps.y - ahead.y * level_mps.x,
-                                     std::abs(glm::dot(level_mps, ahead)));
+    result.sideslip_rad =
+        std::atan2(ahead.x * level_mps.y - ahead.y * level_mps.x, std::abs(glm::dot(level_mps, ahead)));
   result.roll_rad = std::asin(std::clamp(left.z, -1.0, 1.0));
   result.pitch_rad = -std::asin(std::clamp(forward.z, -1.0, 1.0));
   result.engine_radps = state.powertrain.engine_radps;
@@ -168,8 +159,7 @@ double mechanical_energy_j(const VehicleParameters& parameters, const VehicleSta
   const BodyParameters& body = parameters.body;
   const Vec3 v = glm::conjugate(state.world_from_body.orientation) * state.velocity_mps;
   const Vec3& w = state.angular_velocity_radps;
-  double energy = 0.5 * known.sprung_mass_kg * glm::dot(v, v) +
-                  0.5 * glm::dot(w, body.inertia_kgm2 * w) +
+  double energy = 0.5 * known.sprung_mass_kg * glm::dot(v, v) + 0.5 * glm::dot(w, body.inertia_kgm2 * w) +
                   known.sprung_mass_kg * gravity_mps2 * state.world_from_body.position_m.z;
   Coordinates rates{v.x, v.y, v.z, w.x, w.y};
   for (int i = 0; i < wheel_count; ++i) rates[5 + i] = state.wheels[i].travel_rate_mps;
@@ -187,9 +177,7 @@ double mechanical_energy_j(const VehicleParameters& parameters, const VehicleSta
     // Springs and tyre, from the state at rest; Simpson's rule, near enough across the kinks.
     const double z = wheel.travel_m;
     energy += known.sprung_load_n[axle_of(i)] * z +
-              z / 6.0 *
-                  (axle.spring_force_n(0.0) + 4.0 * axle.spring_force_n(0.5 * z) +
-                   axle.spring_force_n(z));
+              z / 6.0 * (axle.spring_force_n(0.0) + 4.0 * axle.spring_force_n(0.5 * z) + axle.spring_force_n(z));
     const double twist = z - state.wheels[i ^ 1].travel_m;
     energy += 0.25 * axle.anti_roll_npm * twist * twist;
     energy += radial_energy_j(parameters.tyre, wheel.damage, wheel.squeeze_m);

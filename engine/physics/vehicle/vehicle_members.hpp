@@ -9,15 +9,16 @@
 namespace septet::vehicle {
 
 SEPTET_MEMBERS(WheelDamage, rim_bend_m, lost_air)
-SEPTET_MEMBERS(WheelState, travel_m, travel_rate_mps, spin_rad, spin_radps, deflection_m, damage, squeeze_m, force_n, aligning_nm, steer_rad, slip,
-               slip_angle_rad)
+SEPTET_MEMBERS(WheelState, travel_m, travel_rate_mps, spin_rad, spin_radps, deflection_m, damage, squeeze_m, force_n,
+               aligning_nm, steer_rad, slip, slip_angle_rad)
 SEPTET_MEMBERS(SteeringState, column_rad, torque_nm)
-SEPTET_MEMBERS(PowertrainState, engine_radps, engine_torque_nm, engine_running, clutch_nm, gear, next_gear, shift_s, since_shift_s)
+SEPTET_MEMBERS(PowertrainState, engine_radps, engine_torque_nm, engine_running, clutch_nm, gear, next_gear, shift_s,
+               since_shift_s)
 SEPTET_MEMBERS(BrakeState, pedal, release, stabilising, front_difference, torque_cut)
-SEPTET_MEMBERS(VehicleState, world_from_body, velocity_mps, angular_velocity_radps, wheels, steering, powertrain, brakes, acceleration_mps2,
-               whole_acceleration_mps2, angular_acceleration_radps2, bad_numbers)
-SEPTET_MEMBERS(HullTouch, run, kind, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps, delta_v_mps, age_s, free_s, depth_m,
-               side, face, over)
+SEPTET_MEMBERS(VehicleState, world_from_body, velocity_mps, angular_velocity_radps, wheels, steering, powertrain,
+               brakes, acceleration_mps2, whole_acceleration_mps2, angular_acceleration_radps2, bad_numbers)
+SEPTET_MEMBERS(HullTouch, run, kind, point_m, normal, velocity_mps, angular_velocity_radps, closing_speed_mps,
+               delta_v_mps, age_s, free_s, depth_m, side, face, over)
 SEPTET_MEMBERS(HullState, crush_m, touches)
 
 }  // namespace septet::vehicle

@@ -35,12 +35,11 @@ struct SuspensionParameters {
   bool rigid_axle = false;          ///< The wheels lean together, joined to the body in one point.
   double unsprung_mass_kg = 0.0;    ///< Per wheel.
   double wheel_inertia_kgm2 = 0.0;  ///< About the spin axis, with what turns with it.
-  Table spring_force_n;  ///< At the wheel, above the static load, over travel; includes the bump
-                         ///< stops.
-  Table damper_force_n;  ///< At the wheel, over the rate of travel.
-  double anti_roll_npm =
-      0.0;  ///< Force at each wheel per metre of difference of travel, left against right.
-  Table camber_rad, toe_rad;  ///< Over travel.
+  Table spring_force_n;             ///< At the wheel, above the static load, over travel; includes the bump
+                                    ///< stops.
+  Table damper_force_n;             ///< At the wheel, over the rate of travel.
+  double anti_roll_npm = 0.0;       ///< Force at each wheel per metre of difference of travel, left against right.
+  Table camber_rad, toe_rad;        ///< Over travel.
   /// Slopes of the paths that contact and wheel centre take over travel, outward and forward. The
   /// contact's lateral slope is the height of the roll centre over half the track; the longitudinal
   /// slopes are anti-dive (contact: braking) and anti-squat (centre: driving).
@@ -58,13 +57,12 @@ struct SteeringParameters {
   double lock_rad = 7.85;  ///< Of the hand wheel.
   double ackermann = 0.0;  ///< 0 parallel, 1 geometrically exact.
   double mechanical_trail_m = 0.0;
-  double scrub_radius_m = 0.0;  ///< Positive outside the kingpin axis.
-  double column_stiffness_nmprad =
-      0.0;                            ///< Hand wheel against rack, at the hand wheel; 0 is rigid.
-  double rack_damping_nmsprad = 0.0;  ///< At the hand wheel.
-  double friction_nm = 0.0;           ///< At the hand wheel.
-  double centring_nmprad = 0.0;  ///< Of the kingpin inclination, at the road wheels, both sides.
-  Table assistance;  ///< Share of the torque that the power steering carries, over speed in m/s.
+  double scrub_radius_m = 0.0;           ///< Positive outside the kingpin axis.
+  double column_stiffness_nmprad = 0.0;  ///< Hand wheel against rack, at the hand wheel; 0 is rigid.
+  double rack_damping_nmsprad = 0.0;     ///< At the hand wheel.
+  double friction_nm = 0.0;              ///< At the hand wheel.
+  double centring_nmprad = 0.0;          ///< Of the kingpin inclination, at the road wheels, both sides.
+  Table assistance;                      ///< Share of the torque that the power steering carries, over speed in m/s.
 };
 
 enum class Transmission : std::uint8_t {
@@ -79,8 +77,7 @@ struct PowertrainParameters {
   Transmission transmission = Transmission::direct;
   double front_share = 1.0;  ///< Of the drive torque: 1 front-wheel drive, 0 rear-wheel drive.
   // direct
-  double direct_acceleration_mps2 =
-      0.0;  ///< At full pedal, up to the speed below; constant power beyond it.
+  double direct_acceleration_mps2 = 0.0;  ///< At full pedal, up to the speed below; constant power beyond it.
   double direct_power_speed_mps = 1.0;
   // engine
   Table full_torque_nm,

@@ -16,13 +16,13 @@ void hash_state(StateHash& hash, const VehicleState& state) {
   add(hash, state.velocity_mps);
   add(hash, state.angular_velocity_radps);
   for (const WheelState& wheel : state.wheels)
-    for (const double part : {wheel.travel_m, wheel.travel_rate_mps, wheel.spin_rad,
-                              wheel.spin_radps, wheel.deflection_m.x, wheel.deflection_m.y})
+    for (const double part : {wheel.travel_m, wheel.travel_rate_mps, wheel.spin_rad, wheel.spin_radps,
+                              wheel.deflection_m.x, wheel.deflection_m.y})
       hash.add(part);
   hash.add(state.steering.column_rad);
   const PowertrainState& powertrain = state.powertrain;
-  for (const double part : {powertrain.engine_radps, powertrain.engine_torque_nm,
-                            powertrain.clutch_nm, powertrain.shift_s, powertrain.since_shift_s})
+  for (const double part : {powertrain.engine_radps, powertrain.engine_torque_nm, powertrain.clutch_nm,
+                            powertrain.shift_s, powertrain.since_shift_s})
     hash.add(part);
   hash.add(int{powertrain.engine_running});
   hash.add(powertrain.gear);

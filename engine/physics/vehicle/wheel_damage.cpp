@@ -39,7 +39,8 @@ double radial_force_n(const TyreParameters& tyre, const WheelDamage& damage, dou
 
 double radial_energy_j(const TyreParameters& tyre, const WheelDamage& damage, double deflection_m) {
   const double pressed_m = rim_m(tyre, damage, deflection_m);
-  return 0.5 * (tyre.vertical_stiffness_npm * deflection_m * deflection_m * carried_share(damage) + rim_stiffness_npm * pressed_m * pressed_m);
+  return 0.5 * (tyre.vertical_stiffness_npm * deflection_m * deflection_m * carried_share(damage) +
+                rim_stiffness_npm * pressed_m * pressed_m);
 }
 
 void press_wheel(const TyreParameters& tyre, double deflection_m, double dt_s, WheelDamage& damage) {

@@ -18,8 +18,10 @@ struct WheelDamage {
   bool any() const { return lost_air > 0.0; }
   double toe_out_rad() const;  ///< Beside the suspension's own, the same way on either side.
   // Factors of a tyre that loses its air; of a whole one each is exactly 1.
-  double grip() const { return 1.0 - 0.2 * lost_air; }               ///< Assumed: the tread arches off the ground.
-  double firmness() const { return 1.0 - 0.75 * lost_air; }          ///< Of slopes and stiffness along the ground. Assumed: a quarter remains.
+  double grip() const { return 1.0 - 0.2 * lost_air; }  ///< Assumed: the tread arches off the ground.
+  double firmness() const {
+    return 1.0 - 0.75 * lost_air;
+  }  ///< Of slopes and stiffness along the ground. Assumed: a quarter remains.
   double rolling_resistance() const { return 1.0 + 19.0 * lost_air; }  ///< Assumed: 0.2 of the load where 0.01 was.
 };
 

@@ -20,7 +20,8 @@ ResourceId RenderGraph::add_resource(std::string name, Access held) {
 
 void RenderGraph::add_pass(std::string name, PassUses uses, std::function<void()> record) {
   for (const ResourceUse& use : uses.writes)
-    SEPTET_CHECK(writes(use.access), "pass {} writes {} with an access that reads", name, resources_[use.resource].name);
+    SEPTET_CHECK(writes(use.access), "pass {} writes {} with an access that reads", name,
+                 resources_[use.resource].name);
   passes_.push_back({std::move(name), std::move(uses), std::move(record)});
 }
 

@@ -2,9 +2,9 @@
 
 namespace septet::render {
 
-VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout, const TargetFormats& formats,
-                                     std::span<const std::uint32_t> vertex_code, std::span<const std::uint32_t> fragment_code,
-                                     vulkan::Blend blend) {
+VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                                     const TargetFormats& formats, std::span<const std::uint32_t> vertex_code,
+                                     std::span<const std::uint32_t> fragment_code, vulkan::Blend blend) {
   vulkan::PipelineDescription description;
   description.vertex_code = vertex_code;
   description.fragment_code = fragment_code;

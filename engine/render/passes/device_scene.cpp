@@ -18,10 +18,12 @@ using scene::SurfaceMesh;
 using vulkan::Buffer;
 
 /// A buffer on the device for these bytes, one after another.
-Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage, std::initializer_list<std::span<const std::byte>> contents) {
+Buffer create_filled_buffer(vulkan::Upload& upload, VkBufferUsageFlags usage,
+                            std::initializer_list<std::span<const std::byte>> contents) {
   std::uint64_t size = 0;
   for (const auto& bytes : contents) size += bytes.size();
-  Buffer target = create_buffer(upload.memory(), size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::device_only);
+  Buffer target =
+      create_buffer(upload.memory(), size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, vulkan::MemoryUse::device_only);
   std::byte* at = target.mapped;
   if (!at) {
     const vulkan::HostArena::Slice staged = upload.stage(size);
@@ -56,7 +58,8 @@ void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, vulkan::Upload& up
 
 DeviceMaterial device_material(const SurfaceMaterial& material, const std::vector<DeviceTexture>& textures) {
   DeviceMaterial result;
-  const bool textured = material.base_color_image >= 0 && static_cast<std::size_t>(material.base_color_image) < textures.size() &&
+  const bool textured = material.base_color_image >= 0 &&
+                        static_cast<std::size_t>(material.base_color_image) < textures.size() &&
                         textures[static_cast<std::size_t>(material.base_color_image)].image.image;
   result.image = textured ? material.base_color_image : -1;
   result.blended = material.opacity < 0.999f;
@@ -91,14 +94,16 @@ std::uint64_t hash_of_still(const ResolvedScene& source, const std::vector<bool>
     hash.add(instance.mesh);
     hash.add(source.meshes[instance.mesh].revision);
     hash.add(std::uint32_t{instance.casts_shadow});
-    for (const double value : {p.x, p.y, p.z, q.w, q.x, q.y, q.z, double(instance.scale.x), double(instance.scale.y),
-                               double(instance.scale.z), double(instance.visible_from_m), double(instance.visible_to_m)})
+    for (const double value :
+         {p.x, p.y, p.z, q.w, q.x, q.y, q.z, double(instance.scale.x), double(instance.scale.y),
+          double(instance.scale.z), double(instance.visible_from_m), double(instance.visible_to_m)})
       hash.add(value);
   }
   return hash.value();
 }
 
-void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still, vulkan::Upload& upload) {
+void upload_still(DeviceScene& scene, const ResolvedScene& source, const std::vector<bool>& still,
+                  vulkan::Upload& upload) {
   const std::uint64_t hash = hash_of_still(source, still);
   if (hash == scene.still_hash) return;
   for (Buffer& vertices : scene.still_vertices) destroy_buffer(upload.memory(), vertices);
@@ -152,7 +157,8 @@ void upload_textures(DeviceScene& scene, const ResolvedScene& source, vulkan::Up
 
 }  // namespace
 
-std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb) {
+std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     bool srgb) {
   std::vector<MipLevel> levels = mip_chain(width, height, rgba, srgb);
   const std::array<std::uint8_t, 256> code = square_root_code(srgb);
   for (MipLevel& level : levels)
@@ -194,7 +200,8 @@ vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLe
   return image;
 }
 
-void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device, vulkan::MemoryPool& memory) {
+void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan::Device& device,
+                  vulkan::MemoryPool& memory) {
   vulkan::Upload upload(device, memory);
   upload_textures(scene, source, upload);
   scene.materials.clear();

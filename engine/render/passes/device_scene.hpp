@@ -6,9 +6,9 @@
 
 #include <glm/vec4.hpp>
 
+#include "engine/instant/scene_summary.hpp"
 #include "engine/render/mip_chain.hpp"
 #include "engine/render/passes/draw_list.hpp"
-#include "engine/instant/scene_summary.hpp"
 #include "engine/render/passes/static_geometry.hpp"
 #include "engine/render/vulkan/commands.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -48,8 +48,8 @@ struct DeviceScene {
   std::vector<DeviceMesh> meshes;
   std::vector<DeviceTexture> textures;
   std::vector<DeviceMaterial> materials;
-  std::vector<PlacedMesh> placed;  ///< What stands in several places, ordered by mesh.
-  StaticGeometry still;            ///< What stands in one; its vertices are on the device.
+  std::vector<PlacedMesh> placed;              ///< What stands in several places, ordered by mesh.
+  StaticGeometry still;                        ///< What stands in one; its vertices are on the device.
   std::vector<vulkan::Buffer> still_vertices;  ///< One a block.
   std::uint64_t still_hash = 0;
   SceneSummary summary;  ///< For descriptions of instants in this scene.
@@ -62,7 +62,8 @@ void upload_scene(DeviceScene& scene, const scene::ResolvedScene& source, const 
 void destroy_scene(DeviceScene& scene, vulkan::MemoryPool& memory);
 
 /// All levels of a texture as the device keeps them: the square root of linear light.
-std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba, bool srgb);
+std::vector<MipLevel> texture_levels(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                     bool srgb);
 
 /// A new sampled image that the upload fills with these levels.
 vulkan::DeviceImage create_texture(vulkan::Upload& upload, std::span<const MipLevel> levels);

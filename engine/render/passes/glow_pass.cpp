@@ -11,7 +11,8 @@ namespace septet::render {
 
 void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                       const TargetFormats& formats) {
-  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::glow_vert(), shaders::glow_frag(), vulkan::Blend::add);
+  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::glow_vert(), shaders::glow_frag(),
+                                            vulkan::Blend::add);
 }
 
 void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
@@ -41,7 +42,8 @@ std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3
     const float radius_m = glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark);
     const float strength = around ? 3.2f + 0.4f * dark : 0.7f + 2.5f * dark;
     const glm::vec3 brightness = hue * (turned * strength);  // As it looks: about the root of light, 1 white.
-    records.push_back({glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (arriving / exposure), 0.0f)});
+    records.push_back(
+        {glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (arriving / exposure), 0.0f)});
   }
   return records;
 }

@@ -89,7 +89,9 @@ bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts) {
   const auto is_new = [&](const OverlayText& text) { return !find_line(pass, text).has_value(); };
   if (std::ranges::none_of(texts, is_new)) return false;
   if (pass.lines.empty()) clear(pass);
-  const auto add_new = [&] { return std::ranges::all_of(texts, [&](const OverlayText& text) { return !is_new(text) || add_line(pass, text); }); };
+  const auto add_new = [&] {
+    return std::ranges::all_of(texts, [&](const OverlayText& text) { return !is_new(text) || add_line(pass, text); });
+  };
   if (add_new()) return true;
   // Full of texts that nobody shows any more.
   clear(pass);
@@ -105,12 +107,12 @@ void upload_atlas(OverlayPass& pass, PassContext& context) {
   region.bufferOffset = pixels.offset;
   region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.imageExtent = {atlas_width, atlas_height, 1};
-  vkCmdCopyBufferToImage(context.slot.commands, pixels.buffer, pass.atlas.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                         &region);
+  vkCmdCopyBufferToImage(context.slot.commands, pixels.buffer, pass.atlas.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                         1, &region);
 }
 
-void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts, VkImageView target,
-                  std::uint32_t width, std::uint32_t height) {
+void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts,
+                  VkImageView target, std::uint32_t width, std::uint32_t height) {
   const VkCommandBuffer commands = context.slot.commands;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   color.imageView = target;
@@ -128,10 +130,13 @@ void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vect
   vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pass.pipeline);
   push_image(context, pass.atlas.view, context.samplers.table);
-  const auto draw_quad = [&](float x, float y, float w, float h, const glm::vec4& uv, const glm::vec4& rgba, float kind) {
+  const auto draw_quad = [&](float x, float y, float w, float h, const glm::vec4& uv, const glm::vec4& rgba,
+                             float kind) {
     const float across = 2.0f / static_cast<float>(width), down = 2.0f / static_cast<float>(height);
-    const QuadConstants quad{{x * across - 1.0f, y * down - 1.0f, (x + w) * across - 1.0f, (y + h) * down - 1.0f}, uv,
-                             premultiplied(rgba), {kind, 0.0f, 0.0f, 0.0f}};
+    const QuadConstants quad{{x * across - 1.0f, y * down - 1.0f, (x + w) * across - 1.0f, (y + h) * down - 1.0f},
+                             uv,
+                             premultiplied(rgba),
+                             {kind, 0.0f, 0.0f, 0.0f}};
     push_constants(context, std::as_bytes(std::span(&quad, 1)));
     vkCmdDraw(commands, 6, 1, 0, 0);
     ++context.statistics.draws;

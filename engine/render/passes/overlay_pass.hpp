@@ -37,7 +37,7 @@ bool lay_out(OverlayPass& pass, const std::vector<OverlayText>& texts);
 /// Copies the pixels to the atlas image, which is a transfer destination.
 void upload_atlas(OverlayPass& pass, PassContext& context);
 /// Draws into `target`, over what it holds.
-void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts, VkImageView target,
-                  std::uint32_t width, std::uint32_t height);
+void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vector<OverlayText>& texts,
+                  VkImageView target, std::uint32_t width, std::uint32_t height);
 
 }  // namespace septet::render

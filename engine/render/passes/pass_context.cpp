@@ -42,7 +42,8 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device) {
   constexpr VkSamplerAddressMode repeat = VK_SAMPLER_ADDRESS_MODE_REPEAT, clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   constexpr VkSamplerMipmapMode nearest = VK_SAMPLER_MIPMAP_MODE_NEAREST, linear = VK_SAMPLER_MIPMAP_MODE_LINEAR;
   samplers.surface = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, 1.0f, false);
-  samplers.road = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest, samplers.anisotropic ? 16.0f : 1.0f, false);
+  samplers.road = create_sampler(device, repeat, samplers.anisotropic ? linear : nearest,
+                                 samplers.anisotropic ? 16.0f : 1.0f, false);
   samplers.table = create_sampler(device, clamp, nearest, 1.0f, false);
   samplers.shadow = create_sampler(device, clamp, nearest, 1.0f, true);
 }
@@ -68,12 +69,11 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[5] = {
-      write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
-      write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-      write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-      write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-      write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+  VkWriteDescriptorSet writes[5] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+                                    write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
   for (int i = 0; i < 4; ++i) writes[1 + i].pImageInfo = &images[i];
   push(context, writes);
@@ -104,8 +104,12 @@ void push_constants(PassContext& context, std::span<const std::byte> bytes) {
 }
 
 void set_viewport(PassContext& context, const PixelRectangle& rectangle) {
-  const VkViewport viewport{static_cast<float>(rectangle.x), static_cast<float>(rectangle.y),
-                            static_cast<float>(rectangle.width), static_cast<float>(rectangle.height), 0.0f, 1.0f};
+  const VkViewport viewport{static_cast<float>(rectangle.x),
+                            static_cast<float>(rectangle.y),
+                            static_cast<float>(rectangle.width),
+                            static_cast<float>(rectangle.height),
+                            0.0f,
+                            1.0f};
   const VkRect2D scissor{{rectangle.x, rectangle.y}, {rectangle.width, rectangle.height}};
   vkCmdSetViewport(context.slot.commands, 0, 1, &viewport);
   vkCmdSetScissor(context.slot.commands, 0, 1, &scissor);

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t cascade_texels = 1024;
 
 struct Cascade {
   glm::vec3 right{0.0f}, up{0.0f}, to_light{0.0f};  ///< World axes of the light's view.
-  glm::vec2 middle_m{0.0f};  ///< Along right and up, relative to the eye.
+  glm::vec2 middle_m{0.0f};                         ///< Along right and up, relative to the eye.
   float half_side_m = 1.0f;
   float half_depth_m = 1.0f;
   float texel_m = 1.0f;

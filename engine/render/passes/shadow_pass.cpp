@@ -4,7 +4,8 @@
 
 namespace septet::render {
 
-void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout, VkFormat format) {
+void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                        VkFormat format) {
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::shadow_vert();
   description.vertex_input = vulkan::VertexInput::shadow;
@@ -52,7 +53,8 @@ void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScen
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (material.cut)
-      push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view, context.samplers.surface);
+      push_image(context, scene.textures[static_cast<std::size_t>(material.image)].image.view,
+                 context.samplers.surface);
     record_draw(context, draw, bound);
   }
   context.statistics.shadow_triangles += context.statistics.triangles - triangles_before;

@@ -10,7 +10,8 @@ struct ShadowPass {
   VkPipeline solid = VK_NULL_HANDLE, cut = VK_NULL_HANDLE;
 };
 
-void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout, VkFormat format);
+void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                        VkFormat format);
 void destroy_shadow_pass(ShadowPass& pass, const vulkan::Device& device);
 
 void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScene& scene, const SurfaceDraws& draws,

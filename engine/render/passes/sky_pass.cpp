@@ -87,7 +87,8 @@ std::vector<std::uint8_t> cloud_noise() {
   std::vector<float> sum(noise_side * noise_side, 0.0f);
   std::uint32_t period = 4;
   float weight = 0.5f;
-  for (std::uint32_t octave = 0; octave < 6; ++octave, period *= 2, weight *= 0.55f) add_octave(sum, period, octave, weight);
+  for (std::uint32_t octave = 0; octave < 6; ++octave, period *= 2, weight *= 0.55f)
+    add_octave(sum, period, octave, weight);
   // Each value becomes its rank, so that a share c of the tile lies above 1 − c.
   const auto [low, high] = std::minmax_element(sum.begin(), sum.end());
   constexpr std::size_t bins = 4096;

@@ -48,7 +48,8 @@ class Coverage {
 
  private:
   static int tile(float ndc, int count) {
-    return std::clamp(static_cast<int>((std::clamp(ndc, -1.0f, 1.0f) * 0.5f + 0.5f) * static_cast<float>(count)), 0, count - 1);
+    return std::clamp(static_cast<int>((std::clamp(ndc, -1.0f, 1.0f) * 0.5f + 0.5f) * static_cast<float>(count)), 0,
+                      count - 1);
   }
   std::array<float, columns * rows> depth_{};
 };
@@ -65,7 +66,8 @@ glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& l
 
 void create_smoke_pass(SmokePass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                        const TargetFormats& formats) {
-  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::smoke_vert(), shaders::smoke_frag(), vulkan::Blend::over);
+  pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::smoke_vert(), shaders::smoke_frag(),
+                                            vulkan::Blend::over);
 }
 
 void destroy_smoke_pass(SmokePass& pass, const vulkan::Device& device) {
@@ -83,9 +85,12 @@ std::vector<SmokePuff> merged_puffs(std::span<const SmokePuff> puffs, const Vec3
   for (std::uint32_t i = 0; i < puffs.size(); ++i) {
     const double side = cell_side_m(glm::length(puffs[i].position_m - eye_m));
     const glm::dvec3 cell = glm::floor(puffs[i].position_m / side);
-    keyed.push_back({{std::int64_t(side), puffs[i].glow > 0.0f, std::int64_t(cell.x), std::int64_t(cell.y), std::int64_t(cell.z)}, i});
+    keyed.push_back(
+        {{std::int64_t(side), puffs[i].glow > 0.0f, std::int64_t(cell.x), std::int64_t(cell.y), std::int64_t(cell.z)},
+         i});
   }
-  std::ranges::sort(keyed, [](const Keyed& a, const Keyed& b) { return a.cell != b.cell ? a.cell < b.cell : a.puff < b.puff; });
+  std::ranges::sort(
+      keyed, [](const Keyed& a, const Keyed& b) { return a.cell != b.cell ? a.cell < b.cell : a.puff < b.puff; });
   std::vector<SmokePuff> merged;
   for (std::size_t begin = 0, end; begin < keyed.size(); begin = end) {
     end = begin;
@@ -126,7 +131,8 @@ float transmittance(std::span<const SmokePuff> puffs, const Vec3& eye_m, const V
     const double at = glm::dot(to_puff, along);
     if (at < 0.0 || at > length) continue;
     const double square = glm::dot(to_puff, to_puff) - at * at, radius = puff.radius_m;
-    if (square < 9.0 * radius * radius) depth += depth_through_middle(puff) * std::exp(-0.5 * square / (radius * radius));
+    if (square < 9.0 * radius * radius)
+      depth += depth_through_middle(puff) * std::exp(-0.5 * square / (radius * radius));
   }
   return static_cast<float>(std::exp(-depth));
 }
@@ -156,14 +162,17 @@ std::vector<PuffRecord> puff_records(std::span<const SmokePuff> merged, const De
     const double ahead = -glm::dot(in_car, projection.back);
     if (ahead > 2.0 * radius) {
       const double x = glm::dot(in_car, projection.right) / ahead, y = glm::dot(in_car, projection.up) / ahead;
-      const double wide = projection.right_slope - projection.left_slope, high = projection.top_slope - projection.bottom_slope;
+      const double wide = projection.right_slope - projection.left_slope,
+                   high = projection.top_slope - projection.bottom_slope;
       if (!coverage.add(static_cast<float>(2.0 * (x - projection.left_slope) / wide - 1.0),
-                        static_cast<float>(2.0 * (y - projection.bottom_slope) / high - 1.0), static_cast<float>(2.0 * radius / (ahead * wide)),
+                        static_cast<float>(2.0 * (y - projection.bottom_slope) / high - 1.0),
+                        static_cast<float>(2.0 * radius / (ahead * wide)),
                         static_cast<float>(2.0 * radius / (ahead * high)), depth))
         continue;
     }
     const glm::vec3 radiance = scattered(*p.puff, share_of_sky(scene.summary, p.puff->position_m), light);
-    records.push_back({glm::vec4(p.at, radius), glm::vec4(radiance, depth), glm::vec4(static_cast<float>(p.puff->seed % 1024u) / 1024.0f)});
+    records.push_back({glm::vec4(p.at, radius), glm::vec4(radiance, depth),
+                       glm::vec4(static_cast<float>(p.puff->seed % 1024u) / 1024.0f)});
   }
   std::ranges::reverse(records);
   return records;

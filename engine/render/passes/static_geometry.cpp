@@ -24,19 +24,21 @@ std::uint32_t block_of(StaticGeometry& geometry, std::map<std::pair<std::int64_t
   const auto y = static_cast<std::int64_t>(std::floor(position_m.y / block_side_m));
   const auto [found, added] = known.try_emplace({x, y}, static_cast<std::uint32_t>(geometry.blocks.size()));
   if (added)
-    geometry.blocks.push_back({Vec3((double(x) + 0.5) * block_side_m, (double(y) + 0.5) * block_side_m, position_m.z), {}});
+    geometry.blocks.push_back(
+        {Vec3((double(x) + 0.5) * block_side_m, (double(y) + 0.5) * block_side_m, position_m.z), {}});
   return found->second;
 }
 
 bool holds(const SurfaceMesh& mesh, const scene::MeshPart& part) {
   if (part.first_index > mesh.indices.size() || part.index_count > mesh.indices.size() - part.first_index) return false;
   const auto first = mesh.indices.begin() + part.first_index;
-  return std::all_of(first, first + part.index_count, [&](std::uint32_t index) { return index < mesh.vertices.size(); });
+  return std::all_of(first, first + part.index_count,
+                     [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
 /// Adds the instance's piece with its parts and indices, for vertices from `first_vertex` on; false if nothing of it is drawn.
-bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t first_vertex, const scene::Instance& instance,
-               const SurfaceMesh& mesh) {
+bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t first_vertex,
+               const scene::Instance& instance, const SurfaceMesh& mesh) {
   StaticPiece piece;
   piece.placed = place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object);
   piece.block = block;
@@ -54,7 +56,8 @@ bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t firs
 }
 
 /// Writes an instance's vertices where they stand in its block.
-void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& position_m, const glm::mat3& turn, const SurfaceMesh& mesh) {
+void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& position_m, const glm::mat3& turn,
+                   const SurfaceMesh& mesh) {
   const glm::vec3 origin(position_m - block.origin_m);
   // Normals turn by R·S⁻¹ = M·S⁻², as in shaders/instances.glsl.
   const glm::vec3 squares(glm::dot(turn[0], turn[0]), glm::dot(turn[1], turn[1]), glm::dot(turn[2], turn[2]));
@@ -85,7 +88,7 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
     const scene::Instance* instance;
     std::uint32_t first_vertex;
   };
-  std::vector<Filling> fillings;  // One a piece.
+  std::vector<Filling> fillings;        // One a piece.
   std::vector<std::uint32_t> vertices;  // By block.
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size() || !chosen[instance.mesh]) continue;
@@ -100,8 +103,8 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
   parallel_for(fillings.size(), [&](std::size_t i) {
     const auto& [instance, first_vertex] = fillings[i];
     const StaticPiece& piece = geometry.pieces[i];
-    fill_vertices(geometry.blocks[piece.block], first_vertex, instance->world_from_object.position_m, piece.placed.world_from_object,
-                  scene.meshes[instance->mesh]);
+    fill_vertices(geometry.blocks[piece.block], first_vertex, instance->world_from_object.position_m,
+                  piece.placed.world_from_object, scene.meshes[instance->mesh]);
   });
   return geometry;
 }
@@ -114,7 +117,8 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
     const PlacedMesh& placed = geometry.pieces[i].placed;
     const glm::vec3 origin(placed.origin_m - eye_m);
     const float square = glm::dot(origin, origin);
-    if (square < placed.visible_from_m * placed.visible_from_m || square >= placed.visible_to_m * placed.visible_to_m) continue;
+    if (square < placed.visible_from_m * placed.visible_from_m || square >= placed.visible_to_m * placed.visible_to_m)
+      continue;
     const glm::vec3 centre = origin + placed.centre_m;
     if (keep(placed, centre)) seen.emplace_back(glm::dot(centre, centre), i);
   }

@@ -16,12 +16,13 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
       open = false;
       continue;
     }
-    if (open && list.back().material == group && list.back().first_index + list.back().index_count == part.first_index) {
+    if (open && list.back().material == group &&
+        list.back().first_index + list.back().index_count == part.first_index) {
       list.back().index_count += part.index_count;
       continue;
     }
-    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, part.first_index, part.index_count, batch.first,
-                    batch.count, group});
+    list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, part.first_index, part.index_count,
+                    batch.first, batch.count, group});
     open = true;
   }
 }
@@ -44,7 +45,8 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
   const FrameData indices = store(context, std::span<const std::uint32_t>(gathered.indices));
   std::map<std::uint32_t, std::uint32_t> record_of_block;
   for (const GatheredDraw& draw : gathered.draws) {
-    const auto [found, added] = record_of_block.try_emplace(draw.block, static_cast<std::uint32_t>(instanced.records.size()));
+    const auto [found, added] =
+        record_of_block.try_emplace(draw.block, static_cast<std::uint32_t>(instanced.records.size()));
     if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m));
     draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, 0, draw.first_index,
                           draw.index_count, found->second, 1, draw.group});

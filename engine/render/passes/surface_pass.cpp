@@ -36,8 +36,9 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
   description.depth_write = !blended;
   description.alpha_to_coverage = cut && multisampled;
-  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended, variant.dark,
-                           variant.snowy, variant.sooty};
+  description.constants = {
+      variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended, variant.dark, variant.snowy,
+      variant.sooty};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }
@@ -64,7 +65,8 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const bool textured = material.image >= 0;
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const bool glossy = material.glossy || (light.wet && material.wettable);
-    const VkPipeline pipeline = pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, light.sooty, kind});
+    const VkPipeline pipeline =
+        pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, light.sooty, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -8,8 +8,9 @@ namespace septet::render {
 void create_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                               const TargetFormats& formats) {
   const bool multisampled = formats.samples != VK_SAMPLE_COUNT_1_BIT;
-  pass.pipeline = create_whole_target_pipeline(device, layout, formats.picture,
-                                               multisampled ? shaders::tone_mapping_samples_frag() : shaders::tone_mapping_frag());
+  pass.pipeline =
+      create_whole_target_pipeline(device, layout, formats.picture,
+                                   multisampled ? shaders::tone_mapping_samples_frag() : shaders::tone_mapping_frag());
 }
 
 void destroy_tone_mapping_pass(ToneMappingPass& pass, const vulkan::Device& device) {

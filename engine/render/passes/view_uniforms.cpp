@@ -14,7 +14,9 @@ namespace {
 void set_headlights(ViewUniforms& uniforms, const Vec3& eye_m, std::span<const Headlight> headlights) {
   std::vector<const Headlight*> nearest;
   for (const Headlight& light : headlights) nearest.push_back(&light);
-  const auto distance = [&](const Headlight* light) { return glm::dot(light->position_m - eye_m, light->position_m - eye_m); };
+  const auto distance = [&](const Headlight* light) {
+    return glm::dot(light->position_m - eye_m, light->position_m - eye_m);
+  };
   std::stable_sort(nearest.begin(), nearest.end(),
                    [&](const Headlight* a, const Headlight* b) { return distance(a) < distance(b); });
   nearest.resize(std::min(nearest.size(), most_headlights));
@@ -59,7 +61,8 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const auto horizon = [&](const glm::vec2& level) { return sky_radiance(light, glm::vec3(level * 0.9998f, 0.02f)); };
   const glm::vec2 sun(light.sun_direction);
   const glm::vec2 sun_level = glm::length(sun) > 1e-6f ? glm::normalize(sun) : glm::vec2(1.0f, 0.0f);
-  const glm::vec3 toward = horizon(sun_level), beside = horizon({-sun_level.y, sun_level.x}), away = horizon(-sun_level);
+  const glm::vec3 toward = horizon(sun_level), beside = horizon({-sun_level.y, sun_level.x}),
+                  away = horizon(-sun_level);
   uniforms.fog_middle = glm::vec4(beside, 0.0f);
   uniforms.fog_slope = glm::vec4(0.5f * (toward - away), 0.0f);
   uniforms.fog_bend = glm::vec4(0.5f * (toward + away) - beside, 0.0f);
@@ -69,8 +72,9 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
   const double across = 0.5 * (projection.right_slope - projection.left_slope) * (view.mirrored ? -1.0 : 1.0);
   const double down = 0.5 * (projection.top_slope - projection.bottom_slope);
-  uniforms.ray_middle = world(-projection.back + 0.5 * (projection.right_slope + projection.left_slope) * projection.right +
-                              0.5 * (projection.top_slope + projection.bottom_slope) * projection.up);
+  uniforms.ray_middle =
+      world(-projection.back + 0.5 * (projection.right_slope + projection.left_slope) * projection.right +
+            0.5 * (projection.top_slope + projection.bottom_slope) * projection.up);
   uniforms.ray_right = world(across * projection.right);
   uniforms.ray_down = world(-down * projection.up);
   uniforms.billboard_right = world(projection.right);

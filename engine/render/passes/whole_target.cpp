@@ -4,8 +4,8 @@
 
 namespace septet::render {
 
-VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout, VkFormat format,
-                                        std::span<const std::uint32_t> fragment_code) {
+VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                                        VkFormat format, std::span<const std::uint32_t> fragment_code) {
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::whole_target_vert();
   description.fragment_code = fragment_code;
@@ -15,8 +15,8 @@ VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulk
   return create_pipeline(device, layout, description);
 }
 
-void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target, std::uint32_t width,
-                       std::uint32_t height, const glm::vec4& constants) {
+void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+                       std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
   const VkCommandBuffer commands = context.slot.commands;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   color.imageView = target;

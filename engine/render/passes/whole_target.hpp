@@ -7,11 +7,11 @@
 
 namespace septet::render {
 
-VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout, VkFormat format,
-                                        std::span<const std::uint32_t> fragment_code);
+VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                                        VkFormat format, std::span<const std::uint32_t> fragment_code);
 
 /// Both images have this size; `constants` is what the fragment shader takes.
-void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target, std::uint32_t width,
-                       std::uint32_t height, const glm::vec4& constants);
+void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+                       std::uint32_t width, std::uint32_t height, const glm::vec4& constants);
 
 }  // namespace septet::render

@@ -30,7 +30,8 @@ void BlockAllocator::free(std::uint64_t offset, std::uint64_t size) {
                                       [](const Gap& gap, std::uint64_t begin) { return gap.begin < begin; });
   const bool clear_before = after == gaps_.begin() || std::prev(after)->end <= offset;
   const bool clear_after = after == gaps_.end() || offset + size <= after->begin;
-  SEPTET_CHECK(offset + size <= size_ && clear_before && clear_after, "freeing {} bytes at {} that are free", size, offset);
+  SEPTET_CHECK(offset + size <= size_ && clear_before && clear_after, "freeing {} bytes at {} that are free", size,
+               offset);
   auto gap = gaps_.insert(after, {offset, offset + size});
   if (const auto next = std::next(gap); next != gaps_.end() && next->begin == gap->end) {
     gap->end = next->end;

@@ -33,7 +33,8 @@ AccessScope scope_of(Access access) {
     case Access::present:
       // The semaphore of the presentation orders the rest.
       return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
-    case Access::none: break;
+    case Access::none:
+      break;
   }
   return {VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED};
 }
@@ -94,7 +95,7 @@ void record_barriers(VkCommandBuffer commands, std::span<const ImageBarrier> bar
     info.newLayout = after.layout;
     info.srcQueueFamilyIndex = info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     info.image = barrier.image ? barrier.image->image : barrier.swapchain_image;
-    const VkImageAspectFlags aspect = 
+    const VkImageAspectFlags aspect =
         barrier.image ? barrier.image->description.aspect : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT};
     info.subresourceRange = {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
     list.push_back(info);
@@ -142,7 +143,8 @@ HostArena::Slice allocate(MemoryPool& pool, HostArena& arena, std::uint64_t size
   if (arena.chunk == arena.chunks.size())
     arena.chunks.push_back(create_buffer(pool, std::max(size, chunk_bytes),
                                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                          MemoryUse::written_by_host));
   const Buffer& buffer = arena.chunks[arena.chunk];
   const HostArena::Slice slice{buffer.buffer, arena.used, buffer.mapped + arena.used};

@@ -35,8 +35,9 @@ bool has_validation_layer() {
   vkEnumerateInstanceLayerProperties(&count, nullptr);
   std::vector<VkLayerProperties> layers(count);
   vkEnumerateInstanceLayerProperties(&count, layers.data());
-  return std::any_of(layers.begin(), layers.end(),
-                     [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, validation_layer) == 0; });
+  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+    return std::strcmp(layer.layerName, validation_layer) == 0;
+  });
 }
 
 void create_instance(Device& device, const DeviceOptions& options) {
@@ -103,10 +104,14 @@ int rank(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties
   if (!graphics_queue(physical, device.surface)) return 0;
   if (options.software_only && properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) return 0;
   switch (properties.deviceType) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    default: return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    default:
+      return 1;
   }
 }
 

@@ -22,7 +22,7 @@ struct ValidationLog {
 struct DeviceOptions {
   bool software_only = false;
   bool validation = false;
-  std::vector<const char*> instance_extensions;  ///< Those that a window's surface needs.
+  std::vector<const char*> instance_extensions;            ///< Those that a window's surface needs.
   std::function<VkSurfaceKHR(VkInstance)> create_surface;  ///< Empty: off-screen.
 };
 

@@ -18,7 +18,8 @@ VkMemoryPropertyFlags properties_of(MemoryUse use) {
   return use == MemoryUse::device_only ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT} : host;
 }
 
-std::unique_ptr<MemoryBlock> create_block(const Device& device, std::uint32_t type, std::uint64_t size, bool for_images) {
+std::unique_ptr<MemoryBlock> create_block(const Device& device, std::uint32_t type, std::uint64_t size,
+                                          bool for_images) {
   auto block = std::make_unique<MemoryBlock>();
   block->type = type;
   block->for_images = for_images;
@@ -63,7 +64,8 @@ void release(MemoryPool& pool, Allocation& allocation) {
   std::erase_if(pool.blocks, [&](const auto& other) { return other.get() == block; });
 }
 
-VkImageView create_view(const Device& device, const DeviceImage& image, bool array, std::uint32_t first, std::uint32_t count) {
+VkImageView create_view(const Device& device, const DeviceImage& image, bool array, std::uint32_t first,
+                        std::uint32_t count) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = image.image;
   info.viewType = array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
@@ -93,7 +95,8 @@ Buffer create_buffer(MemoryPool& pool, std::uint64_t size, VkBufferUsageFlags us
   try {
     result.allocation = allocate(pool, needs, memory, false);
     require(vkBindBufferMemory(pool.device->device, result.buffer, result.allocation.block->memory,
-                               result.allocation.offset), "vkBindBufferMemory");
+                               result.allocation.offset),
+            "vkBindBufferMemory");
   } catch (const Failure&) {
     destroy_buffer(pool, result);
     throw;
@@ -125,8 +128,9 @@ DeviceImage create_image(MemoryPool& pool, const ImageDescription& description) 
   vkGetImageMemoryRequirements(pool.device->device, result.image, &needs);
   try {
     result.allocation = allocate(pool, needs, MemoryUse::device_only, true);
-    require(vkBindImageMemory(pool.device->device, result.image, result.allocation.block->memory,
-                              result.allocation.offset), "vkBindImageMemory");
+    require(
+        vkBindImageMemory(pool.device->device, result.image, result.allocation.block->memory, result.allocation.offset),
+        "vkBindImageMemory");
     result.view = create_view(*pool.device, result, description.array, 0, description.layers);
     if (description.layers > 1)
       for (std::uint32_t layer = 0; layer < description.layers; ++layer)

@@ -76,7 +76,8 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
 
   std::array<VkSpecializationMapEntry, 7> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, i * 4, 4};
-  const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof description.constants, description.constants.data()};
+  const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof description.constants,
+                                       description.constants.data()};
   std::vector<VkPipelineShaderStageCreateInfo> stages;
   const auto add_stage = [&](VkShaderStageFlagBits stage, std::span<const std::uint32_t> code) {
     if (code.empty()) return;
@@ -92,8 +93,8 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment_code);
 
   using scene::SurfaceVertex;
-  const std::array<VkVertexInputBindingDescription, 2> buffers{{
-      {0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}, {1, instance_stride, VK_VERTEX_INPUT_RATE_INSTANCE}}};
+  const std::array<VkVertexInputBindingDescription, 2> buffers{
+      {{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}, {1, instance_stride, VK_VERTEX_INPUT_RATE_INSTANCE}}};
   const std::array<VkVertexInputAttributeDescription, 8> attributes{{
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, position_m)},
       {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, uv)},

@@ -11,12 +11,12 @@ namespace septet::render::vulkan {
 
 /// Bindings of the one descriptor set, pushed while recording.
 enum Binding : std::uint32_t {
-  binding_view = 0,       ///< Uniforms of the view.
-  binding_records = 1,    ///< Storage: soot for surfaces, then puffs of smoke, then lamps that glow.
+  binding_view = 0,     ///< Uniforms of the view.
+  binding_records = 1,  ///< Storage: soot for surfaces, then puffs of smoke, then lamps that glow.
   binding_sky = 2,
   binding_shadow = 3,
   binding_noise = 4,
-  binding_image = 5,      ///< The material's image, or the overlay's.
+  binding_image = 5,  ///< The material's image, or the overlay's.
   binding_count = 6,
 };
 

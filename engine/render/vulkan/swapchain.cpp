@@ -87,8 +87,10 @@ std::optional<std::uint32_t> acquire(Swapchain& swapchain, const Device& device,
     swapchain.stale = true;
     return std::nullopt;
   }
-  if (result == VK_SUBOPTIMAL_KHR) swapchain.stale = true;
-  else require(result, "vkAcquireNextImageKHR");
+  if (result == VK_SUBOPTIMAL_KHR)
+    swapchain.stale = true;
+  else
+    require(result, "vkAcquireNextImageKHR");
   return index;
 }
 
@@ -100,11 +102,14 @@ void present(Swapchain& swapchain, const Device& device, std::uint32_t index) {
   info.pSwapchains = &swapchain.swapchain;
   info.pImageIndices = &index;
   const VkResult result = vkQueuePresentKHR(device.queue, &info);
-  if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) swapchain.stale = true;
-  else require(result, "vkQueuePresentKHR");
+  if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
+    swapchain.stale = true;
+  else
+    require(result, "vkQueuePresentKHR");
 }
 
-void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain, std::uint32_t index) {
+void record_copy(VkCommandBuffer commands, const DeviceImage& picture, const Swapchain& swapchain,
+                 std::uint32_t index) {
   VkImageBlit2 region{VK_STRUCTURE_TYPE_IMAGE_BLIT_2};
   region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   region.srcOffsets[1] = {static_cast<std::int32_t>(picture.description.width),

@@ -16,8 +16,10 @@ std::vector<debris::MountedPart> parts_of(const Participant& participant, const 
   switch (vehicle_models()[participant.model].kind) {
     case ParticipantKind::car:
     case ParticipantKind::van:
-    case ParticipantKind::ambulance: return debris::passenger_car_parts(box.half_size_m);
-    default: return {};
+    case ParticipantKind::ambulance:
+      return debris::passenger_car_parts(box.half_size_m);
+    default:
+      return {};
   }
 }
 
@@ -39,8 +41,8 @@ void throw_parts(const Participant& car, debris::Crash& blow, const debris::Cont
   memory.parts[car.id] = std::move(blow.first.parts);
 }
 
-void crash_with_vehicle(const Participant& car, const Participant& other, const debris::ContactWorld& world, CrashMemory& memory,
-                        debris::State& debris, Random& random, CrashOutcome& outcome) {
+void crash_with_vehicle(const Participant& car, const Participant& other, const debris::ContactWorld& world,
+                        CrashMemory& memory, debris::State& debris, Random& random, CrashOutcome& outcome) {
   debris::Crash blow;
   blow.first = body_of(car, memory.parts);
   blow.second = body_of(other, memory.parts);
@@ -89,7 +91,8 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
   const Vec3 between = a.world_from_box.position_m - b.world_from_box.position_m;
   if (std::abs(between.z) > a.half_size_m.z + b.half_size_m.z) return std::nullopt;
   const auto reach = [](const debris::Box& box, const std::array<Vec2, 2>& axes, const Vec2& axis) {
-    return box.half_size_m.x * std::abs(glm::dot(axes[0], axis)) + box.half_size_m.y * std::abs(glm::dot(axes[1], axis));
+    return box.half_size_m.x * std::abs(glm::dot(axes[0], axis)) +
+           box.half_size_m.y * std::abs(glm::dot(axes[1], axis));
   };
   BoxContact contact;
   contact.depth_m = INFINITY;
@@ -107,12 +110,14 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
     const Vec3 local = inverse(box.world_from_box) * point;
     return box.world_from_box * glm::clamp(local, -box.half_size_m, box.half_size_m);
   };
-  contact.point_m = 0.5 * (nearest(a, b.world_from_box.position_m) + nearest(b, nearest(a, b.world_from_box.position_m)));
+  contact.point_m =
+      0.5 * (nearest(a, b.world_from_box.position_m) + nearest(b, nearest(a, b.world_from_box.position_m)));
   return contact;
 }
 
-CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver, const debris::ContactWorld& world,
-                             CrashMemory& memory, debris::State& debris, Random& random) {
+CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
+                             const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris,
+                             Random& random) {
   CrashOutcome outcome;
   const auto find = [&](ParticipantId id) { return std::ranges::find(participants, id, &Participant::id); };
   const auto car = find(driver);

@@ -40,7 +40,8 @@ std::optional<BoxContact> contact_of(const debris::Box& a, const debris::Box& b)
 double vehicle_mass_kg(const Participant& participant);
 
 /// Works out the crashes of the driver's car that `memory` names.
-CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver, const debris::ContactWorld& world,
-                             CrashMemory& memory, debris::State& debris, Random& random);
+CrashOutcome advance_crashes(const std::vector<Participant>& participants, ParticipantId driver,
+                             const debris::ContactWorld& world, CrashMemory& memory, debris::State& debris,
+                             Random& random);
 
 }  // namespace septet::simulation

@@ -25,8 +25,10 @@ debris::Box box_of(const Obstacle& obstacle, double at_z_m) {
   const double low = std::max(obstacle.low_m, at_z_m - 20.0), high = std::min(obstacle.high_m, at_z_m + 20.0);
   const Vec2 along = obstacle.to_m - obstacle.from_m, middle = 0.5 * (obstacle.from_m + obstacle.to_m);
   debris::Box box;
-  box.world_from_box = {Vec3(middle, 0.5 * (low + high)), orientation_from_angles(std::atan2(along.y, along.x), 0.0, 0.0)};
-  box.half_size_m = {0.5 * glm::length(along) + obstacle.radius_m, obstacle.radius_m, std::max(0.05, 0.5 * (high - low))};
+  box.world_from_box = {Vec3(middle, 0.5 * (low + high)),
+                        orientation_from_angles(std::atan2(along.y, along.x), 0.0, 0.0)};
+  box.half_size_m = {0.5 * glm::length(along) + obstacle.radius_m, obstacle.radius_m,
+                     std::max(0.05, 0.5 * (high - low))};
   box.friction = 0.5;
   return box;
 }
@@ -42,7 +44,8 @@ debris::GroundPoint surface_below(const road::RoadNetwork& roads, double frictio
   if (state.surface_memory.size() > 50'000) state.surface_memory.clear();
   const auto [found, fresh] = state.surface_memory.try_emplace(key);
   if (fresh) {
-    const auto surface = road::surface_at(roads, {column + 0.5, row + 0.5}, state.surface_hint ? &*state.surface_hint : nullptr, 60.0);
+    const auto surface =
+        road::surface_at(roads, {column + 0.5, row + 0.5}, state.surface_hint ? &*state.surface_hint : nullptr, 60.0);
     if (surface) {
       found->second = {surface->height_m, surface->normal, 1.0};
       state.surface_hint = surface->position;
@@ -65,7 +68,8 @@ std::vector<debris::Box> vehicle_boxes(const EffectsWorld& world, const debris::
   std::vector<debris::Box> boxes;
   for (const Participant& participant : world.participants) {
     const VehicleModel& model = vehicle_models()[participant.model];
-    const double reach = 0.5 * model.length_m + 3.5 + glm::length(participant.velocity_mps) * 2.0 * world.tick_s * effects_step_ticks;
+    const double reach =
+        0.5 * model.length_m + 3.5 + glm::length(participant.velocity_mps) * 2.0 * world.tick_s * effects_step_ticks;
     const Vec3 centre = participant.world_from_vehicle * Vec3(model.centre_x_m(), 0.0, 0.5 * model.height_m);
     const bool near = std::ranges::any_of(places, [&](const Vec3& place) {
       const Vec3 between = place - centre;
@@ -92,8 +96,11 @@ std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, co
   if (!obstacles) return {};
   std::vector<std::pair<Obstacle, double>> standing;
   for (const Vec3& place : places)
-    for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m)) standing.emplace_back(obstacle, place.z);
-  const auto key = [](const auto& entry) { return std::tuple(entry.first.run, entry.first.from_m.x, entry.first.from_m.y); };
+    for (const Obstacle& obstacle : obstacles->near(Vec2(place), standing_reach_m))
+      standing.emplace_back(obstacle, place.z);
+  const auto key = [](const auto& entry) {
+    return std::tuple(entry.first.run, entry.first.from_m.x, entry.first.from_m.y);
+  };
   std::ranges::stable_sort(standing, {}, key);
   // Not std::ranges::unique: clang 14 cannot compile it.
   const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };

@@ -16,8 +16,8 @@ namespace septet::simulation {
 namespace {
 
 /// In the order of debris::Part.
-constexpr std::array<std::string_view, debris::part_count> part_names{"bumper",       "door",         "lamp",    "windscreen",
-                                                                      "traffic-cone", "barrier-post", "ice-slab"};
+constexpr std::array<std::string_view, debris::part_count> part_names{
+    "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
 
 Vec3 place_of(const debris::Piece& piece) { return debris::from_eigen(piece.body.position_m.front()); }
 
@@ -27,10 +27,13 @@ void retire(const EffectsWorld& world, debris::State& debris) {
   if (driver == world.participants.end()) return;
   const Vec3 eye = driver->world_from_vehicle.position_m;
   const auto distance = [&](const Vec3& place) { return glm::length(place - eye); };
-  std::erase_if(debris.pieces, [&](const debris::Piece& piece) { return !(distance(place_of(piece)) < debris_reach_m); });
-  std::erase_if(debris.shards, [&](const debris::Shard& shard) { return !(distance(shard.position_m) < debris_reach_m); });
+  std::erase_if(debris.pieces,
+                [&](const debris::Piece& piece) { return !(distance(place_of(piece)) < debris_reach_m); });
+  std::erase_if(debris.shards,
+                [&](const debris::Shard& shard) { return !(distance(shard.position_m) < debris_reach_m); });
   while (debris.pieces.size() > most_pieces)
-    debris.pieces.erase(std::ranges::max_element(debris.pieces, {}, [&](const debris::Piece& piece) { return distance(place_of(piece)); }));
+    debris.pieces.erase(std::ranges::max_element(
+        debris.pieces, {}, [&](const debris::Piece& piece) { return distance(place_of(piece)); }));
 }
 
 void add_to_hash(const debris::State& debris, StateHash& hash) {
@@ -66,7 +69,8 @@ std::optional<debris::Part> part_of_name(std::string_view name) {
   return static_cast<debris::Part>(found - part_names.begin());
 }
 
-EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard, std::uint64_t seed) {
+EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard,
+                             std::uint64_t seed) {
   EffectsState state;
   state.random = Random(seed, 2);
   for (std::size_t i = 0; i < scenario.entities.size(); ++i) {
@@ -86,7 +90,8 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
            EffectsState& state) {
   const auto part = part_of_name(action.part);
   if (!part || !from.active) return;
-  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m, half = 0.5 * debris::part_recipe(*part).size_m.z;
+  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m,
+               half = 0.5 * debris::part_recipe(*part).size_m.z;
   const Quat& turn = from.world_from_entity.orientation;
   const Vec3 place = from.world_from_entity * Vec3(action.x_m, action.y_m, roof + half + 0.02);
   debris::spawn_part(state.debris, *part, {place, turn}, from.velocity_mps - turn * Vec3(action.slide_mps, 0.0, 0.0),
@@ -103,9 +108,12 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   const double step_s = static_cast<double>(effects_step_ticks) * world.tick_s;
   retire(world, state.debris);
   debris::ContactWorld contacts;
-  contacts.ground = [&](double x_m, double y_m) { return surface_below(world.roads, world.ground_friction, x_m, y_m, state); };
+  contacts.ground = [&](double x_m, double y_m) {
+    return surface_below(world.roads, world.ground_friction, x_m, y_m, state);
+  };
   int driver_box = -1;
-  report.crashes = advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);
+  report.crashes =
+      advance_crashes(world.participants, world.driver, contacts, state.crashes, state.debris, state.random);
   contacts.boxes = vehicle_boxes(world, state.debris, driver_box);
   const std::vector<debris::Box> standing = standing_boxes(world.obstacles, moving_places(state.debris));
   contacts.boxes.insert(contacts.boxes.end(), standing.begin(), standing.end());
@@ -115,7 +123,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   report.impulse_on_driver_ns = report.crashes.impulse_on_driver_ns;
   if (driver_box >= 0) report.impulse_on_driver_ns += contacts.boxes[static_cast<std::size_t>(driver_box)].impulse_ns;
 
-  advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s, step_s, state.fires);
+  advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s,
+                step_s, state.fires);
 
   StateHash hash;
   hash.add(state.hash);

@@ -27,7 +27,8 @@ struct EffectsReport {
 };
 
 /// Objects of the scenario that can be hit: those whose type is a part's name (part_of_name) stand on their feet, asleep.
-EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard, std::uint64_t seed);
+EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard,
+                             std::uint64_t seed);
 
 /// "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab".
 std::optional<debris::Part> part_of_name(std::string_view name);

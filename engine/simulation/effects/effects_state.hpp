@@ -27,7 +27,8 @@ struct EffectsState {
   FireState fires;
   Random random{0};
   PublishedEffects published;
-  std::uint64_t hash = 0;  ///< Of all steps so far, chained: two drives that ever differed in their effects differ in it.
+  std::uint64_t hash =
+      0;  ///< Of all steps so far, chained: two drives that ever differed in their effects differ in it.
   /// The road's surface as one plane per square metre where debris has been: a memory, and no state.
   std::unordered_map<std::uint64_t, debris::GroundPoint> surface_memory;
   std::optional<road::RoadPosition> surface_hint;
@@ -37,7 +38,7 @@ struct EffectsState {
 struct EffectsWorld {
   const road::RoadNetwork& roads;
   const roadside::Obstacles* obstacles = nullptr;  ///< What stands beside the roads; none without.
-  const std::vector<Participant>& participants;  ///< Ascending id, as they are at `tick`.
+  const std::vector<Participant>& participants;    ///< Ascending id, as they are at `tick`.
   const Environment& environment;
   ParticipantId driver = 0;
   double ground_friction = 1.0;  ///< Multiplies a material's friction on the road: less than 1 on ice and snow.

@@ -23,7 +23,8 @@ constexpr std::uint64_t soot_interval_steps = 60;
 /// The tunnel that holds this place of a road, if any.
 const road::RoadStructure* tunnel_at(const road::Road& road, double s_m) {
   const auto found = std::ranges::find_if(road.structures, [&](const road::RoadStructure& structure) {
-    return structure.kind == road::RoadStructure::Kind::tunnel && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m;
+    return structure.kind == road::RoadStructure::Kind::tunnel && s_m >= structure.s_m &&
+           s_m <= structure.s_m + structure.length_m;
   });
   return found == road.structures.end() ? nullptr : &*found;
 }
@@ -77,11 +78,14 @@ void add_fire(const Participant& vehicle, FireState& state) {
   if (state.smoke->emitters.size() + 2 > smoke::max_emitters) return;
   const Vec3 seat_m = seat_of_fire(vehicle);
   state.fires.push_back({vehicle.id, state.smoke->emitters.size(), state.smoke->emitters.size() + 1, 0.0, true});
-  for (const Source& source : {sources::flames, sources::soot}) state.smoke->emitters.push_back(emitter_of(source, seat_m));
+  for (const Source& source : {sources::flames, sources::soot})
+    state.smoke->emitters.push_back(emitter_of(source, seat_m));
 }
 
 void burn(const Fire& fire, const Source& source, const std::optional<Vec3>& seat_m, smoke::Emitter& emitter) {
-  emitter.rate_per_s = fire.burning ? std::min(source.full_rate_per_s, source.first_rate_per_s + source.growth_per_s2 * fire.burning_s) : 0.0;
+  emitter.rate_per_s =
+      fire.burning ? std::min(source.full_rate_per_s, source.first_rate_per_s + source.growth_per_s2 * fire.burning_s)
+                   : 0.0;
   if (seat_m) emitter.position_m = *seat_m + Vec3(0.0, 0.0, source.height_m);
 }
 
@@ -89,7 +93,8 @@ void feed(const std::vector<Participant>& participants, double step_s, FireState
   for (Fire& fire : state.fires) {
     fire.burning_s += step_s;
     const auto vehicle = std::ranges::find(participants, fire.vehicle, &Participant::id);
-    const std::optional<Vec3> seat_m = vehicle == participants.end() ? std::nullopt : std::optional(seat_of_fire(*vehicle));
+    const std::optional<Vec3> seat_m =
+        vehicle == participants.end() ? std::nullopt : std::optional(seat_of_fire(*vehicle));
     burn(fire, sources::flames, seat_m, state.smoke->emitters[fire.flames]);
     burn(fire, sources::soot, seat_m, state.smoke->emitters[fire.smoke]);
   }
@@ -99,7 +104,8 @@ std::vector<smoke::Obstacle> obstacles_in(const smoke::Grid& grid, const std::ve
   std::vector<smoke::Obstacle> obstacles;
   for (const Participant& participant : participants) {
     const Vec3 at = grid.grid_from_world(participant.world_from_vehicle.position_m);
-    if (!(at.x > -12.0 && at.y > -4.0 && at.x < grid.nx + 12.0 && at.y < grid.ny + 4.0 && std::abs(at.z) < grid.nz)) continue;
+    if (!(at.x > -12.0 && at.y > -4.0 && at.x < grid.nx + 12.0 && at.y < grid.ny + 4.0 && std::abs(at.z) < grid.nz))
+      continue;
     const debris::Box box = body_box(participant);
     obstacles.push_back({box.world_from_box, box.half_size_m});
   }
@@ -111,11 +117,13 @@ std::vector<smoke::Obstacle> obstacles_in(const smoke::Grid& grid, const std::ve
 smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& world_from_vehicle) {
   const Vec3& at = world_from_vehicle.position_m;
   const auto place = road::locate(roads, {at.x, at.y}, nullptr, 60.0);
-  const road::RoadStructure* tunnel = place ? tunnel_at(roads.roads[place->position.road], place->position.s_m) : nullptr;
+  const road::RoadStructure* tunnel =
+      place ? tunnel_at(roads.roads[place->position.road], place->position.s_m) : nullptr;
   constexpr int nx = static_cast<int>((upwind_m + downwind_m) / cell_m);
   if (!tunnel) {
     constexpr int ny = 48, nz = 40;
-    constexpr std::uint8_t open = smoke::open_x_low | smoke::open_x_high | smoke::open_y_low | smoke::open_y_high | smoke::open_z_high;
+    constexpr std::uint8_t open =
+        smoke::open_x_low | smoke::open_x_high | smoke::open_y_low | smoke::open_y_high | smoke::open_z_high;
     RigidTransform corner = lower_corner(world_from_vehicle, ny);
     corner.position_m.z += 0.5;  // Without a roof the road is the box's floor.
     return smoke::make_grid(corner, cell_m, nx, ny, nz, open);
@@ -126,8 +134,10 @@ smoke::Grid grid_around(const road::RoadNetwork& roads, const RigidTransform& wo
   const double width = left ? extent.left_t_m : -extent.right_t_m, middle = 0.5 * (left ? width : -width);
   // Wide enough for the road's curve within the box.
   const int ny = static_cast<int>(std::ceil(width + 8.0)), nz = 8;
-  const RigidTransform along = road::world_from_road(road::evaluate(roads, {place->position.road, place->position.s_m, middle}));
-  smoke::Grid grid = smoke::make_grid(lower_corner(along, ny), cell_m, nx, ny, nz, smoke::open_x_low | smoke::open_x_high);
+  const RigidTransform along =
+      road::world_from_road(road::evaluate(roads, {place->position.road, place->position.s_m, middle}));
+  smoke::Grid grid =
+      smoke::make_grid(lower_corner(along, ny), cell_m, nx, ny, nz, smoke::open_x_low | smoke::open_x_high);
   road::RoadPosition hint = place->position;
   smoke::add_walls(grid, [&](const Vec3& point) {
     const auto surface = road::surface_at(roads, {point.x, point.y}, &hint, 60.0);
@@ -151,17 +161,19 @@ void extinguish(ParticipantId vehicle, FireState& state) {
     if (fire.vehicle == vehicle) fire.burning = false;
 }
 
-void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double time_s,
-                   double step_s, FireState& state) {
+void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick,
+                   double time_s, double step_s, FireState& state) {
   if (!state.smoke) return;
   state.smoke->time_s = time_s - step_s;
   feed(participants, step_s, state);
-  const Vec3 wind = environment.wind_speed_mps * Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
+  const Vec3 wind = environment.wind_speed_mps *
+                    Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
   const smoke::Grid& grid = state.smoke->grid;
   // In a tube only the wind along it blows, and less.
   const Vec3 axis = grid.world_from_grid.orientation * Vec3(1.0, 0.0, 0.0);
   const bool tube = (grid.open_faces & smoke::open_z_high) == 0;
-  smoke::advance_smoke(*state.smoke, tube ? 0.4 * glm::dot(wind, axis) * axis : wind, obstacles_in(grid, participants), step_s);
+  smoke::advance_smoke(*state.smoke, tube ? 0.4 * glm::dot(wind, axis) * axis : wind, obstacles_in(grid, participants),
+                       step_s);
 
   std::vector<EffectKeyframe> keyframes = smoke::advance_keyframes(state.track, *state.smoke);
   std::size_t bytes = 0;

@@ -39,7 +39,7 @@ void ignite(const road::RoadNetwork& roads, const Participant& vehicle, std::uin
 void extinguish(ParticipantId vehicle, FireState& state);
 
 /// One step to the instant `time_s`, which is that of `tick`. `participants` ascending by id.
-void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick, double time_s,
-                   double step_s, FireState& state);
+void advance_fires(const std::vector<Participant>& participants, const Environment& environment, Tick tick,
+                   double time_s, double step_s, FireState& state);
 
 }  // namespace septet::simulation

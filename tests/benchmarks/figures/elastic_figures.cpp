@@ -39,7 +39,10 @@ std::string to_svg(const Plot& plot) {
   chart.y_label = plot.y_label;
   chart.series = plot.series;
   chart.y = plot.y;
-  return document::to_svg(document::ChartPage{.title = plot.title, .lines = {"Paper: " + plot.claim, "Here: " + plot.measured}, .charts = {chart}, .notes = {}});
+  return document::to_svg(document::ChartPage{.title = plot.title,
+                                              .lines = {"Paper: " + plot.claim, "Here: " + plot.measured},
+                                              .charts = {chart},
+                                              .notes = {}});
 }
 
 Plot swinging_cube_figure() {
@@ -48,7 +51,9 @@ Plot swinging_cube_figure() {
             "time, s",
             "height, m",
             "linear implicit Euler takes 35 % longer at 0.05 s, the regularised stepper keeps time",
-            "", {}, {}};
+            "",
+            {},
+            {}};
   double regularised_s = 0.0, implicit_s = 0.0;
   std::vector<double> heights;
   for (const auto& [name, stepper, dt, mark] :
@@ -58,23 +63,19 @@ Plot swinging_cube_figure() {
         std::tuple{"regularised, 0.005 s", Stepper::regularised, 0.005, Stroke::line}}) {
     heights = swinging_cube::heights(stepper, dt, 3.0, 2.0);
     Series series{name, {}, mark};
-    for (std::size_t i = 0; i < heights.size(); ++i)
-      series.points.push_back({dt * static_cast<double>(i), heights[i]});
+    for (std::size_t i = 0; i < heights.size(); ++i) series.points.push_back({dt * static_cast<double>(i), heights[i]});
     if (dt == 0.05)
-      (stepper == Stepper::regularised ? regularised_s : implicit_s) =
-          swinging_cube::time_of_minimum_s(heights, dt);
+      (stepper == Stepper::regularised ? regularised_s : implicit_s) = swinging_cube::time_of_minimum_s(heights, dt);
     plot.series.push_back(std::move(series));
   }
   const double reference_s = swinging_cube::time_of_minimum_s(heights, 0.005);
-  plot.measured = fmt::format(
-      "time to the minimum at 0.05 s: {:+.0f} % with implicit Euler, {:+.1f} % regularised",
-      100 * (implicit_s / reference_s - 1), 100 * (regularised_s / reference_s - 1));
+  plot.measured = fmt::format("time to the minimum at 0.05 s: {:+.0f} % with implicit Euler, {:+.1f} % regularised",
+                              100 * (implicit_s / reference_s - 1), 100 * (regularised_s / reference_s - 1));
   return plot;
 }
 
 Plot pull_figure() {
-  Plot plot{
-      "Figure 8: pull and push of a beam", "F / YA", "ΔL / L", "fits Hooke's law", "", {}, {}};
+  Plot plot{"Figure 8: pull and push of a beam", "F / YA", "ΔL / L", "fits Hooke's law", "", {}, {}};
   Series hooke{"Hooke: F / YA", {}, Stroke::dashed};
   Series exact{"St. Venant-Kirchhoff: s(s²-1)/2 = F / YA", {}, Stroke::line};
   for (int k = -10; k <= 10; ++k) {
@@ -85,14 +86,12 @@ Plot pull_figure() {
   double worst = 0.0;
   plot.series = {hooke, exact};
   for (const auto& [name, cells, free] :
-       {std::tuple{"105 tetrahedra, pulled at both ends", 1, true},
-        std::tuple{"105 tetrahedra, clamped", 1, false},
+       {std::tuple{"105 tetrahedra, pulled at both ends", 1, true}, std::tuple{"105 tetrahedra, clamped", 1, false},
         std::tuple{"840 tetrahedra, pulled at both ends", 2, true}}) {
     Series series{name, {}, Stroke::dots};
     for (const double load : {0.001, 0.02, 0.04, 0.06, 0.08, 0.1}) {
       series.points.push_back({load, beam::static_stretch(cells, load, free)});
-      worst =
-          std::max(worst, std::abs(series.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
+      worst = std::max(worst, std::abs(series.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
     }
     plot.series.push_back(std::move(series));
   }
@@ -102,9 +101,8 @@ Plot pull_figure() {
     worst = std::max(worst, std::abs(push.points.back().y / beam::st_venant_kirchhoff_strain(load) - 1));
   }
   plot.series.push_back(std::move(push));
-  plot.measured = fmt::format(
-      "within {:.1f} % of St. Venant-Kirchhoff; Hooke's law itself only at small strain",
-      100 * worst);
+  plot.measured =
+      fmt::format("within {:.1f} % of St. Venant-Kirchhoff; Hooke's law itself only at small strain", 100 * worst);
   return plot;
 }
 
@@ -113,7 +111,9 @@ Plot twist_figure() {
             "τL / μK, rad",
             "twist of the end, rad",
             "105 tetrahedra fit theory, with a clear dependence on the mesh",
-            "", {}, {}};
+            "",
+            {},
+            {}};
   plot.series.push_back({"theory: τL / μK", {{0, 0}, {0.001, 0.001}}, Stroke::dashed});
   std::string ratios;
   for (const auto& [cells, count] : {std::pair{1, 105}, std::pair{2, 840}, std::pair{4, 6720}}) {
@@ -125,8 +125,7 @@ Plot twist_figure() {
     ratios += fmt::format("{}{:.2f}", ratios.empty() ? "" : ", ", ratio);
     plot.series.push_back(std::move(series));
   }
-  plot.measured =
-      "105 linear tetrahedra are five times too stiff; share of theory " + ratios + " converges";
+  plot.measured = "105 linear tetrahedra are five times too stiff; share of theory " + ratios + " converges";
   return plot;
 }
 
@@ -135,7 +134,9 @@ Plot energy_figure() {
             "time, s",
             "energy, J",
             "dissipation increases with decreasing time step",
-            "", {}, {}};
+            "",
+            {},
+            {}};
   std::string kept;
   for (const double dt : {0.02, 0.01, 0.005, 0.0025}) {
     ElasticBody body = beam::make(1, {8e3, 0.25, 10.0 / (beam::area_m2 * beam::length_m)});
@@ -165,8 +166,7 @@ double thread_time_s() {
 }
 
 double median_step_ms(int cells_long, Solver solver) {
-  auto made = make_elastic_body(lattice_mesh({1, 1, cells_long}, {0.1, 0.1, 0.1 * cells_long}),
-                                {1e8, 0.25, 1000.0});
+  auto made = make_elastic_body(lattice_mesh({1, 1, cells_long}, {0.1, 0.1, 0.1 * cells_long}), {1e8, 0.25, 1000.0});
   ElasticBody& body = *made;
   beam::clamp_start(body);
   StepSettings settings;
@@ -187,16 +187,18 @@ Plot time_figure() {
             "tetrahedra",
             "time, ms",
             "linear in the number of tetrahedra; 15 ms at 200 of them (Pentium 4, eq. 21)",
-            "", {}, {}};
+            "",
+            {},
+            {}};
   Series direct{"direct", {}, Stroke::line}, factor{"factor at rest", {}, Stroke::line};
   for (const int cells : {10, 20, 40, 80, 120, 160, 200, 300, 400}) {
     for (Series* s : {&direct, &factor}) {
       s->points.push_back({5.0 * cells, median_step_ms(cells, s == &direct ? Solver::direct : Solver::rest_factor)});
     }
   }
-  plot.measured = fmt::format(
-      "{:.3f} ms at 200, {:.2f} ms at 2000 tetrahedra, direct; {:.2f} ms with the factor at rest",
-      direct.points[2].y, direct.points.back().y, factor.points.back().y);
+  plot.measured =
+      fmt::format("{:.3f} ms at 200, {:.2f} ms at 2000 tetrahedra, direct; {:.2f} ms with the factor at rest",
+                  direct.points[2].y, direct.points.back().y, factor.points.back().y);
   plot.series = {direct, factor};
   plot.y = Range{0.0, 1.1 * std::max(direct.points.back().y, factor.points.back().y)};
   return plot;
@@ -214,9 +216,8 @@ int main(int argc, char** argv) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   for (const auto& [name, make] :
-       {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure},
-        std::pair{"elastic-8-pull", &pull_figure}, std::pair{"elastic-9-twist", &twist_figure},
-        std::pair{"elastic-10-energy", &energy_figure},
+       {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},
+        std::pair{"elastic-9-twist", &twist_figure}, std::pair{"elastic-10-energy", &energy_figure},
         std::pair{"elastic-11-time", &time_figure}}) {
     const Plot plot = make();
     const auto path = std::filesystem::path(folder) / (std::string(name) + ".svg");

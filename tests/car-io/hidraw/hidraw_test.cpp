@@ -114,11 +114,7 @@ CarReading poll_until(CarConnection& car, Wanted wanted) {
 
 TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it again") {
   MockedCar mocked;
-  CarConnection car(
-      [] {
-        return open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"});
-      },
-      {});
+  CarConnection car([] { return open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"}); }, {});
   CHECK_FALSE(car.poll(0.0).is_connected);
   CHECK(car.take_error().value().what == "the device is not plugged in");
 
@@ -159,34 +155,36 @@ TEST_CASE("hidapi finds reads writes and loses a car and the connection finds it
 TEST_CASE("a car with another serial number is told apart") {
   MockedCar mocked;
   mocked.plug("S80-2");
-  const auto device =
-      open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"});
+  const auto device = open_hid_device({.vendor_id = 0x1209, .product_id = 0x0001, .serial = "S80-1"});
   REQUIRE_FALSE(device.has_value());
-  CHECK(device.error().what ==
-        "a device of this kind is plugged in, but with another serial number");
+  CHECK(device.error().what == "a device of this kind is plugged in, but with another serial number");
   const auto any = open_hid_device({});
   CHECK_MESSAGE(any.has_value(), (any ? "" : describe(any.error())));
 }
 
 TEST_CASE("a closed terminal stops fan and shaker as Ctrl-C does, also where the program was stopped") {
-  for (const auto& [signal, is_stopped] : {std::pair(SIGHUP, false), std::pair(SIGTERM, false), std::pair(SIGHUP, true)}) {
+  for (const auto& [signal, is_stopped] :
+       {std::pair(SIGHUP, false), std::pair(SIGTERM, false), std::pair(SIGHUP, true)}) {
     CAPTURE(signal);
     CAPTURE(is_stopped);
     MockedCar mocked;
     mocked.plug("S80-1");
     const TemporaryFolder folder;
     const std::string rig = (folder / "rig.toml").string();
-    std::ofstream(rig) << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\nsource = \"hid\"\n[[screen]]\nname = \"a\"\n"
-                          "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
+    std::ofstream(rig)
+        << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[car]\nsource = \"hid\"\n[[screen]]\nname = \"a\"\n"
+           "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
     const pid_t child = fork();
     if (child == 0) {
-      execl(SEPTET_BINARY_DIR "/septet-car", "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan", "0.5", "--vibration", "0.25", nullptr);
+      execl(SEPTET_BINARY_DIR "/septet-car", "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan",
+            "0.5", "--vibration", "0.25", nullptr);
       _exit(127);
     }
     double fan = -1.0, vibration = -1.0;
     const auto read_reports = [&] {
       for (int i = 0; i < 100 && mocked.has_report(); ++i)
-        if (const auto actuators = decode_actuators(mocked.receive())) fan = actuators->fan, vibration = actuators->vibration;
+        if (const auto actuators = decode_actuators(mocked.receive()))
+          fan = actuators->fan, vibration = actuators->vibration;
     };
     int status = 0;
     bool ended = false;

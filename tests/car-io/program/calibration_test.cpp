@@ -57,8 +57,7 @@ TEST_CASE("a calibration that would divide by zero is refused with its line") {
     CHECK(rig.error().where.starts_with("wrong:6:"));
     return rig.error().what;
   };
-  CHECK(refused("brake = { min = 0.7, max = 0.7 }") ==
-        "the brake's max is not above its min by 0.05 or more");
+  CHECK(refused("brake = { min = 0.7, max = 0.7 }") == "the brake's max is not above its min by 0.05 or more");
   CHECK(refused("steering = { min = -1.0, centre = 1.0, max = 1.0 }") ==
         "the steering's centre does not lie between min and max");
   CHECK(refused("brake = { centre = 0.1 }") == "car.calibration.brake has no key \"centre\"");

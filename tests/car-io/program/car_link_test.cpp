@@ -25,10 +25,11 @@ struct Rig {
   net::BadNetwork network;
   Random random{5};
   net::Address server_address{0x0a000001, 4750};
-  std::unique_ptr<net::SimulatedMachine> server_machine = net::machine_of_its_own(network, server_address.ip, server_address.ip, random),
-                                         car_machine = net::machine_of_its_own(network, 0x0a000002, server_address.ip, random);
-  net::Identity server_identity = net::Identity::generate(),
-                car_identity = net::Identity::generate();
+  std::unique_ptr<net::SimulatedMachine> server_machine = net::machine_of_its_own(network, server_address.ip,
+                                                                                  server_address.ip, random),
+                                         car_machine =
+                                             net::machine_of_its_own(network, 0x0a000002, server_address.ip, random);
+  net::Identity server_identity = net::Identity::generate(), car_identity = net::Identity::generate();
   std::unique_ptr<net::DatagramSocket> lane, tick, car_socket;
   scene::Store store;
   std::shared_ptr<server::RemoteCar> remote = std::make_shared<server::RemoteCar>();
@@ -40,23 +41,20 @@ struct Rig {
   std::uint8_t sequence = 0;
   double accelerator = 0.5;
 
-  explicit Rig(const net::NetworkFaults& faults = {}, const std::string& name = "car")
-      : network(faults, 1) {
+  explicit Rig(const net::NetworkFaults& faults = {}, const std::string& name = "car") : network(faults, 1) {
     lane = server_machine->open(server_address.port);
     tick = server_machine->open(4999);
     car_socket = car_machine->open(5000);
-    server::ScreenHostOptions options{.identity = server_identity,
-                                      .session = net::random_session_id()};
+    server::ScreenHostOptions options{.identity = server_identity, .session = net::random_session_id()};
     options.allowed.push_back({car_identity.public_key(), name});
     options.welcome.rig = rig_text;
     options.car = remote;
     host = std::make_unique<server::ScreenHost>(*lane, *tick, store, std::move(options));
     link = std::make_unique<CarLink>(
-        *car_socket,
-        net::SecureClientOptions{server_address, server_identity.public_key(), car_identity, {}},
+        *car_socket, net::SecureClientOptions{server_address, server_identity.public_key(), car_identity, {}},
         [this](const rig::Car&) { return port.opener(); });
-    at_server = std::make_unique<CarConnection>(
-        remote->device.opener(), CarConnectionOptions{.repeats = true, .retry_s = 0.0});
+    at_server =
+        std::make_unique<CarConnection>(remote->device.opener(), CarConnectionOptions{.repeats = true, .retry_s = 0.0});
   }
 
   /// The device reports a hundred times a second, the server ticks a hundred times a second.
@@ -98,8 +96,7 @@ TEST_CASE("the controls of a car on another machine reach the server as the devi
   CHECK(rig.at_server->refused_reports() == 0);
 }
 
-TEST_CASE(
-    "a network that loses and reorders a tenth of the datagrams does not make the car stale") {
+TEST_CASE("a network that loses and reorders a tenth of the datagrams does not make the car stale") {
   Rig rig({.loss = 0.1, .latency_s = 0.002, .jitter_s = 0.015});
   rig.port.plug();
   rig.run_for(1.0);
@@ -136,8 +133,7 @@ TEST_CASE("feedback of the server turns the fan of the device") {
   for (int i = 0; i < 50000 && fan < 0.59; ++i) {
     rig.remote->feedback = control::CarFeedback{static_cast<Tick>(i + 1), 0.6f, 0.2f, 30.0f, 0.0f};
     rig.run_for(0.01);
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(5));  // The writer has a thread and a clock of its own.
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // The writer has a thread and a clock of its own.
     for (const Bytes& report : rig.port.take_written())
       if (const auto actuators = decode_actuators(report)) fan = actuators->fan;
   }

@@ -20,8 +20,7 @@ struct Ended {
 /// Runs septet-car and takes both outputs together.
 Ended septet_car(const std::string& arguments) {
   Ended ended;
-  FILE* pipe =
-      ::popen(fmt::format(SEPTET_BINARY_DIR "/septet-car {} 2>&1", arguments).c_str(), "r");
+  FILE* pipe = ::popen(fmt::format(SEPTET_BINARY_DIR "/septet-car {} 2>&1", arguments).c_str(), "r");
   REQUIRE(pipe != nullptr);
   char buffer[256];
   while (std::fgets(buffer, sizeof buffer, pipe)) ended.output += buffer;
@@ -60,9 +59,7 @@ TEST_CASE("a wrong option or rig or device ends septet-car with one message") {
   check_refused("--server nowhere --keys " + folder.path().string(), {"--server"});
   check_refused("calibrate --rig " + (folder / "none.toml").string(), {"none.toml"});
   check_refused("calibrate " + rig("source = 3"), {"rig.toml:4", "car.source"});
-  check_refused("calibrate " + rig("source = \"hid\"\nlayout = \"tractor\""),
-                {"tractor", "logitech-g29"});
-  check_refused("try --fan 0.5 " + rig("source = \"hid\"\nproduct_id = 0xfffe"),
-                {"1209:fffe", "not plugged in"});
+  check_refused("calibrate " + rig("source = \"hid\"\nlayout = \"tractor\""), {"tractor", "logitech-g29"});
+  check_refused("try --fan 0.5 " + rig("source = \"hid\"\nproduct_id = 0xfffe"), {"1209:fffe", "not plugged in"});
   check_refused("try --fan 1.5 " + rig("source = \"hid\""), {"--fan"});
 }

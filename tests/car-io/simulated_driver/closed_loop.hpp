@@ -12,8 +12,8 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/lane_links.hpp"
 #include "engine/scenario/scenario_reader.hpp"
-#include "logging/records.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "logging/records.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/road/road_files.hpp"
 
@@ -75,12 +75,11 @@ class ClosedLoop {
  public:
   static constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
 
-  ClosedLoop(const std::string& driver_name, std::uint64_t seed, int lane, double s_m,
-             double speed_mps)
+  ClosedLoop(const std::string& driver_name, std::uint64_t seed, int lane, double s_m, double speed_mps)
       : ClosedLoop(*find_driver(driver_name), seed, lane, s_m, speed_mps) {}
 
-  ClosedLoop(const DriverParameters& driver, std::uint64_t seed, int lane, double s_m,
-             double speed_mps, const vehicle::VehicleParameters& car = volvo())
+  ClosedLoop(const DriverParameters& driver, std::uint64_t seed, int lane, double s_m, double speed_mps,
+             const vehicle::VehicleParameters& car = volvo())
       : person_(driver, seed, motorway()), connection_(person_.opener(), {}) {
     model_.roads = motorway();
     model_.scenario = one_car();
@@ -125,8 +124,7 @@ class ClosedLoop {
 };
 
 /// A vehicle that keeps a lane of the motorway's first road at a constant speed.
-inline Participant vehicle_on_motorway(ParticipantId id, const char* model, int lane, double s_m,
-                                       double speed_mps) {
+inline Participant vehicle_on_motorway(ParticipantId id, const char* model, int lane, double s_m, double speed_mps) {
   Participant vehicle;
   vehicle.id = id;
   vehicle.model = *find_vehicle_model(model);

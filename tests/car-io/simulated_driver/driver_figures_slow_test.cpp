@@ -44,8 +44,7 @@ TEST_CASE("the drivers follow with a time headway as the literature has it") {
       sum_s += headway_s / 100.0;
       least_s = std::min(least_s, headway_s);
     }
-    MESSAGE(std::string(name) << ": time headway behind a car at 90 km/h " << sum_s << " s, least "
-                              << least_s << " s");
+    MESSAGE(std::string(name) << ": time headway behind a car at 90 km/h " << sum_s << " s, least " << least_s << " s");
     CHECK(sum_s > 1.0);
     CHECK(sum_s < 3.0);
     CHECK(least_s > 0.8);
@@ -60,18 +59,16 @@ TEST_CASE("the drivers brake behind a braking car as late as the literature has 
       ClosedLoop loop(staying_in_lane(name), static_cast<std::uint64_t>(seed), -3, 100.0, 25.0);
       loop.others = [](double time_s, std::vector<Participant>& vehicles) {
         const double braked_s = std::clamp(time_s - brakes_at_s, 0.0, speed_mps / braking_mps2);
-        const double way_m = speed_mps * std::min(time_s, brakes_at_s) + speed_mps * braked_s -
-                             0.5 * braking_mps2 * braked_s * braked_s;
-        vehicles.push_back(vehicle_on_motorway(2, "volvo-s80", -3, 150.0 + way_m,
-                                               speed_mps - braking_mps2 * braked_s));
+        const double way_m =
+            speed_mps * std::min(time_s, brakes_at_s) + speed_mps * braked_s - 0.5 * braking_mps2 * braked_s * braked_s;
+        vehicles.push_back(vehicle_on_motorway(2, "volvo-s80", -3, 150.0 + way_m, speed_mps - braking_mps2 * braked_s));
       };
       loop.run(brakes_at_s);
       const double before = loop.snapshot.simulated_time_s;
       while (loop.input.brake < 0.02 && loop.snapshot.simulated_time_s < before + 5.0) loop.tick();
       sum_s += (loop.snapshot.simulated_time_s - before) / seeds;
     }
-    MESSAGE(std::string(name) << ": from the lead car's braking with 6 m/s2 to the own brake pedal "
-                              << sum_s << " s");
+    MESSAGE(std::string(name) << ": from the lead car's braking with 6 m/s2 to the own brake pedal " << sum_s << " s");
     CHECK(sum_s > 0.6);
     CHECK(sum_s < 2.5);
   }
@@ -88,9 +85,8 @@ TEST_CASE("the drivers look into the mirrors as briefly as the literature has it
       sum_s += glance.duration_s;
       longest_s = std::max(longest_s, glance.duration_s);
     }
-    MESSAGE(std::string(name) << ": a glance every " << 240.0 / static_cast<double>(glances.size())
-                              << " s, mean " << sum_s / static_cast<double>(glances.size())
-                              << " s, longest " << longest_s << " s");
+    MESSAGE(std::string(name) << ": a glance every " << 240.0 / static_cast<double>(glances.size()) << " s, mean "
+                              << sum_s / static_cast<double>(glances.size()) << " s, longest " << longest_s << " s");
     CHECK(longest_s < 2.5);
   }
 }

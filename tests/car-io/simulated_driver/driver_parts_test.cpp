@@ -14,8 +14,7 @@ TEST_CASE("the steering gains give the wanted frequency and damping at every spe
   const CarKnowledge car;
   for (const double v : {8.0, 15.0, 28.0, 40.0}) {
     const auto gains = steering_gains(steering, car, v);
-    const double yaw_gain =
-        v / (car.wheelbase_m + car.understeer_radps2pm * v * v) / car.steering_ratio;
+    const double yaw_gain = v / (car.wheelbase_m + car.understeer_radps2pm * v * v) / car.steering_ratio;
     CHECK(std::sqrt(v * yaw_gain * gains.near / steering.near_distance_m) ==
           doctest::Approx(steering.natural_frequency_radps));
     CHECK(yaw_gain * (gains.near + gains.far) ==
@@ -35,8 +34,7 @@ TEST_CASE(
   SteeringState state;
   Random random(1);
   const auto steer = [&](double near_rad, bool sees_road, double now_s) {
-    return advance_steering(state, steering, car, {near_rad, 0.0}, sees_road, 25.0, now_s, 0.01,
-                            random);
+    return advance_steering(state, steering, car, {near_rad, 0.0}, sees_road, 25.0, now_s, 0.01, random);
   };
   const double near_gain = steering_gains(steering, car, 25.0).near;
   steer(0.0, true, 0.01);
@@ -71,8 +69,7 @@ TEST_CASE("a wandering error has the standard deviation and correlation time it 
 TEST_CASE("the wish is none at the desired speed and at the time gap") {
   const SpeedParameters speed;
   CHECK(wished_acceleration_mps2(speed, 30.0, 30.0, std::nullopt) == doctest::Approx(0.0));
-  CHECK(wished_acceleration_mps2(speed, 0.0, 30.0, std::nullopt) ==
-        doctest::Approx(speed.acceleration_mps2));
+  CHECK(wished_acceleration_mps2(speed, 0.0, 30.0, std::nullopt) == doctest::Approx(speed.acceleration_mps2));
   const double gap_m = speed.standstill_gap_m + 20.0 * speed.time_gap_s;
   CHECK(std::abs(wished_acceleration_mps2(speed, 20.0, 30.0, Obstacle{gap_m, 20.0})) < 1e-9);
 }
@@ -94,7 +91,8 @@ TEST_CASE("what stands in the way or brakes hard is braked for as hard as it tak
       CHECK(heuristic_acceleration_mps2(v, Obstacle{gap_m, 0.0}) == doctest::Approx(-needed_mps2));
     }
   const Obstacle steady{30.0, 25.0}, braking{30.0, 25.0, -6.0};
-  CHECK(wished_acceleration_mps2(speed, 25.0, 33.0, braking) < wished_acceleration_mps2(speed, 25.0, 33.0, steady) - 0.5);
+  CHECK(wished_acceleration_mps2(speed, 25.0, 33.0, braking) <
+        wished_acceleration_mps2(speed, 25.0, 33.0, steady) - 0.5);
 }
 
 TEST_CASE("only an emergency moves the foot faster than comfort allows") {
@@ -124,8 +122,8 @@ TEST_CASE("accelerator and brake are never pressed together") {
   bool braked = false, accelerated = false;
   for (int i = 0; i < 120 * 40; ++i) {
     const bool blocked = std::fmod(i / 120.0, 8.0) < 4.0;
-    advance_pedals(pedals, {}, {}, own, 30.0,
-                   blocked ? std::optional(Obstacle{20.0, 18.0}) : std::nullopt, 1.0 / 120.0, random);
+    advance_pedals(pedals, {}, {}, own, 30.0, blocked ? std::optional(Obstacle{20.0, 18.0}) : std::nullopt, 1.0 / 120.0,
+                   random);
     REQUIRE((pedals.accelerator == 0.0 || pedals.brake == 0.0));
     braked |= pedals.brake > 0.1;
     accelerated |= pedals.accelerator > 0.1;
@@ -166,8 +164,7 @@ TEST_CASE("the hand wheel for a bend is that of its geometry and of what banking
 }
 
 TEST_CASE("every named driver exists and another name is refused") {
-  for (const char* name : {"plain", "novice", "experienced", "tired", "escort"})
-    CHECK(find_driver(name)->name == name);
+  for (const char* name : {"plain", "novice", "experienced", "tired", "escort"}) CHECK(find_driver(name)->name == name);
   const auto driver = find_driver("drunk");
   REQUIRE_FALSE(driver.has_value());
   CHECK(driver.error().remedy == "use one of: plain, novice, experienced, tired, escort");

@@ -74,14 +74,16 @@ TEST_CASE("braking is seen by the speed that it takes, within a second, and not 
 TEST_CASE("the driver knows how far the sides of the car are from the lines of its lane") {
   Ahead scene(0.0);
   const road::LanePosition left_of_middle{0, -7, 3000.0, 0.5};
-  scene.snapshot.participants[0].world_from_vehicle = road::world_from_lane(road::evaluate_lane(motorway(), left_of_middle));
+  scene.snapshot.participants[0].world_from_vehicle =
+      road::world_from_lane(road::evaluate_lane(motorway(), left_of_middle));
   const auto corridor = find_corridor(motorway(), scene.snapshot);
   REQUIRE(corridor);
   const auto own = see_own_place(motorway(), *corridor, scene.snapshot, std::nullopt);
   REQUIRE(own);
   const double width_m = vehicle_models()[scene.snapshot.participants[0].model].width_m;
   CHECK(own->room_right_m - own->room_left_m == doctest::Approx(1.0).epsilon(0.01));
-  CHECK(own->room_right_m + own->room_left_m == doctest::Approx(road::lane_width_m(motorway(), 0, -7, 3000.0) - width_m));
+  CHECK(own->room_right_m + own->room_left_m ==
+        doctest::Approx(road::lane_width_m(motorway(), 0, -7, 3000.0) - width_m));
 }
 
 TEST_CASE("what was seen a while ago is taken to have gone on evenly") {

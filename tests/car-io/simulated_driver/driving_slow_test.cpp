@@ -53,8 +53,8 @@ TEST_CASE("the plain driver keeps the lane at 100 km per hour with an SD of 15 t
 }
 
 TEST_CASE("an experienced driver keeps the lane closer than a novice and a tired one loosest") {
-  const double experienced = mean_lane_keeping_sd_m("experienced"),
-               novice = mean_lane_keeping_sd_m("novice"), tired = mean_lane_keeping_sd_m("tired");
+  const double experienced = mean_lane_keeping_sd_m("experienced"), novice = mean_lane_keeping_sd_m("novice"),
+               tired = mean_lane_keeping_sd_m("tired");
   MESSAGE("experienced ", experienced, " m, novice ", novice, " m, tired ", tired, " m");
   CHECK(experienced < novice);
   CHECK(novice < tired);
@@ -68,8 +68,7 @@ TEST_CASE("without its noise the driver keeps to the middle of the lane through 
   driver.lanes.threshold_mps2 = 100.0;
   ClosedLoop loop(driver, 1, -3, 100.0, 30.0);
   loop.run(150.0);
-  for (const logging::Sample& sample : loop.samples)
-    REQUIRE(std::abs(sample.lateral_position_m) < 0.35);
+  for (const logging::Sample& sample : loop.samples) REQUIRE(std::abs(sample.lateral_position_m) < 0.35);
 }
 
 TEST_CASE("a drive that begins in a bend begins in the middle of the lane") {
@@ -86,8 +85,7 @@ TEST_CASE("a drive that begins in a bend begins in the middle of the lane") {
     loop.run(12.0);
     MESSAGE("hand wheel at the start " << taken_rad << " rad, 12 s later " << loop.input.steering_wheel_rad << " rad");
     CHECK(taken_rad == doctest::Approx(loop.input.steering_wheel_rad).epsilon(0.25));
-    for (const logging::Sample& sample : loop.samples)
-      REQUIRE(std::abs(sample.lateral_position_m) < 0.12);
+    for (const logging::Sample& sample : loop.samples) REQUIRE(std::abs(sample.lateral_position_m) < 0.12);
   }
 }
 
@@ -125,8 +123,8 @@ TEST_CASE(
     for (int tick = 0; tick < 60 * 120; ++tick) {
       loop.tick();
       smallest_gap_m =
-          std::min(smallest_gap_m, leader_s_m - saloon.rear_overhang_m -
-                                       loop.snapshot.driver_car.road_s_m + own.wheelbase_m - own.front_m());
+          std::min(smallest_gap_m, leader_s_m - saloon.rear_overhang_m - loop.snapshot.driver_car.road_s_m +
+                                       own.wheelbase_m - own.front_m());
       if (loop.snapshot.tick == 29 * 120) speed_at_29_s = loop.snapshot.driver_car.speed_mps;
     }
     CHECK(smallest_gap_m > 0.5);
@@ -135,8 +133,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "a lorry in the way is overtaken after a look into the mirror and with the indicator on") {
+TEST_CASE("a lorry in the way is overtaken after a look into the mirror and with the indicator on") {
   ClosedLoop loop("plain", 2, -4, 100.0, 30.0);
   const auto lorry_s_m = [](double time_s) { return 260.0 + 22.0 * time_s; };
   loop.others = [&](double time_s, std::vector<Participant>& participants) {
@@ -147,8 +144,7 @@ TEST_CASE(
     loop.tick();
     const double now_s = loop.snapshot.simulated_time_s;
     if (crossed_s >= 0.0) {
-      if (signal_ended_s < 0.0 && loop.input.indicator == IndicatorStalk::off)
-        signal_ended_s = now_s;
+      if (signal_ended_s < 0.0 && loop.input.indicator == IndicatorStalk::off) signal_ended_s = now_s;
       continue;
     }
     if (loop.input.gaze_heading_rad > 0.5) looked_s = now_s;
@@ -184,9 +180,8 @@ TEST_CASE("no lane change is made into a vehicle alongside") {
     // Company on both sides, from well behind to well ahead.
     for (int i = 0; i < 14; ++i)
       for (const int lane : {-3, -5})
-        participants.push_back(
-            vehicle_on_motorway(static_cast<ParticipantId>(10 + 2 * i + (lane == -5)), "saloon",
-                                lane, i * 16.0 + 22.0 * time_s, 22.0));
+        participants.push_back(vehicle_on_motorway(static_cast<ParticipantId>(10 + 2 * i + (lane == -5)), "saloon",
+                                                   lane, i * 16.0 + 22.0 * time_s, 22.0));
   };
   loop.run(40.0);
   for (const logging::Sample& sample : loop.samples) CHECK(sample.lane == -4);
@@ -226,8 +221,7 @@ TEST_CASE("the mirrors are looked into from habit about as often as the paramete
   CHECK(interval_s < 1.8 * driver.mirrors.interval_s);
 }
 
-TEST_CASE(
-    "the driver takes a manual car from standstill to 100 km/h through its gears without stalling") {
+TEST_CASE("the driver takes a manual car from standstill to 100 km/h through its gears without stalling") {
   const vehicle::VehicleParameters car = read_car("volvo-s80-manual");
   for (const std::string who : {"plain", "novice", "tired"}) {
     CAPTURE(who);
@@ -240,14 +234,13 @@ TEST_CASE(
       loop.tick();
       REQUIRE(loop.engine_running());
       const int gear = loop.snapshot.driver_car.gear;
-      if (gear > 0 && (gears.empty() || gears.back() != '0' + gear))
-        gears += static_cast<char>('0' + gear);
+      if (gear > 0 && (gears.empty() || gears.back() != '0' + gear)) gears += static_cast<char>('0' + gear);
       if (loop.input.clutch > 0.25 && loop.input.clutch < 0.75) slipping_s += ClosedLoop::tick_s;
       if (reached_s == 0.0 && loop.snapshot.driver_car.speed_mps >= 100.0 / 3.6)
         reached_s = loop.snapshot.simulated_time_s;
     }
-    MESSAGE(who << ": 100 km/h after " << reached_s << " s, in fifth gear after "
-                << loop.snapshot.simulated_time_s << " s");
+    MESSAGE(who << ": 100 km/h after " << reached_s << " s, in fifth gear after " << loop.snapshot.simulated_time_s
+                << " s");
     CHECK(gears == "12345");
     CHECK(reached_s > 8.0);
     CHECK(slipping_s > 0.5);
@@ -262,8 +255,7 @@ TEST_CASE("behind a car that stops the driver clutches in and drives off again")
   // It stands 250 m ahead for 30 s, then drives away.
   loop.others = [](double time_s, std::vector<Participant>& vehicles) {
     const double away_s = std::max(0.0, time_s - 30.0);
-    vehicles.push_back(
-        vehicle_on_motorway(2, "volvo-s80", -3, 350.0 + 15.0 * away_s, away_s > 0.0 ? 15.0 : 0.0));
+    vehicles.push_back(vehicle_on_motorway(2, "volvo-s80", -3, 350.0 + 15.0 * away_s, away_s > 0.0 ? 15.0 : 0.0));
   };
   bool stood = false;
   for (int tick = 0; tick < 50 * 120; ++tick) {

@@ -12,7 +12,13 @@ namespace {
 constexpr double tick_s = 1.0 / 120.0;
 
 SeenVehicle vehicle_in_lane(int lane, bool ahead, double gap_m, double speed_mps) {
-  return {.id = 2, .lane = lane, .innermost_lane = lane, .outermost_lane = lane, .is_ahead = ahead, .gap_m = gap_m, .speed_mps = speed_mps};
+  return {.id = 2,
+          .lane = lane,
+          .innermost_lane = lane,
+          .outermost_lane = lane,
+          .is_ahead = ahead,
+          .gap_m = gap_m,
+          .speed_mps = speed_mps};
 }
 
 /// A driver in the third lane who means to go to the second.
@@ -67,7 +73,8 @@ TEST_CASE("a gap that is accepted asks the driver for no more than gentle brakin
       change.vehicles = {vehicle_in_lane(2, true, gap_m, speed_mps)};
       if (!is_safe(change.scene(), 2, change.driver)) continue;
       ++accepted;
-      CHECK(wished_acceleration_mps2(change.driver.speed, change.own.speed_mps, 30.0, Obstacle{gap_m, speed_mps}) > -3.5);
+      CHECK(wished_acceleration_mps2(change.driver.speed, change.own.speed_mps, 30.0, Obstacle{gap_m, speed_mps}) >
+            -3.5);
     }
   CHECK(accepted > 500);
 }
@@ -151,7 +158,8 @@ TEST_CASE("an ambulance in another lane is stayed behind without hard braking") 
   ambulance.is_ambulance = true;
   change.vehicles = {ambulance};
   const auto wish_in = [&](int lane) {
-    return wished_acceleration_mps2(change.driver.speed, 28.0, 30.0, obstacle_in_lane(change.scene(), lane, change.driver.speed));
+    return wished_acceleration_mps2(change.driver.speed, 28.0, 30.0,
+                                    obstacle_in_lane(change.scene(), lane, change.driver.speed));
   };
   CHECK(wish_in(2) < -8.0);
   CHECK(wish_in(3) == doctest::Approx(-change.driver.speed.braking_mps2));

@@ -46,8 +46,7 @@ std::vector<Row> read_rows(const fs::path& path) {
       continue;
     }
     Row row;
-    for (std::size_t i = 0; i < columns.size() && i < fields.size(); ++i)
-      row[columns[i]] = fields[i];
+    for (std::size_t i = 0; i < columns.size() && i < fields.size(); ++i) row[columns[i]] = fields[i];
     rows.push_back(std::move(row));
   }
   return rows;
@@ -58,12 +57,11 @@ double number(const Row& row, const char* column) { return std::stod(row.at(colu
 /// The largest error of each quantity of a file, and the row where it occurs.
 class Errors {
  public:
-  void add(const std::string& quantity, double error, double tolerance, const Row& row,
-           const char* first, const char* second) {
+  void add(const std::string& quantity, double error, double tolerance, const Row& row, const char* first,
+           const char* second) {
     ++count_;
     if (std::abs(error) <= tolerance) return;
-    if (++failed_ <= 5)
-      MESSAGE(quantity << " off by " << error << " at " << row.at(first) << " " << row.at(second));
+    if (++failed_ <= 5) MESSAGE(quantity << " off by " << error << " at " << row.at(first) << " " << row.at(second));
   }
   int failed() const { return failed_; }
   int count() const { return count_; }
@@ -97,23 +95,19 @@ int for_each_file(const char* suffix, Check check) {
 }  // namespace
 
 TEST_CASE("every lane of the conformance roads lies where esmini says") {
-  for_each_file(".samples.csv", [](const RoadNetwork& network, const std::vector<Row>& rows,
-                                   const std::string& name) {
+  for_each_file(".samples.csv", [](const RoadNetwork& network, const std::vector<Row>& rows, const std::string& name) {
     Errors errors;
     for (const Row& row : rows) {
       const auto road = find_road(network, row.at("road_id"));
       REQUIRE(road.has_value());
       const int lane = std::stoi(row.at("lane_id"));
       const double s = number(row, "s_m");
-      const LanePoint point =
-          evaluate_lane(network, {*road, lane, s, number(row, "lane_offset_m")});
+      const LanePoint point = evaluate_lane(network, {*road, lane, s, number(row, "lane_offset_m")});
       const auto expect = [&](const char* column, double value, double tolerance) {
-        errors.add(name + " " + column, value - number(row, column), tolerance, row, "road_id",
-                   "s_m");
+        errors.add(name + " " + column, value - number(row, column), tolerance, row, "road_id", "s_m");
       };
       const auto expect_angle = [&](const char* column, double value) {
-        errors.add(name + " " + column, wrap_angle(value - number(row, column)), 1e-4, row,
-                   "road_id", "s_m");
+        errors.add(name + " " + column, wrap_angle(value - number(row, column)), 1e-4, row, "road_id", "s_m");
       };
       const bool cubic = !network.roads[*road].plan.cubic_knots.empty();
       expect("x_m", point.road.position_m.x, 1e-3);
@@ -139,8 +133,7 @@ TEST_CASE("every lane of the conformance roads lies where esmini says") {
 TEST_CASE(
     "every point of the conformance roads is located on the road and lane and station that it was "
     "made from") {
-  for_each_file(".inverse.csv", [](const RoadNetwork& network, const std::vector<Row>& rows,
-                                   const std::string& name) {
+  for_each_file(".inverse.csv", [](const RoadNetwork& network, const std::vector<Row>& rows, const std::string& name) {
     Errors errors;
     int wrong_lanes = 0;
     for (const Row& row : rows) {
@@ -151,13 +144,11 @@ TEST_CASE(
                          found->lanes.lane == std::stoi(row.at("lane_id")) &&
                          found->lanes.lane_any_type == std::stoi(row.at("lane_id_any"));
       if (!right && ++wrong_lanes <= 3) {
-        MESSAGE(name << ": " << point.x << " " << point.y << " is on lane " << found->lanes.lane
-                     << " of road " << network.roads[found->position.road].id);
+        MESSAGE(name << ": " << point.x << " " << point.y << " is on lane " << found->lanes.lane << " of road "
+                     << network.roads[found->position.road].id);
       }
-      errors.add(name + " s_true", found->position.s_m - number(row, "s_true_m"), 1.1e-3, row,
-                 "x_m", "y_m");
-      errors.add(name + " t_true", found->position.t_m - number(row, "t_true_m"), 1.1e-3, row,
-                 "x_m", "y_m");
+      errors.add(name + " s_true", found->position.s_m - number(row, "s_true_m"), 1.1e-3, row, "x_m", "y_m");
+      errors.add(name + " t_true", found->position.t_m - number(row, "t_true_m"), 1.1e-3, row, "x_m", "y_m");
       const double slack = 1.1e-3 + number(row, "residual_m");
       errors.add(name + " s", found->position.s_m - number(row, "s_m"), slack, row, "x_m", "y_m");
       errors.add(name + " t", found->position.t_m - number(row, "t_m"), slack, row, "x_m", "y_m");
@@ -166,8 +157,7 @@ TEST_CASE(
       const RoadPosition hint{found->position.road, found->position.s_m - 1.0, found->position.t_m};
       const auto hinted = locate(network, point, &hint);
       REQUIRE(hinted.has_value());
-      errors.add(name + " s with a hint", hinted->position.s_m - found->position.s_m, 1e-6, row,
-                 "x_m", "y_m");
+      errors.add(name + " s with a hint", hinted->position.s_m - found->position.s_m, 1e-6, row, "x_m", "y_m");
     }
     CHECK(wrong_lanes == 0);
     CHECK(errors.failed() == 0);

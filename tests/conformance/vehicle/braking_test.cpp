@@ -44,16 +44,14 @@ std::vector<Error> greatest_errors(const VehicleParameters& car, const Curve& cu
   for (std::size_t row = 0; row + 1 < time.size() && time[row] < brake_s + braked_s + 1e-6; ++row) {
     const VehicleOutputs now = outputs(car, state);
     const auto theirs = [&](const char* name) { return curve.at(name)[row]; };
-    if (std::abs(time[row] - brake_s) < 1e-6) pitch_deg = now.pitch_rad * degrees, their_pitch_deg = theirs("pitch_deg");
+    if (std::abs(time[row] - brake_s) < 1e-6)
+      pitch_deg = now.pitch_rad * degrees, their_pitch_deg = theirs("pitch_deg");
     if (time[row] > brake_s + 0.1 - 1e-6) {
-      const double ours[] = {now.speed_mps,
-                             -now.sideslip_rad * degrees,
-                             -now.yaw_rate_radps,
-                             -now.lateral_acceleration_mps2,
-                             -now.roll_rad * degrees,
-                             now.pitch_rad * degrees - pitch_deg};
-      const double published[] = {theirs("vx"), theirs("beta_deg"), theirs("yawrate"), theirs("ay"), theirs("roll_deg"),
-                                  their_pitch_deg - theirs("pitch_deg")};
+      const double ours[] = {now.speed_mps,           -now.sideslip_rad * degrees,
+                             -now.yaw_rate_radps,     -now.lateral_acceleration_mps2,
+                             -now.roll_rad * degrees, now.pitch_rad * degrees - pitch_deg};
+      const double published[] = {theirs("vx"), theirs("beta_deg"), theirs("yawrate"),
+                                  theirs("ay"), theirs("roll_deg"), their_pitch_deg - theirs("pitch_deg")};
       for (std::size_t i = 0; i < errors.size(); ++i) errors[i].add(std::abs(ours[i]), std::abs(published[i]));
     }
     const ChassisInput input = torques(car, -theirs("delta"), theirs("command"));
@@ -77,7 +75,8 @@ TEST_CASE("braking in a bend turns the car as in the published model within ten 
       CAPTURE(std::string(braking.mps2));
       // The 320i's wheels carry load throughout: its curve is the same with and without the road's pull.
       const bool pulled = std::string(reference.curve) != "BMW320i";
-      const Curve curve = read_curve(std::string("brake") + braking.mps2 + "_" + reference.curve + (pulled ? braking.curve : "_80") + ".csv");
+      const Curve curve = read_curve(std::string("brake") + braking.mps2 + "_" + reference.curve +
+                                     (pulled ? braking.curve : "_80") + ".csv");
       for (const Error& error : greatest_errors(read_car(reference.vehicle), curve, braking.until_s)) {
         CAPTURE(std::string(error.name));
         CHECK(error.most < 0.1);

@@ -11,8 +11,7 @@ namespace {
 double peak(const Curve& curve, const char* name) {
   double most = 0.0;
   for (std::size_t i = 0; i < curve.at("X").size(); ++i)
-    if (curve.at("X")[i] > 0.0 && curve.at("X")[i] < 125.0)
-      most = std::max(most, std::abs(curve.at(name)[i]));
+    if (curve.at("X")[i] > 0.0 && curve.at("X")[i] < 125.0) most = std::max(most, std::abs(curve.at(name)[i]));
   return most;
 }
 }  // namespace
@@ -22,10 +21,8 @@ TEST_CASE("the double lane change peaks where the published model peaks") {
     CAPTURE(std::string(reference.curve));
     const Curve curve = read_curve("dlc_" + std::string(reference.curve) + "_80.csv");
     const ManoeuvreReport report = double_lane_change(read_car(reference.vehicle), {});
-    CHECK(report.figure("peak lateral acceleration") ==
-          doctest::Approx(peak(curve, "ay")).epsilon(0.05));
-    CHECK(report.figure("peak yaw rate") ==
-          doctest::Approx(peak(curve, "yawrate") * 57.29577951308232).epsilon(0.05));
+    CHECK(report.figure("peak lateral acceleration") == doctest::Approx(peak(curve, "ay")).epsilon(0.05));
+    CHECK(report.figure("peak yaw rate") == doctest::Approx(peak(curve, "yawrate") * 57.29577951308232).epsilon(0.05));
     CHECK(report.figure("peak roll") == doctest::Approx(peak(curve, "roll_deg")).epsilon(0.05));
     CHECK(report.figure("peak steer") == doctest::Approx(peak(curve, "delta")).epsilon(0.05));
     CHECK(report.figure("peak sideslip") == doctest::Approx(peak(curve, "beta_deg")).epsilon(0.05));
@@ -43,7 +40,6 @@ TEST_CASE("stopping distances match those of the published tyre within two perce
     ManoeuvreOptions options;
     options.friction = anchor.friction;
     const VehicleParameters car = read_car("commonroad-escort");
-    CHECK(stop(car, options).figure("stopping distance") ==
-          doctest::Approx(anchor.distance_m).epsilon(0.02));
+    CHECK(stop(car, options).figure("stopping distance") == doctest::Approx(anchor.distance_m).epsilon(0.02));
   }
 }

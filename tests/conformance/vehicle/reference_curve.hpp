@@ -41,8 +41,7 @@ inline Curve read_curve(const std::string& file) {
 /// y where x first rises through `at`.
 inline double where(const std::vector<double>& x, double at, const std::vector<double>& y) {
   for (std::size_t i = 1; i < x.size(); ++i)
-    if (x[i - 1] < at && x[i] >= at)
-      return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+    if (x[i - 1] < at && x[i] >= at) return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
   FAIL("the curve never reaches " << at);
   return 0.0;
 }
@@ -58,8 +57,7 @@ struct ReferenceCar {
   const char* vehicle;
   const char* curve;
 };
-inline constexpr ReferenceCar reference_cars[] = {{"commonroad-escort", "Escort"},
-                                                  {"commonroad-bmw-320i", "BMW320i"},
-                                                  {"commonroad-vanagon", "Vanagon"}};
+inline constexpr ReferenceCar reference_cars[] = {
+    {"commonroad-escort", "Escort"}, {"commonroad-bmw-320i", "BMW320i"}, {"commonroad-vanagon", "Vanagon"}};
 
 }  // namespace septet::vehicle

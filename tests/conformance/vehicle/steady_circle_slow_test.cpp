@@ -9,8 +9,7 @@ TEST_CASE("steer and yaw rate in steady cornering match the published model with
     for (const int speed_kmph : {80, 100, 120}) {
       CAPTURE(std::string(reference.curve));
       CAPTURE(speed_kmph);
-      const Curve curve = read_curve("ss_" + std::string(reference.curve) + "_" +
-                                     std::to_string(speed_kmph) + ".csv");
+      const Curve curve = read_curve("ss_" + std::string(reference.curve) + "_" + std::to_string(speed_kmph) + ".csv");
       ManoeuvreOptions options;
       options.speed_mps = speed_kmph / 3.6;
       const ManoeuvreReport report = steady_circle(read_car(reference.vehicle), options);
@@ -27,8 +26,7 @@ TEST_CASE("steer and yaw rate in steady cornering match the published model with
               doctest::Approx(where(theirs, acceleration, curve.at("yawrate"))).epsilon(0.02));
         if (acceleration < 3.0) continue;  // Below, the published tyre's wobble shows in the roll.
         const double roll_deg = where(ours, acceleration, roll) * 57.29577951308232;
-        CHECK(roll_deg ==
-              doctest::Approx(-where(theirs, acceleration, curve.at("roll_deg"))).epsilon(0.02));
+        CHECK(roll_deg == doctest::Approx(-where(theirs, acceleration, curve.at("roll_deg"))).epsilon(0.02));
       }
     }
 }

@@ -11,8 +11,7 @@ struct Response {
   double steady = 0.0, t90_s = 0.0;
 };
 
-Response respond(const std::vector<double>& time, const std::vector<double>& steer,
-                 const std::vector<double>& value) {
+Response respond(const std::vector<double>& time, const std::vector<double>& steer, const std::vector<double>& value) {
   Response response;
   double count = 0.0;
   for (std::size_t i = 0; i < time.size(); ++i)
@@ -21,8 +20,7 @@ Response respond(const std::vector<double>& time, const std::vector<double>& ste
       count += 1.0;
     }
   response.steady /= count;
-  response.t90_s =
-      where(value, 0.9 * response.steady, time) - where(steer, 0.5 * steer.back(), time);
+  response.t90_s = where(value, 0.9 * response.steady, time) - where(steer, 0.5 * steer.back(), time);
   return response;
 }
 
@@ -38,8 +36,8 @@ TEST_CASE("a step of steer answers as fast and as strongly as in the published m
     for (const int speed_kmph : {80, 100}) {
       CAPTURE(std::string(reference.curve));
       CAPTURE(speed_kmph);
-      const Curve curve = read_curve("step_" + std::string(reference.curve) + "_" +
-                                     std::to_string(speed_kmph) + ".csv");
+      const Curve curve =
+          read_curve("step_" + std::string(reference.curve) + "_" + std::to_string(speed_kmph) + ".csv");
       const auto input = negated(curve.at("delta"));
       const Response yaw = respond(curve.at("t"), input, negated(curve.at("yawrate")));
       const Response lateral = respond(curve.at("t"), input, negated(curve.at("ay")));
@@ -56,8 +54,7 @@ TEST_CASE("a step of steer answers as fast and as strongly as in the published m
         options.settle_s = phase_s;
         const ManoeuvreReport report = step_steer(car, options);
         CHECK(report.figure("steady yaw rate") == doctest::Approx(yaw.steady).epsilon(0.02));
-        CHECK(report.figure("steady lateral acceleration") ==
-              doctest::Approx(lateral.steady).epsilon(0.02));
+        CHECK(report.figure("steady lateral acceleration") == doctest::Approx(lateral.steady).epsilon(0.02));
         yaw_t90_s += report.figure("yaw rate t90") / std::size(phases_s);
         lateral_t90_s += report.figure("lateral acceleration t90") / std::size(phases_s);
       }

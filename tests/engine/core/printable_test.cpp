@@ -11,9 +11,10 @@ TEST_CASE("text from outside cannot move the cursor or begin a line") {
   CHECK(printable("Gänsefüßchen „“ 日本") == "Gänsefüßchen „“ 日本");
   CHECK(printable("a\nb\r\x1b[31mred\x7f") == "a\\x0ab\\x0d\\x1b[31mred\\x7f");
   CHECK(printable("C:\\x0a") == "C:\\\\x0a");
-  CHECK(printable("\xc2\x9b[2J") == "\\xc2\\x9b[2J");            // A C1 code: the same as ESC [.
+  CHECK(printable("\xc2\x9b[2J") == "\\xc2\\x9b[2J");           // A C1 code: the same as ESC [.
   CHECK(printable("\xe2\x80\xaetxt") == "\\xe2\\x80\\xaetxt");  // Turns the direction of writing.
-  CHECK(printable("\xff\xc0\xafok\xed\xa0\x80") == "\\xff\\xc0\\xafok\\xed\\xa0\\x80");  // No UTF-8, too long a form, a surrogate.
+  CHECK(printable("\xff\xc0\xafok\xed\xa0\x80") ==
+        "\\xff\\xc0\\xafok\\xed\\xa0\\x80");  // No UTF-8, too long a form, a surrogate.
   CHECK(printable("\xf0\x9f") == "\\xf0\\x9f");
   CHECK(printable(std::string_view("\0", 1)) == "\\x00");
 }
@@ -26,7 +27,8 @@ TEST_CASE("text from outside is cut at a whole character") {
 TEST_CASE("characters are counted where all of them can be printed") {
   CHECK(printable_characters("") == 0);
   CHECK(printable_characters("Müller \\ 7") == 10);
-  for (const std::string_view text : {"a\nb", "\x1b[31m", "\x7f", "\xc2\x9b", "\xe2\x80\xae", "\xff"}) CHECK_FALSE(printable_characters(text).has_value());
+  for (const std::string_view text : {"a\nb", "\x1b[31m", "\x7f", "\xc2\x9b", "\xe2\x80\xae", "\xff"})
+    CHECK_FALSE(printable_characters(text).has_value());
 }
 
 TEST_CASE("one source says ten things at once and then one a second and what was left out is counted") {

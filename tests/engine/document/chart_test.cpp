@@ -60,10 +60,14 @@ TEST_CASE("a line is interrupted where it is not finite or leaves the chart") {
 TEST_CASE("a page holds its charts side by side with a legend where there are several series and any text") {
   LineChart one, two;
   one.series = {{"", {{0, 0}, {1, 2}}}};
-  two.series = {{"a < b", {{0, 0}, {1, 2}}}, {"points", {{0, 1}, {1, 1}}, Stroke::dots}, {"theory", {{0, 2}, {1, 0}}, Stroke::dashed}};
+  two.series = {{"a < b", {{0, 0}, {1, 2}}},
+                {"points", {{0, 1}, {1, 1}}, Stroke::dots},
+                {"theory", {{0, 2}, {1, 0}}, Stroke::dashed}};
   two.x_label = "time, s";
-  const std::string svg = to_svg(ChartPage{.title = "R & D", .lines = {"\"quoted\""}, .charts = {one, two}, .notes = {"mass: 1 kg"}});
-  for (const char* part : {"R &amp; D", "&quot;quoted&quot;", "a &lt; b", "mass: 1 kg", "class=\"line dashed s2\"", "class=\"dots s1\"", "time, s"}) {
+  const std::string svg =
+      to_svg(ChartPage{.title = "R & D", .lines = {"\"quoted\""}, .charts = {one, two}, .notes = {"mass: 1 kg"}});
+  for (const char* part : {"R &amp; D", "&quot;quoted&quot;", "a &lt; b", "mass: 1 kg", "class=\"line dashed s2\"",
+                           "class=\"dots s1\"", "time, s"}) {
     CAPTURE(part);
     CHECK(svg.find(part) != std::string::npos);
   }

@@ -16,8 +16,9 @@ std::string dotted(std::size_t parts) {
 }  // namespace
 
 TEST_CASE("a key of too many parts is refused with its line and whatever it is good for") {
-  for (const std::string& text : {dotted(100'000) + " = 1\n", "[" + dotted(100'000) + "]\n", "[[" + dotted(100'000) + "]]\n",
-                                  "x = { " + dotted(100'000) + " = 1 }\n", dotted(17) + " = 1\n"}) {
+  for (const std::string& text :
+       {dotted(100'000) + " = 1\n", "[" + dotted(100'000) + "]\n", "[[" + dotted(100'000) + "]]\n",
+        "x = { " + dotted(100'000) + " = 1 }\n", dotted(17) + " = 1\n"}) {
     const auto table = parse_toml("# line 1\n" + text, "hostile.toml");
     REQUIRE_FALSE(table.has_value());
     CHECK(table.error().where.starts_with("hostile.toml:2:"));
@@ -27,10 +28,12 @@ TEST_CASE("a key of too many parts is refused with its line and whatever it is g
 
 TEST_CASE("what only looks like a key of many parts is read") {
   const std::string many = dotted(100);
-  const auto table = parse_toml("# " + many + "\ntext = '" + dotted(20) + "'\nwords = \"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a\\\"a.a.\"\n" +
-                                    "long = '''\n" + many + "'''\n" + dotted(16) + " = 1\nnumbers = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, " +
-                                    "11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5]\n",
-                                "good.toml");
+  const auto table =
+      parse_toml("# " + many + "\ntext = '" + dotted(20) +
+                     "'\nwords = \"a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a\\\"a.a.\"\n" + "long = '''\n" + many +
+                     "'''\n" + dotted(16) + " = 1\nnumbers = [1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5, 8.5, 9.5, 10.5, " +
+                     "11.5, 12.5, 13.5, 14.5, 15.5, 16.5, 17.5, 18.5]\n",
+                 "good.toml");
   REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
   CHECK(table->size() == 5);
   CHECK((*table)["numbers"].as_array()->size() == 18);
@@ -43,7 +46,8 @@ TEST_CASE("the place of a key of too many parts is that of its first part too ma
 }
 
 TEST_CASE("a table whose name does not begin as a key does is refused with its place") {
-  for (const std::string text : {"[%shot]", "[ +x]", "[[%shot]]", "[ \t[", "[\xc3\xa4]", "[.a]", "[#", "[\n]", "[[", "[=", "  [,]"}) {
+  for (const std::string text :
+       {"[%shot]", "[ +x]", "[[%shot]]", "[ \t[", "[\xc3\xa4]", "[.a]", "[#", "[\n]", "[[", "[=", "  [,]"}) {
     CAPTURE(text);
     const auto table = parse_toml("a = 1\n" + text + "\n", "hostile.toml");
     REQUIRE_FALSE(table.has_value());
@@ -57,7 +61,9 @@ TEST_CASE("a table whose name does not begin as a key does is refused with its p
 }
 
 TEST_CASE("arrays over many lines are not taken for names of tables") {
-  const auto table = parse_toml("a = [\n[+1, 2],\n  [\n[+3], {b = [\n[+4]]}]]\n[\"b\"]\n['c']\n[-]\n[ d ]\nx = [\n{y = 1},\n{y = 2}\n]\n[[e]]\n", "good.toml");
+  const auto table = parse_toml(
+      "a = [\n[+1, 2],\n  [\n[+3], {b = [\n[+4]]}]]\n[\"b\"]\n['c']\n[-]\n[ d ]\nx = [\n{y = 1},\n{y = 2}\n]\n[[e]]\n",
+      "good.toml");
   REQUIRE_MESSAGE(table.has_value(), describe(table.error()));
   CHECK(table->size() == 6);
 }
@@ -66,7 +72,8 @@ TEST_CASE("text that is no TOML is refused with its line and column") {
   const auto table = parse_toml("a = 1\nb = \n", "broken.toml");
   REQUIRE_FALSE(table.has_value());
   CHECK(table.error().where == "broken.toml:2:5");
-  for (const std::string text : {"\"", "a = \"\\", "a = '''", "'''''", "\\", "a = \"\"\""}) CHECK_FALSE(parse_toml(text, "x").has_value());
+  for (const std::string text : {"\"", "a = \"\\", "a = '''", "'''''", "\\", "a = \"\"\""})
+    CHECK_FALSE(parse_toml(text, "x").has_value());
 }
 
 TEST_CASE("the keys at the top say what a file describes") {

@@ -31,7 +31,8 @@ inline std::vector<MovingFace> sphere_faces(const Shape& from, const Shape& to) 
   for (int r = 0; r <= rings; ++r)
     for (int s = 0; s < segments; ++s) {
       const float polar = pi * static_cast<float>(r) / rings, azimuth = 2 * pi * static_cast<float>(s) / segments;
-      directions.emplace_back(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      directions.emplace_back(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                              std::cos(polar));
     }
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t r = 0; r < rings; ++r)
@@ -57,7 +58,8 @@ inline glm::vec3 other_blob(const glm::vec3& d) {
 }
 /// A cube with edges rounded, so that no face is without area.
 inline glm::vec3 cube(const glm::vec3& d) {
-  const float p = std::pow(std::pow(std::abs(d.x), 8.0f) + std::pow(std::abs(d.y), 8.0f) + std::pow(std::abs(d.z), 8.0f), 1.0f / 8.0f);
+  const float p = std::pow(
+      std::pow(std::abs(d.x), 8.0f) + std::pow(std::abs(d.y), 8.0f) + std::pow(std::abs(d.z), 8.0f), 1.0f / 8.0f);
   return d / p;
 }
 inline glm::vec3 turned(const glm::vec3& v, float angle_rad, const glm::vec3& axis) {
@@ -74,14 +76,30 @@ inline std::vector<Morph> all_morphs() {
   };
   return {
       {"blob to another blob", sphere_faces(blob, other_blob)},
-      {"blob to blob turned by 0.6 rad", sphere_faces(blob, [](const glm::vec3& d) { return turned(blob(d), 0.6f, {1, 2, 3}); })},
-      {"blob to other blob turned by 0.8 rad", sphere_faces(blob, [](const glm::vec3& d) { return turned(other_blob(d), 0.8f, {-1, 1, 1}); })},
-      {"cube turned by 60 degrees", sphere_faces(cube, [](const glm::vec3& d) { return turned(cube(d), 1.0472f, {0, 0.3f, 1}); })},
+      {"blob to blob turned by 0.6 rad", sphere_faces(blob,
+                                                      [](const glm::vec3& d) {
+                                                        return turned(blob(d), 0.6f, {1, 2, 3});
+                                                      })},
+      {"blob to other blob turned by 0.8 rad", sphere_faces(blob,
+                                                            [](const glm::vec3& d) {
+                                                              return turned(other_blob(d), 0.8f, {-1, 1, 1});
+                                                            })},
+      {"cube turned by 60 degrees", sphere_faces(cube,
+                                                 [](const glm::vec3& d) {
+                                                   return turned(cube(d), 1.0472f, {0, 0.3f, 1});
+                                                 })},
       {"dent of a crash", sphere_faces(cube, dented)},
       {"sphere to blob", sphere_faces(sphere, blob)},
       {"sphere to ellipsoid", sphere_faces(sphere, [](const glm::vec3& d) { return d * glm::vec3(1.6f, 0.8f, 0.7f); })},
-      {"cube twisted by a radian", sphere_faces(cube, [](const glm::vec3& d) { return turned(cube(d), 0.5f * cube(d).z, {0, 0, 1}); })},
-      {"cube bent", sphere_faces(cube, [](const glm::vec3& d) { const glm::vec3 c = cube(d); return glm::vec3(c.x, c.y, c.z + 0.5f * c.x * c.x); })},
+      {"cube twisted by a radian", sphere_faces(cube,
+                                                [](const glm::vec3& d) {
+                                                  return turned(cube(d), 0.5f * cube(d).z, {0, 0, 1});
+                                                })},
+      {"cube bent", sphere_faces(cube,
+                                 [](const glm::vec3& d) {
+                                   const glm::vec3 c = cube(d);
+                                   return glm::vec3(c.x, c.y, c.z + 0.5f * c.x * c.x);
+                                 })},
   };
 }
 

@@ -26,8 +26,7 @@ TEST_CASE("a box is closed and holds its volume with bevels and without") {
 
 TEST_CASE("a lathe and a cylinder and an icosphere are closed and face outwards") {
   CHECK(is_closed(cylinder(0.5f, 0.0f, 2.0f, 48)));
-  CHECK(signed_volume_m3(cylinder(0.5f, 0.0f, 2.0f, 48)) ==
-        doctest::Approx(0.5 * std::numbers::pi).epsilon(0.01));
+  CHECK(signed_volume_m3(cylinder(0.5f, 0.0f, 2.0f, 48)) == doctest::Approx(0.5 * std::numbers::pi).epsilon(0.01));
   const PolygonMesh ball = icosphere(3);
   CHECK(triangle_count(ball) == 1280);
   CHECK(is_closed(ball));

@@ -13,23 +13,20 @@ PolygonMesh cube() {
   PolygonMesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.vertices_m.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
-  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   return mesh;
 }
 
 PolygonMesh tetrahedron() {
   PolygonMesh mesh;
   mesh.vertices_m = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  mesh.polygons = {
-      {0, 1, 2, no_vertex}, {0, 2, 3, no_vertex}, {0, 3, 1, no_vertex}, {1, 3, 2, no_vertex}};
+  mesh.polygons = {{0, 1, 2, no_vertex}, {0, 2, 3, no_vertex}, {0, 3, 1, no_vertex}, {1, 3, 2, no_vertex}};
   return mesh;
 }
 
 bool has_vertex(const PolygonMesh& mesh, glm::vec3 wanted, float within = 1e-5f) {
   return std::any_of(mesh.vertices_m.begin(), mesh.vertices_m.end(), [&](glm::vec3 v) {
-    return std::abs(v.x - wanted.x) < within && std::abs(v.y - wanted.y) < within &&
-           std::abs(v.z - wanted.z) < within;
+    return std::abs(v.x - wanted.x) < within && std::abs(v.y - wanted.y) < within && std::abs(v.z - wanted.z) < within;
   });
 }
 
@@ -143,8 +140,7 @@ TEST_CASE("texture coordinates stay linear in each polygon and materials are inh
     area += 0.5 * (a.x * b.y - a.y * b.x);
   }
   CHECK(area == doctest::Approx(6.0));
-  CHECK(faces ==
-        std::map<std::uint32_t, int>{{0, 16}, {1, 16}, {2, 16}, {3, 16}, {4, 16}, {5, 16}});
+  CHECK(faces == std::map<std::uint32_t, int>{{0, 16}, {1, 16}, {2, 16}, {3, 16}, {4, 16}, {5, 16}});
 }
 
 TEST_CASE("a cage that names a vertex that is not there is refused") {

@@ -50,8 +50,7 @@ TEST_CASE("the methods rank as published over all morphs") {
     for (std::size_t n = 0; n < morph.faces.size(); n += 4) faces.push_back(morph.faces[n]);
     const auto error = [&](NormalMethod method) { return angle_error(faces, method, 9); };
     const double exact = error(NormalMethod::t_variant), cubic = error(NormalMethod::cubic),
-                 quadratic = error(NormalMethod::quadratic),
-                 casteljau = error(NormalMethod::spherical_de_casteljau),
+                 quadratic = error(NormalMethod::quadratic), casteljau = error(NormalMethod::spherical_de_casteljau),
                  linear = error(NormalMethod::linear), slerp = error(NormalMethod::vector_slerp),
                  quaternion = error(NormalMethod::quaternion_slerp);
     CHECK(exact < 0.01 * linear);

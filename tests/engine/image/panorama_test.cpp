@@ -12,17 +12,15 @@ constexpr double degree_rad = std::numbers::pi / 180.0;
 
 /// A screen of `width_deg` × 30° whose middle is `distance_m` from the eye in the direction
 /// `azimuth_deg`.
-PanoramaScreen screen_at(const char* name, double azimuth_deg, double width_deg, const Vec3& eye,
-                         const Image* image) {
+PanoramaScreen screen_at(const char* name, double azimuth_deg, double width_deg, const Vec3& eye, const Image* image) {
   const double distance_m = 2.0, azimuth = azimuth_deg * degree_rad;
-  const Vec3 ahead(std::cos(azimuth), std::sin(azimuth), 0),
-      right(std::sin(azimuth), -std::cos(azimuth), 0);
+  const Vec3 ahead(std::cos(azimuth), std::sin(azimuth), 0), right(std::sin(azimuth), -std::cos(azimuth), 0);
   const double half_width = distance_m * std::tan(width_deg / 2 * degree_rad);
   const double half_height = distance_m * std::tan(15 * degree_rad);
   const Vec3 middle = eye + ahead * distance_m;
   return {name, middle - right * half_width - Vec3(0, 0, half_height),
-          middle + right * half_width - Vec3(0, 0, half_height),
-          middle - right * half_width + Vec3(0, 0, half_height), image};
+          middle + right * half_width - Vec3(0, 0, half_height), middle - right * half_width + Vec3(0, 0, half_height),
+          image};
 }
 
 const Vec3 eye(1.2, 0.37, 1.15);
@@ -42,8 +40,7 @@ TEST_CASE("a ray meets a screen where trigonometry says") {
   CHECK(middle->y == doctest::Approx(0.5));
   const auto left = screen_point(screen, eye, towards(10, 0));
   REQUIRE(left.has_value());
-  CHECK(left->x ==
-        doctest::Approx(0.5 - 0.5 * std::tan(10 * degree_rad) / std::tan(22 * degree_rad)));
+  CHECK(left->x == doctest::Approx(0.5 - 0.5 * std::tan(10 * degree_rad) / std::tan(22 * degree_rad)));
   CHECK_FALSE(screen_point(screen, eye, towards(23, 0)).has_value());
   CHECK_FALSE(screen_point(screen, eye, towards(180, 0)).has_value());
 }
@@ -55,8 +52,7 @@ TEST_CASE("a mark on a screen appears in the panorama at its direction") {
   const Vec3 direction = towards(-52, 6);
   const auto point = screen_point(plain_screen, eye, direction);
   REQUIRE(point.has_value());
-  fill(marked, std::llround(point->x * 440) - 4, std::llround(point->y * 300) - 4, 8, 8,
-       {255, 0, 0});
+  fill(marked, std::llround(point->x * 440) - 4, std::llround(point->y * 300) - 4, 8, 8, {255, 0, 0});
   PanoramaView view;
   view.eye_point_m = eye;
   view.screens = {screen_at("right", -44, 44, eye, &marked), screen_at("centre", 0, 44, eye, &grey),
@@ -86,8 +82,7 @@ TEST_CASE("screens ahead stand above screens behind from left to right") {
   view.eye_point_m = eye;
   const std::array<double, 7> azimuths{-88, 165, 44, 0, -44, 88, -165};
   for (const double azimuth : azimuths)
-    view.screens.push_back(
-        screen_at("screen", azimuth, azimuth > 100 || azimuth < -100 ? 30 : 44, eye, nullptr));
+    view.screens.push_back(screen_at("screen", azimuth, azimuth > 100 || azimuth < -100 ? 30 : 44, eye, nullptr));
   const PanoramaLayout layout = layout_panorama(view);
   REQUIRE(layout.rows.size() == 2);
   CHECK(layout.rows[0].screens == std::vector<std::size_t>{5, 2, 3, 4, 0});

@@ -31,7 +31,8 @@ TEST_CASE("an azimuth of a quarter turn puts the sun in the east") {
 TEST_CASE("clear sun and sky at noon are as bright as measured ones") {
   // Clear summer noon: about 80 to 110 klx from the sun on a surface that faces it, 8 to 25 klx from the sky.
   const SkyLight light = light_at(1.0);
-  const float sun_lux = 8000.0f * brightness(light.light_irradiance), sky_lux = 8000.0f * brightness(light.sky_irradiance);
+  const float sun_lux = 8000.0f * brightness(light.light_irradiance),
+              sky_lux = 8000.0f * brightness(light.sky_irradiance);
   CHECK(sun_lux > 70e3f);
   CHECK(sun_lux < 120e3f);
   CHECK(sky_lux > 6e3f);

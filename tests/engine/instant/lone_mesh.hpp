@@ -9,7 +9,8 @@
 namespace septet::instant {
 
 /// Bounds, revisions and the one part are filled in.
-inline scene::ResolvedScene lone_mesh(scene::SurfaceMaterial material, scene::SurfaceMesh mesh, const RigidTransform& world_from_object) {
+inline scene::ResolvedScene lone_mesh(scene::SurfaceMaterial material, scene::SurfaceMesh mesh,
+                                      const RigidTransform& world_from_object) {
   material.revision = mesh.revision = 1;
   mesh.parts = {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
   mesh.bounds_min_m = mesh.bounds_max_m = mesh.vertices.front().position_m;

@@ -33,8 +33,8 @@ Vec3 ndc(const OffAxisView& view, const Vec3& point_m) {
 
 /// Pixel row as the device computes it: everything relative to the eye is float.
 double device_row(const OffAxisView& view, const RigidTransform& world_from_car, const Vec3& world_m) {
-  const glm::dmat4 clip_from_world = view.clip_from_eye_relative *
-                                     glm::dmat4(glm::mat4_cast(glm::conjugate(world_from_car.orientation)));
+  const glm::dmat4 clip_from_world =
+      view.clip_from_eye_relative * glm::dmat4(glm::mat4_cast(glm::conjugate(world_from_car.orientation)));
   const glm::vec3 relative(world_m - world_from_car * view.eye_m);
   const glm::vec4 clip = glm::mat4(clip_from_world) * glm::vec4(relative, 1.0f);
   return (0.5 + 0.5 * clip.y / clip.w) * height_px;
@@ -52,7 +52,8 @@ double worst_seam_px(const Vec3& eye_m, const Vec3& car_m) {
         // A point on the ray from the eye through the shared edge.
         const Vec3 edge = glm::mix(screens[i].lower_right_m, screens[i].lower_right_m + Vec3(0, 0, 1.2), height);
         const Vec3 world_m = world_from_car * (eye_m + far * (edge - eye_m));
-        worst = std::max(worst, std::abs(device_row(a, world_from_car, world_m) - device_row(b, world_from_car, world_m)));
+        worst =
+            std::max(worst, std::abs(device_row(a, world_from_car, world_m) - device_row(b, world_from_car, world_m)));
       }
   }
   return worst;

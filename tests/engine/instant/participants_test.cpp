@@ -14,7 +14,8 @@ using scene::PartRole;
 
 std::vector<MeshSummary> summaries(const scene::ResolvedScene& scene) {
   std::vector<MeshSummary> result;
-  for (const scene::SurfaceMesh& mesh : scene.meshes) result.push_back({{mesh.bounds_min_m, mesh.bounds_max_m}, glm::vec3(1.0f)});
+  for (const scene::SurfaceMesh& mesh : scene.meshes)
+    result.push_back({{mesh.bounds_min_m, mesh.bounds_max_m}, glm::vec3(1.0f)});
   return result;
 }
 
@@ -65,7 +66,9 @@ TEST_CASE("only lit lamps shine and glow") {
   const std::vector<MeshSummary> meshes = summaries(reference.scene);
   DrawnParticipant car = reference_car(reference, {0, 0, 0});
   const auto glows = [&] {
-    return place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0, car.world_from_vehicle.position_m, in_the_open).glows.size();
+    return place_participants(std::span(&car, 1), reference.scene.prototypes, meshes, 0.0,
+                              car.world_from_vehicle.position_m, in_the_open)
+        .glows.size();
   };
   CHECK(glows() == 0);
   car.lamps.set(Lamp::brake, true);
@@ -100,8 +103,9 @@ TEST_CASE("a lamp glows once whatever the levels of detail and a far vehicle has
   DrawnParticipant car;
   car.lamps.set(Lamp::brake, true);
   for (const double distance_m : {20.0, 80.0}) {
-    const PlacedParticipants placed = place_participants(
-        std::span(&car, 1), std::span(&prototype, 1), summaries(reference.scene), 0.0, Vec3(distance_m, 0, 0), in_the_open);
+    const PlacedParticipants placed =
+        place_participants(std::span(&car, 1), std::span(&prototype, 1), summaries(reference.scene), 0.0,
+                           Vec3(distance_m, 0, 0), in_the_open);
     CHECK(placed.glows.size() == 2);
     CHECK(placed.meshes.size() == (distance_m > 50.0 ? parts : 2 * parts));
   }

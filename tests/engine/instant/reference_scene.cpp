@@ -45,7 +45,8 @@ void add_wheel(SurfaceMesh& mesh, float radius, float half_width) {
     add_quad(mesh, {p - w, p + w, q + w, q - w}, glm::vec2(0), glm::vec2(1));
     for (const float side : {1.0f, -1.0f}) {
       const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      for (const glm::vec3& corner : {glm::vec3(0), p, q}) mesh.vertices.push_back({corner + side * w, {0, side, 0}, {}});
+      for (const glm::vec3& corner : {glm::vec3(0), p, q})
+        mesh.vertices.push_back({corner + side * w, {0, side, 0}, {}});
       for (const std::uint32_t k : {0u, side > 0 ? 2u : 1u, side > 0 ? 1u : 2u}) mesh.indices.push_back(first + k);
     }
   }
@@ -140,18 +141,22 @@ SurfaceMesh hills(std::uint32_t material) {
   SurfaceMesh mesh;
   const auto height = [](float x, float y) {
     const float away = std::max(0.0f, std::abs(y) - 60.0f) / 600.0f;
-    return away * (60.0f + 45.0f * std::sin(x / 310.0f + y / 470.0f) + 30.0f * std::sin(x / 140.0f - y / 230.0f)) - 0.05f;
+    return away * (60.0f + 45.0f * std::sin(x / 310.0f + y / 470.0f) + 30.0f * std::sin(x / 140.0f - y / 230.0f)) -
+           0.05f;
   };
   constexpr float cell = 50.0f;
   for (int iy = -16; iy < 16; ++iy)
     for (int ix = -8; ix < 40; ++ix) {
       const float x0 = ix * cell, y0 = iy * cell, x1 = x0 + cell, y1 = y0 + cell;
-      add_quad(mesh, {{{x0, y0, height(x0, y0)}, {x1, y0, height(x1, y0)}, {x1, y1, height(x1, y1)}, {x0, y1, height(x0, y1)}}},
-               {0, 0}, {12, 12});
+      add_quad(
+          mesh,
+          {{{x0, y0, height(x0, y0)}, {x1, y0, height(x1, y0)}, {x1, y1, height(x1, y1)}, {x0, y1, height(x0, y1)}}},
+          {0, 0}, {12, 12});
     }
   for (SurfaceVertex& v : mesh.vertices) {
     const float x = v.position_m.x, y = v.position_m.y;
-    v.normal = glm::normalize(glm::vec3(height(x - 5, y) - height(x + 5, y), height(x, y - 5) - height(x, y + 5), 10.0f));
+    v.normal =
+        glm::normalize(glm::vec3(height(x - 5, y) - height(x + 5, y), height(x, y - 5) - height(x, y + 5), 10.0f));
   }
   end_part(mesh, material);
   return mesh;
@@ -261,14 +266,19 @@ ReferenceScene reference_scene(const ReferenceOptions& options) {
   for (const bool inside : {false, true}) {
     SurfaceMesh strip;
     for (int i = 0; i < 10; ++i)
-      add_quad(strip, {{{i * 12.0f, -9.375f, 0}, {i * 12.0f + 12.0f, -9.375f, 0}, {i * 12.0f + 12.0f, 9.375f, 0}, {i * 12.0f, 9.375f, 0}}},
+      add_quad(strip,
+               {{{i * 12.0f, -9.375f, 0},
+                 {i * 12.0f + 12.0f, -9.375f, 0},
+                 {i * 12.0f + 12.0f, 9.375f, 0},
+                 {i * 12.0f, 9.375f, 0}}},
                {0, 0}, {1, 1});
     // The image's rows run along the road, its columns across.
     for (SurfaceVertex& v : strip.vertices) v.uv = {(v.position_m.y + 9.375f) / 18.75f, v.position_m.x / 12.0f};
     end_part(strip, inside ? road_inside_id : road_id);
     const std::uint32_t mesh = add_mesh(scene, strip);
     for (int i = -1; i < 12; ++i)
-      if (inside == (options.tunnel && i >= 1 && i < 3)) add_instance(scene, mesh, o + Vec3(i * 120.0, 0, 0.02), 0.0, 1.0f, 1e9f, false);
+      if (inside == (options.tunnel && i >= 1 && i < 3))
+        add_instance(scene, mesh, o + Vec3(i * 120.0, 0, 0.02), 0.0, 1.0f, 1e9f, false);
   }
   add_instance(scene, add_mesh(scene, hills(meadow_id)), o, 0.0, 1.0f, 1e9f, false);
 
@@ -305,18 +315,20 @@ ReferenceScene reference_scene(const ReferenceOptions& options) {
   for (int i = 0; i < 3; ++i) {
     const float a = 3.14159265f * i / 3.0f;
     const glm::vec3 side(2.6f * std::cos(a), 2.6f * std::sin(a), 0);
-    add_quad(tree, {-side + glm::vec3(0, 0, 1.5f), side + glm::vec3(0, 0, 1.5f), side + glm::vec3(0, 0, 8.0f), -side + glm::vec3(0, 0, 8.0f)},
+    add_quad(tree,
+             {-side + glm::vec3(0, 0, 1.5f), side + glm::vec3(0, 0, 1.5f), side + glm::vec3(0, 0, 8.0f),
+              -side + glm::vec3(0, 0, 8.0f)},
              {0, 0}, {1, 1});
   }
-  for (SurfaceVertex& v : tree.vertices)
-    v.normal = glm::normalize(v.position_m - glm::vec3(0, 0, 3.5f));
+  for (SurfaceVertex& v : tree.vertices) v.normal = glm::normalize(v.position_m - glm::vec3(0, 0, 3.5f));
   end_part(tree, crown_id);
   add_box(tree, {-0.15f, -0.15f, 0}, {0.15f, 0.15f, 3.5f});
   end_part(tree, bark_id);
   const std::uint32_t tree_mesh = add_mesh(scene, tree);
   for (std::uint32_t i = 0; i < options.trees; ++i) {
     const double x = random.uniform(-60.0, 900.0), y = random.uniform(14.0, 58.0) * (i % 2 ? 1.0 : -1.0);
-    add_instance(scene, tree_mesh, o + Vec3(x, y, 0), random.uniform(0.0, 6.28), static_cast<float>(random.uniform(0.7, 1.3)));
+    add_instance(scene, tree_mesh, o + Vec3(x, y, 0), random.uniform(0.0, 6.28),
+                 static_cast<float>(random.uniform(0.7, 1.3)));
   }
   reference.car_prototype = static_cast<std::uint32_t>(scene.prototypes.size());
   add_car(reference);
@@ -342,8 +354,8 @@ Environment reference_day() {
 FrameView forward_view(const Vec3& car_m, std::uint32_t width, std::uint32_t height) {
   FrameView view;
   const double across = 1.05;
-  view.projection = symmetric_view({1.2, 0.35, 1.2}, 0.0, 0.0, across,
-                                   2.0 * std::atan(std::tan(across / 2.0) * height / width));
+  view.projection =
+      symmetric_view({1.2, 0.35, 1.2}, 0.0, 0.0, across, 2.0 * std::atan(std::tan(across / 2.0) * height / width));
   view.world_from_car.position_m = car_m;
   view.viewport = {0, 0, width, height};
   return view;

@@ -16,7 +16,7 @@ struct ReferenceScene {
 
 struct ReferenceOptions {
   Vec3 origin_m{0.0};
-  bool tunnel = false;      ///< From 60 m to 260 m ahead.
+  bool tunnel = false;  ///< From 60 m to 260 m ahead.
   std::uint32_t trees = 600;
 };
 

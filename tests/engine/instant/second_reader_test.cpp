@@ -47,7 +47,8 @@ void meet(Hit& hit, const scene::ResolvedScene& scene, const PlacedMesh& placed,
         hit = {*at, part.material, placed.tint.w};
 }
 
-Hit first_hit(const Instant& instant, const scene::ResolvedScene& scene, const SceneSummary& summary, const Vec3& eye_m, const Vec3& ray) {
+Hit first_hit(const Instant& instant, const scene::ResolvedScene& scene, const SceneSummary& summary, const Vec3& eye_m,
+              const Vec3& ray) {
   Hit hit;
   for (const scene::Instance& still : scene.instances)
     meet(hit, scene, place(still, summary.meshes[still.mesh].bounds, still.world_from_object), eye_m, ray);
@@ -91,7 +92,8 @@ TEST_CASE("rays find the car and its lit brake lamp and loose triangles before i
   const Hit body = along({11.0, 0.0, 0.55});
   REQUIRE(body.material != no_material);
   CHECK(stage.reference.scene.materials[body.material].takes_paint);
-  CHECK(body.distance_m == doctest::Approx(glm::length(Vec3(11.0, 0.0, 0.55) - world_eye(stage.input.views[0]))).epsilon(1e-6));
+  CHECK(body.distance_m ==
+        doctest::Approx(glm::length(Vec3(11.0, 0.0, 0.55) - world_eye(stage.input.views[0]))).epsilon(1e-6));
   CHECK(along({100.0, 0.0, 200.0}).material == no_material);
   stage.input.participants[0].lamps.set(Lamp::brake, false);
   CHECK(along({10.96, 0.65, 0.68}).emission_shines == 0.0f);

@@ -19,8 +19,7 @@ TEST_CASE("the baseline is the newest tick that every live client acknowledged")
   CHECK(tracker.baseline() == 5);
 }
 
-TEST_CASE(
-    "a silent client no longer holds the baseline back and forces a keyframe when it returns") {
+TEST_CASE("a silent client no longer holds the baseline back and forces a keyframe when it returns") {
   BaselineTracker tracker;
   tracker.join(1, 0.0);
   tracker.join(2, 0.0);
@@ -50,8 +49,7 @@ TEST_CASE("a client that leaves no longer counts") {
   CHECK(tracker.baseline() == 7);
 }
 
-TEST_CASE(
-    "a client that asks but never acknowledges spoils only half a second of every two and a half") {
+TEST_CASE("a client that asks but never acknowledges spoils only half a second of every two and a half") {
   BaselineTracker tracker;
   tracker.join(1, 0.0);
   tracker.join(2, 0.0);

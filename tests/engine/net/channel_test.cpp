@@ -69,7 +69,8 @@ TEST_CASE("of transfers that fill the budget of a pump each has its turn") {
   CHECK(least > most / 2);
 }
 
-TEST_CASE("what a client sends without acknowledgement is bounded while it waits and has room again when it has gone out") {
+TEST_CASE(
+    "what a client sends without acknowledgement is bounded while it waits and has room again when it has gone out") {
   Site site(1, {});
   site.run(0.1);
   SecureClient& client = *site.clients[0];

@@ -7,7 +7,8 @@
 namespace septet::net {
 namespace {
 
-TEST_CASE("an operator is told of a connection when it stands and when it is lost and of an obstacle every half minute") {
+TEST_CASE(
+    "an operator is told of a connection when it stands and when it is lost and of an obstacle every half minute") {
   Site site(1, {});
   ConnectionReport report(server_address, identity_of(100).public_key(), "ahead-1");
   const auto look = [&](bool welcome = true) { return report.look(*site.clients[0], welcome, site.now_s); };
@@ -28,7 +29,8 @@ TEST_CASE("an operator is told of a connection when it stands and when it is los
   }
   REQUIRE(said.size() == 4);
   CHECK(said[0].second.find("is lost (the server is not heard for") != std::string::npos);
-  for (std::size_t i = 1; i < said.size(); ++i) CHECK(said[i].second.find("no answer from 10.0.0.1:4750") != std::string::npos);
+  for (std::size_t i = 1; i < said.size(); ++i)
+    CHECK(said[i].second.find("no answer from 10.0.0.1:4750") != std::string::npos);
   CHECK(said[2].first - said[1].first == doctest::Approx(30.0).epsilon(0.01));
   CHECK(said[3].first - said[2].first == doctest::Approx(30.0).epsilon(0.01));
 
@@ -46,7 +48,8 @@ TEST_CASE("each obstacle names what to do about it") {
   site.run(1.0);
   const auto unknown = report.look(*site.clients[0], false, site.now_s);
   REQUIRE(unknown);
-  CHECK(unknown->find("allowed-clients there needs the line: " + to_text(identity_of(200).public_key()) + " left-2") != std::string::npos);
+  CHECK(unknown->find("allowed-clients there needs the line: " + to_text(identity_of(200).public_key()) + " left-2") !=
+        std::string::npos);
 }
 
 }  // namespace

@@ -7,14 +7,12 @@
 namespace septet::net {
 namespace {
 
-const Terms client_terms{1200, 1 << 20, 1 << 20, 1 << 20},
-    server_terms{9000, 1 << 22, 1 << 21, 1 << 20};
+const Terms client_terms{1200, 1 << 20, 1 << 20, 1 << 20}, server_terms{9000, 1 << 22, 1 << 21, 1 << 20};
 const Address home = client_address(0), elsewhere = client_address(1);
 
 struct Exchange {
   CookieJar jar;
-  ClientHandshake client =
-      *ClientHandshake::start(identity_of(2), identity_of(1).public_key(), client_terms);
+  ClientHandshake client = *ClientHandshake::start(identity_of(2), identity_of(1).public_key(), client_terms);
   Bytes initiation;
   Exchange() {
     REQUIRE(client.accept_cookie(*jar.answer(client.hello(), home, 12.0)));
@@ -49,11 +47,9 @@ TEST_CASE(
   CHECK_FALSE(exchange.jar.is_good(exchange.initiation, home, 20.1));
   CHECK_FALSE(exchange.jar.is_good(exchange.initiation, elsewhere, 12.0));
   CHECK_FALSE(CookieJar().is_good(exchange.initiation, home, 12.0));
-  CHECK(exchange.jar.answer(exchange.client.hello(), home, 12.0)->size() <=
-        exchange.client.hello().size());
+  CHECK(exchange.jar.answer(exchange.client.hello(), home, 12.0)->size() <= exchange.client.hello().size());
   const auto server = ServerHandshake::accept(exchange.initiation, identity_of(1));
-  CHECK(server->respond(1, session_of(1), server_terms)->response.size() <=
-        exchange.initiation.size());
+  CHECK(server->respond(1, session_of(1), server_terms)->response.size() <= exchange.initiation.size());
 }
 
 TEST_CASE("an initiation or response with any byte altered opens nothing") {

@@ -15,8 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_CASE(
-    "the first start makes a key file that only the owner can read and the second start reads it") {
+TEST_CASE("the first start makes a key file that only the owner can read and the second start reads it") {
   const TemporaryFolder folder;
   const fs::path file = folder / "keys" / "server.key";
   const auto made = load_or_create_identity(file);
@@ -79,7 +78,8 @@ TEST_CASE("the list of allowed clients is read and its faults are named by line"
 TEST_CASE("a list that changes is read anew when it is whole and the known one holds while it is bad") {
   const TemporaryFolder folder;
   const fs::path file = folder / "allowed-clients";
-  const std::string a = to_text(identity_of(5).public_key()) + " a\n", b = to_text(identity_of(6).public_key()) + " b\n";
+  const std::string a = to_text(identity_of(5).public_key()) + " a\n",
+                    b = to_text(identity_of(6).public_key()) + " b\n";
   const auto replace = [&](const std::string& text) {
     std::ofstream(folder / "draft") << text;
     fs::rename(folder / "draft", file);

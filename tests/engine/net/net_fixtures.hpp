@@ -39,9 +39,7 @@ inline Bytes bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-inline std::string text_of(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+inline std::string text_of(const Bytes& bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 inline const Address server_address{0x0a000001, 4750};
 inline Address client_address(std::uint32_t number) { return {0x0a000100 + number, 5000}; }
@@ -62,8 +60,8 @@ class Site {
 
   static std::uint8_t client_key(std::size_t n) { return static_cast<std::uint8_t>(100 + n); }
   void start_server(std::uint8_t session) {
-    server = std::make_unique<SecureServer>(
-        *server_socket, SecureServerOptions{identity_of(1), session_of(session), allowed, limits_});
+    server = std::make_unique<SecureServer>(*server_socket,
+                                            SecureServerOptions{identity_of(1), session_of(session), allowed, limits_});
   }
   void add_client(std::size_t n, std::uint8_t key) {
     if (client_sockets.size() <= n)
@@ -74,8 +72,8 @@ class Site {
       client_sockets[n] = client_machines[n]->open(address.port);
     }
     clients[n] = std::make_unique<SecureClient>(
-        *client_sockets[n], SecureClientOptions{server_address, identity_of(1).public_key(),
-                                                identity_of(key), limits_});
+        *client_sockets[n],
+        SecureClientOptions{server_address, identity_of(1).public_key(), identity_of(key), limits_});
     received.resize(clients.size());
     client_events.resize(clients.size());
   }

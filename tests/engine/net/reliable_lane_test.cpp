@@ -9,11 +9,7 @@ namespace septet::net {
 namespace {
 
 Frame fragment(std::uint64_t message, std::size_t total, std::size_t offset, const Bytes& bytes) {
-  return {.kind = FrameKind::fragment,
-          .message = message,
-          .message_bytes = total,
-          .offset = offset,
-          .bytes = bytes};
+  return {.kind = FrameKind::fragment, .message = message, .message_bytes = total, .offset = offset, .bytes = bytes};
 }
 
 TEST_CASE("fragments in any order make the message and later messages wait for earlier ones") {
@@ -93,14 +89,13 @@ TEST_CASE("every frame reads back as it was written and a cut one is refused") {
   ranges.ranges[0] = {1000, 900};
   ranges.ranges[1] = {890, 890};
   ranges.ranges[2] = {5, 0};
-  const std::vector<Frame> frames = {
-      {.kind = FrameKind::acknowledge, .received = ranges},
-      fragment(12, 5000, 700, payload),
-      {.kind = FrameKind::void_message, .message = 1u << 20},
-      {.kind = FrameKind::unreliable, .bytes = payload},
-      {.kind = FrameKind::ping, .sent_s = 1.5},
-      {.kind = FrameKind::pong, .sent_s = 1.5, .answered_s = 2.5},
-      {.kind = FrameKind::goodbye, .bytes = std::span(payload).first(100)}};
+  const std::vector<Frame> frames = {{.kind = FrameKind::acknowledge, .received = ranges},
+                                     fragment(12, 5000, 700, payload),
+                                     {.kind = FrameKind::void_message, .message = 1u << 20},
+                                     {.kind = FrameKind::unreliable, .bytes = payload},
+                                     {.kind = FrameKind::ping, .sent_s = 1.5},
+                                     {.kind = FrameKind::pong, .sent_s = 1.5, .answered_s = 2.5},
+                                     {.kind = FrameKind::goodbye, .bytes = std::span(payload).first(100)}};
   for (const Frame& frame : frames) {
     Bytes bytes;
     ByteWriter writer(bytes);

@@ -110,7 +110,8 @@ TEST_CASE("what nobody acknowledges is resent after 50 and 100 and 200 milliseco
   CHECK(lane.send(1.231) == 1);
 }
 
-TEST_CASE("what may be under way doubles once a round trip while it is used up and never passes the receiver's buffer") {
+TEST_CASE(
+    "what may be under way doubles once a round trip while it is used up and never passes the receiver's buffer") {
   Lane lane(200 * 1200);
   for (std::uint64_t n = 0; n < 2000; ++n) lane.enqueue(n);
   CHECK(lane.send(0.00) == 64);

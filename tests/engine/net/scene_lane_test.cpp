@@ -8,8 +8,7 @@
 namespace septet::net {
 namespace {
 
-const NetworkFaults bad_lan{
-    .loss = 0.05, .duplication = 0.02, .latency_s = 0.0003, .jitter_s = 0.020};
+const NetworkFaults bad_lan{.loss = 0.05, .duplication = 0.02, .latency_s = 0.0003, .jitter_s = 0.020};
 
 TEST_CASE("an allowed client connects and both sides know each other") {
   Site site(2, {});
@@ -93,8 +92,7 @@ TEST_CASE("unreliable messages arrive at most once and never without authenticat
   site.run(0.05);
   CHECK(site.count(ServerEvent::Kind::message) == 100);
   CHECK(site.server->counters().replayed > 0);
-  CHECK(site.clients[0]->send(random_bytes(1200, 1), Reliability::unreliable) ==
-        SendResult::too_large);
+  CHECK(site.clients[0]->send(random_bytes(1200, 1), Reliability::unreliable) == SendResult::too_large);
 }
 
 TEST_CASE("a message not yet sent is overwritten by a newer one with its key and keeps its place") {
@@ -126,8 +124,7 @@ TEST_CASE("under loss the newest message of every key arrives last whatever was 
   REQUIRE(id != 0);
   for (int n = 0; n < 500; ++n) {
     const AddressKey key = 1 + static_cast<AddressKey>(n % 3);
-    site.server->send(id, bytes_of(std::to_string(key) + " " + std::to_string(n)),
-                      Reliability::reliable, key);
+    site.server->send(id, bytes_of(std::to_string(key) + " " + std::to_string(n)), Reliability::reliable, key);
     site.run(0.002);
   }
   site.run(2.0);
@@ -154,9 +151,8 @@ TEST_CASE("a client that is not on the list learns that and no more and the oper
   CHECK(site.clients[1]->obstacle() == Obstacle::key_unknown);
   CHECK(site.clients[0]->obstacle() == Obstacle::none);
   CHECK(site.server->counters().not_allowed > 0);
-  const auto refused =
-      std::find_if(site.server_events.begin(), site.server_events.end(),
-                   [](const auto& event) { return event.kind == ServerEvent::Kind::refused; });
+  const auto refused = std::find_if(site.server_events.begin(), site.server_events.end(),
+                                    [](const auto& event) { return event.kind == ServerEvent::Kind::refused; });
   REQUIRE(refused != site.server_events.end());
   CHECK(refused->reason.find(to_text(identity_of(200).public_key())) != std::string::npos);
   // Without end, but rarely: at most every five seconds, and the operator is told every half minute.
@@ -176,8 +172,7 @@ TEST_CASE("a client that is not on the list learns that and no more and the oper
 TEST_CASE("a client does not connect to a server with another key than the pinned one") {
   Site site(1, {});
   site.clients[0] = std::make_unique<SecureClient>(
-      *site.client_sockets[0],
-      SecureClientOptions{server_address, identity_of(99).public_key(), identity_of(100), {}});
+      *site.client_sockets[0], SecureClientOptions{server_address, identity_of(99).public_key(), identity_of(100), {}});
   site.run(1.0);
   CHECK(site.clients[0]->state() == ClientState::connecting);
   CHECK(site.server->clients().empty());
@@ -239,7 +234,9 @@ TEST_CASE("what speaks another version of the protocol is told which one is spok
   CHECK(site.clients[0]->obstacle() == Obstacle::other_version);
 }
 
-TEST_CASE("of two clients with one key the one that is alive stays and the other one learns why and takes over when it is gone") {
+TEST_CASE(
+    "of two clients with one key the one that is alive stays and the other one learns why and takes over when it is "
+    "gone") {
   Site site(1, {});
   site.run(0.2);
   const ClientId first = site.id_of(0);
@@ -309,8 +306,7 @@ TEST_CASE("a hung client costs the others nothing and is dropped") {
   const ClientId hung = site.id_of(3);
   for (std::uint64_t n = 0; n < 300; ++n) {
     const SharedBytes message = share(random_bytes(5000, n));
-    for (const ClientId id : site.server->clients())
-      site.server->send(id, message, Reliability::reliable);
+    for (const ClientId id : site.server->clients()) site.server->send(id, message, Reliability::reliable);
     site.run(0.01);
     for (std::size_t client = 0; client < 7; ++client) {
       if (client != 3) REQUIRE(site.received[client].size() + 1 >= n);
@@ -385,8 +381,7 @@ TEST_CASE("a client reconnects by itself when the server restarts and learns the
   }
 }
 
-TEST_CASE(
-    "a client killed and started again is back within a second and replaces its old connection") {
+TEST_CASE("a client killed and started again is back within a second and replaces its old connection") {
   Site site(2, {});
   site.run(0.2);
   const ClientId old = site.id_of(0);
@@ -406,8 +401,7 @@ TEST_CASE("random truncated and altered datagrams change nothing and are counted
     attacker->send(server_address, noise);
     attacker->send(client_address(0), noise);
     if (noise.size() > 3) {
-      noise[0] = std::byte{0x53}, noise[1] = std::byte{1},
-      noise[2] = static_cast<std::byte>(1 + seed % 5);
+      noise[0] = std::byte{0x53}, noise[1] = std::byte{1}, noise[2] = static_cast<std::byte>(1 + seed % 5);
       attacker->send(server_address, noise);
     }
   }

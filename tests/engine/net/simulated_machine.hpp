@@ -55,7 +55,8 @@ class SimulatedMachine {
 
 /// A machine whose clock agrees with nobody's: up to three hours ahead and up to 100 ppm too fast or too slow. The way to it from
 /// `peer_ip` and the way back take unlike shares of the network's latency.
-inline std::unique_ptr<SimulatedMachine> machine_of_its_own(BadNetwork& network, std::uint32_t ip, std::uint32_t peer_ip, Random& random) {
+inline std::unique_ptr<SimulatedMachine> machine_of_its_own(BadNetwork& network, std::uint32_t ip,
+                                                            std::uint32_t peer_ip, Random& random) {
   const double share = random.uniform(0.7, 1.3);
   network.set_latency_share(peer_ip, ip, share);
   network.set_latency_share(ip, peer_ip, 2.0 - share);

@@ -25,8 +25,8 @@ class Recorder final : public DatagramSocket {
 };
 
 inline std::vector<Bytes> datagrams_of(std::uint64_t tick, const Bytes& payload,
-                                const TickPublisherOptions& options = {}, std::uint8_t key = 1,
-                                std::uint8_t session = 1) {
+                                       const TickPublisherOptions& options = {}, std::uint8_t key = 1,
+                                       std::uint8_t session = 1) {
   Recorder recorder;
   TickPublisher publisher(recorder, identity_of(key), session_of(session), options);
   publisher.add_destination(group);

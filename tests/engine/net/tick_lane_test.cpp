@@ -33,8 +33,7 @@ TEST_CASE("a tick of any size arrives whole and no datagram exceeds the limit") 
 TEST_CASE(
     "at five percent loss with jitter and reordering only ticks that lost both copies are "
     "missing") {
-  BadNetwork network({.loss = 0.05, .duplication = 0.02, .latency_s = 0.0005, .jitter_s = 0.020},
-                     11);
+  BadNetwork network({.loss = 0.05, .duplication = 0.02, .latency_s = 0.0005, .jitter_s = 0.020}, 11);
   auto out = network.open(server_address);
   auto in = network.open_group(group, client_address(0));
   TickPublisher publisher(*out, identity_of(1), session_of(1));
@@ -113,8 +112,7 @@ TEST_CASE("a datagram with any bit flipped changes nothing and is counted") {
       ++offered;
     }
   const auto& counters = receiver.counters();
-  CHECK(counters.forged + counters.malformed + counters.oversized + counters.other_session ==
-        offered);
+  CHECK(counters.forged + counters.malformed + counters.oversized + counters.other_session == offered);
   CHECK(counters.forged > 0);
   CHECK(counters.malformed > 0);
   CHECK(counters.oversized > 0);
@@ -144,8 +142,7 @@ TEST_CASE("a forged fragment cannot poison a tick under reassembly") {
 TEST_CASE("truncated oversized and random datagrams change nothing and are counted") {
   const auto datagrams = datagrams_of(5, random_bytes(2500, 3));
   TickReceiver receiver = following();
-  for (std::size_t size = 0; size < datagrams[0].size(); ++size)
-    receiver.accept(std::span(datagrams[0]).first(size));
+  for (std::size_t size = 0; size < datagrams[0].size(); ++size) receiver.accept(std::span(datagrams[0]).first(size));
   Bytes longer = datagrams[0];
   longer.push_back(std::byte{0});
   receiver.accept(longer);
@@ -191,12 +188,10 @@ TEST_CASE("bytes per tick do not depend on the number of receivers of a group") 
     BadNetwork network({}, 1);
     auto out = network.open(server_address);
     std::vector<std::unique_ptr<DatagramSocket>> sockets;
-    for (std::uint32_t n = 0; n < receivers; ++n)
-      sockets.push_back(network.open_group(group, client_address(n)));
+    for (std::uint32_t n = 0; n < receivers; ++n) sockets.push_back(network.open_group(group, client_address(n)));
     TickPublisher publisher(*out, identity_of(1), session_of(1));
     publisher.add_destination(group);
-    for (std::uint64_t tick = 1; tick <= 10; ++tick)
-      publisher.publish(tick, random_bytes(4000, tick));
+    for (std::uint64_t tick = 1; tick <= 10; ++tick) publisher.publish(tick, random_bytes(4000, tick));
     network.advance_to(1.0);
     for (auto& socket : sockets) {
       TickReceiver receiver = following();

@@ -17,8 +17,7 @@ TEST_CASE("replayed ticks of this run and of an earlier run are refused") {
   CHECK(receiver.counters().ticks == 20);
   CHECK(receiver.counters().replayed == 12);
   CHECK(receiver.counters().duplicates == 8);
-  for (const Bytes& datagram : datagrams_of(1000, random_bytes(50, 1), {}, 1, 1))
-    receiver.accept(datagram);
+  for (const Bytes& datagram : datagrams_of(1000, random_bytes(50, 1), {}, 1, 1)) receiver.accept(datagram);
   CHECK(receiver.counters().other_session == 1);
   CHECK(receiver.counters().ticks == 20);
 }
@@ -52,8 +51,7 @@ TEST_CASE("ticks that nobody takes are bounded too and the newest stay") {
   Recorder recorder;
   TickPublisher publisher(recorder, identity_of(1), session_of(1), {.repeat_previous = false});
   publisher.add_destination(group);
-  for (std::uint64_t tick = 1; tick <= 100; ++tick)
-    publisher.publish(tick, random_bytes(500, tick));
+  for (std::uint64_t tick = 1; tick <= 100; ++tick) publisher.publish(tick, random_bytes(500, tick));
   for (const Bytes& datagram : recorder.datagrams) receiver.accept(datagram);
   CHECK(receiver.bytes_held() == 16 * 500);
   CHECK(receiver.next()->tick == 85);
@@ -63,7 +61,8 @@ TEST_CASE("a tick is lost when it leaves the window and not before") {
   Recorder recorder;
   TickPublisher publisher(recorder, identity_of(1), session_of(1), {.repeat_previous = false});
   publisher.add_destination(group);
-  for (std::uint64_t tick = 1; tick <= TickReceiver::window + 1; ++tick) publisher.publish(tick, random_bytes(50, tick));
+  for (std::uint64_t tick = 1; tick <= TickReceiver::window + 1; ++tick)
+    publisher.publish(tick, random_bytes(50, tick));
   TickReceiver receiver = following();
   receiver.accept(recorder.datagrams[0]);
   receiver.accept(recorder.datagrams[TickReceiver::window]);

@@ -21,8 +21,7 @@ UdpSocket open_loopback() {
 TEST_CASE("addresses are read and written and bad ones say what to write") {
   CHECK(to_text(*parse_address("192.168.1.10:4750", "test")) == "192.168.1.10:4750");
   CHECK(*parse_ip("127.0.0.1", "test") == loopback_ip);
-  for (const char* bad : {"", "1.2.3:4", "1.2.3.4", "1.2.3.4:", "1.2.3.256:1", "1.2.3.4:65536",
-                          "1.2.3.4:5x", "a:1"}) {
+  for (const char* bad : {"", "1.2.3:4", "1.2.3.4", "1.2.3.4:", "1.2.3.256:1", "1.2.3.4:65536", "1.2.3.4:5x", "a:1"}) {
     const auto address = parse_address(bad, "rig.toml: network.server");
     REQUIRE_FALSE(address.has_value());
     CHECK(address.error().where == "rig.toml: network.server");
@@ -40,8 +39,7 @@ TEST_CASE("datagrams cross a real loopback in both directions and waiting sees t
   while (const auto datagram = b.receive()) {
     CHECK(datagram->from == a.local_address());
     const Bytes expected = random_bytes(received * 7, received);
-    CHECK(std::equal(expected.begin(), expected.end(), datagram->bytes.begin(),
-                     datagram->bytes.end()));
+    CHECK(std::equal(expected.begin(), expected.end(), datagram->bytes.begin(), datagram->bytes.end()));
     ++received;
   }
   CHECK(received == 200);
@@ -53,8 +51,7 @@ TEST_CASE("a busy port gives one clear message") {
   REQUIRE_FALSE(second.has_value());
   CHECK(second.error().what == "the port is in use by another program");
   CHECK(second.error().where == "udp " + to_text(first.local_address()));
-  CHECK(second.error().remedy.find(std::to_string(first.local_address().port)) !=
-        std::string::npos);
+  CHECK(second.error().remedy.find(std::to_string(first.local_address().port)) != std::string::npos);
 }
 
 TEST_CASE("an address of no interface of this machine gives one clear message") {
@@ -103,10 +100,8 @@ TEST_CASE("a tick reaches several sockets over real multicast") {
 
 TEST_CASE("a server and a client connect and talk over real sockets") {
   UdpSocket server_end = open_loopback(), client_end = open_loopback();
-  SecureServer server(
-      server_end, {identity_of(1), session_of(1), {{identity_of(2).public_key(), "screen"}}, {}});
-  SecureClient client(
-      client_end, {server_end.local_address(), identity_of(1).public_key(), identity_of(2), {}});
+  SecureServer server(server_end, {identity_of(1), session_of(1), {{identity_of(2).public_key(), "screen"}}, {}});
+  SecureClient client(client_end, {server_end.local_address(), identity_of(1).public_key(), identity_of(2), {}});
   const Bytes content = random_bytes(300'000, 1);
   bool sent = false;
   Bytes got;

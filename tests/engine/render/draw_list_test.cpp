@@ -69,8 +69,10 @@ TEST_CASE("a mesh is drawn from its nearest distance on and no longer at its far
 
 TEST_CASE("instances of one mesh make one batch and batches come nearest first") {
   std::vector<PlacedMesh> placed;
-  for (const double x : {50.0, 70.0}) placed.push_back(place(3, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
-  for (const double x : {20.0, 90.0, 30.0}) placed.push_back(place(7, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
+  for (const double x : {50.0, 70.0})
+    placed.push_back(place(3, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
+  for (const double x : {20.0, 90.0, 30.0})
+    placed.push_back(place(7, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
   DrawList list;
   append_visible(list, placed, {0, 0, 0}, [](const PlacedMesh&, const glm::vec3&) { return true; });
   sort_by_distance(list);

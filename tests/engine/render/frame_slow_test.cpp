@@ -114,7 +114,8 @@ TEST_CASE("a car throws its shadow away from the sun and not towards it") {
 TEST_CASE("the same input gives the same pixels in one renderer and in another") {
   Studio a({{}, false, 80}), b({{}, false, 80});
   for (Studio* studio : {&a, &b})
-    for (int i = 0; i < 4; ++i) studio->input.participants.push_back(reference_car(studio->reference, {8.0 + 9.0 * i, 3.75 * (i % 3) - 4.0, 0}));
+    for (int i = 0; i < 4; ++i)
+      studio->input.participants.push_back(reference_car(studio->reference, {8.0 + 9.0 * i, 3.75 * (i % 3) - 4.0, 0}));
   const image::Image first = a.draw();
   a.input.views[0].world_from_car.position_m.x = 30.0;
   const image::Image other = a.draw();

@@ -26,9 +26,18 @@ inline scene::SurfaceMaterial glowing_material() {
 /// The bar is 16 m long in y and 0.1 m thick; its eight corners lie about its middle.
 inline constexpr std::uint16_t bar_corners = 8;
 inline Vec3 bar_corner_m(std::uint16_t i) { return {i & 1 ? 0.05 : -0.05, i & 2 ? 8.0 : -8.0, i & 4 ? 0.05 : -0.05}; }
-inline constexpr std::array<std::array<std::uint16_t, 3>, 12> bar_triangles{{{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5},
-                                                                             {4, 5, 7}, {4, 7, 6}, {0, 2, 3}, {0, 3, 1},
-                                                                             {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}}};
+inline constexpr std::array<std::array<std::uint16_t, 3>, 12> bar_triangles{{{0, 4, 6},
+                                                                             {0, 6, 2},
+                                                                             {1, 3, 7},
+                                                                             {1, 7, 5},
+                                                                             {4, 5, 7},
+                                                                             {4, 7, 6},
+                                                                             {0, 2, 3},
+                                                                             {0, 3, 1},
+                                                                             {0, 1, 5},
+                                                                             {0, 5, 4},
+                                                                             {2, 6, 7},
+                                                                             {2, 7, 3}}};
 
 /// Height of the bar in a column: the mean row of bright pixels, weighted.
 inline std::optional<double> row_in(const image::Image& picture, std::uint32_t x) {

@@ -31,7 +31,8 @@ TEST_CASE("the colour of what is cut away does not bleed in") {
 TEST_CASE("foliage keeps the share that passes the cut on smaller levels") {
   Random random(5);
   std::vector<std::uint8_t> rgba;
-  for (int i = 0; i < 64 * 64; ++i) rgba.insert(rgba.end(), {60, 90, 40, static_cast<std::uint8_t>(random.uniform() < 0.3 ? 255 : 0)});
+  for (int i = 0; i < 64 * 64; ++i)
+    rgba.insert(rgba.end(), {60, 90, 40, static_cast<std::uint8_t>(random.uniform() < 0.3 ? 255 : 0)});
   const std::vector<MipLevel> levels = mip_chain(64, 64, rgba, true);
   for (std::size_t level = 1; level <= 3; ++level) {
     int passing = 0;

@@ -24,7 +24,8 @@ FrameInput traffic(const ReferenceScene& reference, Lamps lamps) {
   FrameInput input;
   input.environment = reference_day();
   input.views = {forward_view({0, -1.875, 0}, width, height)};
-  const glm::vec3 paints[] = {{0.34f, 0.022f, 0.026f}, {0.8f, 0.8f, 0.79f}, {0.05f, 0.11f, 0.3f}, {0.02f, 0.02f, 0.02f}};
+  const glm::vec3 paints[] = {
+      {0.34f, 0.022f, 0.026f}, {0.8f, 0.8f, 0.79f}, {0.05f, 0.11f, 0.3f}, {0.02f, 0.02f, 0.02f}};
   const double places[][2] = {{11, -5.6}, {20, 1.9}, {34, -1.9}, {60, 5.6}, {85, -5.6}, {110, -1.9}};
   for (std::size_t i = 0; i < 6; ++i) {
     DrawnParticipant car = reference_car(reference, {places[i][0], places[i][1], 0.02});
@@ -39,8 +40,11 @@ FrameInput traffic(const ReferenceScene& reference, Lamps lamps) {
 
 }  // namespace
 
-TEST_CASE("the reference scene by day and dusk and night in rain and in a tunnel draws without a word of the validation layer") {
-  Expected<Renderer> renderer = Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
+TEST_CASE(
+    "the reference scene by day and dusk and night in rain and in a tunnel draws without a word of the validation "
+    "layer") {
+  Expected<Renderer> renderer =
+      Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   ReferenceOptions options;
   ReferenceScene reference = reference_scene(options);
@@ -51,8 +55,8 @@ TEST_CASE("the reference scene by day and dusk and night in rain and in a tunnel
   input.overlay.push_back({"Septet  104 km/h", 12, 10, 22, {1, 1, 1, 1}, {0, 0, 0, 0.45f}, false});
   REQUIRE(renderer->draw(input).has_value());
   save(*renderer->read_back(), "day");
-  MESSAGE("triangles ", renderer->statistics().triangles, " shadows ", renderer->statistics().shadow_triangles, " draws ",
-          renderer->statistics().draws);
+  MESSAGE("triangles ", renderer->statistics().triangles, " shadows ", renderer->statistics().shadow_triangles,
+          " draws ", renderer->statistics().draws);
   input.overlay.clear();
   input.views[0].projection = symmetric_view({1.2, 0.35, 1.2}, 1.4, 0.15, 1.05, 0.64);
   REQUIRE(renderer->draw(input).has_value());

@@ -6,11 +6,11 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/render/renderer.hpp"
 #include "engine/instant/tone_curve.hpp"
-#include "tests/engine/render/glowing_bar.hpp"
+#include "engine/render/renderer.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
+#include "tests/engine/render/glowing_bar.hpp"
 
 namespace septet::render {
 namespace {
@@ -48,7 +48,8 @@ glm::vec3 wall_radiance(Renderer& renderer, float emission, double away_m = 4.0)
   scene::SurfaceMaterial material = glowing_material();
   material.emission = glm::vec3(emission);
   scene::SurfaceMesh wall;
-  for (const glm::vec3& corner : {glm::vec3(0, 400, -400), glm::vec3(0, -400, -400), glm::vec3(0, -400, 400), glm::vec3(0, 400, 400)})
+  for (const glm::vec3& corner :
+       {glm::vec3(0, 400, -400), glm::vec3(0, -400, -400), glm::vec3(0, -400, 400), glm::vec3(0, 400, 400)})
     wall.vertices.push_back({corner, {-1, 0, 0}, {}});
   wall.indices = {0, 1, 2, 0, 2, 3};
   scene::ResolvedScene scene = lone_mesh(material, wall, {Vec3(away_m, 0, 0), {1, 0, 0, 0}});
@@ -73,15 +74,18 @@ TEST_CASE("the picture is the radiance after exposure and the tone curve at ever
     for (std::size_t i = 0; i < light.radiance.size(); ++i) {
       const glm::vec3 code = 255.0f * display_code(exposure * light.radiance[i]);
       for (int c = 0; c < 3; ++c)
-        most = std::max(most, std::abs(static_cast<int>(std::lround(code[c])) - picture.rgba[4 * i + static_cast<std::size_t>(c)]));
+        most = std::max(
+            most, std::abs(static_cast<int>(std::lround(code[c])) - picture.rgba[4 * i + static_cast<std::size_t>(c)]));
     }
     CHECK(most <= 1);
   }
 }
 
-TEST_CASE("a wall that gives off a thousand times as much light has a thousand times the radiance though both are white") {
+TEST_CASE(
+    "a wall that gives off a thousand times as much light has a thousand times the radiance though both are white") {
   Renderer renderer = renderer_of(Antialiasing::automatic);
-  const float dark = wall_radiance(renderer, 0.0f).g, bright = wall_radiance(renderer, 20.0f).g, glaring = wall_radiance(renderer, 20000.0f).g;
+  const float dark = wall_radiance(renderer, 0.0f).g, bright = wall_radiance(renderer, 20.0f).g,
+              glaring = wall_radiance(renderer, 20000.0f).g;
   CHECK((glaring - dark) / (bright - dark) == doctest::Approx(1000.0).epsilon(0.002));
 }
 
@@ -105,7 +109,8 @@ TEST_CASE("smoke of optical depth one before a wall leaves the share of its radi
   CHECK(twice == doctest::Approx(once * once).epsilon(0.02));
 }
 
-TEST_CASE("the sky that is drawn has at every pixel the radiance that the description says for its ray, in a mirror too") {
+TEST_CASE(
+    "the sky that is drawn has at every pixel the radiance that the description says for its ray, in a mirror too") {
   Renderer renderer = renderer_of(Antialiasing::none);
   const ReferenceScene reference = reference_scene({{}, false, 0});
   REQUIRE(renderer.upload(reference.scene).has_value());
@@ -123,7 +128,8 @@ TEST_CASE("the sky that is drawn has at every pixel the radiance that the descri
         const glm::vec3 ray(ray_through(instant.views[0], x + 0.5, y + 0.5));
         const glm::vec3 said = sky_radiance(*instant.light, ray), drawn = light.at(x, y);
         // The sun's glare is the picture's own.
-        if (glm::dot(ray, instant.light->sun_direction) < 0.9f) furthest = std::max(furthest, std::abs(drawn.g / said.g - 1.0) + std::abs(drawn.r / said.r - 1.0));
+        if (glm::dot(ray, instant.light->sun_direction) < 0.9f)
+          furthest = std::max(furthest, std::abs(drawn.g / said.g - 1.0) + std::abs(drawn.r / said.r - 1.0));
       }
     CHECK(furthest < 0.01);
   }
@@ -148,11 +154,14 @@ TEST_CASE("two screens of a rig and a mirror in one of them are exposed alike") 
   CHECK(shown(renderer, input).exposure < 0.9f * ahead);
 }
 
-TEST_CASE("with four samples a pixel the edge of a glaring bar takes codes between dark and white and the radiance read is the samples' mean") {
+TEST_CASE(
+    "with four samples a pixel the edge of a glaring bar takes codes between dark and white and the radiance read is "
+    "the samples' mean") {
   scene::SurfaceMesh bar;
   for (std::uint16_t i = 0; i < bar_corners; ++i) bar.vertices.push_back({glm::vec3(bar_corner_m(i)), {-1, 0, 0}, {}});
   for (const auto& triangle : bar_triangles) bar.indices.insert(bar.indices.end(), triangle.begin(), triangle.end());
-  const scene::ResolvedScene scene = lone_mesh(glowing_material(), bar, {{12, 0, 2.2}, orientation_from_angles(0.0, 0.0, 0.07)});
+  const scene::ResolvedScene scene =
+      lone_mesh(glowing_material(), bar, {{12, 0, 2.2}, orientation_from_angles(0.0, 0.0, 0.07)});
   const auto drawn = [&](Antialiasing antialiasing) {
     Renderer renderer = renderer_of(antialiasing);
     REQUIRE(renderer.upload(scene).has_value());
@@ -160,7 +169,8 @@ TEST_CASE("with four samples a pixel the edge of a glaring bar takes codes betwe
   };
   const auto between = [](const Drawn& frame) {
     int count = 0;
-    for (std::size_t i = 0; i < frame.picture.rgba.size(); i += 4) count += frame.picture.rgba[i] > 50 && frame.picture.rgba[i] < 220;
+    for (std::size_t i = 0; i < frame.picture.rgba.size(); i += 4)
+      count += frame.picture.rgba[i] > 50 && frame.picture.rgba[i] < 220;
     return count;
   };
   const auto light = [](const Drawn& frame) {

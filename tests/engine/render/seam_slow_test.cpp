@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include "engine/render/renderer.hpp"
-#include "tests/engine/render/glowing_bar.hpp"
 #include "tests/engine/instant/lone_mesh.hpp"
+#include "tests/engine/render/glowing_bar.hpp"
 
 namespace septet::render {
 namespace {

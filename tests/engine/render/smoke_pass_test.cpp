@@ -74,7 +74,8 @@ TEST_CASE("what lies behind much smoke is not drawn and what is drawn comes fart
 }
 
 TEST_CASE("thin smoke far away is drawn") {
-  const auto records = puff_records(merged_puffs(cloud(50, {200, 0, 0}, 5.0), {0, 0, 0}), {}, {}, level_view(), {0, 0, 0});
+  const auto records =
+      puff_records(merged_puffs(cloud(50, {200, 0, 0}, 5.0), {0, 0, 0}), {}, {}, level_view(), {0, 0, 0});
   CHECK(!records.empty());
 }
 

@@ -20,7 +20,8 @@ scene::ResolvedScene wall_scene() {
   scene::SurfaceMaterial white;
   white.base_color = glm::vec3(0.8f);
   scene::SurfaceMesh wall;
-  for (const glm::vec3& corner : {glm::vec3(0, 20, -10), glm::vec3(0, -20, -10), glm::vec3(0, -20, 10), glm::vec3(0, 20, 10)})
+  for (const glm::vec3& corner :
+       {glm::vec3(0, 20, -10), glm::vec3(0, -20, -10), glm::vec3(0, -20, 10), glm::vec3(0, 20, 10)})
     wall.vertices.push_back({corner, {-1, 0, 0}, {}});
   wall.indices = {0, 1, 2, 0, 2, 3};
   return lone_mesh(white, wall, {car_m + Vec3(8, 0, 0), {1, 0, 0, 0}});
@@ -53,7 +54,8 @@ double light_at(const image::Image& picture, double y_m, double z_m) {
 }  // namespace
 
 TEST_CASE("soot darkens the wall where it lies and nowhere else") {
-  Expected<Renderer> renderer = Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
+  Expected<Renderer> renderer =
+      Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(wall_scene()).has_value());
   FrameInput input;

@@ -63,7 +63,8 @@ TEST_CASE("gathered vertices lie where their instance puts them to a tenth of a 
       const StaticPart& part = geometry.parts[piece.first_part + i];
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
         const std::uint32_t source = scene.meshes[0].indices[scene.meshes[0].parts[i].first_index + k];
-        const Vec3 expected = instance.world_from_object * Vec3(scene.meshes[0].vertices[source].position_m * instance.scale);
+        const Vec3 expected =
+            instance.world_from_object * Vec3(scene.meshes[0].vertices[source].position_m * instance.scale);
         const Vec3 found = block.origin_m + Vec3(block.vertices[geometry.indices[part.first_index + k]].position_m);
         worst_m = std::max(worst_m, glm::length(found - expected));
       }
@@ -102,8 +103,8 @@ TEST_CASE("materials of one group share a draw and those of none are left out") 
   CHECK(merged.pieces > 0);
   CHECK(merged.indices.size() == 9 * merged.pieces);
   CHECK(merged.draws.size() <= geometry.blocks.size());
-  const Gathered second = gather(geometry, {0, 0, 0}, everything,
-                                 [](std::uint32_t material) { return material == 1 ? 1u : no_group; });
+  const Gathered second =
+      gather(geometry, {0, 0, 0}, everything, [](std::uint32_t material) { return material == 1 ? 1u : no_group; });
   CHECK(second.pieces == merged.pieces);
   CHECK(second.indices.size() == 3 * second.pieces);
 }

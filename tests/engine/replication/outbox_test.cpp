@@ -20,7 +20,9 @@ Store store_of(std::uint32_t vertices) {
   return store;
 }
 
-Change vertices(std::uint32_t first, std::uint32_t end) { return {{node, SubjectKind::vertices, base_vertex_layer, 0}, first, end}; }
+Change vertices(std::uint32_t first, std::uint32_t end) {
+  return {{node, SubjectKind::vertices, base_vertex_layer, 0}, first, end};
+}
 
 std::vector<Command> written(Outbox& outbox, const Store& store, std::size_t bytes = 1u << 30) {
   Bytes out;
@@ -59,7 +61,8 @@ TEST_CASE("of overlapping changes every element is sent once and none that did n
     Outbox outbox;
     std::vector<int> expected(300);
     for (std::uint64_t changes = 1 + random.below(12); changes > 0; --changes) {
-      const auto first = static_cast<std::uint32_t>(random.below(290)), end = first + 1 + static_cast<std::uint32_t>(random.below(10));
+      const auto first = static_cast<std::uint32_t>(random.below(290)),
+                 end = first + 1 + static_cast<std::uint32_t>(random.below(10));
       outbox.mark(vertices(first, end));
       std::fill(expected.begin() + first, expected.begin() + end, 1);
     }

@@ -21,8 +21,7 @@ geometry::PolygonMesh grid(std::uint32_t side) {
   geometry::PolygonMesh mesh;
   for (std::uint32_t y = 0; y <= side; ++y)
     for (std::uint32_t x = 0; x <= side; ++x)
-      mesh.vertices_m.push_back(
-          {x * 0.5f, y * 0.5f, static_cast<float>((x * 7 + y * 13) % 5) * 0.125f});
+      mesh.vertices_m.push_back({x * 0.5f, y * 0.5f, static_cast<float>((x * 7 + y * 13) % 5) * 0.125f});
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
       const std::uint32_t v = y * (side + 1) + x;
@@ -45,8 +44,7 @@ void change_something(Wire& wire, Random& random) {
           if (random.below(3) == 0) c.layer = static_cast<PartId>(random.below(4));
         }
         if constexpr (requires { c.values; })
-          for (auto& value : c.values)
-            value = static_cast<std::decay_t<decltype(value)>>(random.below(200));
+          for (auto& value : c.values) value = static_cast<std::decay_t<decltype(value)>>(random.below(200));
         if constexpr (requires { c.vertices; }) {
           c.vertices = static_cast<std::uint32_t>(random.below(9));
           c.polygons = static_cast<std::uint32_t>(random.below(4));
@@ -117,8 +115,7 @@ TEST_CASE("what changes often while it waits is sent once") {
   for (int i = 0; i < 10000; ++i) wire.build.apply(TransformSet{object, {{i * 1.0, 0, 0}}});
   REQUIRE(wire.settle(end));
   CHECK(end.bytes_to_client - before < 200);
-  CHECK(std::get<ObjectData>(end.client->store().find(object)->data).transform.position_m.x ==
-        9999.0);
+  CHECK(std::get<ObjectData>(end.client->store().find(object)->data).transform.position_m.x == 9999.0);
 }
 
 TEST_CASE("what was cut off and grew again while it waited is forgotten at the client too") {
@@ -173,9 +170,7 @@ TEST_CASE("a client that does not acknowledge is sent a window and no more") {
   for (int i = 0; i < 3; ++i) wire.pump(end);
   std::size_t sent = 0;
   for (int i = 0; i < 100; ++i)
-    sent +=
-        wire.server->pump(end.connection, 1u << 20, [](std::span<const std::byte>) { return true; })
-            .bytes;
+    sent += wire.server->pump(end.connection, 1u << 20, [](std::span<const std::byte>) { return true; }).bytes;
   CHECK(sent < 200 * 1024);
 }
 
@@ -187,8 +182,7 @@ TEST_CASE("random changes reach a slow client and a resuming one whole") {
     auto& steady = wire.add("steady");
     auto& broken = wire.add("broken");
     for (int step = 0; step < 1500; ++step) {
-      for (std::uint64_t changes = random.below(4); changes > 0; --changes)
-        change_something(wire, random);
+      for (std::uint64_t changes = random.below(4); changes > 0; --changes) change_something(wire, random);
       wire.pump(steady, random.below(200), random.below(3));
       wire.pump(broken, random.below(200), random.below(3));
       if (random.below(20) == 0 && broken.connection != 0) wire.cut(broken);
@@ -226,7 +220,8 @@ TEST_CASE("a client that was cut off before it heard that it has everything hear
   // Everything arrives but that word.
   for (int i = 0; i < 50; ++i) {
     wire.pump(end, 1u << 20, 0);
-    for (; !end.to_server.empty(); end.to_server.pop_front()) REQUIRE(wire.server->receive(end.connection, end.to_server.front()).has_value());
+    for (; !end.to_server.empty(); end.to_server.pop_front())
+      REQUIRE(wire.server->receive(end.connection, end.to_server.front()).has_value());
     for (; !end.to_client.empty(); end.to_client.pop_front())
       if (!std::holds_alternative<Complete>(replication::decode(end.to_client.front()).value()))
         REQUIRE(end.client->receive(end.to_client.front()).has_value());

@@ -153,8 +153,9 @@ TEST_CASE("an id that is given to a node of another type says nothing of the fir
   wire.server->applied(NodeCreate{9, NodeType::object});
   REQUIRE(wire.settle(end));
   wire.cut(end);
-  for (const Command& command : {Command(HideSet{9, true}), Command(TransformSet{9, {{1, 2, 3}}}), Command(NodeDestroy{9}),
-                                 Command(NodeCreate{9, NodeType::geometry}), Command(GeometrySizeSet{9, 3, 1})}) {
+  for (const Command& command :
+       {Command(HideSet{9, true}), Command(TransformSet{9, {{1, 2, 3}}}), Command(NodeDestroy{9}),
+        Command(NodeCreate{9, NodeType::geometry}), Command(GeometrySizeSet{9, 3, 1})}) {
     REQUIRE(wire.store.apply(command).has_value());
     wire.server->applied(command);
   }

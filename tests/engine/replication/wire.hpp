@@ -84,8 +84,7 @@ struct Wire {
   bool settle(End& end, std::size_t bytes = 1u << 20) {
     for (int i = 0; i < 10000; ++i) {
       pump(end, bytes);
-      if (end.client->complete() && end.client->complete_revision() == store.revision())
-        return true;
+      if (end.client->complete() && end.client->complete_revision() == store.revision()) return true;
     }
     return false;
   }

@@ -29,17 +29,23 @@ TEST_CASE("seven screens cover 220 by 30 degrees ahead and 60 by 30 behind") {
   const auto rig = read_rig(shipped("seven-screens"), "seven-screens.toml");
   REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));
   REQUIRE(rig->screens.size() == 7);
-  const auto left_edge = [&](int i) { return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_left_m)); };
-  const auto right_edge = [&](int i) { return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_right_m)); };
+  const auto left_edge = [&](int i) {
+    return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_left_m));
+  };
+  const auto right_edge = [&](int i) {
+    return azimuth_deg(from_eye(*rig, rig->screens[i].views[0].window.lower_right_m));
+  };
   CHECK(left_edge(0) == doctest::Approx(110.0));
   CHECK(right_edge(4) == doctest::Approx(-110.0));
   CHECK(left_edge(5) == doctest::Approx(-150.0));
   CHECK(right_edge(6) == doctest::Approx(150.0));
   for (const auto& screen : rig->screens) {
     const auto& window = screen.views[0].window;
-    for (const Vec3& corner : {window.lower_left_m, window.lower_right_m, window.upper_left_m, window.upper_right_m()}) {
+    for (const Vec3& corner :
+         {window.lower_left_m, window.lower_right_m, window.upper_left_m, window.upper_right_m()}) {
       const Vec3 direction = from_eye(*rig, corner);
-      const double elevation_deg = std::atan2(std::abs(direction.z), std::hypot(direction.x, direction.y)) * 57.29577951308232;
+      const double elevation_deg =
+          std::atan2(std::abs(direction.z), std::hypot(direction.x, direction.y)) * 57.29577951308232;
       CHECK(elevation_deg == doctest::Approx(15.0).epsilon(1e-5));
     }
   }
@@ -57,7 +63,8 @@ TEST_CASE("neighbouring screens ahead share an edge") {
 }
 
 TEST_CASE("the screen ahead is the one that the driver looks straight through") {
-  for (const auto& [name, ahead] : {std::pair{"seven-screens", "ahead-3"}, {"three-monitors", "middle"}, {"desktop", "desktop"}}) {
+  for (const auto& [name, ahead] :
+       {std::pair{"seven-screens", "ahead-3"}, {"three-monitors", "middle"}, {"desktop", "desktop"}}) {
     const auto rig = read_rig(shipped(name), name);
     REQUIRE(rig);
     const Screen& screen = screen_ahead(*rig);
@@ -81,7 +88,8 @@ TEST_CASE("every shipped rig is read") {
 
 TEST_CASE("a screen has the monitor that its rig names and none unless it does") {
   const std::string good = one_screen;
-  const auto plain = read_rig(good, "my.toml"), placed = read_rig(good + "monitor = 2\nfull_screen = true\n", "my.toml");
+  const auto plain = read_rig(good, "my.toml"),
+             placed = read_rig(good + "monitor = 2\nfull_screen = true\n", "my.toml");
   REQUIRE((plain && placed));
   CHECK_FALSE(plain->screens[0].monitor.has_value());
   CHECK_FALSE(plain->screens[0].full_screen);
@@ -106,13 +114,18 @@ TEST_CASE("a wrong rig is refused with its line and column and a remedy") {
   refuse(good + "monitor = 64\n", "my.toml:8:11", "monitor");
   refuse(good + "full_screen = \"left\"\n", "my.toml:8:15", "full_screen");
   refuse(good + "[network]\ntransport = \"pigeon\"\n", "my.toml:9:13", "pigeon");
-  refuse("eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 0, 2]\n",
-         "my.toml:6:16", "rectangle");
+  refuse(
+      "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
+      "0]\nupper_left_m = [2, 0, 2]\n",
+      "my.toml:6:16", "rectangle");
 }
 
 TEST_CASE("the keyboard that drives is the named screen's or those at the server's own machine") {
-  const std::string screens = "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"near\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 2]\n"
-                              "[[screen]]\nname = \"far\"\nmachine = \"pc-2\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 2]\n";
+  const std::string screens =
+      "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"near\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
+      "0]\nupper_left_m = [2, 1, 2]\n"
+      "[[screen]]\nname = \"far\"\nmachine = \"pc-2\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
+      "0]\nupper_left_m = [2, 1, 2]\n";
   const auto driving = [&](const std::string& car) {
     const auto rig = read_rig(screens + "[car]\n" + car, "my.toml");
     REQUIRE_MESSAGE(rig, describe(rig ? Error{} : rig.error()));

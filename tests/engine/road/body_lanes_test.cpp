@@ -11,9 +11,8 @@ namespace {
 /// Two lanes of 3.5 m to drive on and a hard shoulder of 2.5 m, all on the right.
 RoadNetwork road_with_shoulder() {
   SmallRoad road;
-  road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" +
-                  lane(-1, 3.5) + lane(-2, 3.5) + lane(-3, 2.5, "", "shoulder") +
-                  "</right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lane(-1, 3.5) + lane(-2, 3.5) +
+                  lane(-3, 2.5, "", "shoulder") + "</right></laneSection>";
   return read_or_fail(road.xml());
 }
 

@@ -50,8 +50,7 @@ void use(const std::string& xml) {
     REQUIRE_FALSE(network.error().remedy.empty());
     return;
   }
-  for (const Finding& finding : check_opendrive(xml, "hostile.xodr"))
-    REQUIRE(finding.severity == Severity::warning);
+  for (const Finding& finding : check_opendrive(xml, "hostile.xodr")) REQUIRE(finding.severity == Severity::warning);
   for (RoadIndex road = 0; road < network->roads.size(); ++road) {
     const double middle = 0.5 * network->roads[road].length_m;
     const RoadPoint point = evaluate(*network, {road, middle, 1.0});
@@ -88,8 +87,7 @@ TEST_CASE("a file altered anywhere is read or refused and never stops the progra
 
 TEST_CASE("any number of a file may be replaced by an extreme one") {
   const std::string text = rich_text();
-  const char* extremes[] = {"0",   "-1",  "1e12", "-1e12", "1e-12", "1e308",
-                            "nan", "inf", "",     "1e6",   "0.5",   "999999"};
+  const char* extremes[] = {"0", "-1", "1e12", "-1e12", "1e-12", "1e308", "nan", "inf", "", "1e6", "0.5", "999999"};
   for (std::size_t at = text.find("=\""); at != std::string::npos; at = text.find("=\"", at + 2)) {
     const std::size_t end = text.find('"', at + 2);
     for (const char* extreme : extremes) use(text.substr(0, at + 2) + extreme + text.substr(end));

@@ -12,8 +12,7 @@ namespace {
 
 /// How far the world jumps from one lane position to the next.
 double gap_m(const RoadNetwork& network, const LanePosition& a, const LanePosition& b) {
-  return glm::distance(evaluate_lane(network, a).road.position_m,
-                       evaluate_lane(network, b).road.position_m);
+  return glm::distance(evaluate_lane(network, a).road.position_m, evaluate_lane(network, b).road.position_m);
 }
 
 }  // namespace
@@ -62,14 +61,12 @@ TEST_CASE("a driver who has the choice takes the way that is chosen") {
            "</link><planView><geometry s=\"0\" x=\"0\" y=\"" + y +
            "\" hdg=\"0\" length=\"50\"><line/></geometry></planView><lanes>"
            "<laneSection s=\"0\"><center>" +
-           lane(0, 0) + "</center><right>" + lane(-1, 3.5) +
-           "</right></laneSection></lanes></road>";
+           lane(0, 0) + "</center><right>" + lane(-1, 3.5) + "</right></laneSection></lanes></road>";
   };
   const std::string from_junction = "<predecessor elementType=\"junction\" elementId=\"j\"/>";
   const std::string xml = "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" +
                           road("in", "0", "<successor elementType=\"junction\" elementId=\"j\"/>") +
-                          road("left", "10", from_junction.c_str()) +
-                          road("right", "-10", from_junction.c_str()) +
+                          road("left", "10", from_junction.c_str()) + road("right", "-10", from_junction.c_str()) +
                           "<junction id=\"j\" type=\"direct\">"
                           "<connection id=\"0\" incomingRoad=\"in\" linkedRoad=\"left\" "
                           "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"

@@ -27,8 +27,8 @@ TEST_CASE("a small road without faults gives no findings") {
 }
 
 TEST_CASE("an error names file and line and element and says what to do") {
-  const Finding finding = only_error(
-      replaced(SmallRoad{}.xml(), "length=\"100\">\n<line/>", "length=\"ten\">\n<line/>"));
+  const Finding finding =
+      only_error(replaced(SmallRoad{}.xml(), "length=\"100\">\n<line/>", "length=\"ten\">\n<line/>"));
   CHECK(finding.line == 4);
   CHECK(finding.error.where == "broken.xodr:4, <geometry>");
   CHECK(finding.error.what == "length=\"ten\" is not a number within ±1000000");
@@ -69,14 +69,12 @@ TEST_CASE("every kind of broken road is refused") {
   only_error("");
   only_error("<roads/>");
   only_error("<OpenDRIVE/>");
-  only_error(replaced(
-      good, "</road>",
-      "</road>" + good.substr(good.find("<road"), good.find("</road>") - good.find("<road") + 7)));
+  only_error(replaced(good, "</road>",
+                      "</road>" + good.substr(good.find("<road"), good.find("</road>") - good.find("<road") + 7)));
 }
 
 TEST_CASE("all faults of a file are found and not only the first") {
-  const std::string xml =
-      replaced(replaced(SmallRoad{}.xml(), "x=\"0\"", "x=\"here\""), "a=\"3.5\"", "a=\"-1\"");
+  const std::string xml = replaced(replaced(SmallRoad{}.xml(), "x=\"0\"", "x=\"here\""), "a=\"3.5\"", "a=\"-1\"");
   const auto findings = check_opendrive(xml, "two.xodr");
   REQUIRE(findings.size() == 2);
   CHECK(findings[0].line < findings[1].line);
@@ -103,11 +101,9 @@ TEST_CASE("lanes may be given by their borders") {
 
 TEST_CASE("a section of one side goes on with the other side of the section before it") {
   SmallRoad road;
-  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) +
-                  "</center><right>" + lane(-1, 3.5) +
-                  "</right></laneSection><laneSection s=\"40\" singleSide=\"true\"><center>" +
-                  lane(0, 0) + "</center><right>" + lane(-1, 3.5) + lane(-2, 2.0) +
-                  "</right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) + "</center><right>" +
+                  lane(-1, 3.5) + "</right></laneSection><laneSection s=\"40\" singleSide=\"true\"><center>" +
+                  lane(0, 0) + "</center><right>" + lane(-1, 3.5) + lane(-2, 2.0) + "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   CHECK(lane_width_m(network, 0, 1, 70.0) == 3.0);
   CHECK(lane_width_m(network, 0, -2, 70.0) == 2.0);
@@ -125,20 +121,18 @@ TEST_CASE("left-hand traffic runs along s on the left") {
 
 TEST_CASE("the offset of the header moves and turns and lifts the roads") {
   SmallRoad road{.header = "<offset x=\"10\" y=\"0\" z=\"3\" hdg=\"1.5707963267948966\"/>"};
-  road.profiles =
-      "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>";
+  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"1\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>";
   const Vec3 start = evaluate(read_or_fail(road.xml()), {0, 0.0, 0.0}).position_m;
   CHECK(glm::distance(start, Vec3(0.0, 10.0, 4.0)) < 1e-12);
 }
 
 TEST_CASE("a road mark without lines gets those of its type and lasts until the next one") {
   SmallRoad road;
-  road.sections =
-      "<laneSection s=\"0\"><center>" +
-      lane(0, 0,
-           "<roadMark sOffset=\"0\" type=\"solid broken\" color=\"yellow\" width=\"0.1\"/>"
-           "<roadMark sOffset=\"30\" type=\"broken\" weight=\"bold\" color=\"white\"/>") +
-      "</center><right>" + lane(-1, 3.5) + "</right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><center>" +
+                  lane(0, 0,
+                       "<roadMark sOffset=\"0\" type=\"solid broken\" color=\"yellow\" width=\"0.1\"/>"
+                       "<roadMark sOffset=\"30\" type=\"broken\" weight=\"bold\" color=\"white\"/>") +
+                  "</center><right>" + lane(-1, 3.5) + "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   const RoadMark* first = road_mark_at(network, 0, 0, 10.0);
   REQUIRE(first != nullptr);
@@ -158,8 +152,7 @@ TEST_CASE("a road mark without lines gets those of its type and lasts until the 
 
 TEST_CASE("a mark of type none has no lines and a line without a width gets that of its mark") {
   SmallRoad road;
-  const std::string lines =
-      "<type name=\"x\"><line length=\"2\" space=\"4\" width=\"0\"/></type></roadMark>";
+  const std::string lines = "<type name=\"x\"><line length=\"2\" space=\"4\" width=\"0\"/></type></roadMark>";
   road.sections = "<laneSection s=\"0\"><center>" +
                   lane(0, 0,
                        "<roadMark sOffset=\"0\" type=\"none\">" + lines +

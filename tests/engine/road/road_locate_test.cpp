@@ -74,8 +74,7 @@ TEST_CASE("beside the road the nearest lane is found and far away none") {
 
 TEST_CASE("a vehicle that leaves its road by the end is found on the linked road") {
   const RoadNetwork& network = motorway();
-  const RoadIndex first = *find_road(network, "1"), second = *find_road(network, "2"),
-                  ramp = *find_road(network, "11");
+  const RoadIndex first = *find_road(network, "1"), second = *find_road(network, "2"), ramp = *find_road(network, "11");
   const double length = network.roads[first].length_m;
   const RoadPosition hint{first, length - 0.1, -20.0};
   const Vec3 on_main = evaluate_lane(network, {second, -5, 1.0, 0.0}).road.position_m;
@@ -102,8 +101,7 @@ TEST_CASE("the normal of the surface is that of the points around it") {
     const auto east = surface_at(network, at + Vec2(0.005, 0.0), &position);
     const auto north = surface_at(network, at + Vec2(0.0, 0.005), &position);
     if (!east || !north) continue;
-    const Vec3 u(0.005, 0.0, east->height_m - surface->height_m),
-        v(0.0, 0.005, north->height_m - surface->height_m);
+    const Vec3 u(0.005, 0.0, east->height_m - surface->height_m), v(0.0, 0.005, north->height_m - surface->height_m);
     REQUIRE(glm::distance(surface->normal, glm::normalize(glm::cross(u, v))) < 1e-4);
   }
 }
@@ -114,10 +112,8 @@ TEST_CASE("a banked road with a shape and a crossfall and raised lanes is invert
       "<lateralProfile><superelevation s=\"0\" a=\"0.2\" b=\"0.001\" c=\"0\" d=\"0\"/>"
       "<crossfall side=\"both\" s=\"0\" a=\"0.03\" b=\"0\" c=\"0\" d=\"0\"/>"
       "<shape s=\"0\" t=\"0\" a=\"0.1\" b=\"0.05\" c=\"0\" d=\"0\"/></lateralProfile>";
-  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) +
-                  "</center><right>" +
-                  lane(-1, 3.5, "<height sOffset=\"0\" inner=\"0.4\" outer=\"0.6\"/>") +
-                  "</right></laneSection>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) + "</center><right>" +
+                  lane(-1, 3.5, "<height sOffset=\"0\" inner=\"0.4\" outer=\"0.6\"/>") + "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   Random random(4);
   for (int i = 0; i < 500; ++i) {
@@ -135,8 +131,8 @@ TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to 
     text << "<road id=\"" << id << "\" length=\"50\" junction=\"7\"><link><predecessor "
          << "elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/></link><planView><geometry "
          << "s=\"0\" x=\"100\" y=\"" << y << "\" hdg=\"0\" length=\"50\"><line/></geometry>"
-         << "</planView><lanes><laneSection s=\"0\"><center>" << lane(0, 0) << "</center><right>"
-         << lane(-1, width) << "</right></laneSection></lanes></road>";
+         << "</planView><lanes><laneSection s=\"0\"><center>" << lane(0, 0) << "</center><right>" << lane(-1, width)
+         << "</right></laneSection></lanes></road>";
     return text.str();
   };
   const auto connection = [](const char* id) {
@@ -144,18 +140,15 @@ TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to 
            "\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>";
   };
   // Both hold the points from y = -3 to 0; the middle of b is at -1.75, that of c at -4.
-  const std::string more = connecting("b", 0.0, 3.5) + connecting("c", 0.0, 8.0) +
-                           "<junction id=\"7\">" + connection("b") + connection("c") +
-                           "</junction>";
-  const std::string xml =
-      replaced(replaced(SmallRoad{}.xml(), "<planView>",
-                        "<link><successor elementType=\"junction\" elementId=\"7\"/></link>"
-                        "<planView>"),
-               "</OpenDRIVE>", more + "</OpenDRIVE>");
+  const std::string more = connecting("b", 0.0, 3.5) + connecting("c", 0.0, 8.0) + "<junction id=\"7\">" +
+                           connection("b") + connection("c") + "</junction>";
+  const std::string xml = replaced(replaced(SmallRoad{}.xml(), "<planView>",
+                                            "<link><successor elementType=\"junction\" elementId=\"7\"/></link>"
+                                            "<planView>"),
+                                   "</OpenDRIVE>", more + "</OpenDRIVE>");
   const RoadNetwork network = read_or_fail(xml);
   const RoadPosition hint{0, 99.0, -1.75};
-  const auto near_b = locate(network, {103.0, -1.5}, &hint),
-             near_c = locate(network, {103.0, -3.4}, &hint);
+  const auto near_b = locate(network, {103.0, -1.5}, &hint), near_c = locate(network, {103.0, -3.4}, &hint);
   REQUIRE(near_b.has_value());
   REQUIRE(near_c.has_value());
   CHECK(network.roads[near_b->position.road].id == "b");
@@ -164,21 +157,17 @@ TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to 
 
 TEST_CASE("on the inside of a climbing bend the surface is steeper than the reference line") {
   SmallRoad road{.length_m = 40.0, .geometry = "<arc curvature=\"0.04\"/>"};
-  road.profiles =
-      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.1\" c=\"0\" d=\"0\"/></elevationProfile>";
-  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 12.0) + "</left><center>" + lane(0, 0) +
-                  "</center><right>" + lane(-1, 12.0) + "</right></laneSection>";
+  road.profiles = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.1\" c=\"0\" d=\"0\"/></elevationProfile>";
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 12.0) + "</left><center>" + lane(0, 0) + "</center><right>" +
+                  lane(-1, 12.0) + "</right></laneSection>";
   const RoadNetwork network = read_or_fail(road.xml());
   for (const double t : {-10.0, 0.0, 10.0}) {
     const RoadPosition position{0, 20.0, t};
     const Vec2 at(evaluate(network, position).position_m);
-    const auto height_at = [&](const Vec2& offset) {
-      return surface_at(network, at + offset, &position)->height_m;
-    };
+    const auto height_at = [&](const Vec2& offset) { return surface_at(network, at + offset, &position)->height_m; };
     const double h = 1e-3;
-    const Vec3 by_differences = glm::normalize(
-        Vec3((height_at({-h, 0.0}) - height_at({h, 0.0})) / (2 * h),
-             (height_at({0.0, -h}) - height_at({0.0, h})) / (2 * h), 1.0));
+    const Vec3 by_differences = glm::normalize(Vec3((height_at({-h, 0.0}) - height_at({h, 0.0})) / (2 * h),
+                                                    (height_at({0.0, -h}) - height_at({0.0, h})) / (2 * h), 1.0));
     CHECK(glm::distance(surface_at(network, at, &position)->normal, by_differences) < 1e-6);
   }
 }

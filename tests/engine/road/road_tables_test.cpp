@@ -38,8 +38,7 @@ TEST_CASE("the table of locations answers points on the road and leaves the othe
 
 TEST_CASE("a wrong line of a table is named") {
   const RoadNetwork network = read_or_fail(SmallRoad{}.xml());
-  for (const char* line :
-       {"a,1,10\n", "b,1,10,0\n", "a,x,10,0\n", "a,4,10,0\n", "a,1,1000,0\n", "a,1,nan,0\n"}) {
+  for (const char* line : {"a,1,10\n", "b,1,10,0\n", "a,x,10,0\n", "a,4,10,0\n", "a,1,1000,0\n", "a,1,nan,0\n"}) {
     std::istringstream in(std::string("road_id,lane_id,s_m,lane_offset_m\n") + line);
     std::ostringstream out;
     const auto done = sample_table(network, in, out);

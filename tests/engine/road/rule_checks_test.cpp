@@ -25,8 +25,7 @@ std::set<std::string> broken(const std::string& xml) {
     CHECK(finding.severity == Severity::warning);
     CHECK(finding.line > 0);
     CHECK_FALSE(finding.error.remedy.empty());
-    rules.insert(finding.rule.empty() ? finding.error.what
-                                      : finding.rule.substr(std::string("asam.net:xodr:").size()));
+    rules.insert(finding.rule.empty() ? finding.error.what : finding.rule.substr(std::string("asam.net:xodr:").size()));
   }
   return rules;
 }
@@ -38,8 +37,8 @@ std::string linked_lane(const char* links, const char* width = "a=\"3.5\" b=\"0\
          "</link><width sOffset=\"0\" " + width + " c=\"0\" d=\"0\"/></lane>";
 }
 
-std::string straight(const std::string& id, double x, const std::string& junction,
-                     const std::string& links, const std::string& lanes) {
+std::string straight(const std::string& id, double x, const std::string& junction, const std::string& links,
+                     const std::string& lanes) {
   std::ostringstream text;
   text << "<road id=\"" << id << "\" length=\"50\" junction=\"" << junction << "\">\n<link>" << links
        << "</link><planView><geometry s=\"0\" x=\"" << x
@@ -58,28 +57,22 @@ constexpr const char *before = "<predecessor id=\"-1\"/>", *after = "<successor 
 
 /// Two roads, one after the other.
 std::string chain() {
-  return file_of(
-      straight("a", 0, "-1",
-               "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
-               linked_lane(after)) +
-      straight("b", 50, "-1",
-               "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>",
-               linked_lane(before)));
+  return file_of(straight("a", 0, "-1", "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
+                          linked_lane(after)) +
+                 straight("b", 50, "-1", "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>",
+                          linked_lane(before)));
 }
 
 /// Two roads and the one that connects them in a junction.
 std::string junction() {
-  return file_of(
-      straight("a", 0, "-1", "<successor elementType=\"junction\" elementId=\"7\"/>",
-               linked_lane("")) +
-      straight("c", 50, "7",
-               "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>"
-               "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
-               linked_lane(both)) +
-      straight("b", 100, "-1", "<predecessor elementType=\"junction\" elementId=\"7\"/>",
-               linked_lane("")) +
-      "<junction id=\"7\">\n<connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"c\" "
-      "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>\n</junction>\n");
+  return file_of(straight("a", 0, "-1", "<successor elementType=\"junction\" elementId=\"7\"/>", linked_lane("")) +
+                 straight("c", 50, "7",
+                          "<predecessor elementType=\"road\" elementId=\"a\" contactPoint=\"end\"/>"
+                          "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
+                          linked_lane(both)) +
+                 straight("b", 100, "-1", "<predecessor elementType=\"junction\" elementId=\"7\"/>", linked_lane("")) +
+                 "<junction id=\"7\">\n<connection id=\"0\" incomingRoad=\"a\" connectingRoad=\"c\" "
+                 "contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>\n</junction>\n");
 }
 
 std::string edition(const std::string& xml, const char* minor) {
@@ -99,19 +92,13 @@ TEST_CASE("roads that follow the rules are silent") {
 }
 
 TEST_CASE("lanes that go on are linked both ways, have a width there and join") {
-  CHECK(broken(replaced(chain(), before, "")) ==
-        Rules{"1.4.0:road.lane.link.lanes_across_lane_sections"});
-  const std::string ends =
-      replaced(chain(), linked_lane(after), linked_lane(after, "a=\"3.5\" b=\"-0.07\""));
-  CHECK(broken(ends) == Rules{"1.4.0:road.lane.link.new_lane_appear",
-                              "1.7.0:road.lane.link.zero_width_at_end"});
+  CHECK(broken(replaced(chain(), before, "")) == Rules{"1.4.0:road.lane.link.lanes_across_lane_sections"});
+  const std::string ends = replaced(chain(), linked_lane(after), linked_lane(after, "a=\"3.5\" b=\"-0.07\""));
+  CHECK(broken(ends) == Rules{"1.4.0:road.lane.link.new_lane_appear", "1.7.0:road.lane.link.zero_width_at_end"});
   CHECK(broken(edition(ends, "6")) == Rules{"1.4.0:road.lane.link.new_lane_appear"});
-  const std::string begins =
-      replaced(chain(), linked_lane(before), linked_lane(before, "a=\"0\" b=\"0.07\""));
-  CHECK(broken(begins) == Rules{"1.4.0:road.lane.link.new_lane_appear",
-                                "1.7.0:road.lane.link.zero_width_at_start"});
-  const std::string narrow =
-      replaced(chain(), linked_lane(before), linked_lane(before, "a=\"3.4\" b=\"0\""));
+  const std::string begins = replaced(chain(), linked_lane(before), linked_lane(before, "a=\"0\" b=\"0.07\""));
+  CHECK(broken(begins) == Rules{"1.4.0:road.lane.link.new_lane_appear", "1.7.0:road.lane.link.zero_width_at_start"});
+  const std::string narrow = replaced(chain(), linked_lane(before), linked_lane(before, "a=\"3.4\" b=\"0\""));
   CHECK(broken(narrow) == Rules{"1.7.0:lane_smoothness.contact_point_no_horizontal_gaps"});
   CHECK(broken(edition(narrow, "6")) == Rules{});
   CHECK(broken(replaced(junction(), "x=\"50\" y=\"0\"", "x=\"50\" y=\"0.2\"")) ==
@@ -137,15 +124,13 @@ TEST_CASE("outside a level lane and in its continuation lanes are level") {
         Rules{"1.7.0:road.lane.level_true_one_side"});
   SmallRoad road;
   road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" +
-                  replaced(lane(-1, 3.5), "<lane", "<lane level=\"true\"") + lane(-2, 2.0) +
-                  "</right></laneSection>";
+                  replaced(lane(-1, 3.5), "<lane", "<lane level=\"true\"") + lane(-2, 2.0) + "</right></laneSection>";
   CHECK(broken(road.xml()) == Rules{"1.7.0:road.lane.level_true_one_side"});
 }
 
 TEST_CASE("a road has one road at each end or a junction") {
   const std::string third = straight(
-      "c", 0, "-1", "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>",
-      linked_lane(""));
+      "c", 0, "-1", "<successor elementType=\"road\" elementId=\"b\" contactPoint=\"start\"/>", linked_lane(""));
   CHECK(broken(replaced(chain(), "</OpenDRIVE>", third + "</OpenDRIVE>")) ==
         Rules{"1.4.0:road.linkage.is_junction_needed"});
   CHECK(broken(replaced(SmallRoad{}.xml(), "<planView>",
@@ -158,13 +143,11 @@ TEST_CASE("connections lead from roads outside into the junction, with the traff
   const std::string good = junction();
   CHECK(broken(replaced(good, "incomingRoad=\"a\" connectingRoad=\"c\" contactPoint=\"start\"",
                         "incomingRoad=\"b\" connectingRoad=\"c\" contactPoint=\"start\"")) ==
-        Rules{"1.7.0:junctions.connection.start_along_linkage",
-              "1.8.0:junctions.connection.one_link_to_incoming",
+        Rules{"1.7.0:junctions.connection.start_along_linkage", "1.8.0:junctions.connection.one_link_to_incoming",
               "1.7.0:lane_smoothness.contact_point_no_horizontal_gaps"});
   CHECK(broken(replaced(good, "connectingRoad=\"c\" contactPoint=\"start\"",
                         "connectingRoad=\"c\" contactPoint=\"end\"")) ==
-        Rules{"1.7.0:junctions.connection.end_opposite_linkage",
-              "1.8.0:junctions.connection.one_link_to_incoming",
+        Rules{"1.7.0:junctions.connection.end_opposite_linkage", "1.8.0:junctions.connection.one_link_to_incoming",
               "1.7.0:lane_smoothness.contact_point_no_horizontal_gaps"});
   CHECK(broken(replaced(good, "to=\"-1\"", "to=\"-2\"")) ==
         Rules{"its lane link -1 to -2 names a lane that road c does not have there"});
@@ -185,8 +168,8 @@ TEST_CASE("borders do not cross and access is not mixed") {
            "\" b=\"0.03\" c=\"0\" d=\"0\"/></lane>";
   };
   const auto with = [&](const std::string& lanes) {
-    return SmallRoad{.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) +
-                                 "</center><right>" + lanes + "</right></laneSection>"}
+    return SmallRoad{.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lanes +
+                                 "</right></laneSection>"}
         .xml();
   };
   CHECK(broken(with(border(-1, "-4") + border(-2, "-7"))) == Rules{});
@@ -199,9 +182,7 @@ TEST_CASE("borders do not cross and access is not mixed") {
   CHECK(broken(with(lane(-1, 3.5, access + access))) == Rules{});
   CHECK(broken(with(lane(-1, 3.5, access + replaced(access, "allow", "deny")))) ==
         Rules{"1.7.0:road.lane.access.no_mix_of_deny_or_allow"});
-  CHECK(broken(with(lane(-1, 3.5,
-                         access + replaced(replaced(access, "allow", "deny"), "\"0\"", "\"9\"")))) ==
-        Rules{});
+  CHECK(broken(with(lane(-1, 3.5, access + replaced(replaced(access, "allow", "deny"), "\"0\"", "\"9\"")))) == Rules{});
 }
 
 TEST_CASE("parametric curves begin where they say and are as long as they say") {
@@ -212,8 +193,8 @@ TEST_CASE("parametric curves begin where they say and are as long as they say") 
   CHECK(broken(cubic_road(normalized)) == Rules{});
   const Rules aligned{"1.7.0:road.geometry.paramPoly3.valid_parameters"};
   CHECK(broken(cubic_road(replaced(by_length, "aV=\"0\"", "aV=\"0.5\""))) == aligned);
-  CHECK(broken(cubic_road(replaced(replaced(by_length, "bU=\"1\"", "bU=\"0.8\""), "bV=\"0\"",
-                                   "bV=\"0.6\""))) == aligned);
+  CHECK(broken(cubic_road(replaced(replaced(by_length, "bU=\"1\"", "bU=\"0.8\""), "bV=\"0\"", "bV=\"0.6\""))) ==
+        aligned);
   CHECK(broken(cubic_road(replaced(by_length, "bU=\"1\"", "bU=\"1.1\""))) ==
         Rules{"1.7.0:road.geometry.parampoly3.arclength_range"});
   CHECK(broken(cubic_road(replaced(normalized, "bU=\"100\"", "bU=\"101\""))) ==
@@ -232,10 +213,9 @@ TEST_CASE("records that say nothing new are named") {
   CHECK(broken(profile("b=\"0.1\"")) == redundant);
   CHECK(broken(profile("b=\"0.2\"")) == Rules{});
   CHECK(broken(edition(profile("b=\"0.1\""), "6")) == Rules{});
-  const std::string lines =
-      replaced(SmallRoad{}.xml(), "hdg=\"0\" length=\"100\">\n<line/>",
-               "hdg=\"0\" length=\"50\"><line/></geometry><geometry s=\"50\" x=\"50\" y=\"0\" "
-               "hdg=\"0\" length=\"50\"><line/>");
+  const std::string lines = replaced(SmallRoad{}.xml(), "hdg=\"0\" length=\"100\">\n<line/>",
+                                     "hdg=\"0\" length=\"50\"><line/></geometry><geometry s=\"50\" x=\"50\" y=\"0\" "
+                                     "hdg=\"0\" length=\"50\"><line/>");
   CHECK(broken(lines) == redundant);
 }
 
@@ -248,8 +228,9 @@ TEST_CASE("an attribute that the schema requires is missed") {
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].error.what == "attribute d is missing");
   CHECK(findings[0].error.where == "bad.xodr:9, <width>");
-  const std::string sign = "<signals><signal id=\"1\" s=\"5\" t=\"1\" zOffset=\"0\" type=\"274\" "
-                           "subtype=\"1\" dynamic=\"no\" orientation=\"+\"/></signals></road>";
+  const std::string sign =
+      "<signals><signal id=\"1\" s=\"5\" t=\"1\" zOffset=\"0\" type=\"274\" "
+      "subtype=\"1\" dynamic=\"no\" orientation=\"+\"/></signals></road>";
   CHECK(broken(replaced(good, "</road>", sign)) == Rules{});
   CHECK(broken(replaced(good, "</road>", replaced(sign, " dynamic=\"no\"", ""))) == schema);
 }

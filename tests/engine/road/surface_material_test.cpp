@@ -12,25 +12,23 @@ namespace {
 /// A dry left lane, a right lane that turns to snow at 40 m, and two patches of ice.
 std::string mixed_road() {
   SmallRoad road;
-  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) +
-                  "</center><right>" +
+  road.sections = "<laneSection s=\"0\"><left>" + lane(1, 3.0) + "</left><center>" + lane(0, 0) + "</center><right>" +
                   lane(-1, 3.5,
                        "<material sOffset=\"0\" friction=\"0.8\" roughness=\"2\"/>"
                        "<material sOffset=\"40\" surface=\"snow\" friction=\"0.3\"/>") +
                   "</right></laneSection>";
   std::string xml = road.xml();
   const auto at = xml.find("</road>");
-  return xml.insert(
-      at,
-      "<objects>"
-      "<object id=\"1\" type=\"patch\" s=\"20\" t=\"-1.5\" length=\"4\" width=\"1\" hdg=\"0\">"
-      "<material surface=\"ice\" friction=\"0.1\"/></object>"
-      "<object id=\"2\" type=\"patch\" s=\"60\" t=\"1\"><outlines><outline>"
-      "<cornerRoad s=\"58\" t=\"0\" dz=\"0\" height=\"0\"/><cornerRoad s=\"62\" t=\"0\" dz=\"0\" "
-      "height=\"0\"/>"
-      "<cornerRoad s=\"60\" t=\"2\" dz=\"0\" height=\"0\"/></outline></outlines>"
-      "<material surface=\"ice\"/></object>"
-      "<object id=\"3\" type=\"tree\" s=\"80\" t=\"-1\" length=\"2\" width=\"2\"/></objects>");
+  return xml.insert(at,
+                    "<objects>"
+                    "<object id=\"1\" type=\"patch\" s=\"20\" t=\"-1.5\" length=\"4\" width=\"1\" hdg=\"0\">"
+                    "<material surface=\"ice\" friction=\"0.1\"/></object>"
+                    "<object id=\"2\" type=\"patch\" s=\"60\" t=\"1\"><outlines><outline>"
+                    "<cornerRoad s=\"58\" t=\"0\" dz=\"0\" height=\"0\"/><cornerRoad s=\"62\" t=\"0\" dz=\"0\" "
+                    "height=\"0\"/>"
+                    "<cornerRoad s=\"60\" t=\"2\" dz=\"0\" height=\"0\"/></outline></outlines>"
+                    "<material surface=\"ice\"/></object>"
+                    "<object id=\"3\" type=\"tree\" s=\"80\" t=\"-1\" length=\"2\" width=\"2\"/></objects>");
 }
 
 }  // namespace

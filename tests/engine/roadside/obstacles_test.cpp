@@ -40,7 +40,8 @@ TEST_CASE("every kind of thing stands beside the motorway") {
   CHECK(count[ObstacleKind::tree] > 1000);
 }
 
-TEST_CASE("rails and the wall between the carriageways are found where the road file has them and nothing in the lanes") {
+TEST_CASE(
+    "rails and the wall between the carriageways are found where the road file has them and nothing in the lanes") {
   for (const double s : {100.0, 901.5, 3100.0, 5500.0}) {
     CAPTURE(s);
     const auto middle = kinds_near(on_motorway(s, 0.0), 1.0);
@@ -77,7 +78,8 @@ TEST_CASE("stems stand in the woods that are drawn and nowhere else") {
       const Vec2 cell = glm::floor(p / land_cell_m), middle = (cell + 0.5) * land_cell_m;
       const auto found = motorway_obstacles().near(middle, 5.0);
       if (!is_wood(terrain, middle, land_cell_m)) {
-        in_field += static_cast<int>(std::ranges::count_if(found, [](const Obstacle& o) { return (o.run & 0x8000'0000u) != 0; }));
+        in_field += static_cast<int>(
+            std::ranges::count_if(found, [](const Obstacle& o) { return (o.run & 0x8000'0000u) != 0; }));
         continue;
       }
       ++in_wood;

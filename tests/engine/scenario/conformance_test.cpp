@@ -39,12 +39,11 @@ struct Loaded {
 Loaded load(const std::string& name) {
   const fs::path folder = conformance_data("scenarios") / "xosc";
   Loaded loaded;
-  auto scenario = read_scenario(content(folder / (name + ".xosc")), name + ".xosc",
-                                files_in(folder.string()), &loaded.warnings);
+  auto scenario =
+      read_scenario(content(folder / (name + ".xosc")), name + ".xosc", files_in(folder.string()), &loaded.warnings);
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
   loaded.scenario = std::move(*scenario);
-  auto network =
-      road::read_opendrive(content(folder / loaded.scenario.road_file), loaded.scenario.road_file);
+  auto network = road::read_opendrive(content(folder / loaded.scenario.road_file), loaded.scenario.road_file);
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
   loaded.network = std::move(*network);
   return loaded;
@@ -102,7 +101,7 @@ struct State {
 /// Where the reference itself is known to be otherwise.
 struct Exceptions {
   bool heading = true, height = true, speed = true;  ///< Compared.
-  std::vector<double> left_out;        ///< Times.
+  std::vector<double> left_out;                      ///< Times.
   double until_s = 1e300, from_s = 0.0;
   std::vector<std::string> only;  ///< Entities; none: all.
   double slack_from_s = 1e300, slack_m = 0.0;
@@ -116,8 +115,8 @@ double misfit(const TraceRow& row, const State& state, const State& next, double
   Vec3 apart = state.position_m - row.position_m;
   if (!but.height) apart.z = 0.0;
   const double slack = row.time_s >= but.slack_from_s ? but.slack_m : 0.0;
-  const double position = glm::length(apart) / (0.05 + 0.03 * std::abs(row.speed_mps) +
-                                                0.005 * speed_changes_mps + slack);
+  const double position =
+      glm::length(apart) / (0.05 + 0.03 * std::abs(row.speed_mps) + 0.005 * speed_changes_mps + slack);
   const double bend = std::abs(road::wrap_angle(next.heading - state.heading));
   const double turn = std::abs(road::wrap_angle(state.heading - row.heading_rad)) / (0.02 + bend);
   const double heading = but.heading ? turn : 0.0;
@@ -137,8 +136,7 @@ std::map<std::string, std::vector<State>> run(const Loaded& loaded, double end_s
     for (EntityIndex i = 0; i < state.entities.size(); ++i) {
       const EntityState& entity = state.entities[i];
       states[loaded.scenario.entities[i].name].push_back(
-          {entity.world_from_entity.position_m, heading_rad(entity.world_from_entity.orientation),
-           entity.speed_mps});
+          {entity.world_from_entity.position_m, heading_rad(entity.world_from_entity.orientation), entity.speed_mps});
     }
     if (step * 0.01 >= end_s - 1e-6) return states;
     const StepResult happened = advance_scenario(loaded.scenario, loaded.network, 0.01, state);
@@ -156,8 +154,7 @@ void check_against_trace(const std::string& name, const Exceptions& but = {}) {
   // Trailers are entities of their own in the trace; the reader names them as not supported.
   std::erase_if(rows, [&](const TraceRow& row) { return row.name.ends_with('+'); });
   std::erase_if(rows, [&](const TraceRow& row) {
-    const bool other = !but.only.empty() &&
-                       std::find(but.only.begin(), but.only.end(), row.name) == but.only.end();
+    const bool other = !but.only.empty() && std::find(but.only.begin(), but.only.end(), row.name) == but.only.end();
     return other || row.time_s > but.until_s || row.time_s < but.from_s ||
            std::any_of(but.left_out.begin(), but.left_out.end(),
                        [&](double time_s) { return std::abs(row.time_s - time_s) < 0.05; });
@@ -186,17 +183,16 @@ void check_against_trace(const std::string& name, const Exceptions& but = {}) {
       worst = least;
       const State& at = of_entity[static_cast<std::size_t>(step)];
       std::ostringstream text;
-      text << row.name << " at " << row.time_s << " s: (" << at.position_m.x << ", "
-           << at.position_m.y << ", " << at.position_m.z << ") " << at.heading << " rad, "
-           << at.speed << " m/s; trace (" << row.position_m.x << ", " << row.position_m.y << ", "
-           << row.position_m.z << ") " << row.heading_rad << " rad, " << row.speed_mps << " m/s";
+      text << row.name << " at " << row.time_s << " s: (" << at.position_m.x << ", " << at.position_m.y << ", "
+           << at.position_m.z << ") " << at.heading << " rad, " << at.speed << " m/s; trace (" << row.position_m.x
+           << ", " << row.position_m.y << ", " << row.position_m.z << ") " << row.heading_rad << " rad, "
+           << row.speed_mps << " m/s";
       worst_row = text.str();
     }
   }
   INFO(name << ": worst misfit " << worst << " of the tolerance, " << worst_row);
   CHECK(worst <= 1.0);
-  if (std::getenv("SEPTET_SHOW_EVENTS") != nullptr)
-    MESSAGE(name << ": worst misfit " << worst << " " << worst_row);
+  if (std::getenv("SEPTET_SHOW_EVENTS") != nullptr) MESSAGE(name << ": worst misfit " << worst << " " << worst_row);
 }
 
 /// When elements start and when they are over, by name and what happens, ascending.
@@ -227,7 +223,9 @@ EventTimes events_of_run(const Loaded& loaded, double end_s) {
       // Named by its way from the story down; the trace has the last name only, and its own for the storyboard.
       const std::string& way = loaded.scenario.element_names[event.element];
       const auto colons = way.rfind("::");
-      const std::string element = way.empty() ? "storyBoard" : colons == std::string::npos ? way : way.substr(colons + 2);
+      const std::string element = way.empty()                   ? "storyBoard"
+                                  : colons == std::string::npos ? way
+                                                                : way.substr(colons + 2);
       times[element + (event.transition == ElementTransition::start ? " starts" : " is over")].push_back(event.time_s);
     }
   };
@@ -260,12 +258,14 @@ void check_events(const std::string& name, const std::set<std::string>& otherwis
     }
     if (same) continue;
     found_otherwise.insert(event.first);
-    if (!otherwise.contains(event.first)) MESSAGE(name << ": " << event.first << " at" << text_of(at_s) << ", reference at" << text_of(event.second));
+    if (!otherwise.contains(event.first))
+      MESSAGE(name << ": " << event.first << " at" << text_of(at_s) << ", reference at" << text_of(event.second));
   }
   for (const auto& event : seen)
     if (!expected.contains(event.first) && !event.second.empty()) {
       found_otherwise.insert(event.first);
-      if (!otherwise.contains(event.first)) MESSAGE(name << ": " << event.first << " at" << text_of(event.second) << ", never in the reference");
+      if (!otherwise.contains(event.first))
+        MESSAGE(name << ": " << event.first << " at" << text_of(event.second) << ", never in the reference");
     }
   CAPTURE(name);
   CHECK(found_otherwise == otherwise);
@@ -276,17 +276,24 @@ void check_events(const std::string& name, const std::set<std::string>& otherwis
 TEST_CASE("every storyboard has the reference's events at the reference's times") {
   // How an approach within bounds goes the standard leaves open, and with it when the approach is over. Here it takes 1.0 s where the
   // reference takes 4.8 s; all that waits for it is as much earlier.
-  const std::set<std::string> lateral = {"LateralDistanceAct is over", "LateralDistanceAction is over", "LateralDistanceMaxAccEvent is over",
-                                         "LateralDistanceMaxAccManeuver is over", "LateralDistanceSequence is over",
-                                         "LateralDistanceStory is over", "storyBoard is over"};
+  const std::set<std::string> lateral = {"LateralDistanceAct is over",
+                                         "LateralDistanceAction is over",
+                                         "LateralDistanceMaxAccEvent is over",
+                                         "LateralDistanceMaxAccManeuver is over",
+                                         "LateralDistanceSequence is over",
+                                         "LateralDistanceStory is over",
+                                         "storyBoard is over"};
   // A smooth speed profile may go from speed to speed as it likes: it is over 0.17 s earlier.
-  const std::set<std::string> profile = {"SpeedProfileAct is over", "SpeedProfileAction1 is over", "SpeedProfileEvent1 is over",
-                                         "SpeedProfileManeuver1 is over", "SpeedProfileManeuverGroup1 is over", "SpeedProfileStory is over"};
+  const std::set<std::string> profile = {
+      "SpeedProfileAct is over",       "SpeedProfileAction1 is over",        "SpeedProfileEvent1 is over",
+      "SpeedProfileManeuver1 is over", "SpeedProfileManeuverGroup1 is over", "SpeedProfileStory is over"};
   int scenarios = 0;
   for (const auto& entry : fs::directory_iterator(conformance_data("scenarios") / "xosc")) {
     if (entry.path().extension() != ".xosc") continue;
     const std::string name = entry.path().stem().string();
-    check_events(name, name == "keep_lateral_distance" ? lateral : name == "speed-profile" ? profile : std::set<std::string>{});
+    check_events(name, name == "keep_lateral_distance" ? lateral
+                       : name == "speed-profile"       ? profile
+                                                       : std::set<std::string>{});
     ++scenarios;
   }
   CHECK(scenarios == 17);
@@ -298,23 +305,15 @@ TEST_CASE("a highway merge follows the reference trace") {
 }
 TEST_CASE("cut-in follows the reference trace") { check_against_trace("cut-in"); }
 TEST_CASE("cut-in on curves follows the reference trace") { check_against_trace("cut-in_cr"); }
-TEST_CASE("simple lane change follows the reference trace") {
-  check_against_trace("lane_change_simple");
-}
+TEST_CASE("simple lane change follows the reference trace") { check_against_trace("lane_change_simple"); }
 TEST_CASE("velodrome follows the reference trace") {
   // The trace turns the entities in the banked bends by the change of the bank; see the set's
   // README.
   check_against_trace("velodrome", {.heading = false});
 }
-TEST_CASE("slow lead vehicle follows the reference trace") {
-  check_against_trace("slow-lead-vehicle");
-}
-TEST_CASE("left-hand traffic follows the reference trace") {
-  check_against_trace("left-hand-traffic_using_road_rule");
-}
-TEST_CASE("two plus one road follows the reference trace") {
-  check_against_trace("two_plus_one_road");
-}
+TEST_CASE("slow lead vehicle follows the reference trace") { check_against_trace("slow-lead-vehicle"); }
+TEST_CASE("left-hand traffic follows the reference trace") { check_against_trace("left-hand-traffic_using_road_rule"); }
+TEST_CASE("two plus one road follows the reference trace") { check_against_trace("two_plus_one_road"); }
 
 TEST_CASE("trajectories of lines clothoids and splines follow the reference trace") {
   // How time goes along a spline between its control points the standard leaves open: there the way is compared, not the time.
@@ -323,17 +322,15 @@ TEST_CASE("trajectories of lines clothoids and splines follow the reference trac
   for (const TraceRow& row : trace("trajectory-test")) {
     if (row.name != "Target" || row.time_s < 12.0 || row.time_s > 24.15) continue;
     double nearest = 1e300;
-    for (const State& state : driven)
-      nearest = std::min(nearest, glm::length(Vec2(state.position_m - row.position_m)));
+    for (const State& state : driven) nearest = std::min(nearest, glm::length(Vec2(state.position_m - row.position_m)));
     CAPTURE(row.time_s);
     CHECK(nearest < 0.15);
   }
 }
 TEST_CASE("clothoid splines follow the reference trace") {
   // Where the curve jumps the trace turns before it, and it is over the curve's last 0.4 m in no time.
-  check_against_trace(
-      "lane-change_clothoid_spline_based_trajectory",
-      {.left_out = {13.2, 14.4, 14.5}, .slack_from_s = 14.4, .slack_m = 0.4});
+  check_against_trace("lane-change_clothoid_spline_based_trajectory",
+                      {.left_out = {13.2, 14.4, 14.5}, .slack_from_s = 14.4, .slack_m = 0.4});
 }
 
 TEST_CASE("a pedestrian on a trajectory and a car on a route follow the reference trace") {
@@ -377,8 +374,7 @@ TEST_CASE("every scenario of the conformance set loads and names what it does no
     StepResult result;
     auto state = start_scenario(loaded.scenario, loaded.network, no_entity, result);
     REQUIRE_MESSAGE(state.has_value(), describe(state.error()));
-    for (int step = 0; step < 1000; ++step)
-      advance_scenario(loaded.scenario, loaded.network, 0.01, *state);
+    for (int step = 0; step < 1000; ++step) advance_scenario(loaded.scenario, loaded.network, 0.01, *state);
   }
 }
 

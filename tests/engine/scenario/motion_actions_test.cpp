@@ -19,14 +19,13 @@ std::string longitudinal(const std::string& action) {
 std::string lateral(const std::string& action) {
   return "<PrivateAction><LateralAction>" + action + "</LateralAction></PrivateAction>";
 }
-std::string profile_text(const std::string& mode, const std::string& content,
-                         const std::string& attributes = "") {
-  return longitudinal("<SpeedProfileAction followingMode=\"" + mode + "\" " + attributes + ">" +
-                      content + "</SpeedProfileAction>");
+std::string profile_text(const std::string& mode, const std::string& content, const std::string& attributes = "") {
+  return longitudinal("<SpeedProfileAction followingMode=\"" + mode + "\" " + attributes + ">" + content +
+                      "</SpeedProfileAction>");
 }
 std::string entry(const std::string& time, double speed) {
-  return "<SpeedProfileEntry " + (time.empty() ? "" : "time=\"" + time + "\"") + " speed=\"" +
-         std::to_string(speed) + "\"/>";
+  return "<SpeedProfileEntry " + (time.empty() ? "" : "time=\"" + time + "\"") + " speed=\"" + std::to_string(speed) +
+         "\"/>";
 }
 std::string gap_text(const std::string& attributes, const std::string& limits, bool continuous) {
   return longitudinal("<LongitudinalDistanceAction entityRef=\"B\" continuous=\"" +
@@ -34,9 +33,8 @@ std::string gap_text(const std::string& attributes, const std::string& limits, b
                       "</LongitudinalDistanceAction>");
 }
 std::string beside_text(const std::string& attributes, const std::string& limits, bool continuous) {
-  return lateral("<LateralDistanceAction entityRef=\"B\" continuous=\"" +
-                 std::string(continuous ? "true" : "false") + "\" " + attributes + ">" + limits +
-                 "</LateralDistanceAction>");
+  return lateral("<LateralDistanceAction entityRef=\"B\" continuous=\"" + std::string(continuous ? "true" : "false") +
+                 "\" " + attributes + ">" + limits + "</LateralDistanceAction>");
 }
 std::string at_time(double time_s) { return trigger_text(time_text(time_s)); }
 
@@ -60,7 +58,8 @@ const std::string gentle = R"(<DynamicConstraints maxAcceleration="2" maxDeceler
 }  // namespace
 
 TEST_CASE("a profile goes straight from speed to speed in its times") {
-  Drive drive = drive_with(cars(200, 10), profile_text("position", entry("0", 20) + entry("4", 30) + entry("2", 24)), 1.0);
+  Drive drive =
+      drive_with(cars(200, 10), profile_text("position", entry("0", 20) + entry("4", 30) + entry("2", 24)), 1.0);
   drive.run_until(1.01);
   CHECK(drive.a().speed_mps == doctest::Approx(20.025));
   drive.run_until(3.0);
@@ -116,7 +115,9 @@ TEST_CASE("a speed without a time is there as soon as the bounds allow") {
 
 TEST_CASE("a profile against another entity adds its speed") {
   Drive drive(scenario_text(
-      cars(200, 10), story_text(event_text("e", profile_text("position", entry("2", 5) + entry("2", 0), "entityRef=\"B\""), at_time(0.0)))));
+      cars(200, 10),
+      story_text(
+          event_text("e", profile_text("position", entry("2", 5) + entry("2", 0), "entityRef=\"B\""), at_time(0.0)))));
   drive.run_until(2.0);
   CHECK(drive.a().speed_mps == doctest::Approx(15.0));
   drive.run_until(5.0);
@@ -143,7 +144,9 @@ TEST_CASE("a distance is approached within the bounds and never fallen below") {
   for (const bool continuous : {true, false}) {
     for (const std::string system : {"entity", "road", "lane"}) {
       CAPTURE(system);
-      Drive drive = drive_with(cars(150, 10), gap_text("distance=\"20\" freespace=\"true\" coordinateSystem=\"" + system + "\"", gentle, continuous));
+      Drive drive = drive_with(
+          cars(150, 10),
+          gap_text("distance=\"20\" freespace=\"true\" coordinateSystem=\"" + system + "\"", gentle, continuous));
       double least = 1e9;
       while (drive.state.time_s < 25.0) {
         drive.run_until(drive.state.time_s + 0.01);
@@ -171,7 +174,9 @@ TEST_CASE("who is faster than a distance allows slows down within its bounds") {
 }
 
 TEST_CASE("one may also be ahead, or behind by a time") {
-  Drive ahead = drive_with(cars(-60, 15), gap_text("distance=\"30\" freespace=\"false\" displacement=\"leadingReferencedEntity\"", gentle, true));
+  Drive ahead = drive_with(
+      cars(-60, 15),
+      gap_text("distance=\"30\" freespace=\"false\" displacement=\"leadingReferencedEntity\"", gentle, true));
   ahead.run_until(40.0);
   CHECK(gap_m(ahead) == doctest::Approx(-30.0).epsilon(0.005));
   CHECK(ahead.a().speed_mps == doctest::Approx(15.0).epsilon(0.005));
@@ -208,7 +213,8 @@ TEST_CASE("a lateral distance is had on the side that is named") {
   };
   CHECK(left_after("freespace=\"false\" distance=\"2\"", "", 1.0) == doctest::Approx(-2.0));
   CHECK(left_after("freespace=\"true\" distance=\"1\" coordinateSystem=\"road\"", "", 1.0) == doctest::Approx(-2.8));
-  CHECK(left_after("freespace=\"true\" distance=\"1\" displacement=\"leftToReferencedEntity\"", "", 1.0) == doctest::Approx(2.8));
+  CHECK(left_after("freespace=\"true\" distance=\"1\" displacement=\"leftToReferencedEntity\"", "", 1.0) ==
+        doctest::Approx(2.8));
   // From 3.5 m to 1.5 m at 0.5 m/s.
   const std::string slow = R"(<DynamicConstraints maxSpeed="0.5"/>)";
   CHECK(left_after("freespace=\"false\" distance=\"1.5\"", slow, 2.0) == doctest::Approx(-2.5).epsilon(0.01));
@@ -217,7 +223,9 @@ TEST_CASE("a lateral distance is had on the side that is named") {
 
 TEST_CASE("a lateral distance follows one who moves within its bounds and ends where it is reached") {
   const std::string limits = R"(<DynamicConstraints maxSpeed="3" maxAcceleration="4" maxDeceleration="4"/>)";
-  Drive drive = drive_with(cars(0, 20, -1), beside_text("freespace=\"true\" distance=\"0.5\" displacement=\"rightToReferencedEntity\"", limits, true));
+  Drive drive = drive_with(
+      cars(0, 20, -1),
+      beside_text("freespace=\"true\" distance=\"0.5\" displacement=\"rightToReferencedEntity\"", limits, true));
   drive.run_until(8.0);
   CHECK(left_m(drive) == doctest::Approx(-2.3).epsilon(0.01));
   const double before = drive.a().world_from_entity.position_m.y;
@@ -257,7 +265,8 @@ TEST_CASE("two entities are at their places at the same time") {
   const auto meeting = [&](const std::string& content, const std::string& attributes = "") {
     return "<PrivateAction><SynchronizeAction masterEntityRef=\"B\" " + attributes +
            "><TargetPositionMaster><LanePosition roadId=\"R\" laneId=\"-1\" s=\"500\"/></TargetPositionMaster>"
-           "<TargetPosition><LanePosition roadId=\"R\" laneId=\"-2\" s=\"420\"/></TargetPosition>" + content + "</SynchronizeAction></PrivateAction>";
+           "<TargetPosition><LanePosition roadId=\"R\" laneId=\"-2\" s=\"420\"/></TargetPosition>" +
+           content + "</SynchronizeAction></PrivateAction>";
   };
   // B needs 20 s for its 300 m, A has 320 m.
   const auto arrive = [&](const std::string& content, double& speed_mps) {
@@ -269,12 +278,16 @@ TEST_CASE("two entities are at their places at the same time") {
   };
   double speed = 0.0;
   CHECK(arrive("", speed) == doctest::Approx(420.0).epsilon(0.001));
-  CHECK(arrive("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>", speed) == doctest::Approx(420.0).epsilon(0.001));
-  CHECK(speed == doctest::Approx(12.0).epsilon(0.01));
-  CHECK(arrive("<FinalSpeed><RelativeSpeedToMaster value=\"2\" speedTargetValueType=\"factor\"/></FinalSpeed>", speed) ==
+  CHECK(arrive("<FinalSpeed><AbsoluteSpeed value=\"12\"/></FinalSpeed>", speed) ==
         doctest::Approx(420.0).epsilon(0.001));
+  CHECK(speed == doctest::Approx(12.0).epsilon(0.01));
+  CHECK(arrive("<FinalSpeed><RelativeSpeedToMaster value=\"2\" speedTargetValueType=\"factor\"/></FinalSpeed>",
+               speed) == doctest::Approx(420.0).epsilon(0.001));
   CHECK(speed == doctest::Approx(30.0).epsilon(0.01));
-  Drive steady = drive_with(cars(100, 15, -1), meeting("<FinalSpeed><AbsoluteSpeed value=\"10\"><TargetTimeSteadyState time=\"5\"/></AbsoluteSpeed></FinalSpeed>"));
+  Drive steady = drive_with(
+      cars(100, 15, -1),
+      meeting(
+          "<FinalSpeed><AbsoluteSpeed value=\"10\"><TargetTimeSteadyState time=\"5\"/></AbsoluteSpeed></FinalSpeed>"));
   steady.run_until(15.2);
   CHECK(steady.a().speed_mps == doctest::Approx(10.0).epsilon(0.01));
   CHECK(steady.a().world_from_entity.position_m.x == doctest::Approx(420.0 - 48.0).epsilon(0.001));
@@ -292,17 +305,22 @@ TEST_CASE("two entities are at their places at the same time") {
 TEST_CASE("distances and profiles that say nothing are named") {
   const auto check = [&](const std::string& action) {
     std::string all;
-    for (const Finding& finding : check_scenario(scenario_text(cars(50, 10), story_text(event_text("e", action, at_time(0.0)))), "test.xosc", files_in(".")))
+    for (const Finding& finding :
+         check_scenario(scenario_text(cars(50, 10), story_text(event_text("e", action, at_time(0.0)))), "test.xosc",
+                        files_in(".")))
       all += describe(finding.error) + "\n";
     return all;
   };
   CHECK(check(gap_text("freespace=\"true\"", "", true)).find("names no distance") != std::string::npos);
-  CHECK(check(gap_text("freespace=\"true\" distance=\"1\" timeGap=\"2\"", "", true)).find("the timeGap is taken") != std::string::npos);
+  CHECK(check(gap_text("freespace=\"true\" distance=\"1\" timeGap=\"2\"", "", true)).find("the timeGap is taken") !=
+        std::string::npos);
   CHECK(check(gap_text("distance=\"1\"", "", true)).find("attribute freespace is missing") != std::string::npos);
-  CHECK(check(gap_text("freespace=\"true\" distance=\"1\" coordinateSystem=\"trajectory\"", "", true)).find("\"road\" is taken") != std::string::npos);
+  CHECK(check(gap_text("freespace=\"true\" distance=\"1\" coordinateSystem=\"trajectory\"", "", true))
+            .find("\"road\" is taken") != std::string::npos);
   CHECK(check(gap_text("freespace=\"true\" distance=\"-1\"", "", true)).find("out of its range") != std::string::npos);
   CHECK(check(profile_text("follow", "")).find("it has no speeds") != std::string::npos);
-  CHECK(check("<PrivateAction><SynchronizeAction masterEntityRef=\"B\"/></PrivateAction>").find("<TargetPosition> is missing") != std::string::npos);
+  CHECK(check("<PrivateAction><SynchronizeAction masterEntityRef=\"B\"/></PrivateAction>")
+            .find("<TargetPosition> is missing") != std::string::npos);
 }
 
 }  // namespace septet::scenario

@@ -22,15 +22,12 @@ std::string value_of(const std::string& text, const Parameters& parameters = {})
 
 bool has_finding(const std::vector<Finding>& findings, Severity severity, const std::string& part) {
   for (const Finding& finding : findings) {
-    if (finding.severity == severity && describe(finding.error).find(part) != std::string::npos)
-      return true;
+    if (finding.severity == severity && describe(finding.error).find(part) != std::string::npos) return true;
   }
   return false;
 }
 
-std::string motorway_folder() {
-  return SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
-}
+std::string motorway_folder() { return SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance"; }
 std::string motorway_text() {
   std::ifstream in(motorway_folder() + "/motorway-ambulance.xosc");
   return {std::istreambuf_iterator<char>(in), {}};
@@ -64,11 +61,10 @@ TEST_CASE("a wrong expression says what is wrong") {
 TEST_CASE("what is not supported is named with its line") {
   const std::string text = scenario_text(
       private_text("A", place_text(-1, 10)) + private_text("B", place_text(-2, 10)),
-      "\n\n" + story_text(event_text(
-                   "e",
-                   "<PrivateAction><ControllerAction><AssignControllerAction/></"
-                   "ControllerAction></PrivateAction>",
-                   trigger_text(of_entity_text("A", "<OffroadCondition duration=\"1\"/>")))));
+      "\n\n" + story_text(event_text("e",
+                                     "<PrivateAction><ControllerAction><AssignControllerAction/></"
+                                     "ControllerAction></PrivateAction>",
+                                     trigger_text(of_entity_text("A", "<OffroadCondition duration=\"1\"/>")))));
   std::vector<Finding> warnings;
   const auto scenario = read_scenario(text, "test.xosc", files_in("."), &warnings);
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
@@ -84,19 +80,17 @@ TEST_CASE("a wrong file names line element and remedy") {
   };
   CHECK(error_of("<OpenSCENARIO").find("not XML") != std::string::npos);
   CHECK(error_of("<OpenDRIVE/>").find("not an OpenSCENARIO file") != std::string::npos);
-  CHECK(error_of(scenario_text(private_text("nobody", ""), ""))
-            .find("no entity is named \"nobody\"") != std::string::npos);
-  CHECK(error_of(scenario_text(private_text("A", speed_text(10, "wobbly")), "")).find("wobbly") !=
+  CHECK(error_of(scenario_text(private_text("nobody", ""), "")).find("no entity is named \"nobody\"") !=
         std::string::npos);
+  CHECK(error_of(scenario_text(private_text("A", speed_text(10, "wobbly")), "")).find("wobbly") != std::string::npos);
   const std::string reference =
       R"(<ByValueCondition><StoryboardElementStateCondition storyboardElementType="event" storyboardElementRef="x" state="completeState"/></ByValueCondition>)";
-  CHECK(error_of(
-            scenario_text("", story_text(event_text("e", speed_text(1), trigger_text(reference)))))
+  CHECK(error_of(scenario_text("", story_text(event_text("e", speed_text(1), trigger_text(reference)))))
             .find("no event is named \"x\"") != std::string::npos);
   const std::string no_dynamics =
       "<PrivateAction><LongitudinalAction><SpeedAction/></LongitudinalAction></PrivateAction>";
-  CHECK(error_of(scenario_text(private_text("A", no_dynamics), ""))
-            .find("<SpeedActionDynamics> is missing") != std::string::npos);
+  CHECK(error_of(scenario_text(private_text("A", no_dynamics), "")).find("<SpeedActionDynamics> is missing") !=
+        std::string::npos);
 }
 
 TEST_CASE("more entities than a tick can hold are refused at the first that is too many") {
@@ -113,7 +107,9 @@ TEST_CASE("more entities than a tick can hold are refused at the first that is t
   CHECK(describe(refused.error()).find("test.xosc:990, <ScenarioObject>: there are more than 990 entities") == 0);
   // The others are not said to have no effect one by one.
   const auto findings = check_scenario(many, "test.xosc", files_in("."));
-  CHECK(std::ranges::none_of(findings, [](const Finding& finding) { return describe(finding.error).find("<ScenarioObject>: attribute") != std::string::npos; }));
+  CHECK(std::ranges::none_of(findings, [](const Finding& finding) {
+    return describe(finding.error).find("<ScenarioObject>: attribute") != std::string::npos;
+  }));
 }
 
 TEST_CASE("parameters given from outside win over those of the file") {
@@ -126,8 +122,7 @@ TEST_CASE("parameters given from outside win over those of the file") {
   REQUIRE(plain);
   REQUIRE(given);
   const auto s_of = [](const Scenario& scenario) {
-    return std::get<LaneCoordinates>(std::get<TeleportAction>(scenario.init.at(0).what).position)
-        .s_m;
+    return std::get<LaneCoordinates>(std::get<TeleportAction>(scenario.init.at(0).what).position).s_m;
   };
   CHECK(s_of(*plain) == doctest::Approx(200.0));
   CHECK(s_of(*given) == doctest::Approx(14.0));
@@ -147,8 +142,10 @@ TEST_CASE("a parameter's later value sees what was given from outside to an earl
 TEST_CASE("two hundred thousand parameters that hang on one another are read in time that grows with their number") {
   std::string declared = R"(<ParameterDeclarations><ParameterDeclaration name="p0" parameterType="double" value="1"/>)";
   for (int i = 1; i < 200'000; ++i)
-    declared += "<ParameterDeclaration name=\"p" + std::to_string(i) + "\" parameterType=\"double\" value=\"${$p" + std::to_string(i - 1) + " + 1}\"/>";
-  const auto scenario = read_scenario(scenario_text("", "", declared + "</ParameterDeclarations>"), "test.xosc", files_in("."));
+    declared += "<ParameterDeclaration name=\"p" + std::to_string(i) + "\" parameterType=\"double\" value=\"${$p" +
+                std::to_string(i - 1) + " + 1}\"/>";
+  const auto scenario =
+      read_scenario(scenario_text("", "", declared + "</ParameterDeclarations>"), "test.xosc", files_in("."));
   REQUIRE(scenario);
   CHECK(std::ranges::count(scenario->values, "200000") == 1);
 }
@@ -173,7 +170,8 @@ TEST_CASE("a parameter from outside that is not declared not of its type or not 
   CHECK(error_of("sped=1").find("no parameter named \"sped\"") != std::string::npos);
   CHECK(error_of("sped=1").find("speed, count, at, on") != std::string::npos);
   CHECK(error_of("speed=fast").find("\"fast\" given to speed is no value of type double") != std::string::npos);
-  CHECK(error_of("speed=5").find("constraints; give a value that is lessThan 5 and greaterThan 0, or equalTo 9") != std::string::npos);
+  CHECK(error_of("speed=5").find("constraints; give a value that is lessThan 5 and greaterThan 0, or equalTo 9") !=
+        std::string::npos);
   CHECK(error_of("count=-1").find("unsignedShort") != std::string::npos);
   CHECK(error_of("count=1.5").find("unsignedShort") != std::string::npos);
   CHECK(error_of("at=noon").find("dateTime") != std::string::npos);
@@ -224,9 +222,8 @@ TEST_CASE("a catalog entry takes its parameters from the reference") {
       R"(<ScenarioObject name="C"><CatalogReference catalogName="cars" entryName="small"><ParameterAssignments>)"
       R"(<ParameterAssignment parameterRef="$top" value="55"/></ParameterAssignments></CatalogReference></ScenarioObject>)";
   text.insert(text.find("</Entities>"), reference);
-  text.replace(
-      text.find("<CatalogLocations/>"), 19,
-      R"(<CatalogLocations><VehicleCatalog><Directory path="catalogs"/></VehicleCatalog></CatalogLocations>)");
+  text.replace(text.find("<CatalogLocations/>"), 19,
+               R"(<CatalogLocations><VehicleCatalog><Directory path="catalogs"/></VehicleCatalog></CatalogLocations>)");
   const auto scenario = read_scenario(text, "test.xosc", files);
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
   const Entity& car = scenario->entities.at(2);
@@ -257,22 +254,19 @@ TEST_CASE("no mutation of a scenario crashes the reader or the runtime") {
   const std::string original = motorway_text();
   REQUIRE_FALSE(original.empty());
   std::ifstream in(motorway_folder() + "/motorway.xodr");
-  const auto network =
-      road::read_opendrive(std::string{std::istreambuf_iterator<char>(in), {}}, "motorway.xodr");
+  const auto network = road::read_opendrive(std::string{std::istreambuf_iterator<char>(in), {}}, "motorway.xodr");
   REQUIRE(network.has_value());
   Random random(7);
   int started = 0;
-  const std::string pieces[] = {"-1",        "0", "1e12", "nan",          "\"",
-                                "<",         ">", "$",    "${",           "}",
-                                "ambulance", "",  "/",    "999999999999", "-4"};
+  const std::string pieces[] = {"-1", "0",         "1e12", "nan", "\"",           "<", ">", "$", "${",
+                                "}",  "ambulance", "",     "/",   "999999999999", "-4"};
   for (int round = 0; round < 200; ++round) {
     std::string text = original;
     for (std::uint64_t change = 1 + random.below(2); change > 0; --change) {
       const std::size_t at = random.below(text.size());
       if (random.below(2) == 0) {
         // The value of an attribute.
-        const std::size_t open = text.find('"', at),
-                          close = open == text.npos ? open : text.find('"', open + 1);
+        const std::size_t open = text.find('"', at), close = open == text.npos ? open : text.find('"', open + 1);
         if (close == text.npos) continue;
         text.replace(open + 1, close - open - 1, pieces[random.below(std::size(pieces))]);
       } else if (random.below(2) == 0) {

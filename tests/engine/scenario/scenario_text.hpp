@@ -15,8 +15,7 @@ namespace septet::scenario {
 inline std::string road_text() {
   std::string lanes[2];
   for (int id = 3; id >= 1; --id) {
-    const std::string width =
-        R"( type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+    const std::string width = R"( type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
     lanes[0] += "<lane id=\"" + std::to_string(id) + "\"" + width;
     lanes[1] = "<lane id=\"-" + std::to_string(id) + "\"" + width + lanes[1];
   }
@@ -47,59 +46,52 @@ inline std::string vehicle_text(const std::string& name) {
 inline std::string scenario_text(const std::string& init, const std::string& stories,
                                  const std::string& declarations = "") {
   return R"(<OpenSCENARIO><FileHeader revMajor="1" revMinor="3" date="2026-01-01T00:00:00" description="" author=""/>)" +
-         declarations +
-         R"(<CatalogLocations/><RoadNetwork><LogicFile filepath="test.xodr"/></RoadNetwork><Entities>)" +
-         vehicle_text("A") + vehicle_text("B") + "</Entities><Storyboard><Init><Actions>" + init +
-         "</Actions></Init>" + stories + "</Storyboard></OpenSCENARIO>";
+         declarations + R"(<CatalogLocations/><RoadNetwork><LogicFile filepath="test.xodr"/></RoadNetwork><Entities>)" +
+         vehicle_text("A") + vehicle_text("B") + "</Entities><Storyboard><Init><Actions>" + init + "</Actions></Init>" +
+         stories + "</Storyboard></OpenSCENARIO>";
 }
 
 inline std::string private_text(const std::string& entity, const std::string& actions) {
   return "<Private entityRef=\"" + entity + "\">" + actions + "</Private>";
 }
 inline std::string place_text(int lane, double s) {
-  return "<PrivateAction><TeleportAction><Position><LanePosition roadId=\"R\" laneId=\"" +
-         std::to_string(lane) + "\" s=\"" + std::to_string(s) +
-         "\"/></Position></TeleportAction></PrivateAction>";
+  return "<PrivateAction><TeleportAction><Position><LanePosition roadId=\"R\" laneId=\"" + std::to_string(lane) +
+         "\" s=\"" + std::to_string(s) + "\"/></Position></TeleportAction></PrivateAction>";
 }
-inline std::string speed_text(double speed, const std::string& shape = "step",
-                              const std::string& dimension = "time", double value = 0.0) {
-  return "<PrivateAction><LongitudinalAction><SpeedAction><SpeedActionDynamics dynamicsShape=\"" +
-         shape + "\" dynamicsDimension=\"" + dimension + "\" value=\"" + std::to_string(value) +
+inline std::string speed_text(double speed, const std::string& shape = "step", const std::string& dimension = "time",
+                              double value = 0.0) {
+  return "<PrivateAction><LongitudinalAction><SpeedAction><SpeedActionDynamics dynamicsShape=\"" + shape +
+         "\" dynamicsDimension=\"" + dimension + "\" value=\"" + std::to_string(value) +
          "\"/><SpeedActionTarget><AbsoluteTargetSpeed value=\"" + std::to_string(speed) +
          "\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
 }
-inline std::string lane_change_text(int to_the_left, const std::string& shape,
-                                    const std::string& dimension, double value) {
+inline std::string lane_change_text(int to_the_left, const std::string& shape, const std::string& dimension,
+                                    double value) {
   return "<PrivateAction><LateralAction><LaneChangeAction><LaneChangeActionDynamics "
          "dynamicsShape=\"" +
          shape + "\" dynamicsDimension=\"" + dimension + "\" value=\"" + std::to_string(value) +
-         "\"/><LaneChangeTarget><RelativeTargetLane entityRef=\"A\" value=\"" +
-         std::to_string(to_the_left) +
+         "\"/><LaneChangeTarget><RelativeTargetLane entityRef=\"A\" value=\"" + std::to_string(to_the_left) +
          "\"/></LaneChangeTarget></LaneChangeAction></LateralAction></PrivateAction>";
 }
 
-inline std::string trigger_text(const std::string& condition, const std::string& edge = "none",
-                                double delay = 0.0) {
-  return "<StartTrigger><ConditionGroup><Condition name=\"c\" conditionEdge=\"" + edge +
-         "\" delay=\"" + std::to_string(delay) + "\">" + condition +
-         "</Condition></ConditionGroup></StartTrigger>";
+inline std::string trigger_text(const std::string& condition, const std::string& edge = "none", double delay = 0.0) {
+  return "<StartTrigger><ConditionGroup><Condition name=\"c\" conditionEdge=\"" + edge + "\" delay=\"" +
+         std::to_string(delay) + "\">" + condition + "</Condition></ConditionGroup></StartTrigger>";
 }
 inline std::string time_text(double after) {
-  return "<ByValueCondition><SimulationTimeCondition rule=\"greaterOrEqual\" value=\"" +
-         std::to_string(after) + "\"/></ByValueCondition>";
+  return "<ByValueCondition><SimulationTimeCondition rule=\"greaterOrEqual\" value=\"" + std::to_string(after) +
+         "\"/></ByValueCondition>";
 }
 inline std::string of_entity_text(const std::string& entity, const std::string& condition) {
   return "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef "
          "entityRef=\"" +
-         entity + "\"/></TriggeringEntities><EntityCondition>" + condition +
-         "</EntityCondition></ByEntityCondition>";
+         entity + "\"/></TriggeringEntities><EntityCondition>" + condition + "</EntityCondition></ByEntityCondition>";
 }
-inline std::string event_text(const std::string& name, const std::string& action,
-                              const std::string& trigger, const std::string& priority = "parallel",
-                              int executions = 1) {
+inline std::string event_text(const std::string& name, const std::string& action, const std::string& trigger,
+                              const std::string& priority = "parallel", int executions = 1) {
   return "<Event name=\"" + name + "\" priority=\"" + priority + "\" maximumExecutionCount=\"" +
-         std::to_string(executions) + "\"><Action name=\"" + name + " action\">" + action +
-         "</Action>" + trigger + "</Event>";
+         std::to_string(executions) + "\"><Action name=\"" + name + " action\">" + action + "</Action>" + trigger +
+         "</Event>";
 }
 /// One story with one act that starts at once, whose actor is A.
 inline std::string story_text(const std::string& events) {
@@ -138,8 +130,7 @@ struct Drive {
   /// When an element whose name ends like this made this transition for the first time; −1: never.
   double time_of(const std::string& name, ElementTransition transition) const {
     for (const StoryboardEvent& event : events) {
-      if (event.transition == transition &&
-          scenario.element_names[event.element].ends_with("::" + name))
+      if (event.transition == transition && scenario.element_names[event.element].ends_with("::" + name))
         return event.time_s;
     }
     return -1.0;
@@ -147,9 +138,7 @@ struct Drive {
   int count_of(const std::string& name, ElementTransition transition) const {
     int count = 0;
     for (const StoryboardEvent& event : events) {
-      if (event.transition == transition &&
-          scenario.element_names[event.element].ends_with("::" + name))
-        ++count;
+      if (event.transition == transition && scenario.element_names[event.element].ends_with("::" + name)) ++count;
     }
     return count;
   }

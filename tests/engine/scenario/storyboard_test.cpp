@@ -18,16 +18,15 @@ std::string state_text(const std::string& type, const std::string& name, const s
 }
 std::string at(double time_s) { return trigger_text(time_text(time_s)); }
 
-const std::string two_cars = private_text("A", place_text(-2, 100) + speed_text(20)) +
-                             private_text("B", place_text(-2, 200) + speed_text(10));
+const std::string two_cars =
+    private_text("A", place_text(-2, 100) + speed_text(20)) + private_text("B", place_text(-2, 200) + speed_text(10));
 
 }  // namespace
 
 TEST_CASE("every shape takes its time and ends at its speed") {
   for (const std::string shape : {"linear", "sinusoidal", "cubic"}) {
     CAPTURE(shape);
-    Drive drive(scenario_text(
-        two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at(1.0)))));
+    Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at(1.0)))));
     drive.run_until(3.0);
     CHECK(drive.a().speed_mps == doctest::Approx(25.0).epsilon(0.001));
     drive.run_until(6.0);
@@ -39,16 +38,15 @@ TEST_CASE("every shape takes its time and ends at its speed") {
 }
 
 TEST_CASE("a rate is the greatest rate and a distance is kept") {
-  Drive rate(scenario_text(
-      two_cars, story_text(event_text("e", speed_text(30, "sinusoidal", "rate", 2.0), at(0.0)))));
+  Drive rate(scenario_text(two_cars, story_text(event_text("e", speed_text(30, "sinusoidal", "rate", 2.0), at(0.0)))));
   double greatest = 0.0;
   while (rate.state.time_s < 10.0) {
     rate.run_until(rate.state.time_s + 0.01);
     greatest = std::max(greatest, rate.a().acceleration_mps2);
   }
   CHECK(greatest == doctest::Approx(2.0).epsilon(0.001));
-  Drive distance(scenario_text(
-      two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at(0.0)))));
+  Drive distance(
+      scenario_text(two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at(0.0)))));
   distance.run_until(4.0);
   CHECK(distance.a().speed_mps == doctest::Approx(28.0));
   distance.run_until(5.0);
@@ -57,8 +55,7 @@ TEST_CASE("a rate is the greatest rate and a distance is kept") {
 }
 
 TEST_CASE("acceleration never exceeds what the vehicle can do") {
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("e", speed_text(50, "cubic", "time", 0.5), at(0.0)))));
+  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(50, "cubic", "time", 0.5), at(0.0)))));
   double greatest = 0.0;
   while (drive.state.time_s < 8.0) {
     drive.run_until(drive.state.time_s + 0.01);
@@ -71,18 +68,14 @@ TEST_CASE("acceleration never exceeds what the vehicle can do") {
 TEST_CASE("a lane change is one smooth curve to the centre of the next lane") {
   for (const std::string dimension : {"time", "distance", "rate"}) {
     CAPTURE(dimension);
-    const double value = dimension == "time"       ? 4.0
-                         : dimension == "distance" ? 80.0
-                                                   : 3.5 * std::numbers::pi / 8.0;
+    const double value = dimension == "time" ? 4.0 : dimension == "distance" ? 80.0 : 3.5 * std::numbers::pi / 8.0;
     Drive drive(scenario_text(
-        two_cars,
-        story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at(0.0)))));
+        two_cars, story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at(0.0)))));
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-5.25));
     drive.run_until(2.0);
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-3.5).epsilon(0.01));
     const double slope = 3.5 * std::numbers::pi / 8.0 / 20.0;
-    CHECK(heading_rad(drive.a().world_from_entity.orientation) ==
-          doctest::Approx(slope).epsilon(0.01));
+    CHECK(heading_rad(drive.a().world_from_entity.orientation) == doctest::Approx(slope).epsilon(0.01));
     drive.run_until(4.2);
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-1.75));
     CHECK(heading_rad(drive.a().world_from_entity.orientation) == doctest::Approx(0.0));
@@ -92,22 +85,19 @@ TEST_CASE("a lane change is one smooth curve to the centre of the next lane") {
 
 TEST_CASE("a rising edge fires once and none fires while the condition holds") {
   Drive rising(scenario_text(
-      two_cars, story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising"),
-                                      "parallel", 5))));
+      two_cars, story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising"), "parallel", 5))));
   rising.run_until(3.0);
   CHECK(rising.count_of("e", ElementTransition::start) == 1);
   CHECK(rising.time_of("e", ElementTransition::start) == doctest::Approx(1.0));
-  Drive none(scenario_text(
-      two_cars,
-      story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0)), "parallel", 5))));
+  Drive none(scenario_text(two_cars,
+                           story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0)), "parallel", 5))));
   none.run_until(3.0);
   CHECK(none.count_of("e", ElementTransition::start) == 5);
 }
 
 TEST_CASE("a delay holds the condition back by its time") {
-  Drive drive(scenario_text(
-      two_cars,
-      story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising", 0.5)))));
+  Drive drive(scenario_text(two_cars,
+                            story_text(event_text("e", speed_text(20), trigger_text(time_text(1.0), "rising", 0.5)))));
   drive.run_until(3.0);
   CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(1.5));
 }
@@ -119,8 +109,7 @@ TEST_CASE("distance conditions fire where the distance is") {
       two_cars,
       story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", apart))) +
                  event_text("f", speed_text(20),
-                            trigger_text(of_entity_text(
-                                "A", R"(<TraveledDistanceCondition value="40"/>)"))))));
+                            trigger_text(of_entity_text("A", R"(<TraveledDistanceCondition value="40"/>)"))))));
   drive.run_until(6.0);
   // 100 m apart, closing at 10 m/s; 2.3 + 1.4 − 0.9 m of the boxes lie between the reference
   // points: 4.6 m in all.
@@ -133,9 +122,9 @@ TEST_CASE("the freespace distance to a position is that from the box to the poin
       R"(<DistanceCondition freespace="true" rule="lessThan" value="50"><Position><LanePosition roadId="R" laneId="-2" s="300"/></Position></DistanceCondition>)";
   const std::string soon =
       R"(<TimeToCollisionCondition freespace="true" rule="lessThan" value="2"><TimeToCollisionConditionTarget><Position><LanePosition roadId="R" laneId="-2" s="300"/></Position></TimeToCollisionConditionTarget></TimeToCollisionCondition>)";
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", near_point))) +
-                           event_text("f", speed_text(20), trigger_text(of_entity_text("A", soon))))));
+  Drive drive(scenario_text(two_cars,
+                            story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", near_point))) +
+                                       event_text("f", speed_text(20), trigger_text(of_entity_text("A", soon))))));
   drive.run_until(10.0);
   // At 20 m/s from 100 m, and the box reaches 3.7 m forward.
   CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx((300 - 100 - 50 - 3.7) / 20).epsilon(0.002));
@@ -161,15 +150,15 @@ TEST_CASE("before 1.2 an acceleration is that of the speed") {
 TEST_CASE("a distance along the world's axes minds the boxes") {
   const std::string apart =
       R"(<RelativeDistanceCondition entityRef="B" relativeDistanceType="longitudinal" coordinateSystem="world" freespace="true" rule="lessThan" value="50"/>)";
-  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", apart))))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e", speed_text(20), trigger_text(of_entity_text("A", apart))))));
   drive.run_until(6.0);
   CHECK(drive.time_of("e", ElementTransition::start) == doctest::Approx(4.54).epsilon(0.005));
 }
 
 TEST_CASE("a rate of 0 keeps the speed and ends at once where that is the target") {
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("same", speed_text(20, "linear", "rate", 0.0), at(0.0)) +
-                           event_text("other", speed_text(30, "linear", "rate", 0.0), at(1.0)))));
+  Drive drive(scenario_text(two_cars, story_text(event_text("same", speed_text(20, "linear", "rate", 0.0), at(0.0)) +
+                                                 event_text("other", speed_text(30, "linear", "rate", 0.0), at(1.0)))));
   drive.run_until(3.0);
   CHECK(drive.time_of("same", ElementTransition::end) == doctest::Approx(0.0));
   CHECK(drive.count_of("other", ElementTransition::start) == 1);
@@ -180,14 +169,15 @@ TEST_CASE("a rate of 0 keeps the speed and ends at once where that is the target
 
 TEST_CASE("conditions see parameters and variables that actions change") {
   const auto value = [](const std::string& kind, const std::string& name, const std::string& change) {
-    return "<GlobalAction><" + kind + "Action " + (kind == "Variable" ? "variable" : "parameter") + "Ref=\"" + name + "\">" + change +
-           "</" + kind + "Action></GlobalAction>";
+    return "<GlobalAction><" + kind + "Action " + (kind == "Variable" ? "variable" : "parameter") + "Ref=\"" + name +
+           "\">" + change + "</" + kind + "Action></GlobalAction>";
   };
   const std::string add = "<ModifyAction><Rule><AddValue value=\"2\"/></Rule></ModifyAction>";
   const std::string twice = "<ModifyAction><Rule><MultiplyByValue value=\"2\"/></Rule></ModifyAction>";
-  const auto is = [](const std::string& kind, const std::string& reference, const std::string& rule, const std::string& compared) {
-    return trigger_text("<ByValueCondition><" + kind + "Condition " + reference + " rule=\"" + rule + "\" value=\"" + compared +
-                        "\"/></ByValueCondition>");
+  const auto is = [](const std::string& kind, const std::string& reference, const std::string& rule,
+                     const std::string& compared) {
+    return trigger_text("<ByValueCondition><" + kind + "Condition " + reference + " rule=\"" + rule + "\" value=\"" +
+                        compared + "\"/></ByValueCondition>");
   };
   const std::string declared =
       R"(<ParameterDeclarations><ParameterDeclaration name="mood" parameterType="string" value="calm"/></ParameterDeclarations>)"
@@ -211,9 +201,10 @@ TEST_CASE("a collision is when the boxes meet") {
   const auto meets = [](const std::string& whom) {
     return trigger_text(of_entity_text("A", "<CollisionCondition>" + whom + "</CollisionCondition>"));
   };
-  Drive drive(scenario_text(two_cars, story_text(event_text("b", speed_text(20), meets("<EntityRef entityRef=\"B\"/>")) +
-                                                 event_text("car", speed_text(20), meets("<ByType type=\"vehicle\"/>")) +
-                                                 event_text("man", speed_text(20), meets("<ByType type=\"pedestrian\"/>")))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("b", speed_text(20), meets("<EntityRef entityRef=\"B\"/>")) +
+                                         event_text("car", speed_text(20), meets("<ByType type=\"vehicle\"/>")) +
+                                         event_text("man", speed_text(20), meets("<ByType type=\"pedestrian\"/>")))));
   drive.run_until(11.0);
   // 100 m less the 4.6 m of the boxes, at 10 m/s.
   CHECK(drive.time_of("b", ElementTransition::start) == doctest::Approx(9.54).epsilon(0.002));
@@ -224,13 +215,15 @@ TEST_CASE("a collision is when the boxes meet") {
 TEST_CASE("a trajectory is followed at one's own speed or by its times and then the lane") {
   const auto follow = [](const std::string& reference) {
     const auto vertex = [](double time, double x, double y) {
-      return "<Vertex time=\"" + std::to_string(time) + "\"><Position><WorldPosition x=\"" + std::to_string(x) + "\" y=\"" +
-             std::to_string(y) + "\"/></Position></Vertex>";
+      return "<Vertex time=\"" + std::to_string(time) + "\"><Position><WorldPosition x=\"" + std::to_string(x) +
+             "\" y=\"" + std::to_string(y) + "\"/></Position></Vertex>";
     };
-    return "<PrivateAction><RoutingAction><FollowTrajectoryAction><TrajectoryRef><Trajectory name=\"t\" closed=\"false\"><Shape><Polyline>" +
+    return "<PrivateAction><RoutingAction><FollowTrajectoryAction><TrajectoryRef><Trajectory name=\"t\" "
+           "closed=\"false\"><Shape><Polyline>" +
            vertex(0, 140, -5.25) + vertex(4, 170, 34.75) + vertex(6, 230, 34.75) + vertex(12, 230, -1.75) +
            "</Polyline></Shape></Trajectory></TrajectoryRef><TimeReference>" + reference +
-           "</TimeReference><TrajectoryFollowingMode followingMode=\"position\"/></FollowTrajectoryAction></RoutingAction></PrivateAction>";
+           "</TimeReference><TrajectoryFollowingMode "
+           "followingMode=\"position\"/></FollowTrajectoryAction></RoutingAction></PrivateAction>";
   };
   Drive own(scenario_text(two_cars, story_text(event_text("e", follow("<None/>"), at(2.0)))));
   own.run_until(4.0);
@@ -244,7 +237,8 @@ TEST_CASE("a trajectory is followed at one's own speed or by its times and then 
   CHECK(heading_rad(own.a().world_from_entity.orientation) == doctest::Approx(0.5 * std::atan2(4.0, 3.0)));
 
   Drive timed(scenario_text(
-      two_cars, story_text(event_text("e", follow(R"(<Timing domainAbsoluteRelative="relative" scale="0.5" offset="0"/>)"), at(2.0)))));
+      two_cars, story_text(event_text(
+                    "e", follow(R"(<Timing domainAbsoluteRelative="relative" scale="0.5" offset="0"/>)"), at(2.0)))));
   timed.run_until(4.5);
   CHECK(timed.a().world_from_entity.position_m.x == doctest::Approx(200.0));
   CHECK(timed.a().speed_mps == doctest::Approx(60.0));
@@ -260,8 +254,7 @@ TEST_CASE("overwrite stops the running event skip waits and parallel goes along"
   const auto with = [&](const std::string& priority) {
     Drive drive(scenario_text(
         two_cars,
-        story_text(first + event_text("second", lane_change_text(1, "linear", "time", 1.0), at(1.0),
-                                      priority))));
+        story_text(first + event_text("second", lane_change_text(1, "linear", "time", 1.0), at(1.0), priority))));
     drive.run_until(6.0);
     return drive;
   };
@@ -280,8 +273,7 @@ TEST_CASE("a later event hears of the end of an earlier one and the act complete
   Drive drive(scenario_text(
       two_cars,
       story_text(event_text("first", speed_text(30, "linear", "time", 1.0), at(0.5)) +
-                 event_text("second", speed_text(10),
-                            trigger_text(state_text("event", "first", "endTransition"))))));
+                 event_text("second", speed_text(10), trigger_text(state_text("event", "first", "endTransition"))))));
   drive.run_until(3.0);
   CHECK(drive.time_of("second", ElementTransition::start) == doctest::Approx(1.5));
   CHECK(drive.a().speed_mps == 10.0);
@@ -289,9 +281,9 @@ TEST_CASE("a later event hears of the end of an earlier one and the act complete
 }
 
 TEST_CASE("a new speed action takes the entity over from the old one") {
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
-                           event_text("second", speed_text(15, "linear", "time", 1.0), at(1.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
+                                         event_text("second", speed_text(15, "linear", "time", 1.0), at(1.0)))));
   drive.run_until(3.0);
   CHECK(drive.a().speed_mps == 15.0);
   CHECK(drive.time_of("first action", ElementTransition::stop) == doctest::Approx(1.0));
@@ -319,7 +311,10 @@ TEST_CASE("an entity whose numbers go bad stands where it was and everything els
     CHECK(drive.a().world_from_entity.position_m.x > before.x + 10.0);
   };
   with([&](EntityState& entity) { entity.speed_mps = bad; });
-  with([&](EntityState& entity) { entity.speed_control.transition.to = endless; entity.speed_control.transition.from = -endless; });
+  with([&](EntityState& entity) {
+    entity.speed_control.transition.to = endless;
+    entity.speed_control.transition.from = -endless;
+  });
   with([&](EntityState& entity) {
     entity.lateral_control.active = true;
     entity.lateral_control.transition = {DynamicsShape::linear, false, 1.0, 0.0, 0.0, bad};
@@ -341,15 +336,15 @@ TEST_CASE("a position off the road is refused with the entity's name") {
   StepResult result;
   const auto state = start_scenario(scenario, test_road(), no_entity, result);
   REQUIRE_FALSE(state.has_value());
-  CHECK(describe(state.error()).find("test.xosc:1, <PrivateAction>: A cannot be put on the road: road R has no lane -7 at s = 10 m") == 0);
+  CHECK(describe(state.error())
+            .find("test.xosc:1, <PrivateAction>: A cannot be put on the road: road R has no lane -7 at s = 10 m") == 0);
 }
 
 TEST_CASE("an external entity is where it was put and triggers like any other") {
   const std::string near_b =
       R"(<RelativeDistanceCondition entityRef="B" relativeDistanceType="euclidianDistance" freespace="false" rule="lessThan" value="5"/>)";
-  Drive drive(scenario_text(
-      two_cars,
-      story_text(event_text("e", speed_text(30), trigger_text(of_entity_text("A", near_b))))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e", speed_text(30), trigger_text(of_entity_text("A", near_b))))));
   drive.state.entities[0].external = true;
   drive.run_until(1.0);
   CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(100.0));
@@ -368,8 +363,7 @@ TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon
     std::ifstream in(folder + "/" + name);
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
-  const auto scenario = read_scenario(content("motorway-ambulance.xosc"), "motorway-ambulance.xosc",
-                                      files_in(folder));
+  const auto scenario = read_scenario(content("motorway-ambulance.xosc"), "motorway-ambulance.xosc", files_in(folder));
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
   const auto network = road::read_opendrive(content(scenario->road_file), scenario->road_file);
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));

@@ -34,16 +34,14 @@ Path lay(const Trajectory& trajectory) {
   REQUIRE(path.has_value());
   return *path;
 }
-Path lay_shape(decltype(Trajectory::shape) shape, bool closed = false) {
-  return lay({"t", closed, std::move(shape)});
-}
+Path lay_shape(decltype(Trajectory::shape) shape, bool closed = false) { return lay({"t", closed, std::move(shape)}); }
 
 std::string vertex_text(double time, double x, double y) {
-  return "<Vertex time=\"" + std::to_string(time) + "\"><Position><WorldPosition x=\"" +
-         std::to_string(x) + "\" y=\"" + std::to_string(y) + "\"/></Position></Vertex>";
+  return "<Vertex time=\"" + std::to_string(time) + "\"><Position><WorldPosition x=\"" + std::to_string(x) + "\" y=\"" +
+         std::to_string(y) + "\"/></Position></Vertex>";
 }
-std::string follow_text(const std::string& vertices, const std::string& reference,
-                        const std::string& attributes = "", const std::string& mode = "position") {
+std::string follow_text(const std::string& vertices, const std::string& reference, const std::string& attributes = "",
+                        const std::string& mode = "position") {
   return "<PrivateAction><RoutingAction><FollowTrajectoryAction " + attributes +
          "><TrajectoryRef><Trajectory name=\"t\" closed=\"false\"><Shape><Polyline>" + vertices +
          "</Polyline></Shape></Trajectory></TrajectoryRef><TimeReference>" + reference +
@@ -52,8 +50,8 @@ std::string follow_text(const std::string& vertices, const std::string& referenc
 }
 const std::string relative_times = R"(<Timing domainAbsoluteRelative="relative" scale="1" offset="0"/>)";
 std::string at_time(double time_s) { return trigger_text(time_text(time_s)); }
-const std::string two_cars = private_text("A", place_text(-2, 100) + speed_text(20)) +
-                             private_text("B", place_text(-2, 200) + speed_text(10));
+const std::string two_cars =
+    private_text("A", place_text(-2, 100) + speed_text(20)) + private_text("B", place_text(-2, 200) + speed_text(10));
 
 /// A road that forks after 100 m: straight on ("S", then "D") or in a quarter turn to the left of radius 50 m ("T", then "E").
 road::RoadNetwork fork() {
@@ -74,17 +72,20 @@ road::RoadNetwork fork() {
   const std::string quarter = "78.539816339744831";
   const std::string text =
       R"(<OpenDRIVE><header revMajor="1" revMinor="8"/>)" +
-      road("A", "100", "-1", R"(<successor elementType="junction" elementId="J"/>)", R"(x="0" y="0" hdg="0")", "<line/>") +
+      road("A", "100", "-1", R"(<successor elementType="junction" elementId="J"/>)", R"(x="0" y="0" hdg="0")",
+           "<line/>") +
       lane("") +
-      road("S", "50", "J", from_a + R"(<successor elementType="road" elementId="D" contactPoint="start"/>)", R"(x="100" y="0" hdg="0")",
-           "<line/>") +
+      road("S", "50", "J", from_a + R"(<successor elementType="road" elementId="D" contactPoint="start"/>)",
+           R"(x="100" y="0" hdg="0")", "<line/>") +
       lane(both) +
-      road("T", quarter, "J", from_a + R"(<successor elementType="road" elementId="E" contactPoint="start"/>)", R"(x="100" y="0" hdg="0")",
-           "<arc curvature=\"0.02\"/>") +
+      road("T", quarter, "J", from_a + R"(<successor elementType="road" elementId="E" contactPoint="start"/>)",
+           R"(x="100" y="0" hdg="0")", "<arc curvature=\"0.02\"/>") +
       lane(both) +
-      road("D", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)", R"(x="150" y="0" hdg="0")", "<line/>") + lane("") +
-      road("E", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)", R"(x="150" y="50" hdg="1.5707963267948966")",
+      road("D", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)", R"(x="150" y="0" hdg="0")",
            "<line/>") +
+      lane("") +
+      road("E", "500", "-1", R"(<predecessor elementType="junction" elementId="J"/>)",
+           R"(x="150" y="50" hdg="1.5707963267948966")", "<line/>") +
       lane("") +
       R"(<junction id="J" name="J"><connection id="0" incomingRoad="A" connectingRoad="S" contactPoint="start"><laneLink from="-1" to="-1"/></connection>)"
       R"(<connection id="1" incomingRoad="A" connectingRoad="T" contactPoint="start"><laneLink from="-1" to="-1"/></connection></junction></OpenDRIVE>)";
@@ -101,8 +102,9 @@ std::string teleport_text(const std::string& position) {
 std::string routing_text(const std::string& action) {
   return "<PrivateAction><RoutingAction>" + action + "</RoutingAction></PrivateAction>";
 }
-const std::string to_e = "<Route name=\"r\" closed=\"false\"><Waypoint routeStrategy=\"shortest\">" + lane_text("A", 10) +
-                         "</Waypoint><Waypoint routeStrategy=\"shortest\">" + lane_text("E", 100) + "</Waypoint></Route>";
+const std::string to_e = "<Route name=\"r\" closed=\"false\"><Waypoint routeStrategy=\"shortest\">" +
+                         lane_text("A", 10) + "</Waypoint><Waypoint routeStrategy=\"shortest\">" + lane_text("E", 100) +
+                         "</Waypoint></Route>";
 
 /// The road on which A is after so many seconds.
 std::string road_after(const std::string& init, double seconds) {
@@ -219,9 +221,12 @@ TEST_CASE("two points at one place are a wait") {
   for (const double time : {1.0, 2.5, 4.0}) CHECK(path_at_time(path, time).s_m == doctest::Approx(10.0));
   CHECK(path_at_time(path, 4.5).s_m == doctest::Approx(20.0));
   for (const PathPoint& point : path.points) CHECK(point.heading_rad == doctest::Approx(0.0));
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("e", follow_text(vertex_text(0, 100, -5) + vertex_text(1, 110, -5) + vertex_text(4, 110, -5) +
-                                                           vertex_text(5, 130, -5), relative_times), at_time(0.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e",
+                                                    follow_text(vertex_text(0, 100, -5) + vertex_text(1, 110, -5) +
+                                                                    vertex_text(4, 110, -5) + vertex_text(5, 130, -5),
+                                                                relative_times),
+                                                    at_time(0.0)))));
   drive.run_until(2.0);
   CHECK(drive.a().speed_mps == 0.0);
   CHECK(drive.a().world_from_entity.position_m.x == doctest::Approx(110.0));
@@ -234,8 +239,11 @@ TEST_CASE("times of a trajectory count from the action or from the start of the 
   const std::string way = vertex_text(2, 100, -5) + vertex_text(6, 180, -5);
   const auto drive_with = [&](const std::string& domain, const std::string& attributes = "") {
     return Drive(scenario_text(
-        two_cars, story_text(event_text("e", follow_text(way, "<Timing domainAbsoluteRelative=\"" + domain + "\" scale=\"1\" offset=\"0.5\"/>",
-                                                         attributes), at_time(1.0)))));
+        two_cars, story_text(event_text(
+                      "e",
+                      follow_text(way, "<Timing domainAbsoluteRelative=\"" + domain + "\" scale=\"1\" offset=\"0.5\"/>",
+                                  attributes),
+                      at_time(1.0)))));
   };
   const auto x_at = [](Drive drive, double time_s) {
     drive.run_until(time_s);
@@ -248,9 +256,11 @@ TEST_CASE("times of a trajectory count from the action or from the start of the 
 }
 
 TEST_CASE("without times one begins at the initial distance and keeps one's speed") {
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("e", follow_text(vertex_text(0, 100, -5) + vertex_text(0, 100, 75), "<None/>", "initialDistanceOffset=\"30\""),
-                                      at_time(0.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e",
+                                                    follow_text(vertex_text(0, 100, -5) + vertex_text(0, 100, 75),
+                                                                "<None/>", "initialDistanceOffset=\"30\""),
+                                                    at_time(0.0)))));
   drive.run_until(1.0);
   CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(45.0));
   CHECK(drive.a().speed_mps == 20.0);
@@ -260,9 +270,12 @@ TEST_CASE("without times one begins at the initial distance and keeps one's spee
 }
 
 TEST_CASE("a trajectory with nothing between two instants jumps and keeps the speed") {
-  Drive drive(scenario_text(
-      two_cars, story_text(event_text("e", follow_text(vertex_text(0, 100, -5) + vertex_text(2, 140, -5) + vertex_text(2, 640, -5) +
-                                                           vertex_text(4, 680, -5), relative_times), at_time(0.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e",
+                                                    follow_text(vertex_text(0, 100, -5) + vertex_text(2, 140, -5) +
+                                                                    vertex_text(2, 640, -5) + vertex_text(4, 680, -5),
+                                                                relative_times),
+                                                    at_time(0.0)))));
   while (drive.state.time_s < 4.0) {
     drive.run_until(drive.state.time_s + 0.01);
     CHECK(drive.a().speed_mps <= 30.0);
@@ -272,8 +285,9 @@ TEST_CASE("a trajectory with nothing between two instants jumps and keeps the sp
 
 TEST_CASE("a lane change or another trajectory takes the entity off its trajectory") {
   const std::string way = vertex_text(0, 100, -5.25) + vertex_text(10, 300, -5.25);
-  Drive drive(scenario_text(two_cars, story_text(event_text("e", follow_text(way, "<None/>"), at_time(0.0)) +
-                                                 event_text("f", lane_change_text(1, "linear", "time", 2.0), at_time(1.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("e", follow_text(way, "<None/>"), at_time(0.0)) +
+                                         event_text("f", lane_change_text(1, "linear", "time", 2.0), at_time(1.0)))));
   drive.run_until(4.0);
   CHECK(drive.time_of("e action", ElementTransition::stop) == doctest::Approx(1.0));
   CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-1.75));
@@ -282,13 +296,15 @@ TEST_CASE("a lane change or another trajectory takes the entity off its trajecto
 TEST_CASE("falling times are refused where they count and followingMode follow is named") {
   const std::string falling = vertex_text(3, 100, -5) + vertex_text(1, 200, -5);
   const auto read = [&](const std::string& action, std::vector<Finding>& findings) {
-    findings = check_scenario(scenario_text(two_cars, story_text(event_text("e", action, at_time(0.0)))), "test.xosc", files_in("."));
+    findings = check_scenario(scenario_text(two_cars, story_text(event_text("e", action, at_time(0.0)))), "test.xosc",
+                              files_in("."));
     std::string all;
     for (const Finding& finding : findings) all += describe(finding.error) + "\n";
     return all;
   };
   std::vector<Finding> findings;
-  CHECK(read(follow_text(falling, relative_times), findings).find("do not rise from point to point") != std::string::npos);
+  CHECK(read(follow_text(falling, relative_times), findings).find("do not rise from point to point") !=
+        std::string::npos);
   CHECK(read(follow_text(falling, "<None/>"), findings).find("rise from") == std::string::npos);
   CHECK(read(follow_text(vertex_text(0, 100, -5) + vertex_text(1, 200, -5), "<None/>", "", "follow"), findings)
             .find("followingMode=\"follow\" is not supported") != std::string::npos);
@@ -297,12 +313,15 @@ TEST_CASE("falling times are refused where they count and followingMode follow i
 TEST_CASE("without a route one goes straight on and with one along it") {
   const std::string start = teleport_text(lane_text("A", 20)) + speed_text(20);
   CHECK(road_after(private_text("A", start), 8.5) == "D");
-  CHECK(road_after(private_text("A", start + routing_text("<AssignRouteAction>" + to_e + "</AssignRouteAction>")), 8.5) == "E");
-  CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("E", 50) + "</AcquirePositionAction>")), 8.5) ==
-        "E");
+  CHECK(road_after(private_text("A", start + routing_text("<AssignRouteAction>" + to_e + "</AssignRouteAction>")),
+                   8.5) == "E");
+  CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("E", 50) +
+                                                          "</AcquirePositionAction>")),
+                   8.5) == "E");
   // Nothing leads back to A: the way is as it would be without.
-  CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("A", 5) + "</AcquirePositionAction>")), 8.5) ==
-        "D");
+  CHECK(road_after(private_text("A", start + routing_text("<AcquirePositionAction>" + lane_text("A", 5) +
+                                                          "</AcquirePositionAction>")),
+                   8.5) == "D");
 }
 
 TEST_CASE("a place on a route is so far from its first waypoint") {
@@ -325,12 +344,18 @@ TEST_CASE("a place on a route is so far from its first waypoint") {
 }
 
 TEST_CASE("boxes that cross without a corner in the other collide and those on a bridge do not") {
-  const std::string box = R"(<BoundingBox><Center x="0" y="0" z="0.7"/><Dimensions width="1.8" length="4.6" height="1.4"/></BoundingBox>)";
+  const std::string box =
+      R"(<BoundingBox><Center x="0" y="0" z="0.7"/><Dimensions width="1.8" length="4.6" height="1.4"/></BoundingBox>)";
   const auto collide = [&](double height) {
-    const std::string across = "<PrivateAction><TeleportAction><Position><RelativeObjectPosition entityRef=\"A\" dx=\"0\" dy=\"0\"><Orientation type=\"relative\" h=\"1.5707963\"/></RelativeObjectPosition></Position></TeleportAction></PrivateAction>";
-    std::string text = scenario_text(private_text("A", place_text(-2, 100)) + private_text("B", across),
-                                     story_text(event_text("e", speed_text(0), trigger_text(of_entity_text("A",
-                                         "<CollisionCondition><EntityRef entityRef=\"B\"/></CollisionCondition>")))));
+    const std::string across =
+        "<PrivateAction><TeleportAction><Position><RelativeObjectPosition entityRef=\"A\" dx=\"0\" "
+        "dy=\"0\"><Orientation type=\"relative\" "
+        "h=\"1.5707963\"/></RelativeObjectPosition></Position></TeleportAction></PrivateAction>";
+    std::string text = scenario_text(
+        private_text("A", place_text(-2, 100)) + private_text("B", across),
+        story_text(event_text("e", speed_text(0),
+                              trigger_text(of_entity_text(
+                                  "A", "<CollisionCondition><EntityRef entityRef=\"B\"/></CollisionCondition>")))));
     for (auto found = text.find("<BoundingBox>"); found != text.npos; found = text.find("<BoundingBox>", found + 1))
       text.replace(found, text.find("</BoundingBox>", found) + 14 - found, box);
     Drive drive(text);

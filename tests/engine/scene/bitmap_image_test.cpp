@@ -23,7 +23,8 @@ std::uint8_t green(const TextureImage& image, std::uint32_t x, std::uint32_t y) 
 
 template <class Unsigned>
 void put(std::vector<std::uint8_t>& tile, std::size_t pixel, Unsigned bits) {
-  for (std::size_t i = 0; i < sizeof(Unsigned); ++i) tile[pixel * sizeof(Unsigned) + i] = static_cast<std::uint8_t>(bits >> (8 * i));
+  for (std::size_t i = 0; i < sizeof(Unsigned); ++i)
+    tile[pixel * sizeof(Unsigned) + i] = static_cast<std::uint8_t>(bits >> (8 * i));
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ TEST_CASE("pixels of every type become bytes") {
     put(floats, i, std::bit_cast<std::uint32_t>(static_cast<float>(values[i])));
     put(doubles, i, std::bit_cast<std::uint64_t>(values[i]));
   }
-  for (const TextureImage& image : {image_of_bitmap(bitmap_of(PixelType::real32, floats)), image_of_bitmap(bitmap_of(PixelType::real64, doubles))}) {
+  for (const TextureImage& image : {image_of_bitmap(bitmap_of(PixelType::real32, floats)),
+                                    image_of_bitmap(bitmap_of(PixelType::real64, doubles))}) {
     CHECK(green(image, 0, 0) == 128);
     CHECK(green(image, 1, 0) == 255);
     CHECK(green(image, 2, 0) == 0);
@@ -61,7 +63,8 @@ TEST_CASE("pixels of every type become bytes") {
 TEST_CASE("tiles lie row by row and what pads them is not shown") {
   std::vector<std::uint8_t> tiles(6 * 64);
   for (std::size_t tile = 0; tile < 6; ++tile)
-    for (std::size_t pixel = 0; pixel < 64; ++pixel) tiles[tile * 64 + pixel] = static_cast<std::uint8_t>(tile * 40 + pixel % 40);
+    for (std::size_t pixel = 0; pixel < 64; ++pixel)
+      tiles[tile * 64 + pixel] = static_cast<std::uint8_t>(tile * 40 + pixel % 40);
   const TextureImage image = image_of_bitmap(bitmap_of(PixelType::byte, tiles, 17, 9));
   CHECK(image.rgba.size() == 17 * 9 * 4);
   CHECK(green(image, 0, 0) == 0);

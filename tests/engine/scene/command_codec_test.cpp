@@ -94,8 +94,7 @@ TEST_CASE("a claimed length beyond the limit is refused before it is allocated")
 TEST_CASE("vertices on a grid of a millimetre take less than half of their floats") {
   VerticesSet strip{1, 0, {}};
   for (int i = 0; i < 1000; ++i)
-    strip.positions_m.push_back(
-        {i / 2 * 5.0f, i % 2 * 3.5f, std::nearbyint(std::sin(i * 0.01f) * 1024) / 1024});
+    strip.positions_m.push_back({i / 2 * 5.0f, i % 2 * 3.5f, std::nearbyint(std::sin(i * 0.01f) * 1024) / 1024});
   const Bytes bytes = bytes_of(strip);
   CHECK(bytes.size() < 1000 * 12 / 2);
   CHECK(std::get<VerticesSet>(*decode(bytes)).positions_m == strip.positions_m);

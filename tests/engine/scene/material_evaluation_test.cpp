@@ -67,9 +67,10 @@ TEST_CASE("a ramp steps or runs straight or smoothly from point to point") {
 }
 
 TEST_CASE("half transparent glass keeps its colour and names its refraction") {
-  const SurfaceMaterial glass = evaluated({BlenderFragment{BlendKind::fade, 1, 4, 5}, BlenderFragment{BlendKind::multiply, 2, 3, no_fragment},
-                                           ColorFragment{{0.4f, 0.2f, 0.1f}}, LightFragment{}, TransparencyFragment{1.0f, 1.33f},
-                                           ColorFragment{glm::vec3(0.75f)}});
+  const SurfaceMaterial glass =
+      evaluated({BlenderFragment{BlendKind::fade, 1, 4, 5}, BlenderFragment{BlendKind::multiply, 2, 3, no_fragment},
+                 ColorFragment{{0.4f, 0.2f, 0.1f}}, LightFragment{}, TransparencyFragment{1.0f, 1.33f},
+                 ColorFragment{glm::vec3(0.75f)}});
   CHECK(glass.opacity == doctest::Approx(0.25));
   CHECK(glass.base_color.r == doctest::Approx(0.4));
   CHECK(glass.base_color.b == doctest::Approx(0.1));
@@ -96,7 +97,8 @@ TEST_CASE("of light from behind and of light from ahead only that from ahead lig
 }
 
 TEST_CASE("of two alternatives the first that is there is taken and noise has its mean") {
-  CHECK(shown({AlternativeFragment{1, 2}, ColorFragment{glm::vec3(1.0f)}, ColorFragment{glm::vec3(0.5f)}}) == glm::vec3(1.0f));
+  CHECK(shown({AlternativeFragment{1, 2}, ColorFragment{glm::vec3(1.0f)}, ColorFragment{glm::vec3(0.5f)}}) ==
+        glm::vec3(1.0f));
   CHECK(shown({AlternativeFragment{9, 1}, ColorFragment{glm::vec3(0.5f)}}) == glm::vec3(0.5f));
   CHECK(shown({NoiseFragment{NoiseKind::perlin_zero_to_one}}) == glm::vec3(0.5f));
   CHECK(shown({NoiseFragment{NoiseKind::point_minus_one_to_one}}) == glm::vec3(0.0f));
@@ -105,9 +107,9 @@ TEST_CASE("of two alternatives the first that is there is taken and noise has it
 TEST_CASE("a picture reaches the colour that it is multiplied into from either side") {
   for (const bool first : {true, false}) {
     const FragmentId a = first ? FragmentId{1} : FragmentId{2}, b = first ? FragmentId{2} : FragmentId{1};
-    const SurfaceMaterial shown_image = evaluated({BlenderFragment{BlendKind::multiply, a, b, no_fragment}, TextureFragment{7},
-                                                   BlenderFragment{BlendKind::multiply, 3, 4, no_fragment},
-                                                   ColorFragment{glm::vec3(0.5f)}, LightFragment{}});
+    const SurfaceMaterial shown_image = evaluated(
+        {BlenderFragment{BlendKind::multiply, a, b, no_fragment}, TextureFragment{7},
+         BlenderFragment{BlendKind::multiply, 3, 4, no_fragment}, ColorFragment{glm::vec3(0.5f)}, LightFragment{}});
     CHECK(shown_image.base_color_image == 7);
     CHECK(shown_image.base_color == glm::vec3(0.5f));
   }
@@ -116,7 +118,8 @@ TEST_CASE("a picture reaches the colour that it is multiplied into from either s
 TEST_CASE("whatever a tree comes to is finite and moderate") {
   const SurfaceMaterial bright = evaluated({ColorFragment{glm::vec3(3e38f, -1.0f, 2e6f)}});
   CHECK(bright.emission == glm::vec3(1e6f, 0.0f, 1e6f));
-  const SurfaceMaterial lit = evaluated({BlenderFragment{BlendKind::multiply, 1, 2, no_fragment}, LightFragment{}, ColorFragment{{3.0f, -2.0f, 0.5f}}});
+  const SurfaceMaterial lit = evaluated(
+      {BlenderFragment{BlendKind::multiply, 1, 2, no_fragment}, LightFragment{}, ColorFragment{{3.0f, -2.0f, 0.5f}}});
   CHECK(lit.base_color == glm::vec3(1.0f, 0.0f, 0.5f));
   CHECK(evaluated({TransparencyFragment{1.0f, 9.0f}}).refraction_index == 4.0f);
   CHECK(evaluated({TransparencyFragment{1.0f, 0.5f}}).refraction_index == 1.0f);

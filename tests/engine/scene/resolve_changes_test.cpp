@@ -65,8 +65,8 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
 
 TEST_CASE("a loop of children draws each of them once") {
   World world;
-  const NodeId a = world.build.add_object("", {.geometry = world.mesh}), b = world.build.add_object("", {.geometry = world.mesh}),
-               root = world.build.add_object("", {});
+  const NodeId a = world.build.add_object("", {.geometry = world.mesh}),
+               b = world.build.add_object("", {.geometry = world.mesh}), root = world.build.add_object("", {});
   world.build.add_child(root, a), world.build.add_child(a, b), world.build.add_child(b, a);
   CHECK(resolve(world.store).instances.size() == 2);
 }
@@ -100,9 +100,11 @@ TEST_CASE("a hidden object hides its children and one that is shown again shows 
 TEST_CASE("a parent turns and stretches where its child stands and then the child itself") {
   World world;
   const Quat quarter = orientation_from_angles(1.5707963267948966, 0.0, 0.0);
-  const NodeId parent = world.build.add_object("", {.parent_from_object = {{0, 0, 0}, quarter}, .scale = {1.0f, 2.0f, 3.0f}});
+  const NodeId parent =
+      world.build.add_object("", {.parent_from_object = {{0, 0, 0}, quarter}, .scale = {1.0f, 2.0f, 3.0f}});
   const Quat tilt = orientation_from_angles(0.0, 0.5, 0.0);
-  const NodeId child = world.build.add_object("", {.parent_from_object = {{1, 1, 1}, tilt}, .scale = {5.0f, 7.0f, 1.0f}, .geometry = world.mesh});
+  const NodeId child = world.build.add_object(
+      "", {.parent_from_object = {{1, 1, 1}, tilt}, .scale = {5.0f, 7.0f, 1.0f}, .geometry = world.mesh});
   world.build.add_child(parent, child);
   const Instance placed = resolve(world.store).instances.at(0);
   CHECK(glm::distance(placed.world_from_object.position_m, Vec3(-2, 1, 3)) < 1e-12);

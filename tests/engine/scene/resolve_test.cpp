@@ -19,8 +19,7 @@ PolygonMesh cube() {
   PolygonMesh mesh;
   for (int i = 0; i < 8; ++i)
     mesh.vertices_m.push_back({i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f});
-  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                   {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  mesh.polygons = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   return mesh;
 }
 
@@ -75,12 +74,10 @@ TEST_CASE("one sharp edge splits normals at that edge alone") {
   World w;
   PolygonMesh roof;  // a ridge with a flat strip beside it
   for (int i = 0; i < 2; ++i)
-    for (const glm::vec2 xz : {glm::vec2(-2, 0), {0, 1}, {2, 0}, {4, -1}})
-      roof.vertices_m.push_back({xz.x, i, xz.y});
+    for (const glm::vec2 xz : {glm::vec2(-2, 0), {0, 1}, {2, 0}, {4, -1}}) roof.vertices_m.push_back({xz.x, i, xz.y});
   roof.polygons = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}};
   roof.edge_creases.assign(3, {0, 0, 0, 0});
-  roof.edge_creases[1][3] =
-      geometry::crease_sharp;  // from corner 3 (vertex 5) to corner 0 (vertex 1)
+  roof.edge_creases[1][3] = geometry::crease_sharp;  // from corner 3 (vertex 5) to corner 0 (vertex 1)
   w.build.add_object("", {.geometry = w.build.add_mesh("", roof)});
   CHECK(resolve(w.store).meshes[0].vertices.size() == 8 + 2);
 }
@@ -97,17 +94,14 @@ TEST_CASE("materials reach the parts of a mesh by face index") {
   World w;
   PolygonMesh mesh = cube();
   mesh.polygon_materials = {0, 1, 0, 1, 0, 5};
-  const NodeId red = w.build.add_material(
-      "red", {.base_color = {1, 0, 0}, .roughness = 0.25f, .takes_paint = true});
-  const NodeId lamp = w.build.add_material(
-      "lamp", {.opacity = 0.5f, .refraction_index = 1.33f, .emission = {9, 8, 7}});
+  const NodeId red = w.build.add_material("red", {.base_color = {1, 0, 0}, .roughness = 0.25f, .takes_paint = true});
+  const NodeId lamp = w.build.add_material("lamp", {.opacity = 0.5f, .refraction_index = 1.33f, .emission = {9, 8, 7}});
   const NodeId geometry = w.build.add_mesh("", mesh);
   w.build.add_object("", {.geometry = geometry, .materials = {red, lamp}});
   w.build.add_object("", {.geometry = geometry});
   const ResolvedScene scene = resolve(w.store);
   REQUIRE(scene.meshes.size() == 2);
-  REQUIRE(scene.meshes[0].parts.size() ==
-          2);  // index 5 has no material of its own and wears that of 0
+  REQUIRE(scene.meshes[0].parts.size() == 2);  // index 5 has no material of its own and wears that of 0
   CHECK(scene.meshes[0].parts[0].index_count == 4 * 6);
   CHECK(scene.meshes[0].parts[1].index_count == 2 * 6);
   const SurfaceMaterial& first = scene.materials[scene.meshes[0].parts[0].material];
@@ -129,11 +123,9 @@ TEST_CASE("a bitmap becomes the image of the material that shows it") {
   std::vector<std::uint8_t> rgba;
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 17; ++x)
-      for (const int value : {x, y, x * y, x == 3 ? 0 : 255})
-        rgba.push_back(static_cast<std::uint8_t>(value));
+      for (const int value : {x, y, x * y, x == 3 ? 0 : 255}) rgba.push_back(static_cast<std::uint8_t>(value));
   const NodeId bitmap = w.build.add_bitmap("tiles", 17, 9, rgba, false);
-  const NodeId material =
-      w.build.add_material("", {.base_color = {1, 0.5f, 1}, .base_color_bitmap = bitmap});
+  const NodeId material = w.build.add_material("", {.base_color = {1, 0.5f, 1}, .base_color_bitmap = bitmap});
   w.build.add_object("", {.geometry = w.build.add_mesh("", cube()), .materials = {material}});
   const ResolvedScene scene = resolve(w.store);
   const SurfaceMaterial& shown = scene.materials[scene.meshes[0].parts[0].material];
@@ -148,8 +140,8 @@ TEST_CASE("children are placed by their parents and prototypes are kept apart") 
   World w;
   const NodeId mesh = w.build.add_mesh("", cube());
   const Quat quarter = orientation_from_angles(1.5707963267948966, 0.0, 0.0);
-  const NodeId parent = w.build.add_object(
-      "", {.parent_from_object = {{100, 0, 0}, quarter}, .scale = glm::vec3(2.0f)});
+  const NodeId parent =
+      w.build.add_object("", {.parent_from_object = {{100, 0, 0}, quarter}, .scale = glm::vec3(2.0f)});
   const NodeId child = w.build.add_object("", {.parent_from_object = {{10, 0, 1}, {1, 0, 0, 0}},
                                                .geometry = mesh,
                                                .visible_from_m = 5.0f,
@@ -157,8 +149,7 @@ TEST_CASE("children are placed by their parents and prototypes are kept apart") 
                                                .casts_shadow = false});
   w.build.add_child(parent, child);
   const NodeId car = w.build.add_prototype("saloon");
-  w.build.add_child(car,
-                    w.build.add_object("", {.geometry = mesh, .role = PartRole::wheel_rear_left}));
+  w.build.add_child(car, w.build.add_object("", {.geometry = mesh, .role = PartRole::wheel_rear_left}));
   const ResolvedScene scene = resolve(w.store);
   REQUIRE(scene.instances.size() == 1);
   const Instance& placed = scene.instances[0];
@@ -185,8 +176,7 @@ TEST_CASE("only what changed is made again") {
   CHECK_FALSE(resolver.update(w.store));
   const auto& scene = resolver.scene();
   const auto revisions = [&] {
-    return std::array{scene.meshes[0].revision, scene.meshes[1].revision,
-                      scene.materials[1].revision};
+    return std::array{scene.meshes[0].revision, scene.meshes[1].revision, scene.materials[1].revision};
   };
   const auto start = revisions();
 
@@ -252,22 +242,18 @@ TEST_CASE("a resolver that followed every change shows what a new one shows") {
     if (choice == 0 || objects.size() < 3) {
       PolygonMesh mesh = cube();
       mesh.default_edge_crease = random.below(2) ? geometry::crease_sharp : 0;
-      const NodeId material =
-          w.build.add_material("", {.base_color = glm::vec3(static_cast<float>(random.uniform()))});
-      objects.push_back(w.build.add_object(
-          "", {.geometry = w.build.add_mesh("", mesh), .materials = {material}}));
+      const NodeId material = w.build.add_material("", {.base_color = glm::vec3(static_cast<float>(random.uniform()))});
+      objects.push_back(w.build.add_object("", {.geometry = w.build.add_mesh("", mesh), .materials = {material}}));
     } else if (choice == 1) {
       const auto i = static_cast<std::ptrdiff_t>(random.below(objects.size()));
       w.build.apply(NodeDestroy{objects[static_cast<std::size_t>(i)]});
       objects.erase(objects.begin() + i);
     } else if (choice == 2) {
-      w.build.apply(
-          TransformSet{objects[random.below(objects.size())], {{random.uniform(), 0, 0}}});
+      w.build.apply(TransformSet{objects[random.below(objects.size())], {{random.uniform(), 0, 0}}});
     } else if (choice == 3) {
       w.build.apply(HideSet{objects[random.below(objects.size())], random.below(2) == 0});
     } else {
-      w.build.add_child(objects[random.below(objects.size())],
-                        objects[random.below(objects.size())]);
+      w.build.add_child(objects[random.below(objects.size())], objects[random.below(objects.size())]);
     }
     if (random.below(3) == 0) resolver.update(w.store);
   }
@@ -305,8 +291,7 @@ TEST_CASE("a resolver turned to another store shows that one with higher revisio
 TEST_CASE("loops of children and of fragments and children without end are cut") {
   World w;
   const NodeId mesh = w.build.add_mesh("", cube());
-  const NodeId a = w.build.add_object("", {.geometry = mesh}),
-               b = w.build.add_object("", {.geometry = mesh});
+  const NodeId a = w.build.add_object("", {.geometry = mesh}), b = w.build.add_object("", {.geometry = mesh});
   const NodeId root = w.build.add_object("", {});
   w.build.add_child(root, a), w.build.add_child(a, b), w.build.add_child(b, a);
   NodeId top = w.build.add_object("", {.geometry = mesh});
@@ -333,21 +318,17 @@ TEST_CASE("random content is resolved without harm") {
     if (auto* polygons = std::get_if<PolygonsSet>(&command))
       for (auto& corners : polygons->polygons)
         for (auto& corner : corners) corner = static_cast<std::uint32_t>(random.below(7));
-    if (auto* link = std::get_if<LinkSet>(&command))
-      link->value.target = static_cast<NodeId>(random.below(6));
+    if (auto* link = std::get_if<LinkSet>(&command)) link->value.target = static_cast<NodeId>(random.below(6));
     (void)store.apply(command);
     if (random.below(4) == 0 && store.find(2)) {
       (void)store.apply(TagGroupSet{2, 0, "draw"});
-      (void)store.apply(
-          TagSet{2, 0, 0, {"subdivision_level", static_cast<std::uint32_t>(random.below(4))}});
+      (void)store.apply(TagSet{2, 0, 0, {"subdivision_level", static_cast<std::uint32_t>(random.below(4))}});
     }
     resolver.update(store);
     for (const auto& mesh : resolver.scene().meshes) {
       for (const auto index : mesh.indices) REQUIRE(index < mesh.vertices.size());
-      for (const auto& part : mesh.parts)
-        REQUIRE(part.material < resolver.scene().materials.size());
+      for (const auto& part : mesh.parts) REQUIRE(part.material < resolver.scene().materials.size());
     }
-    for (const auto& instance : resolver.scene().instances)
-      REQUIRE(instance.mesh < resolver.scene().meshes.size());
+    for (const auto& instance : resolver.scene().instances) REQUIRE(instance.mesh < resolver.scene().meshes.size());
   }
 }

@@ -18,10 +18,7 @@ inline void must_apply(Store& store, const Command& command) {
 
 /// One of every fragment kind.
 inline std::vector<Fragment> sample_fragments() {
-  RampFragment ramp{RampKind::smooth,
-                    RampChannel::green,
-                    1,
-                    {{0.25f, {0.0f, 0.5f, 1.0f}}, {0.75f, glm::vec3(1.0f)}}};
+  RampFragment ramp{RampKind::smooth, RampChannel::green, 1, {{0.25f, {0.0f, 0.5f, 1.0f}}, {0.75f, glm::vec3(1.0f)}}};
   MatrixFragment matrix;
   matrix.matrix[5] = 0.25f;
   matrix.data = 4;
@@ -99,8 +96,7 @@ inline std::vector<Command> sample_commands() {
       FragmentDestroy{3, 100},
   };
   FragmentId id = 0;
-  for (const Fragment& fragment : sample_fragments())
-    commands.push_back(FragmentSet{3, id++, fragment});
+  for (const Fragment& fragment : sample_fragments()) commands.push_back(FragmentSet{3, id++, fragment});
   return commands;
 }
 

@@ -28,15 +28,13 @@ Store store_with_geometry(std::uint32_t vertices, std::uint32_t polygons) {
 TEST_CASE("a store described by commands is built again alike") {
   const Store store = sample_store();
   REQUIRE(store.nodes().size() == 4);
-  for (const std::size_t run : {1, 7, 65536})
-    CHECK(same_content(store, copy_by_commands(store, run)));
+  for (const std::size_t run : {1, 7, 65536}) CHECK(same_content(store, copy_by_commands(store, run)));
 }
 
 TEST_CASE("stores that differ in one value are not the same") {
   for (const Command& change :
-       {Command(HideSet{1, false}), Command(TagSet{1, 0, 0, {"flag", false}}),
-        Command(VerticesSet{2, 4, {{1, 2, 3}}}), Command(LayerIntegersSet{2, 2, 0, {3}}),
-        Command(FragmentSet{3, 0, ColorFragment{}}),
+       {Command(HideSet{1, false}), Command(TagSet{1, 0, 0, {"flag", false}}), Command(VerticesSet{2, 4, {{1, 2, 3}}}),
+        Command(LayerIntegersSet{2, 2, 0, {3}}), Command(FragmentSet{3, 0, ColorFragment{}}),
         Command(BitmapTilesSet{4, 0, 0, std::vector<std::uint8_t>(64, 1)})}) {
     Store changed = sample_store();
     must_apply(changed, change);

@@ -23,7 +23,8 @@ TEST_CASE("a normal is weighted by the angle of each polygon at the vertex and n
   mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
   mesh.polygons = {{0, 1, 4, no_vertex}, {0, 4, 2, no_vertex}, {0, 2, 3, no_vertex}, {0, 3, 1, no_vertex}};
   const SurfaceMesh surface = triangulate(mesh, same_material);
-  const auto corner = std::find_if(surface.vertices.begin(), surface.vertices.end(), [](const auto& vertex) { return vertex.position_m == glm::vec3(0.0f); });
+  const auto corner = std::find_if(surface.vertices.begin(), surface.vertices.end(),
+                                   [](const auto& vertex) { return vertex.position_m == glm::vec3(0.0f); });
   REQUIRE(corner != surface.vertices.end());
   CHECK(glm::distance(corner->normal, glm::normalize(glm::vec3(1.0f))) < 1e-5f);
 }
@@ -69,7 +70,8 @@ TEST_CASE("polygons that are turned against each other share no normal") {
 TEST_CASE("polygons that make no sense are left out with what belongs to them") {
   GeometryData geometry;
   geometry.vertices_m.resize(4);
-  geometry.polygons = {{0, 1, 4, no_vertex}, {0, 1, 1, no_vertex}, {0, 1, 2, 3}, {no_vertex, 0, 1, 2}, {1, 2, 3, no_vertex}};
+  geometry.polygons = {
+      {0, 1, 4, no_vertex}, {0, 1, 1, no_vertex}, {0, 1, 2, 3}, {no_vertex, 0, 1, 2}, {1, 2, 3, no_vertex}};
   geometry.layers[0] = {"material", LayerType::face_byte, 0, 0.0f, {10, 11, 12, 13, 14}, {}};
   const PolygonMesh mesh = polygons_of(geometry);
   REQUIRE(mesh.polygon_materials.size() == mesh.polygons.size());

@@ -54,9 +54,8 @@ TEST_CASE("the same seed gives the same world byte for byte and it fits on the w
 TEST_CASE("the land between roads that are far apart is not walked") {
   const std::string xml = road::replaced(
       road::SmallRoad{}.xml(), "</OpenDRIVE>",
-      road::replaced(road::replaced(road::SmallRoad{}.xml(), "id=\"a\"", "id=\"b\""), "x=\"0\"",
-                     "x=\"9e7\"")
-              .substr(std::string("<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"8\"></header>\n").size()));
+      road::replaced(road::replaced(road::SmallRoad{}.xml(), "id=\"a\"", "id=\"b\""), "x=\"0\"", "x=\"9e7\"")
+          .substr(std::string("<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"8\"></header>\n").size()));
   scene::Store store;
   scene::SceneBuilder builder(store);
   RoadWorldOptions options{false, false, 0.0};
@@ -74,9 +73,7 @@ TEST_CASE("everything of the world is finite and has a material") {
   std::size_t bad = 0;
   for (const scene::SurfaceMesh& mesh : scene.meshes) {
     for (const scene::SurfaceVertex& v : mesh.vertices)
-      if (!std::isfinite(v.position_m.x + v.position_m.y + v.position_m.z + v.normal.x + v.uv.x +
-                         v.uv.y))
-        ++bad;
+      if (!std::isfinite(v.position_m.x + v.position_m.y + v.position_m.z + v.normal.x + v.uv.x + v.uv.y)) ++bad;
     for (const scene::MeshPart& part : mesh.parts)
       if (part.material >= scene.materials.size()) ++bad;
   }

@@ -20,8 +20,7 @@ namespace {
 bool has_role(const VehicleParts& parts, scene::PartRole role, float distance_m) {
   return std::any_of(parts.begin(), parts.end(), [&](const VehiclePart& part) {
     return std::any_of(part.places.begin(), part.places.end(), [&](const Placement& place) {
-      return place.role == role && distance_m >= place.visible_from_m &&
-             distance_m < place.visible_to_m;
+      return place.role == role && distance_m >= place.visible_from_m && distance_m < place.visible_to_m;
     });
   });
 }
@@ -125,8 +124,8 @@ TEST_CASE("cars have the lamps and wheels that move and light") {
     if (model.kind == ParticipantKind::pedestrian) continue;
     CAPTURE(model.name);
     const VehicleParts parts = vehicle_parts(model);
-    for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left,
-                            lamp_indicator_right, wheel_front_left, wheel_rear_left})
+    for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,
+                            wheel_front_left, wheel_rear_left})
       CHECK(has_role(parts, role, 10.0f));
     for (const auto role : {lamp_head, lamp_tail}) CHECK(has_role(parts, role, 500.0f));
     CHECK(has_role(parts, beacon, 500.0f) == (model.kind == ParticipantKind::ambulance));

@@ -31,9 +31,9 @@ TEST_CASE("a network with more land, lanes, dashes or structures than a region i
 
   std::string lanes;
   for (int i = 1; i <= 60; ++i) lanes += lane(-i, 3.5);
-  SmallRoad wide{.length_m = 5e5,
-                 .sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" +
-                             lanes + "</right></laneSection>"};
+  SmallRoad wide{
+      .length_m = 5e5,
+      .sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" + lanes + "</right></laneSection>"};
   CHECK(refusal(wide.xml()) == "its lanes are 30500 km long, more than 20000 km");
 
   SmallRoad dashed{.length_m = 1e5};
@@ -46,8 +46,7 @@ TEST_CASE("a network with more land, lanes, dashes or structures than a region i
 
   std::string tunnels;
   for (int i = 0; i < 2001; ++i) tunnels += "<tunnel id=\"1\" s=\"1\" length=\"2\"/>";
-  CHECK(refusal(replaced(SmallRoad{}.xml(), "</road>",
-                         "<objects>" + tunnels + "</objects></road>")) ==
+  CHECK(refusal(replaced(SmallRoad{}.xml(), "</road>", "<objects>" + tunnels + "</objects></road>")) ==
         "it has 2001 bridges and tunnels, more than 2000");
 }
 

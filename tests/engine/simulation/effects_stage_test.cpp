@@ -86,7 +86,8 @@ TEST_CASE("the air over a bonnet is free while a lorry is a box up to its front"
     Participant shown;
     shown.model = *find_vehicle_model(model);
     const VehicleModel& shape = vehicle_models()[shown.model];
-    return debris::gap_to_box(body_box(shown), {shape.front_m() - behind_front_m, 0.0, height_share * shape.height_m}).gap_m;
+    return debris::gap_to_box(body_box(shown), {shape.front_m() - behind_front_m, 0.0, height_share * shape.height_m})
+        .gap_m;
   };
   CHECK(gap("saloon", 0.3, 0.9) > 0.2);
   CHECK(gap("saloon", 0.3, 0.5) < 0.0);
@@ -133,7 +134,8 @@ TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
 TEST_CASE("a car that hits another throws parts and no part twice") {
   EffectsState state;
   state.random = Random(1, 2);
-  std::vector<Participant> participants{vehicle_on_lane(1, "volvo-s80", 900.0, -5, 22.0), vehicle_on_lane(7, "saloon", 904.4, -5, 2.0)};
+  std::vector<Participant> participants{vehicle_on_lane(1, "volvo-s80", 900.0, -5, 22.0),
+                                        vehicle_on_lane(7, "saloon", 904.4, -5, 2.0)};
   state.crashes.struck_by_driver = {7};
   const EffectsReport report = run(participants, state, 2, 2);
   CHECK(report.crashes.crashes == 1);
@@ -141,7 +143,9 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
   CHECK(glm::dot(report.impulse_on_driver_ns, forward) < -5000.0);
   REQUIRE(state.crashes.parts.contains(1));
-  const auto all_parts = [&](std::size_t i) { return debris::passenger_car_parts(body_box(participants[i]).half_size_m); };
+  const auto all_parts = [&](std::size_t i) {
+    return debris::passenger_car_parts(body_box(participants[i]).half_size_m);
+  };
   CHECK(state.crashes.parts[1].size() < all_parts(0).size());
   // It hits the same car once more: what both carry and what lies about is still what they had.
   state.crashes.struck_by_driver = {7};

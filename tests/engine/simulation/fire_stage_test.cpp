@@ -27,7 +27,8 @@ Vec3 over_road(double s_m, double t_m, double up_m) {
 
 bool is_wall(const smoke::Grid& grid, const Vec3& world_m) {
   const Vec3 at = grid.grid_from_world(world_m);
-  const int i = static_cast<int>(std::floor(at.x)), j = static_cast<int>(std::floor(at.y)), k = static_cast<int>(std::floor(at.z));
+  const int i = static_cast<int>(std::floor(at.x)), j = static_cast<int>(std::floor(at.y)),
+            k = static_cast<int>(std::floor(at.z));
   return !grid.inside(i, j, k) || grid.wall[static_cast<std::size_t>(grid.index(i, j, k))] != 0;
 }
 
@@ -35,7 +36,8 @@ FireState burn(double s_m, int steps, std::uint64_t seed) {
   const std::vector<Participant> participants{van_at(s_m)};
   FireState state;
   ignite(motorway(), participants.front(), seed, state);
-  for (int i = 1; i <= steps; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
+  for (int i = 1; i <= steps; ++i)
+    advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
   return state;
 }
 
@@ -82,7 +84,8 @@ TEST_CASE("soot of a fire in a tunnel is sent and lies over the fire") {
   MESSAGE("soot after 25 s: " << first.data.size() << " bytes, " << soot->level.size() << " cells, level "
                               << int(*std::ranges::max_element(soot->level)));
   const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(soot->level) - soot->level.begin());
-  const Vec3 place = soot->world_from_box * (Vec3(most % soot->nx + 0.5, most / soot->nx % soot->ny + 0.5, most / (soot->nx * soot->ny) + 0.5) *
+  const Vec3 place = soot->world_from_box * (Vec3(most % soot->nx + 0.5, most / soot->nx % soot->ny + 0.5,
+                                                  most / (soot->nx * soot->ny) + 0.5) *
                                              static_cast<double>(soot->cell_m));
   const Vec3 fire = van_at(3330.0).world_from_vehicle.position_m;
   CHECK(place.z - fire.z > 3.0);
@@ -127,9 +130,12 @@ TEST_CASE("a fire that is put out gives off no more smoke") {
   FireState state = burn(600.0, 60, 3);
   const std::vector<Participant> participants{van_at(600.0)};
   const auto go_on = [&](int from) {
-    for (int i = from; i < from + 60; ++i) advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
+    for (int i = from; i < from + 60; ++i)
+      advance_fires(participants, {}, static_cast<Tick>(2 * i), i / 60.0, 1.0 / 60.0, state);
   };
-  const auto younger_than_a_second = [&] { return std::ranges::count_if(state.smoke->particles.age_s, [](float age_s) { return age_s < 0.99f; }); };
+  const auto younger_than_a_second = [&] {
+    return std::ranges::count_if(state.smoke->particles.age_s, [](float age_s) { return age_s < 0.99f; });
+  };
   go_on(61);
   CHECK(younger_than_a_second() > 100);
   extinguish(5, state);

@@ -21,8 +21,7 @@ inline Outline outline(const Participant& participant) {
   std::size_t k = 0;
   for (const double x : {-model.rear_overhang_m, model.front_m()})
     for (const double y : {-0.5, 0.5})
-      corners[k++] =
-          Vec2(participant.world_from_vehicle * Vec3(x, y * model.width_m, 0.0));
+      corners[k++] = Vec2(participant.world_from_vehicle * Vec3(x, y * model.width_m, 0.0));
   return corners;
 }
 
@@ -32,10 +31,8 @@ inline bool overlap(const Outline& a, const Outline& b) {
   for (const Outline& corners : {a, b}) {
     for (const Vec2 axis : {corners[2] - corners[0], corners[1] - corners[0]}) {
       double a_low = 1e300, a_high = -1e300, b_low = 1e300, b_high = -1e300;
-      for (const Vec2& c : a)
-        a_low = std::min(a_low, glm::dot(c, axis)), a_high = std::max(a_high, glm::dot(c, axis));
-      for (const Vec2& c : b)
-        b_low = std::min(b_low, glm::dot(c, axis)), b_high = std::max(b_high, glm::dot(c, axis));
+      for (const Vec2& c : a) a_low = std::min(a_low, glm::dot(c, axis)), a_high = std::max(a_high, glm::dot(c, axis));
+      for (const Vec2& c : b) b_low = std::min(b_low, glm::dot(c, axis)), b_high = std::max(b_high, glm::dot(c, axis));
       if (a_high < b_low || b_high < a_low) return false;
     }
   }
@@ -66,7 +63,7 @@ struct MotionCheck {
   static constexpr double least_radius_m = 8.0;
   static constexpr double longest_step_m = 5.0;
 
-  double most_sideways_m = 0.0;  ///< Across the direction in which the vehicle points.
+  double most_sideways_m = 0.0;      ///< Across the direction in which the vehicle points.
   double most_overturned_rad = 0.0;  ///< Turned farther than on an arc of the least radius.
 
   void observe(const std::vector<Participant>& participants) {
@@ -80,8 +77,7 @@ struct MotionCheck {
       const Vec3 ahead_before = before.orientation * Vec3(1.0, 0.0, 0.0);
       const Vec3 middle = glm::normalize(ahead + ahead_before);
       const double sideways = std::abs(middle.x * moved.y - middle.y * moved.x);
-      const double turned =
-          std::abs(std::asin(ahead_before.x * ahead.y - ahead_before.y * ahead.x));
+      const double turned = std::abs(std::asin(ahead_before.x * ahead.y - ahead_before.y * ahead.x));
       const double overturned = turned - glm::length(moved) / least_radius_m;
       most_sideways_m = std::max(most_sideways_m, sideways);
       most_overturned_rad = std::max(most_overturned_rad, overturned);

@@ -45,8 +45,7 @@ class Obstacle {
     car.model = model_named("volvo-s80");
     const VehicleModel& model = vehicle_models()[car.model];
     const double origin_m = wrap_x(corridor, x_m_ - model.front_m());
-    car.world_from_vehicle =
-        road::world_from_lane(road::evaluate_lane(network, {0, -2, origin_m, -1.875}));
+    car.world_from_vehicle = road::world_from_lane(road::evaluate_lane(network, {0, -2, origin_m, -1.875}));
     car.velocity_mps = car.world_from_vehicle.orientation * Vec3(speed_mps_, 0.0, 0.0);
     return car;
   }
@@ -64,12 +63,10 @@ inline Participant as_participant(const ForeignVehicle& vehicle) {
 }
 
 /// A ring of 5 km × 5 lanes at this density, from a minute's settling on.
-inline DenseRun drive_dense(double per_km_and_lane, double seconds, std::uint64_t seed,
-                            bool obstacle) {
+inline DenseRun drive_dense(double per_km_and_lane, double seconds, std::uint64_t seed, bool obstacle) {
   const auto network = ring_road(5000.0, 5);
   const TrafficParameters parameters = motorway_traffic(0, 1e6);
-  TrafficState state =
-      dense_ring(network, 5, static_cast<std::uint32_t>(25.0 * per_km_and_lane), seed);
+  TrafficState state = dense_ring(network, 5, static_cast<std::uint32_t>(25.0 * per_km_and_lane), seed);
   CorridorTraffic& traffic = state.corridors[0];
   Random random(seed);
   DenseRun run;

@@ -25,8 +25,7 @@ TEST_CASE("traffic hears the ambulance at 300 m and opens a lane right of the le
   int near = 0, aside_left = 0, aside_right = 0, far_aside = 0;
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     const double ahead = distance_m(traffic.corridor, 2000.0, traffic.x_m[i]);
-    if (ahead > 60.0 && ahead < 250.0 && traffic.lane[i] <= 2 &&
-        traffic.from_lane[i] == traffic.lane[i]) {
+    if (ahead > 60.0 && ahead < 250.0 && traffic.lane[i] <= 2 && traffic.from_lane[i] == traffic.lane[i]) {
       ++near;
       if (traffic.lane[i] == 1 && traffic.aside_m[i] > 0.5) ++aside_left;
       if (traffic.lane[i] == 2 && traffic.aside_m[i] < -0.5) ++aside_right;
@@ -41,11 +40,10 @@ TEST_CASE("traffic hears the ambulance at 300 m and opens a lane right of the le
   CHECK(std::ranges::all_of(traffic.aside_m, [](double aside) { return aside == 0.0; }));
 }
 
-TEST_CASE(
-    "an ambulance in dense traffic is half as fast again as the traffic without a collision") {
+TEST_CASE("an ambulance in dense traffic is half as fast again as the traffic without a collision") {
   const EmergencyRun run = drive_5_km(1);
-  MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps
-                       << " m/s, overlaps " << run.overlaps);
+  MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps << " m/s, overlaps "
+                       << run.overlaps);
   CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
   CHECK(run.overlaps == 0);
 }

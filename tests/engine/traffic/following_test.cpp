@@ -11,8 +11,7 @@ namespace {
 const FollowingLaw car{FollowingParameters{32.0, 1.3, 1.5, 2.5, 2.0}};
 
 double braking(double speed, double leader_speed, double leader_mps2, double gap) {
-  return car.with_coolness(car.acceleration(speed, leader_speed, gap), speed, leader_speed,
-                           leader_mps2, gap);
+  return car.with_coolness(car.acceleration(speed, leader_speed, gap), speed, leader_speed, leader_mps2, gap);
 }
 
 }  // namespace

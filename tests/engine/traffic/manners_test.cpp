@@ -17,10 +17,13 @@ struct Ring {
   Ring() { state.corridors.push_back(empty_corridor(network, road::LanePosition{0, -2, 1.0, 0.0})); }
   CorridorTraffic& traffic() { return state.corridors[0]; }
   void add(int lane, double x_m, double speed_mps, const Driver& driver) {
-    add_vehicle(traffic(), 10 + static_cast<ParticipantId>(traffic().size()), model_named("saloon"), driver, lane, x_m, speed_mps);
+    add_vehicle(traffic(), 10 + static_cast<ParticipantId>(traffic().size()), model_named("saloon"), driver, lane, x_m,
+                speed_mps);
     traffic().next_decision_s.back() = 1e9;  // Keeps its lane.
   }
-  void advance_one(std::span<const ForeignVehicle> foreign, double dt_s) { advance(parameters, network, foreign, dt_s, random, state); }
+  void advance_one(std::span<const ForeignVehicle> foreign, double dt_s) {
+    advance(parameters, network, foreign, dt_s, random, state);
+  }
 };
 
 /// Whether a driver of this politeness changes to the left, where it gains 0.5 m/s² or more and takes more than that from
@@ -37,8 +40,10 @@ bool changes_left(double politeness) {
   ring.add(1, own_x - length - gap_behind_m, behind_mps, driver);
   ring.traffic().next_decision_s[0] = 0.0;
   const auto& law = driver.following;
-  const double gain = idm_acceleration(law, own_mps, 0.0, no_leader) - idm_acceleration(law, own_mps, own_mps, gap_ahead_m);
-  const double loss = idm_acceleration(law, behind_mps, 0.0, no_leader) - idm_acceleration(law, behind_mps, own_mps, gap_behind_m);
+  const double gain =
+      idm_acceleration(law, own_mps, 0.0, no_leader) - idm_acceleration(law, own_mps, own_mps, gap_ahead_m);
+  const double loss =
+      idm_acceleration(law, behind_mps, 0.0, no_leader) - idm_acceleration(law, behind_mps, own_mps, gap_behind_m);
   CHECK(gain > 0.5 + driver.lane_change.threshold_mps2 + driver.lane_change.keep_right_mps2);
   CHECK(loss > 1.2 * gain);
   CHECK(idm_acceleration(law, behind_mps, own_mps, gap_behind_m) > -driver.lane_change.largest_braking_mps2);
@@ -59,7 +64,8 @@ bool changes_beside(const Lamps& lamps, double lit_s) {
   ForeignVehicle car{.id = 1, .model = model_named("volvo-s80")};
   const auto advance_beside = [&](const Lamps& now) {
     car.lamps = now;
-    car.world_from_vehicle = road::world_from_lane(road::evaluate_lane(ring.network, {0, -1, ring.traffic().x_m[0] - 3.0, 0.0}));
+    car.world_from_vehicle =
+        road::world_from_lane(road::evaluate_lane(ring.network, {0, -1, ring.traffic().x_m[0] - 3.0, 0.0}));
     car.velocity_mps = car.world_from_vehicle.orientation * Vec3(mps, 0.0, 0.0);
     ring.advance_one(std::span(&car, 1), dt_s);
   };

@@ -26,9 +26,8 @@ std::string content(const std::string& path) {
 
 TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touches anybody") {
   const std::string folder = SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
-  const auto scenario =
-      scenario::read_scenario(content(folder + "/motorway-ambulance.xosc"),
-                              "motorway-ambulance.xosc", scenario::files_in(folder));
+  const auto scenario = scenario::read_scenario(content(folder + "/motorway-ambulance.xosc"), "motorway-ambulance.xosc",
+                                                scenario::files_in(folder));
   REQUIRE(scenario.has_value());
   const auto network = road::read_opendrive(content(folder + "/motorway.xodr"), "motorway.xodr");
   REQUIRE(network.has_value());
@@ -43,8 +42,8 @@ TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touc
       std::vector<ForeignVehicle> vehicles;
       for (std::size_t i = 0; i < state->entities.size(); ++i) {
         const auto& entity = state->entities[i];
-        vehicles.push_back({static_cast<ParticipantId>(i), scenario->entities[i].model,
-                            entity.world_from_entity, entity.velocity_mps, entity.lamps});
+        vehicles.push_back({static_cast<ParticipantId>(i), scenario->entities[i].model, entity.world_from_entity,
+                            entity.velocity_mps, entity.lamps});
       }
       return vehicles;
     };
@@ -61,8 +60,7 @@ TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touc
           least_mps2 = std::min(least_mps2, a);
           if (a < -6.0) hard_braking_s += dt;
         }
-      for (const double aside : traffic.corridors[0].aside_m)
-        most_aside = std::max(most_aside, std::abs(aside));
+      for (const double aside : traffic.corridors[0].aside_m) most_aside = std::max(most_aside, std::abs(aside));
       if (tick % 6 != 0) continue;
       std::vector<Participant> scripted, others;
       scenario::append_participants(*scenario, *state, 1, scripted);

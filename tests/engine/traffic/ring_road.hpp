@@ -19,8 +19,7 @@ inline int overlapping_bodies(const CorridorTraffic& traffic) {
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     if (traffic.lane[i] > 0) by_x.push_back(i);
   }
-  std::sort(by_x.begin(), by_x.end(),
-            [&](std::size_t a, std::size_t b) { return traffic.x_m[a] < traffic.x_m[b]; });
+  std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) { return traffic.x_m[a] < traffic.x_m[b]; });
   const std::size_t n = by_x.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t behind = by_x[k];

@@ -10,15 +10,14 @@ namespace septet::traffic {
 namespace {
 
 /// Equal cars on a ring of one lane, about 2 km round.
-TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver,
-                        double uneven) {
+TrafficState equal_cars(const road::RoadNetwork& network, int count, const Driver& driver, double uneven) {
   TrafficState state;
   state.corridors.push_back(empty_corridor(network, {0, -1, 1.0, 0.0}));
   CorridorTraffic& traffic = state.corridors[0];
   for (int k = 0; k < count; ++k) {
     const double x = traffic.corridor.length_m / count * (k + uneven * std::sin(2.4 * k));
-    add_vehicle(traffic, static_cast<ParticipantId>(k), model_named("saloon"), driver, 1,
-                wrap_x(traffic.corridor, x), 10.0);
+    add_vehicle(traffic, static_cast<ParticipantId>(k), model_named("saloon"), driver, 1, wrap_x(traffic.corridor, x),
+                10.0);
     traffic.length_m.back() = 5.0;
   }
   for (LaneEntry& entry : traffic.order.lanes[1]) entry.length_m = 5.0;
@@ -27,8 +26,7 @@ TrafficState equal_cars(const road::RoadNetwork& network, int count, const Drive
 
 }  // namespace
 
-TEST_CASE(
-    "a ring of equal cars settles at the equilibrium speeds of the intelligent driver model") {
+TEST_CASE("a ring of equal cars settles at the equilibrium speeds of the intelligent driver model") {
   // The published ring is 2,011 m round, rounded: 2,011.3 m is the length that gives all three
   // speeds.
   const auto network = ring_road(2011.3, 1);
@@ -67,8 +65,7 @@ TEST_CASE("an unstable density grows stop-and-go waves out of a small disturbanc
   CHECK(overlapping_bodies(state.corridors[0]) == 0);
 }
 
-TEST_CASE(
-    "a disturbance fades where theory calls equal drivers string-stable and grows where not") {
+TEST_CASE("a disturbance fades where theory calls equal drivers string-stable and grows where not") {
   const auto network = ring_road(2011.0, 1);
   constexpr int count = 80;
   const auto largest_difference = [&](double acceleration_mps2, double seconds) {
@@ -80,8 +77,7 @@ TEST_CASE(
     traffic.speed_mps[0] -= 1.0;
     TrafficParameters parameters;
     Random random(1);
-    for (double time = 0.0; time < seconds; time += 0.1)
-      advance(parameters, network, {}, 0.1, random, state);
+    for (double time = 0.0; time < seconds; time += 0.1) advance(parameters, network, {}, 0.1, random, state);
     const auto [least, most] = std::ranges::minmax_element(traffic.speed_mps);
     return *most - *least;
   };
@@ -108,10 +104,8 @@ TEST_CASE("flow rises with density until capacity and falls beyond") {
   double before = 0.0, most = 0.0;
   bool falls = false;
   const RingOptions ring{.settling_s = 300.0, .measuring_s = 30.0};
-  for (const FlowPoint& point :
-       fundamental_diagram(ring, std::vector{5.0, 15.0, 25.0, 45.0, 80.0})) {
-    MESSAGE(point.density_per_km << " vehicles/km/lane: " << point.flow_per_h
-                                 << " vehicles/h/lane");
+  for (const FlowPoint& point : fundamental_diagram(ring, std::vector{5.0, 15.0, 25.0, 45.0, 80.0})) {
+    MESSAGE(point.density_per_km << " vehicles/km/lane: " << point.flow_per_h << " vehicles/h/lane");
     most = std::max(most, point.flow_per_h);
     falls = falls || point.flow_per_h < before;
     before = point.flow_per_h;
@@ -131,8 +125,7 @@ TEST_CASE("dense traffic changes lanes without touching") {
   for (int step = 0; step < 3000; ++step) {
     const auto lanes = state.corridors[0].lane;
     advance(parameters, network, {}, 0.1, random, state);
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-      changes += lanes[i] != state.corridors[0].lane[i];
+    for (std::size_t i = 0; i < lanes.size(); ++i) changes += lanes[i] != state.corridors[0].lane[i];
     overlaps += overlapping_bodies(state.corridors[0]);
   }
   MESSAGE(changes << " lane changes");

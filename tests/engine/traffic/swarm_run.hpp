@@ -10,20 +10,20 @@ namespace septet::traffic {
 
 struct SwarmRun {
   double ambulance_mps = 0.0;
-  double traffic_mps = 0.0;         ///< Of those within 400 m of the ambulance.
-  double least_near = 1e9;          ///< How many of them there are.
-  int overlaps = 0;                 ///< Among traffic.
+  double traffic_mps = 0.0;  ///< Of those within 400 m of the ambulance.
+  double least_near = 1e9;   ///< How many of them there are.
+  int overlaps = 0;          ///< Among traffic.
   int overlaps_with_driver = 0;
   int overlaps_with_ambulance = 0;
-  double nearest_jump_m = 1e9;      ///< From the driver to where somebody was taken away or put; nobody drives there.
+  double nearest_jump_m = 1e9;  ///< From the driver to where somebody was taken away or put; nobody drives there.
 };
 
 /// On the line between the two left-most lanes both drive at this speed, the driver 45 m behind;
 /// measured from 15 s on.
-inline SwarmRun follow_ambulance(const TrafficParameters& parameters, double speed_mps,
-                                 double seconds, std::uint64_t seed) {
-  const auto network = road::read_opendrive(
-      shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
+inline SwarmRun follow_ambulance(const TrafficParameters& parameters, double speed_mps, double seconds,
+                                 std::uint64_t seed) {
+  const auto network =
+      road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
   REQUIRE(network.has_value());
   const Corridor corridor = build_corridor(*network, {0, -3, 1000.0, 0.0});
   const auto vehicle_at = [&](double x_m, std::string_view model) {

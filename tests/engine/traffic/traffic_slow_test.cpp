@@ -16,23 +16,20 @@ TEST_CASE("in ten seeds the ambulance is half as fast again as dense traffic wit
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);
     const EmergencyRun run = drive_5_km(seed);
-    MESSAGE("seed " << seed << ": ambulance " << run.ambulance_mps << " m/s, traffic "
-                    << run.traffic_mps << " m/s");
+    MESSAGE("seed " << seed << ": ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps << " m/s");
     CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
     CHECK(run.overlaps == 0);
   }
 }
 
 TEST_CASE("by the exit and the entry vehicles move as cars do") {
-  auto network = road::read_opendrive(
-      shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
+  auto network = road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
   REQUIRE(network);
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     CAPTURE(seed);
     ForeignVehicle driver;
     driver.model = model_named("volvo-s80");
-    driver.world_from_vehicle =
-        road::world_from_lane(road::evaluate_lane(*network, {0, -3, 6000.0, 0.0}));
+    driver.world_from_vehicle = road::world_from_lane(road::evaluate_lane(*network, {0, -3, 6000.0, 0.0}));
     driver.velocity_mps = driver.world_from_vehicle.orientation * Vec3(30.0, 0.0, 0.0);
     TrafficParameters parameters = motorway_traffic(150, 1500.0);
     parameters.exit_share = 0.4;
@@ -62,7 +59,8 @@ TEST_CASE("a swarm keeps its density, and a driver follows the ambulance through
   for (std::uint64_t seed = 31; seed <= 33; ++seed) {
     CAPTURE(seed);
     const SwarmRun run = follow_ambulance(dense_swarm(), 29.0, 60.0, seed);
-    MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps << ", nearest jump " << run.nearest_jump_m << " m");
+    MESSAGE("ambulance " << run.ambulance_mps << " m/s, traffic " << run.traffic_mps << ", nearest jump "
+                         << run.nearest_jump_m << " m");
     CHECK(run.ambulance_mps >= 1.5 * run.traffic_mps);
     CHECK(run.least_near > 100.0);
     CHECK(run.overlaps == 0);

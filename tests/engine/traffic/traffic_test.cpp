@@ -14,8 +14,7 @@ namespace septet::traffic {
 namespace {
 
 road::RoadNetwork motorway() {
-  auto network = road::read_opendrive(
-      shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
+  auto network = road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
   REQUIRE(network);
   return *network;
 }
@@ -36,8 +35,7 @@ double smallest_gap_m(const TrafficState& state) {
   for (const auto& traffic : state.corridors)
     for (std::size_t i = 0; i < traffic.size(); ++i)
       for (std::size_t j = 0; j < traffic.size(); ++j) {
-        const bool same =
-            traffic.lane[i] == traffic.lane[j] || traffic.from_lane[i] == traffic.lane[j];
+        const bool same = traffic.lane[i] == traffic.lane[j] || traffic.from_lane[i] == traffic.lane[j];
         if (i == j || !same || traffic.x_m[j] < traffic.x_m[i]) continue;
         smallest = std::min(smallest, traffic.x_m[j] - traffic.length_m[j] - traffic.x_m[i]);
       }
@@ -87,8 +85,7 @@ TEST_CASE("both directions of the motorway are one corridor each as long as the 
   CHECK(against.length_m == doctest::Approx(along.length_m));
   CHECK_FALSE(along.closed);
   // x runs the other way round on the other side.
-  const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2),
-             x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
+  const auto x1 = x_of(network, along, {0, 1000.0, 0.0}, -2), x2 = x_of(network, against, {0, 1000.0, 0.0}, 2);
   REQUIRE(x1);
   REQUIRE(x2);
   CHECK(*x1 + *x2 == doctest::Approx(along.length_m));
@@ -160,16 +157,15 @@ TEST_CASE("vehicles leave by the exit and merge from the entry before its lane e
     for (const Participant& a : after) {
       const auto b = std::ranges::find(before, a.id, &Participant::id);
       if (b == before.end()) continue;
-      const double moved =
-          glm::length(a.world_from_vehicle.position_m - b->world_from_vehicle.position_m);
+      const double moved = glm::length(a.world_from_vehicle.position_m - b->world_from_vehicle.position_m);
       if (!on_way.contains(a.id) && !in_entry.contains(a.id)) continue;
       longest_jump = std::max(longest_jump, moved);
       for (const Participant& other : after)
         if (other.id != a.id) nearest = std::min(nearest, distance(a, other));
     }
   }
-  MESSAGE(left << " left, " << merged << " merged, smallest gap " << smallest << " m, at most "
-               << most_stopped << " standing in the entry, longest step " << longest_jump << " m");
+  MESSAGE(left << " left, " << merged << " merged, smallest gap " << smallest << " m, at most " << most_stopped
+               << " standing in the entry, longest step " << longest_jump << " m");
   CHECK(left > 10);
   CHECK(merged > 5);
   CHECK(smallest > 0.3);
@@ -189,8 +185,7 @@ TEST_CASE("a mix gives each kind its share and splits it among the classes as be
   };
   set_mix(parameters, {});
   CHECK(share_of(parameters, ParticipantKind::car) == share_of(before, ParticipantKind::car));
-  const KindShare mix[] = {
-      {ParticipantKind::car, 3.0}, {ParticipantKind::lorry, 1.0}, {ParticipantKind::bicycle, 5.0}};
+  const KindShare mix[] = {{ParticipantKind::car, 3.0}, {ParticipantKind::lorry, 1.0}, {ParticipantKind::bicycle, 5.0}};
   set_mix(parameters, mix);
   CHECK(share_of(parameters, ParticipantKind::car) == doctest::Approx(0.75));
   CHECK(share_of(parameters, ParticipantKind::lorry) == doctest::Approx(0.25));
@@ -207,8 +202,7 @@ TEST_CASE("the same seed gives the same traffic") {
     Random random(9, 1);
     const std::vector driver{driver_at(network, 4000.0)};
     TrafficState state = populate(parameters, network, driver, random);
-    for (int tick = 0; tick < 600; ++tick)
-      advance(parameters, network, driver, 1.0 / 60.0, random, state);
+    for (int tick = 0; tick < 600; ++tick) advance(parameters, network, driver, 1.0 / 60.0, random, state);
     StateHash hash;
     hash_state(hash, state);
     value = hash.value();
@@ -231,8 +225,7 @@ TEST_CASE("shown motion agrees with shown velocity through lane changes") {
     append_participants(state, network, after);
     if (before.size() != after.size()) continue;
     for (std::size_t i = 0; i < after.size(); ++i) {
-      const Vec3 moved =
-          after[i].world_from_vehicle.position_m - before[i].world_from_vehicle.position_m;
+      const Vec3 moved = after[i].world_from_vehicle.position_m - before[i].world_from_vehicle.position_m;
       if (after[i].id != before[i].id) continue;
       const auto from_driver_m = [&](const Participant& participant) {
         return glm::distance(participant.world_from_vehicle.position_m, driver.front().world_from_vehicle.position_m);

@@ -51,13 +51,16 @@ TEST_CASE("an angular acceleration is followed quadratically") {
 
 TEST_CASE("wheels that speed up or brake turn as they would") {
   const double h = 1.0 / 30.0;
-  for (const auto& rates : {std::pair{10.0, 40.0}, std::pair{40.0, 10.0}, std::pair{-20.0, -5.0}, std::pair{0.0, 30.0}}) {
+  for (const auto& rates :
+       {std::pair{10.0, 40.0}, std::pair{40.0, 10.0}, std::pair{-20.0, -5.0}, std::pair{0.0, 30.0}}) {
     const double from = rates.first, to = rates.second;
     Participant before = on_circle(0.0), after = on_circle(h);
     before.wheel_spin_radps = from;
     after.wheel_spin_radps = to;
     const auto angle = [&](double t) { return 1.0 + from * t + 0.5 * (to - from) / h * t * t; };
-    const auto turned = [](double rad) { return rad - 2.0 * glm::pi<double>() * std::floor(rad / (2.0 * glm::pi<double>())); };
+    const auto turned = [](double rad) {
+      return rad - 2.0 * glm::pi<double>() * std::floor(rad / (2.0 * glm::pi<double>()));
+    };
     before.wheel_spin_rad = turned(angle(0.0));
     after.wheel_spin_rad = turned(angle(h));
     for (const double t : {0.25, 0.5, 0.75})
@@ -98,7 +101,8 @@ TEST_CASE("position velocity and acceleration at both ends shape the motion betw
     return p;
   };
   for (const double t : {0.3, 1.0, 1.7})
-    CHECK(interpolate(at(0.0), at(2.0), 2.0, t / 2.0).world_from_vehicle.position_m.x == doctest::Approx(at(t).world_from_vehicle.position_m.x).epsilon(1e-12));
+    CHECK(interpolate(at(0.0), at(2.0), 2.0, t / 2.0).world_from_vehicle.position_m.x ==
+          doctest::Approx(at(t).world_from_vehicle.position_m.x).epsilon(1e-12));
 }
 
 TEST_CASE("what else moves is between its two values in proportion to the time") {
@@ -111,7 +115,8 @@ TEST_CASE("what else moves is between its two values in proportion to the time")
   CHECK(shown.wheel_lift_m[0] == doctest::Approx(0.1));
   CHECK(shown.wheel_lift_m[3] == doctest::Approx(0.2));
   CHECK(glm::length(shown.velocity_mps - glm::mix(before.velocity_mps, after.velocity_mps, 0.25)) < 1e-12);
-  CHECK(glm::length(shown.acceleration_mps2 - glm::mix(before.acceleration_mps2, after.acceleration_mps2, 0.25)) < 1e-12);
+  CHECK(glm::length(shown.acceleration_mps2 - glm::mix(before.acceleration_mps2, after.acceleration_mps2, 0.25)) <
+        1e-12);
   CHECK(shown.lamps.has(Lamp::brake));  // Switched at the tick, not before it.
 }
 
@@ -136,8 +141,10 @@ TEST_CASE("both ends are met exactly") {
   b.simulated_time_s = 1.0 / 120.0;
   a.participants = {on_circle(0.0)};
   b.participants = {on_circle(b.simulated_time_s)};
-  CHECK(interpolate(a, b, 0.0).participants[0].world_from_vehicle.position_m == a.participants[0].world_from_vehicle.position_m);
-  CHECK(interpolate(a, b, 1.0).participants[0].world_from_vehicle.position_m == b.participants[0].world_from_vehicle.position_m);
+  CHECK(interpolate(a, b, 0.0).participants[0].world_from_vehicle.position_m ==
+        a.participants[0].world_from_vehicle.position_m);
+  CHECK(interpolate(a, b, 1.0).participants[0].world_from_vehicle.position_m ==
+        b.participants[0].world_from_vehicle.position_m);
 }
 
 }  // namespace septet

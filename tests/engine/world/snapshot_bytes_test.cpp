@@ -54,7 +54,8 @@ TEST_CASE("a difference has the bytes of the specification and is taken to the v
 
   Bytes expected;
   ByteWriter writer(expected);
-  for (const int byte : {2, 1, 70, 60}) writer.put(static_cast<std::uint8_t>(byte));  // Version, flags, tick, age of the baseline.
+  for (const int byte : {2, 1, 70, 60})
+    writer.put(static_cast<std::uint8_t>(byte));  // Version, flags, tick, age of the baseline.
   writer.put(2.5);
   writer.put(std::uint64_t{0x1122334455667788u});
   for (const int byte : {0xac, 0x02, 0x01, 0x02, 0x09}) writer.put(static_cast<std::uint8_t>(byte));

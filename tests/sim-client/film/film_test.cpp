@@ -87,7 +87,8 @@ TEST_CASE("a path without frames or steps or a shorter way is refused with a mes
 TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though the car leans") {
   const Snapshot world = world_with_others();
   for (const Bearings bearings : {Bearings::vehicle, Bearings::world}) {
-    Shot shot{.from_s = 0.0, .to_s = 4.0, .distance_m = 8.0, .bearings = bearings, .heading_rad = 3.0, .pitch_rad = -0.2};
+    Shot shot{
+        .from_s = 0.0, .to_s = 4.0, .distance_m = 8.0, .bearings = bearings, .heading_rad = 3.0, .pitch_rad = -0.2};
     shot.turns = {{4.0, 0.1, -0.2, 0.0}};
     const auto path = camera_path(shot, frames_per_second);
     REQUIRE(path.has_value());
@@ -105,7 +106,8 @@ TEST_CASE("an orbit keeps its distance and its pitch and a level horizon though 
       REQUIRE(glm::length(eye_m + 8.0 * forward - middle_m) < 1e-9);
       REQUIRE(std::abs(std::asin(forward.z) + 0.2) < 1e-9);
       REQUIRE(std::abs((viewpoint.world_from_views.orientation * view.right).z) < 1e-12);
-      REQUIRE(std::abs(std::remainder(std::atan2(forward.y, forward.x) - north_rad - look.heading_rad(), 2.0 * std::numbers::pi)) < 1e-9);
+      REQUIRE(std::abs(std::remainder(std::atan2(forward.y, forward.x) - north_rad - look.heading_rad(),
+                                      2.0 * std::numbers::pi)) < 1e-9);
     }
   }
 }
@@ -122,7 +124,8 @@ TEST_CASE("with the eyes of the driver a camera sees what a screen in front of t
   CHECK(viewpoint.world_from_views.position_m == screen_viewpoint.world_from_views.position_m);
   CHECK(viewpoint.world_from_views.orientation == screen_viewpoint.world_from_views.orientation);
   const auto view = views_at(shot, *pivot, {}, 160, 120).views[0];
-  const auto screen = instant::off_axis_view({eye_m + Vec3(0.8, 0.4, -0.3), eye_m + Vec3(0.8, -0.4, -0.3), eye_m + Vec3(0.8, 0.4, 0.3)}, eye_m);
+  const auto screen = instant::off_axis_view(
+      {eye_m + Vec3(0.8, 0.4, -0.3), eye_m + Vec3(0.8, -0.4, -0.3), eye_m + Vec3(0.8, 0.4, 0.3)}, eye_m);
   REQUIRE(screen.has_value());
   for (int column = 0; column < 4; ++column)
     CHECK(glm::length(view.projection.clip_from_eye_relative[column] - screen->clip_from_eye_relative[column]) < 1e-12);
@@ -164,10 +167,12 @@ TEST_CASE("a camera that would go below the road is refused") {
 }
 
 TEST_CASE("a script is read with its turns and its places") {
-  const auto script = read_script("[[shot]]\nfrom_s = 1\nto_s = 5.5\nparticipant = \"lorry\"\ndistance_m = 9\nheading_deg = 90\n"
-                                  "field_of_view_deg = 40\ninterior = true\n[[shot.turn]]\nuntil_s = 3\npitch_deg = -10\nsigma = 1\n"
-                                  "[[shot.turn]]\nheading_deg = 180\n\n"
-                                  "[[shot]]\nfrom_s = 0\nto_s = 2\nplace = { x_m = 1.0, y_m = -2, z_m = 3 }\n", "shots.toml");
+  const auto script = read_script(
+      "[[shot]]\nfrom_s = 1\nto_s = 5.5\nparticipant = \"lorry\"\ndistance_m = 9\nheading_deg = 90\n"
+      "field_of_view_deg = 40\ninterior = true\n[[shot.turn]]\nuntil_s = 3\npitch_deg = -10\nsigma = 1\n"
+      "[[shot.turn]]\nheading_deg = 180\n\n"
+      "[[shot]]\nfrom_s = 0\nto_s = 2\nplace = { x_m = 1.0, y_m = -2, z_m = 3 }\n",
+      "shots.toml");
   REQUIRE(script.has_value());
   REQUIRE(script->shots.size() == 2);
   const Shot& first = script->shots[0];
@@ -250,7 +255,8 @@ TEST_CASE("a film shows its session at even steps and slow motion at shorter one
   const auto brief = plan_film(default_script(0.0, 0.1, frames_per_second), frames_per_second, {0.0, 0.1});
   REQUIRE(brief.has_value());
   CHECK(brief->script.shots.size() == 1);
-  const auto slow = plan_film({{{.from_s = 1.0, .to_s = 2.0, .speed = 0.25, .turns = {{1.5, 1.0}}}}}, frames_per_second, {0.0, 8.0});
+  const auto slow =
+      plan_film({{{.from_s = 1.0, .to_s = 2.0, .speed = 0.25, .turns = {{1.5, 1.0}}}}}, frames_per_second, {0.0, 8.0});
   REQUIRE(slow.has_value());
   REQUIRE(slow->frames.size() == 100);
   CHECK(slow->frames[1].instant_s == doctest::Approx(1.01));

@@ -16,7 +16,8 @@ constexpr double tick_s = 1.0 / 120.0;
 debris::Keyframe tetrahedron(const Vec3& at, double turn_rad = 0.0) {
   debris::Keyframe keyframe;
   const Quat turn = orientation_from_angles(turn_rad, 0.3 * turn_rad, 0.0);
-  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) keyframe.vertices_m.push_back(at + turn * corner);
+  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+    keyframe.vertices_m.push_back(at + turn * corner);
   keyframe.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   return keyframe;
 }

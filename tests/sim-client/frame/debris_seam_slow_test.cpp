@@ -39,7 +39,8 @@ debris::Keyframe bar_at(double tick) {
   keyframe.material = debris::Material::ice;
   const Vec3 middle = car_m + Vec3(12.0, 1.0, 2.6 - 0.02 * tick);
   const Quat turn = orientation_from_angles(0.0, 0.0, 0.005 * tick);
-  for (std::uint16_t i = 0; i < render::bar_corners; ++i) keyframe.vertices_m.push_back(middle + turn * render::bar_corner_m(i));
+  for (std::uint16_t i = 0; i < render::bar_corners; ++i)
+    keyframe.vertices_m.push_back(middle + turn * render::bar_corner_m(i));
   keyframe.triangles.assign(render::bar_triangles.begin(), render::bar_triangles.end());
   return keyframe;
 }
@@ -55,15 +56,17 @@ Snapshot instant(Tick tick) {
   snapshot.participants = {car};
   snapshot.driver_car.participant = 1;
   const Tick shows = (tick + 2) / 4 * 4;
-  snapshot.effects.push_back({debris::first_effect_id + 1, debris::keyframe_kind, encode(bar_at(static_cast<double>(shows))), shows});
+  snapshot.effects.push_back(
+      {debris::first_effect_id + 1, debris::keyframe_kind, encode(bar_at(static_cast<double>(shows))), shows});
   return snapshot;
 }
 
-image::Image picture_of(render::Renderer& renderer, const scene::ResolvedScene& scene, const rig::Rig& rig, const rig::Screen& screen,
-                        const TickHistory& history, double tick) {
+image::Image picture_of(render::Renderer& renderer, const scene::ResolvedScene& scene, const rig::Rig& rig,
+                        const rig::Screen& screen, const TickHistory& history, double tick) {
   const auto views = screen_views(rig, screen);
   REQUIRE(views.has_value());
-  instant::FrameInput frame = client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
+  instant::FrameInput frame =
+      client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
   DebrisDrawing drawing;
   frame.meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene);
   REQUIRE(frame.meshes.size() == 1);
@@ -88,7 +91,8 @@ TEST_CASE("debris in flight meets within a pixel at the edge of two screens of w
   const rig::Screen &left_screen = rig->screens[1], &right_screen = rig->screens[2];
   REQUIRE(left_screen.width_px == right_screen.width_px);
   REQUIRE(left_screen.height_px == right_screen.height_px);
-  auto renderer = render::Renderer::create({left_screen.width_px, left_screen.height_px, render::DevicePreference::software});
+  auto renderer =
+      render::Renderer::create({left_screen.width_px, left_screen.height_px, render::DevicePreference::software});
   REQUIRE(renderer.has_value());
   const scene::ResolvedScene scene = glowing_debris();
   REQUIRE(renderer->upload(scene).has_value());

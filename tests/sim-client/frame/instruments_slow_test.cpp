@@ -33,7 +33,8 @@ Snapshot driving() {
 
 /// Only the overlay, on what is drawn where there is no world. SEPTET_PICTURES: a folder where it is kept for people to look at.
 image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayText>& texts, const std::string& name) {
-  auto renderer = render::Renderer::create({.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});
+  auto renderer = render::Renderer::create(
+      {.width = screen.width_px, .height = screen.height_px, .device = render::DevicePreference::software});
   REQUIRE(renderer.has_value());
   instant::FrameInput input;
   input.views.push_back({.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), 0.0, 0.0, 0.77, 0.52),
@@ -51,7 +52,8 @@ image::Image draw(const rig::Screen& screen, const std::vector<instant::OverlayT
 template <class Like>
 int count(const image::Image& picture, double top, double bottom, Like like) {
   int found = 0;
-  for (auto y = static_cast<std::uint32_t>(top * picture.height); y < static_cast<std::uint32_t>(bottom * picture.height); ++y)
+  for (auto y = static_cast<std::uint32_t>(top * picture.height);
+       y < static_cast<std::uint32_t>(bottom * picture.height); ++y)
     for (std::uint32_t x = 0; x < picture.width; ++x) found += like(picture.at(x, y));
   return found;
 }
@@ -67,7 +69,8 @@ TEST_CASE("the instruments are drawn in the lower part of the picture at any siz
     const std::uint32_t width_px = size.width_px, height_px = size.height_px;
     CAPTURE(width_px);
     const rig::Rig rig = desktop(width_px, height_px);
-    const auto picture = draw(rig.screens[0], instruments(driving(), rig, rig.screens[0]), "instruments-" + std::to_string(width_px));
+    const auto picture =
+        draw(rig.screens[0], instruments(driving(), rig, rig.screens[0]), "instruments-" + std::to_string(width_px));
     CHECK(count(picture, 0.8, 1.0, is_white) > 30);
     CHECK(count(picture, 0.8, 1.0, is_green) > 5);
     CHECK(count(picture, 0.8, 1.0, is_red) > 10);
@@ -88,8 +91,12 @@ TEST_CASE("the table of keys is drawn whole") {
     for (const auto& text : texts) {
       CAPTURE(text.text);
       int bright = 0;
-      for (auto y = static_cast<std::uint32_t>(text.y_px); y < static_cast<std::uint32_t>(text.y_px + text.height_px); ++y)
-        for (std::uint32_t x = static_cast<std::uint32_t>(text.x_px) - (text.centered ? 4 * static_cast<std::uint32_t>(text.height_px) : 0), i = 0; i < 6 * static_cast<std::uint32_t>(text.height_px); ++i)
+      for (auto y = static_cast<std::uint32_t>(text.y_px); y < static_cast<std::uint32_t>(text.y_px + text.height_px);
+           ++y)
+        for (std::uint32_t x = static_cast<std::uint32_t>(text.x_px) -
+                               (text.centered ? 4 * static_cast<std::uint32_t>(text.height_px) : 0),
+                           i = 0;
+             i < 6 * static_cast<std::uint32_t>(text.height_px); ++i)
           bright += x + i < width_px && picture.at(x + i, y).red > 130;
       CHECK(bright > 5);
     }

@@ -57,7 +57,8 @@ TEST_CASE("only screens whose rig asks for instruments have them") {
     const rig::Rig rig = shipped_rig(name);
     for (const auto& screen : rig.screens) {
       CAPTURE(screen.name);
-      CHECK(instruments(driving(30.0, 5), rig, screen).empty() == (screen.name != "desktop" && screen.name != "middle"));
+      CHECK(instruments(driving(30.0, 5), rig, screen).empty() ==
+            (screen.name != "desktop" && screen.name != "middle"));
     }
   }
 }

@@ -90,13 +90,15 @@ TEST_CASE("every shipped scenario drives to its golden hashes with every compile
   std::ofstream out(golden_file);
   out << golden.heading;
   for (const auto& [key, hashes] : golden.drives)
-    for (const auto& [tick, hash] : hashes) out << fmt::format("{} {} {} {} {}\n", key.scenario, key.driver, key.seed, tick, hash);
+    for (const auto& [tick, hash] : hashes)
+      out << fmt::format("{} {} {} {} {}\n", key.scenario, key.driver, key.seed, tick, hash);
 }
 
 TEST_CASE("no shipped scenario is without a golden hash") {
   std::set<std::string> shipped, golden;
   for (const auto& entry : fs::directory_iterator(fs::path(SEPTET_SOURCE_DIR) / "scenarios"))
-    if (fs::exists(entry.path() / (entry.path().filename().string() + ".xosc"))) shipped.insert(entry.path().filename().string());
+    if (fs::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
+      shipped.insert(entry.path().filename().string());
   for (const auto& [key, hashes] : read_golden().drives) golden.insert(key.scenario);
   CHECK(shipped.size() >= 4);
   CHECK(golden == shipped);

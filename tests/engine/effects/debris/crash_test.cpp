@@ -57,12 +57,11 @@ TEST_CASE("a crash at 70 kilometres per hour throws parts and one at walking pac
     const auto parts = crash.first.parts.size();
     const CrashReport report = debris::crash(state, crash, level_road(), random);
     CHECK(report.closing_speed_mps == doctest::Approx(speed));
-    CHECK(crash.first.parts.size() + static_cast<std::size_t>(report.struck + report.torn_off) ==
-          parts);
+    CHECK(crash.first.parts.size() + static_cast<std::size_t>(report.struck + report.torn_off) == parts);
     CHECK(report.pieces.empty() == (speed < 2.0));
     if (speed < 2.0) continue;
-    CHECK(report.struck >= 3);     // Bumper and headlamps.
-    CHECK(report.fragments >= 8);  // And not in one piece.
+    CHECK(report.struck >= 3);            // Bumper and headlamps.
+    CHECK(report.fragments >= 8);         // And not in one piece.
     CHECK(crash.first.parts.size() > 3);  // Doors and rear stay.
   }
 }
@@ -102,8 +101,7 @@ TEST_CASE("debris of a crash lies in the way and none of it in the barrier") {
     const auto centre = elastic::centre_of_mass_m(p.body);
     CHECK(centre.z() > -0.05);
     CHECK(centre.allFinite());
-    for (const Box& box : world.boxes)
-      CHECK(gap_to_box(box, from_eigen(centre)).gap_m > -0.05);
+    for (const Box& box : world.boxes) CHECK(gap_to_box(box, from_eigen(centre)).gap_m > -0.05);
     widest = std::max(widest, std::abs(centre.y()));
   }
   CHECK(widest > 2.0);   // Beyond the car's own lane half,
@@ -121,9 +119,8 @@ TEST_CASE("two cars that meet head on both lose their bumpers") {
   const CrashReport report = debris::crash(state, crash, level_road(), random);
   CHECK(report.closing_speed_mps == doctest::Approx(2 * crash_speed_mps));
   for (const CrashBody* body : {&crash.first, &crash.second})
-    CHECK(std::ranges::none_of(body->parts, [](const MountedPart& m) {
-      return m.part == Part::bumper && m.box_from_part.position_m.x > 0;
-    }));
+    CHECK(std::ranges::none_of(
+        body->parts, [](const MountedPart& m) { return m.part == Part::bumper && m.box_from_part.position_m.x > 0; }));
 }
 
 TEST_CASE("the same crash throws the same debris") {
@@ -161,16 +158,14 @@ TEST_CASE("concrete and ice and glass break at the blow when thrown flat at a wa
     State state;
     Random random(3);
     const double half = 0.5 * part_recipe(part).size_m.x;
-    spawn_part(state, part, {{half + 0.6, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0),
-               Vec3(0), random);
+    spawn_part(state, part, {{half + 0.6, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0), Vec3(0), random);
     ContactWorld world;  // No ground: what breaks, the wall breaks.
     Box wall;
     wall.half_size_m = {0.5, 5.0, 5.0};
     world.boxes = {wall};
     const double energy = 0.5 * part_recipe(part).mass_kg * crash_speed_mps * crash_speed_mps;
     for (int k = 0; k < 12; ++k) advance_debris(state, world, 1.0 / 60);
-    INFO("part ", static_cast<int>(part), ": ", state.pieces.size(), " pieces, ",
-         state.shards.size(), " shards");
+    INFO("part ", static_cast<int>(part), ": ", state.pieces.size(), " pieces, ", state.shards.size(), " shards");
     CHECK(state.pieces.size() + state.shards.size() > 2);
     double mass = 0.0, left = 0.0;
     for (const Piece& p : state.pieces) {
@@ -190,8 +185,7 @@ TEST_CASE("concrete and ice and glass break at the blow when thrown flat at a wa
 TEST_CASE("a steel door thrown at a wall keeps a dent") {
   State state;
   Random random(3);
-  spawn_part(state, Part::door, {{1.3, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0),
-             Vec3(0), random);
+  spawn_part(state, Part::door, {{1.3, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-crash_speed_mps, 0, 0), Vec3(0), random);
   ContactWorld world;
   Box wall;
   wall.half_size_m = {0.5, 5.0, 5.0};

@@ -10,8 +10,7 @@ namespace {
 State scene() {
   State state;
   Random random(1);
-  spawn_part(state, Part::bumper, {{12345.678, -9876.543, 1.2}, {1, 0, 0, 0}}, Vec3(0), Vec3(0),
-             random);
+  spawn_part(state, Part::bumper, {{12345.678, -9876.543, 1.2}, {1, 0, 0, 0}}, Vec3(0), Vec3(0), random);
   state.shards.push_back({{5, 6, 7}});
   return state;
 }
@@ -26,8 +25,7 @@ TEST_CASE("a keyframe comes back within half a millimetre and with the same tria
   REQUIRE(received->vertices_m.size() == sent.vertices_m.size());
   for (std::size_t i = 0; i < sent.vertices_m.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      CHECK(std::abs(received->vertices_m[i][c] - sent.vertices_m[i][c]) <=
-            0.5 * position_quantum_m + 1e-9);
+      CHECK(std::abs(received->vertices_m[i][c] - sent.vertices_m[i][c]) <= 0.5 * position_quantum_m + 1e-9);
 }
 
 TEST_CASE("the snapshot gets one effect for the shards and one per piece in ascending order") {
@@ -49,8 +47,7 @@ TEST_CASE("cut and damaged keyframes are refused or read within bounds and never
   int refused = 0;
   for (int k = 0; k < 5000; ++k) {
     Bytes bad = good;
-    for (int flips = 0; flips < 4; ++flips)
-      bad[random.below(bad.size())] = static_cast<std::byte>(random.below(256));
+    for (int flips = 0; flips < 4; ++flips) bad[random.below(bad.size())] = static_cast<std::byte>(random.below(256));
     const auto result = decode(bad);
     if (!result) {
       ++refused;

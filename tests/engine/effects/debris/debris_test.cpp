@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
+#include <Eigen/Geometry>
 #include <glm/geometric.hpp>
 
 #include "engine/effects/debris/contacts.hpp"
@@ -39,8 +39,7 @@ double mass_of(const State& state) {
 /// Two seconds of a windscreen that was thrown at a wall; the fractures, and what is left.
 int throw_windscreen_at_wall(State& state, int steps = 120) {
   Random random(3);
-  spawn_part(state, Part::windscreen, {{1.2, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-19.4, 0, 0), Vec3(0),
-             random);
+  spawn_part(state, Part::windscreen, {{1.2, 0, 1.0}, {1, 0, 0, 0}}, Vec3(-19.4, 0, 0), Vec3(0), random);
   ContactWorld world = level_road();
   Box barrier;
   barrier.world_from_box.position_m = {0, 0, 0.5};
@@ -56,8 +55,7 @@ int throw_windscreen_at_wall(State& state, int steps = 120) {
 TEST_CASE("every part has the mass of its recipe") {
   for (int i = 0; i < part_count; ++i) {
     const auto part = static_cast<Part>(i);
-    CHECK(elastic::total_mass_kg(piece_of(part).body) ==
-          doctest::Approx(part_recipe(part).mass_kg).epsilon(0.02));
+    CHECK(elastic::total_mass_kg(piece_of(part).body) == doctest::Approx(part_recipe(part).mass_kg).epsilon(0.02));
   }
 }
 
@@ -101,8 +99,7 @@ TEST_CASE("steel flows past its yield stress and keeps volume and part of its ne
   for (const auto& e : door.body.elements) {
     Eigen::Matrix3d edges;
     for (int a = 0; a < 3; ++a)
-      edges.col(a) =
-          door.body.rest_position_m[e.nodes[a + 1]] - door.body.rest_position_m[e.nodes[0]];
+      edges.col(a) = door.body.rest_position_m[e.nodes[a + 1]] - door.body.rest_position_m[e.nodes[0]];
     const Eigen::Matrix3d inverse_flow = edges * e.rest_inverse;
     CHECK(inverse_flow.determinant() == doctest::Approx(1.0).epsilon(1e-9));
     CHECK(inverse_flow(0, 0) < 0.99);  // Its rest length grew by more than one per cent.
@@ -116,8 +113,7 @@ TEST_CASE("a sliding part stops after v squared over two mu g") {
   State state;
   Random random(1);
   const double half_height = 0.5 * part_recipe(Part::lamp).size_m.z;
-  spawn_part(state, Part::lamp, {{0, 0, half_height}, {1, 0, 0, 0}}, Vec3(0, 3, 0), Vec3(0),
-             random);
+  spawn_part(state, Part::lamp, {{0, 0, half_height}, {1, 0, 0, 0}}, Vec3(0, 3, 0), Vec3(0), random);
   ContactWorld world = level_road();
   for (int k = 0; k < 180; ++k) advance_debris(state, world, 1.0 / 60);
   REQUIRE(state.pieces.size() == 1);
@@ -135,8 +131,7 @@ TEST_CASE("a part that rests falls asleep and a moving box wakes it") {
   for (int k = 0; k < 240; ++k) advance_debris(state, world, 1.0 / 60);
   REQUIRE(state.pieces.size() == 1);
   CHECK(state.pieces[0].asleep);
-  CHECK(highest_debris_m(state, 0.0, 0.0, 0.2).value_or(0) ==
-        doctest::Approx(0.5).epsilon(0.03));
+  CHECK(highest_debris_m(state, 0.0, 0.0, 0.2).value_or(0) == doctest::Approx(0.5).epsilon(0.03));
   CHECK_FALSE(highest_debris_m(state, 3.0, 0.0, 0.2).has_value());
   Box car;
   car.world_from_box.position_m = {-3.0, 0, 0.8};
@@ -187,7 +182,7 @@ TEST_CASE("a box with a cut is a hull whose slope is met where it is") {
   car.cuts = {{normal, glm::dot(normal, Vec3(0.4, 0.0, 0.6))}};
   car.world_from_box = {{10, 5, 0.8}, glm::angleAxis(1.0, Vec3(0, 0, 1))};
   const auto gap = [&](const Vec3& local) { return gap_to_box(car, car.world_from_box * local); };
-  CHECK(gap({1.9, 0.0, 0.5}).gap_m > 0.3);   // Over the bonnet, within the box.
+  CHECK(gap({1.9, 0.0, 0.5}).gap_m > 0.3);  // Over the bonnet, within the box.
   CHECK(gap({1.9, 0.0, -0.3}).gap_m < -0.05);
   const BoxGap on = gap(Vec3(1.2, 0.3, 0.3) + 0.02 * normal);
   CHECK(on.gap_m == doctest::Approx(0.02));
@@ -225,7 +220,8 @@ TEST_CASE("what two hulls squeeze leaves about as fast as they close and does no
     ContactWorld world = level_road();
     Box behind, ahead;
     behind.half_size_m = ahead.half_size_m = {2.3, 0.9, 0.6};
-    behind.cuts = {{glm::normalize(Vec3(0.6, 0.0, 1.9)), glm::dot(glm::normalize(Vec3(0.6, 0.0, 1.9)), Vec3(0.4, 0.0, 0.6))}};
+    behind.cuts = {
+        {glm::normalize(Vec3(0.6, 0.0, 1.9)), glm::dot(glm::normalize(Vec3(0.6, 0.0, 1.9)), Vec3(0.4, 0.0, 0.6))}};
     behind.velocity_mps = {closing_mps, 0, 0};
     behind.world_from_box.position_m = {-2.2, 0, 0.8};
     ahead.world_from_box.position_m = {2.3, 0.3, 0.8};
@@ -236,13 +232,16 @@ TEST_CASE("what two hulls squeeze leaves about as fast as they close and does no
       world.boxes[0].world_from_box.position_m.x += world.boxes[0].velocity_mps.x / 60.0;
       world.boxes[0].velocity_mps.x *= 0.7;
       for (const Piece& p : state.pieces)
-        fastest = std::max(fastest, std::sqrt(2.0 * elastic::kinetic_energy_j(p.body) / elastic::total_mass_kg(p.body)));
+        fastest =
+            std::max(fastest, std::sqrt(2.0 * elastic::kinetic_energy_j(p.body) / elastic::total_mass_kg(p.body)));
       for (const Shard& s : state.shards) fastest = std::max(fastest, glm::length(s.velocity_mps));
       for (const Box& box : world.boxes) largest_ns = std::max(largest_ns, glm::length(box.impulse_ns));
     }
-    INFO("part " << static_cast<int>(part) << ", fastest " << fastest << " m/s, impulse on a box " << largest_ns << " Ns");
+    INFO("part " << static_cast<int>(part) << ", fastest " << fastest << " m/s, impulse on a box " << largest_ns
+                 << " Ns");
     CHECK(fastest > 3.0);
-    CHECK(fastest < 1.2 * closing_mps);  // Of any fragment; in their mean less. Bounded by the world's energy alone, 240 m/s.
+    CHECK(fastest <
+          1.2 * closing_mps);  // Of any fragment; in their mean less. Bounded by the world's energy alone, 240 m/s.
     // What stops all of its mass, several times over; pressed without an end between the two, 10⁶.
     CHECK(largest_ns < 5.0 * part_recipe(part).mass_kg * closing_mps);
   }
@@ -252,17 +251,15 @@ TEST_CASE("two parts that collide keep their momentum together") {
   State state;
   Random random(1);
   spawn_part(state, Part::barrier_post, {{0, 0, 3}, {1, 0, 0, 0}}, Vec3(0), Vec3(0), random);
-  spawn_part(state, Part::barrier_post, {{0.28, 0.05, 3.1}, {1, 0, 0, 0}}, Vec3(-4, 0, 0), Vec3(0),
-             random);
-  const Eigen::Vector3d before = elastic::momentum_ns(state.pieces[0].body) +
-                                 elastic::momentum_ns(state.pieces[1].body);
+  spawn_part(state, Part::barrier_post, {{0.28, 0.05, 3.1}, {1, 0, 0, 0}}, Vec3(-4, 0, 0), Vec3(0), random);
+  const Eigen::Vector3d before =
+      elastic::momentum_ns(state.pieces[0].body) + elastic::momentum_ns(state.pieces[1].body);
   for (int k = 0; k < 5; ++k) {
     for (auto& p : state.pieces)
       for (auto& x : p.body.position_m) x += p.body.velocity_mps[0] * 0.01;
     exchange_impulses(state.pieces, 0.01);
   }
-  const Eigen::Vector3d after = elastic::momentum_ns(state.pieces[0].body) +
-                                elastic::momentum_ns(state.pieces[1].body);
+  const Eigen::Vector3d after = elastic::momentum_ns(state.pieces[0].body) + elastic::momentum_ns(state.pieces[1].body);
   CHECK(elastic::momentum_ns(state.pieces[0].body).x() < -1.0);
   CHECK((after - before).norm() < 1e-10 * before.norm());
 }
@@ -271,8 +268,7 @@ TEST_CASE("a windscreen thrown at a wall cracks and shatters on the road and los
   State state;
   CHECK(throw_windscreen_at_wall(state) > 20);
   CHECK(state.shards.size() > 5);
-  CHECK(mass_of(state) ==
-        doctest::Approx(elastic::total_mass_kg(piece_of(Part::windscreen, 3).body)).epsilon(1e-9));
+  CHECK(mass_of(state) == doctest::Approx(elastic::total_mass_kg(piece_of(Part::windscreen, 3).body)).epsilon(1e-9));
   for (const auto& s : state.shards) {
     CHECK(s.position_m.z >= 0.0);
     CHECK(glm::length(s.velocity_mps) < 40.0);

@@ -35,15 +35,14 @@ inline State tunnel_fire(std::uint64_t seed = 1, std::size_t capacity = 20000, d
   fire.lifetime_s = 40.0;
   fire.extinction_area_m2 = 0.6;
   fire.glow = 0.8;
-  return make_smoke(make_tunnel_grid(world_from_floor, cell_m, 120.0, 5.5, 4.0, 7.0), {fire}, seed,
-                    capacity);
+  return make_smoke(make_tunnel_grid(world_from_floor, cell_m, 120.0, 5.5, 4.0, 7.0), {fire}, seed, capacity);
 }
 
 struct Layers {
-  double mean = 0.0;                  ///< Height as a share of the room's.
-  std::array<double, 4> quarters{};   ///< Share of the particles in each, from below.
-  int most = 0;                       ///< In one cell.
-  double variation = 0.0;             ///< Standard deviation of the density over its mean.
+  double mean = 0.0;                 ///< Height as a share of the room's.
+  std::array<double, 4> quarters{};  ///< Share of the particles in each, from below.
+  int most = 0;                      ///< In one cell.
+  double variation = 0.0;            ///< Standard deviation of the density over its mean.
 };
 
 inline Layers layers_of(const State& state) {
@@ -61,8 +60,7 @@ inline Layers layers_of(const State& state) {
     squares += double{static_cast<double>(density)} * density;
   }
   const double mean = count / static_cast<double>(state.density.size());
-  layers.variation =
-      std::sqrt(squares / static_cast<double>(state.density.size()) - mean * mean) / mean;
+  layers.variation = std::sqrt(squares / static_cast<double>(state.density.size()) - mean * mean) / mean;
   return layers;
 }
 

@@ -18,8 +18,8 @@ State full_tunnel() {
   State state = tunnel_fire(1, 20000);
   Random random(5);
   for (int n = 0; n < 20000; ++n)
-    add_particle(state, {random.uniform(20.0, 100.0), random.uniform(1.0, 10.0), random.uniform(0.0, 6.0)},
-                 0, static_cast<float>(random.uniform(0.0, 35.0)));
+    add_particle(state, {random.uniform(20.0, 100.0), random.uniform(1.0, 10.0), random.uniform(0.0, 6.0)}, 0,
+                 static_cast<float>(random.uniform(0.0, 35.0)));
   return state;
 }
 
@@ -127,8 +127,7 @@ TEST_CASE("twenty thousand visible particles need less than two megabytes a seco
     largest_tick = std::max(largest_tick, this_tick);
   }
   REQUIRE(state.particles.size() > 19000);
-  MESSAGE(bytes << " bytes a second, at most " << largest_tick << " in a tick; a whole snapshot has "
-                << snapshot);
+  MESSAGE(bytes << " bytes a second, at most " << largest_tick << " in a tick; a whole snapshot has " << snapshot);
   CHECK(bytes < 2'000'000);
   CHECK(bytes > 100'000);
   CHECK(largest_tick < 20'000);
@@ -140,8 +139,7 @@ TEST_CASE("hostile smoke keyframes are refused or harmless") {
   REQUIRE(!effects.empty());
   const Bytes good = effects.front().data;
   REQUIRE(decode(good));
-  for (std::size_t length = 0; length < good.size(); ++length)
-    REQUIRE(!decode(std::span(good).first(length)));
+  for (std::size_t length = 0; length < good.size(); ++length) REQUIRE(!decode(std::span(good).first(length)));
   Bytes longer = good;
   longer.push_back(std::byte{0});
   CHECK(!decode(longer));

@@ -33,20 +33,22 @@ TEST_CASE("a soot keyframe gives back every cell within half a level in its plac
   std::size_t found = 0;
   for (std::size_t n = 0; n < state.soot.size(); ++n) {
     const int cell = static_cast<int>(state.beside_wall[n]);
-    const Vec3 middle(cell % state.grid.nx + 0.5, cell / state.grid.nx % state.grid.ny + 0.5, cell / (state.grid.nx * state.grid.ny) + 0.5);
-    const Vec3 at = inverse(keyframe->world_from_box) * state.grid.world_from_cells(middle) / static_cast<double>(keyframe->cell_m);
-    const int i = static_cast<int>(std::floor(at.x)), j = static_cast<int>(std::floor(at.y)), k = static_cast<int>(std::floor(at.z));
+    const Vec3 middle(cell % state.grid.nx + 0.5, cell / state.grid.nx % state.grid.ny + 0.5,
+                      cell / (state.grid.nx * state.grid.ny) + 0.5);
+    const Vec3 at =
+        inverse(keyframe->world_from_box) * state.grid.world_from_cells(middle) / static_cast<double>(keyframe->cell_m);
+    const int i = static_cast<int>(std::floor(at.x)), j = static_cast<int>(std::floor(at.y)),
+              k = static_cast<int>(std::floor(at.z));
     const bool inside = i >= 0 && j >= 0 && k >= 0 && i < keyframe->nx && j < keyframe->ny && k < keyframe->nz;
     const int level = inside ? keyframe->level[static_cast<std::size_t>((k * keyframe->ny + j) * keyframe->nx + i)] : 0;
-    REQUIRE(std::abs(std::sqrt(soot_of(static_cast<std::uint8_t>(level))) - std::sqrt(state.soot[n])) <= 0.5f / (soot_levels - 1) + 1e-5f);
+    REQUIRE(std::abs(std::sqrt(soot_of(static_cast<std::uint8_t>(level))) - std::sqrt(state.soot[n])) <=
+            0.5f / (soot_levels - 1) + 1e-5f);
     if (level > 0) ++found;
   }
   CHECK(found > 500);
 }
 
-TEST_CASE("walls without soot are not sent") {
-  CHECK(encode_soot(tunnel_fire(1, 100)).empty());
-}
+TEST_CASE("walls without soot are not sent") { CHECK(encode_soot(tunnel_fire(1, 100)).empty()); }
 
 TEST_CASE("a soot keyframe that was cut or changed is refused or stays within bounds") {
   const Bytes bytes = encode_soot(sooty_tunnel());
@@ -55,7 +57,8 @@ TEST_CASE("a soot keyframe that was cut or changed is refused or stays within bo
   Random random(9);
   for (int n = 0; n < 2000; ++n) {
     Bytes changed = bytes;
-    changed[static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()))] = static_cast<std::byte>(random.uniform() * 256.0);
+    changed[static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()))] =
+        static_cast<std::byte>(random.uniform() * 256.0);
     const auto keyframe = decode_soot(changed);
     if (!keyframe) continue;
     REQUIRE(keyframe->level.size() == static_cast<std::size_t>(keyframe->nx) * keyframe->ny * keyframe->nz);

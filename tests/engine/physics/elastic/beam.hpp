@@ -23,16 +23,13 @@ inline const double bending_constant_m4 = std::pow(side_m, 4) / 12.0;
 
 inline ElasticBody make(int cells_across, const ElasticMaterial& material = {1e8, 0.25, 1000.0}) {
   auto body = make_elastic_body(
-      lattice_mesh({cells_across, cells_across, 21 * cells_across}, {side_m, side_m, length_m}),
-      material);
+      lattice_mesh({cells_across, cells_across, 21 * cells_across}, {side_m, side_m, length_m}), material);
   SEPTET_CHECK(body.has_value(), "{}", body.error().what);
   return std::move(*body);
 }
 
 inline bool at_start(const ElasticBody& b, int i) { return b.rest_position_m[i].z() < 1e-9; }
-inline bool at_end(const ElasticBody& b, int i) {
-  return b.rest_position_m[i].z() > length_m - 1e-9;
-}
+inline bool at_end(const ElasticBody& b, int i) { return b.rest_position_m[i].z() > length_m - 1e-9; }
 
 inline void clamp_start(ElasticBody& body) { fix_nodes(body, {-1, -1, -1e-9}, {1, 1, 1e-9}); }
 
@@ -67,8 +64,8 @@ double mean_z(const ElasticBody& body, OnFace on_face) {
 }
 
 /// Stretch of a free beam under a static axial force: fixes one node and lets Newton settle it.
-inline double static_stretch(int cells_across, double force_over_ya, bool free,
-                             double poisson_ratio = 0.25, double* volume_ratio = nullptr) {
+inline double static_stretch(int cells_across, double force_over_ya, bool free, double poisson_ratio = 0.25,
+                             double* volume_ratio = nullptr) {
   ElasticBody body = make(cells_across, {1e8, poisson_ratio, 1000.0});
   if (free) {
     // One fixed node holds the body's place; the tension itself keeps it from turning.
@@ -90,12 +87,9 @@ inline double static_stretch(int cells_across, double force_over_ya, bool free,
 /// a fiftieth of this load, and without lateral strain, so that the clamp does no harm.
 inline double static_push_strain(int cells_across, double force_over_ya) {
   auto body = *make_elastic_body(
-      lattice_mesh({cells_across, cells_across, 2 * cells_across}, {side_m, side_m, 2 * side_m}),
-      {1e8, 0.0, 1000.0});
+      lattice_mesh({cells_across, cells_across, 2 * cells_across}, {side_m, side_m, 2 * side_m}), {1e8, 0.0, 1000.0});
   clamp_start(body);
-  const auto is_end = [](const ElasticBody& b, int i) {
-    return b.rest_position_m[i].z() > 2 * side_m - 1e-9;
-  };
+  const auto is_end = [](const ElasticBody& b, int i) { return b.rest_position_m[i].z() > 2 * side_m - 1e-9; };
   load_face(body, is_end, force_over_ya * 1e8);
   const auto report = find_equilibrium(body, Eigen::Vector3d::Zero());
   SEPTET_CHECK(report.converged, "no equilibrium at {}", force_over_ya);
@@ -108,25 +102,21 @@ inline double static_twist_ratio(int cells_across, double poisson_ratio = 0.25) 
   ElasticBody body = make(cells_across, material);
   clamp_start(body);
   const double expected_rad = 1e-3;
-  const double moment =
-      expected_rad * lame_constants(material).mu_pa * torsion_constant_m4 / length_m;
+  const double moment = expected_rad * lame_constants(material).mu_pa * torsion_constant_m4 / length_m;
   const Eigen::Vector3d centre(side_m / 2, side_m / 2, length_m);
   double inertia = 0.0;
   for (int i = 0; i < body.node_count(); ++i)
     if (at_end(body, i)) inertia += (body.rest_position_m[i] - centre).squaredNorm();
   for (int i = 0; i < body.node_count(); ++i)
     if (at_end(body, i))
-      body.force_n[i] =
-          moment / inertia * Eigen::Vector3d::UnitZ().cross(body.rest_position_m[i] - centre);
+      body.force_n[i] = moment / inertia * Eigen::Vector3d::UnitZ().cross(body.rest_position_m[i] - centre);
   const auto report = find_equilibrium(body, Eigen::Vector3d::Zero());
   SEPTET_CHECK(report.converged, "no equilibrium");
   double angle = 0.0;
   for (int i = 0; i < body.node_count(); ++i)
     if (at_end(body, i)) {
       const Eigen::Vector3d arm = body.rest_position_m[i] - centre;
-      angle += Eigen::Vector3d::UnitZ().cross(arm).dot(body.position_m[i] -
-                                                       body.rest_position_m[i]) /
-               inertia;
+      angle += Eigen::Vector3d::UnitZ().cross(arm).dot(body.position_m[i] - body.rest_position_m[i]) / inertia;
     }
   return angle / expected_rad;
 }
@@ -137,8 +127,7 @@ inline double static_bend_ratio(int cells_across, double poisson_ratio = 0.25) {
   ElasticBody body = make(cells_across, {1e8, poisson_ratio, 1000.0});
   clamp_start(body);
   const double expected_m = 1e-4;
-  const double force =
-      expected_m * 3 * 1e8 * bending_constant_m4 / (length_m * length_m * length_m);
+  const double force = expected_m * 3 * 1e8 * bending_constant_m4 / (length_m * length_m * length_m);
   int count = 0;
   for (int i = 0; i < body.node_count(); ++i) count += at_end(body, i);
   for (int i = 0; i < body.node_count(); ++i)
@@ -154,8 +143,7 @@ inline double static_bend_ratio(int cells_across, double poisson_ratio = 0.25) {
 /// The stretch s at which St. Venant–Kirchhoff carries F/YA: s (s²−1)/2 = F/YA, near s = 1.
 inline double st_venant_kirchhoff_strain(double force_over_ya) {
   double s = 1.0 + force_over_ya;
-  for (int i = 0; i < 50; ++i)
-    s -= (s * (s * s - 1) / 2 - force_over_ya) / ((3 * s * s - 1) / 2);
+  for (int i = 0; i < 50; ++i) s -= (s * (s * s - 1) / 2 - force_over_ya) / ((3 * s * s - 1) / 2);
   return s - 1.0;
 }
 

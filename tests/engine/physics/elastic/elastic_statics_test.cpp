@@ -33,8 +33,7 @@ TEST_CASE("bending of coarse linear tetrahedra converges from below") {
 
 TEST_CASE("Young's modulus and the Poisson ratio give the right Lame constants") {
   const LameConstants m = lame_constants({2.5e9, 0.25, 1});
-  CHECK(m.mu_pa * (3 * m.lambda_pa + 2 * m.mu_pa) / (m.lambda_pa + m.mu_pa) ==
-        doctest::Approx(2.5e9));
+  CHECK(m.mu_pa * (3 * m.lambda_pa + 2 * m.mu_pa) / (m.lambda_pa + m.mu_pa) == doctest::Approx(2.5e9));
   CHECK(m.lambda_pa / (2 * (m.lambda_pa + m.mu_pa)) == doctest::Approx(0.25));
 }
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <doctest/doctest.h>
+#include <Eigen/Dense>
 
 #include "engine/physics/elastic/element.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
@@ -19,8 +19,8 @@ ElasticBody block(const ElasticMaterial& material, Eigen::Vector3i cells = {2, 2
 void deform(ElasticBody& body) {
   for (int i = 0; i < body.node_count(); ++i) {
     const Eigen::Vector3d x = body.rest_position_m[i];
-    body.position_m[i] = x + Eigen::Vector3d(0.3 * x.y() * x.z() + 0.02 * x.x(),
-                                             -0.2 * x.x() * x.z(), 0.05 * x.x() - 0.4 * x.y() * x.y());
+    body.position_m[i] = x + Eigen::Vector3d(0.3 * x.y() * x.z() + 0.02 * x.x(), -0.2 * x.x() * x.z(),
+                                             0.05 * x.x() - 0.4 * x.y() * x.y());
     body.velocity_mps[i] = {0.3 * x.y(), -0.2 + x.z(), 0.1 * x.x()};
   }
 }
@@ -76,8 +76,7 @@ TEST_CASE("the primal form gives the velocities of the published dual form") {
     settings.tolerance = 1e-12;
     step_elastic(stepped, settings);
     for (int i = 0; i < body.node_count(); ++i)
-      CHECK((stepped.velocity_mps[i] - expected.segment<3>(3 * i)).norm() <
-            1e-7 * expected.norm());
+      CHECK((stepped.velocity_mps[i] - expected.segment<3>(3 * i)).norm() < 1e-7 * expected.norm());
   }
 }
 
@@ -104,8 +103,7 @@ TEST_CASE("a turned body steps as the unturned one turned") {
   ElasticBody body = block({1e8, 0.3, 1000.0});
   deform(body);
   ElasticBody turned = body;
-  const Eigen::Matrix3d r =
-      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d r = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
   const Eigen::Vector3d away(30, -20, 5);
   for (int i = 0; i < body.node_count(); ++i) {
     turned.position_m[i] = r * body.position_m[i] + away;
@@ -125,11 +123,9 @@ TEST_CASE("a turned body steps as the unturned one turned") {
 
 TEST_CASE("a rigid turn has no strain and no force") {
   ElasticBody body = block({1e9, 0.3, 1000.0});
-  const Eigen::Matrix3d r =
-      Eigen::AngleAxisd(2.3, Eigen::Vector3d(1, 1, -0.4).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d r = Eigen::AngleAxisd(2.3, Eigen::Vector3d(1, 1, -0.4).normalized()).toRotationMatrix();
   for (auto& x : body.position_m) x = r * x;
-  for (const Element& e : body.elements)
-    CHECK(green_strain(deformation_gradient(e, body.position_m)).norm() < 1e-13);
+  for (const Element& e : body.elements) CHECK(green_strain(deformation_gradient(e, body.position_m)).norm() < 1e-13);
 }
 
 TEST_CASE("momentum stays and the energy of an unloaded body stays within five per cent of what it had") {
@@ -166,8 +162,7 @@ TEST_CASE("a spinning body keeps its energy and has the strain that spin gives i
   // The strain is that of the centrifugal force, ρω²r²/2Y at the middle, and not of the step.
   double largest = 0.0;
   for (const Element& e : body.elements)
-    largest = std::max(largest,
-                       green_strain(deformation_gradient(e, body.position_m)).cwiseAbs().maxCoeff());
+    largest = std::max(largest, green_strain(deformation_gradient(e, body.position_m)).cwiseAbs().maxCoeff());
   const double expected = 1000.0 * 100.0 * 0.4 * 0.4 / 2 / 1e8;
   CHECK(largest > 0.5 * expected);
   CHECK(largest < 1.5 * expected);
@@ -191,23 +186,19 @@ TEST_CASE("damping multiplies stiff modes by one minus gamma") {
   // One stiff element stretched a little: its relative motion is one mode far above the step.
   for (const double ratio : {0.0, 0.1, 0.2, 0.5}) {
     ElasticBody body = block({1e12, 0.0, 1000.0}, {1, 1, 1});
-    for (int i = 0; i < body.node_count(); ++i)
-      body.position_m[i].z() = (1.0 + 1e-6) * body.rest_position_m[i].z();
+    for (int i = 0; i < body.node_count(); ++i) body.position_m[i].z() = (1.0 + 1e-6) * body.rest_position_m[i].z();
     StepSettings settings;
     settings.gravity_mps2.setZero();
     settings.damping_ratio = ratio;
     settings.tension_stiffness = false;
-    const auto strain = [&] {
-      return deformation_gradient(body.elements[0], body.position_m)(2, 2) - 1.0;
-    };
+    const auto strain = [&] { return deformation_gradient(body.elements[0], body.position_m)(2, 2) - 1.0; };
     step_elastic(body, settings);
     CHECK(strain() / 1e-6 == doctest::Approx(1.0 - gamma_of(settings)).epsilon(1e-3).scale(1.0));
   }
 }
 
 TEST_CASE("an inverted tetrahedron turns back") {
-  ElasticBody body = *make_elastic_body(lattice_mesh({1, 1, 1}, {0.1, 0.1, 0.1}),
-                                        {1e7, 0.3, 1000.0});
+  ElasticBody body = *make_elastic_body(lattice_mesh({1, 1, 1}, {0.1, 0.1, 0.1}), {1e7, 0.3, 1000.0});
   // The corner pushed through the opposite face of its tetrahedron: the mirrored rest shape.
   const int corner = body.body_node_of_mesh_node[0];
   body.position_m[corner] = Eigen::Vector3d(1, 1, 1) * (0.2 / 3);
@@ -238,8 +229,7 @@ TEST_CASE("numbers gone bad are counted and reset where they are") {
 TEST_CASE("both solvers agree on a tumbling stiff beam") {
   ElasticBody one = beam::make(1, {1e10, 0.25, 1000.0});
   for (int i = 0; i < one.node_count(); ++i)
-    one.velocity_mps[i] =
-        Eigen::Vector3d(5, 3, 2).cross(one.position_m[i] - Eigen::Vector3d(0, 0, 1));
+    one.velocity_mps[i] = Eigen::Vector3d(5, 3, 2).cross(one.position_m[i] - Eigen::Vector3d(0, 0, 1));
   ElasticBody other = one;
   StepSettings direct, iterative;
   direct.solver = Solver::direct;
@@ -252,8 +242,7 @@ TEST_CASE("both solvers agree on a tumbling stiff beam") {
     iterations = std::max(iterations, report.iterations);
   }
   double worst = 0.0;
-  for (int i = 0; i < one.node_count(); ++i)
-    worst = std::max(worst, (one.position_m[i] - other.position_m[i]).norm());
+  for (int i = 0; i < one.node_count(); ++i) worst = std::max(worst, (one.position_m[i] - other.position_m[i]).norm());
   CHECK(worst < 1e-3);
   CHECK(iterations < 20);
 }

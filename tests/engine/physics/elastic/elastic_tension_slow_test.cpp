@@ -16,8 +16,7 @@ double stretch_after_sudden_pull(double young_pa, double load, bool tension_stif
   beam::clamp_start(body);
   beam::pull(body, load * young_pa * beam::area_m2, false);
   for (int i = 0; i < body.node_count(); ++i)
-    if (!body.fixed[i])
-      body.velocity_mps[i].x() = 0.01 * body.rest_position_m[i].z() * std::sin(7.0 * i);
+    if (!body.fixed[i]) body.velocity_mps[i].x() = 0.01 * body.rest_position_m[i].z() * std::sin(7.0 * i);
   StepSettings settings;
   settings.gravity_mps2.setZero();
   settings.solver = Solver::rest_factor;
@@ -25,8 +24,7 @@ double stretch_after_sudden_pull(double young_pa, double load, bool tension_stif
   for (int k = 0; k < 400; ++k) step_elastic(body, settings);
   for (const auto& v : body.velocity_mps)
     if (!(v.norm() < 0.01)) return NAN;
-  return (beam::mean_z(body, beam::at_end) / beam::length_m - 1.0) /
-         beam::st_venant_kirchhoff_strain(load);
+  return (beam::mean_z(body, beam::at_end) / beam::length_m - 1.0) / beam::st_venant_kirchhoff_strain(load);
 }
 
 }  // namespace

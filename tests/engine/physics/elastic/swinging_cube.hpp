@@ -25,8 +25,7 @@ inline constexpr int fixed_corner = 7, opposite_corner = 0;
 
 inline Cube make_cube() {
   Cube cube;
-  for (int c = 0; c < 8; ++c)
-    cube.x.segment<3>(3 * c) = Eigen::Vector3d(c & 1, (c >> 1) & 1, (c >> 2) & 1);
+  for (int c = 0; c < 8; ++c) cube.x.segment<3>(3 * c) = Eigen::Vector3d(c & 1, (c >> 1) & 1, (c >> 2) & 1);
   const std::array<std::array<int, 4>, 5> tetrahedra{
       {{0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}, {1, 2, 4, 7}}};
   for (int a = 0; a < 8; ++a)
@@ -115,8 +114,7 @@ inline double rebound(const std::vector<double>& centre) {
 /// Time of the first minimum, by a parabola through the lowest sample and its neighbours.
 inline double time_of_minimum_s(const std::vector<double>& height, double dt) {
   for (std::size_t i = 1; i + 1 < height.size(); ++i) {
-    if (static_cast<double>(i) * dt < 0.3 || height[i] > height[i - 1] || height[i] > height[i + 1])
-      continue;
+    if (static_cast<double>(i) * dt < 0.3 || height[i] > height[i - 1] || height[i] > height[i + 1]) continue;
     const double down = height[i - 1] - height[i], up = height[i + 1] - height[i];
     if (height[i] > -0.5) continue;  // A ripple of the elastic vibration, not the swing.
     return dt * (static_cast<double>(i) + 0.5 * (down - up) / (down + up));

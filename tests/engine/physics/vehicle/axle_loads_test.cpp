@@ -10,7 +10,9 @@
 using namespace septet;
 using namespace septet::vehicle;
 
-TEST_CASE("a braked car's axles carry what balances weight and deceleration about its mass centre, however far its nose dips") {
+TEST_CASE(
+    "a braked car's axles carry what balances weight and deceleration about its mass centre, however far its nose "
+    "dips") {
   VehicleParameters car = read_car("volvo-s80");
   car.body.drag_area_m2 = 0.0;
   car.body.lift_area_m2 = {};
@@ -48,13 +50,15 @@ TEST_CASE("the sideways forces of a rigid axle's wheels lean it and do not lift 
   VehicleState state = standstill(car, {}, 22.0);
   ChassisInput input;
   input.steer_rad = -0.02;
-  for (int i = 0; i < 4000; ++i) advance_chassis(car, input, level_ground(0.0, car.tyre.reference_friction), 0.001, state);
+  for (int i = 0; i < 4000; ++i)
+    advance_chassis(car, input, level_ground(0.0, car.tyre.reference_friction), 0.001, state);
   REQUIRE(std::abs(outputs(car, state).lateral_acceleration_mps2) > 3.0);
 
   const Statics known = statics(car);
   const Quat& world_from_body = state.world_from_body.orientation;
   const Vec3 body_up = world_from_body * Vec3(0.0, 0.0, 1.0);
-  const double heading_rad = std::atan2((world_from_body * Vec3(1.0, 0.0, 0.0)).y, (world_from_body * Vec3(1.0, 0.0, 0.0)).x);
+  const double heading_rad =
+      std::atan2((world_from_body * Vec3(1.0, 0.0, 0.0)).y, (world_from_body * Vec3(1.0, 0.0, 0.0)).x);
   const Vec3 left(-std::sin(heading_rad), std::cos(heading_rad), 0.0);
   const double felt_mps2 = glm::dot(state.acceleration_mps2 + Vec3(0.0, 0.0, gravity_mps2), body_up);
   for (int axle = 0; axle < axle_count; ++axle) {

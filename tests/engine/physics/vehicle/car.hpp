@@ -11,9 +11,7 @@
 
 namespace septet::vehicle {
 
-inline std::string vehicle_text(const std::string& name) {
-  return shipped_text("vehicles/" + name + ".toml");
-}
+inline std::string vehicle_text(const std::string& name) { return shipped_text("vehicles/" + name + ".toml"); }
 
 inline VehicleParameters read_car(const std::string& name) {
   const auto parameters = read_vehicle(vehicle_text(name), name);
@@ -22,16 +20,14 @@ inline VehicleParameters read_car(const std::string& name) {
 }
 
 /// Advances the car for some time with constant controls at 1 kHz.
-inline void drive(const VehicleParameters& car, const DriverInput& input, const Ground& ground,
-                  double time_s, VehicleState& state) {
-  for (int i = 0; i < static_cast<int>(time_s * 1000.0 + 0.5); ++i)
-    advance_vehicle(car, input, ground, 0.001, state);
+inline void drive(const VehicleParameters& car, const DriverInput& input, const Ground& ground, double time_s,
+                  VehicleState& state) {
+  for (int i = 0; i < static_cast<int>(time_s * 1000.0 + 0.5); ++i) advance_vehicle(car, input, ground, 0.001, state);
 }
 
 inline Ground sloping_ground(double pitch_rad) {
   Ground ground = level_ground();
-  for (WheelGround& wheel : ground)
-    wheel.normal = orientation_from_angles(0.0, pitch_rad, 0.0) * Vec3(0, 0, 1);
+  for (WheelGround& wheel : ground) wheel.normal = orientation_from_angles(0.0, pitch_rad, 0.0) * Vec3(0, 0, 1);
   return ground;
 }
 

@@ -16,7 +16,8 @@ bool has_figure(const ManoeuvreReport& report, std::string_view name) {
 }
 
 bool says(const ManoeuvreReport& report, std::string_view what) {
-  return std::ranges::any_of(report.faults, [&](const std::string& fault) { return fault.find(what) != std::string::npos; });
+  return std::ranges::any_of(report.faults,
+                             [&](const std::string& fault) { return fault.find(what) != std::string::npos; });
 }
 
 ManoeuvreReport run(std::string_view manoeuvre, const std::string& car, const ManoeuvreOptions& options = {}) {

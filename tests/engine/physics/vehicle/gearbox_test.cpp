@@ -48,8 +48,7 @@ TEST_CASE("a manual car drives off with the clutch and stalls without") {
   VehicleState state = standstill(car, {});
   drive(car, in_gear(1, 0.0, 1.0), level_ground(), 0.5, state);
   CHECK(state.powertrain.gear == 1);
-  for (int i = 0; i <= 100; ++i)
-    drive(car, in_gear(1, 0.3, 1.0 - 0.01 * i), level_ground(), 0.025, state);
+  for (int i = 0; i <= 100; ++i) drive(car, in_gear(1, 0.3, 1.0 - 0.01 * i), level_ground(), 0.025, state);
   CHECK(state.powertrain.engine_running);
   CHECK(outputs(car, state).speed_mps > 2.0);
 
@@ -84,8 +83,7 @@ TEST_CASE("a closed clutch turns engine and wheels together") {
   const int gear = state.powertrain.gear;
   drive(car, in_gear(gear, 0.4, 0.0), level_ground(), 3.0, state);
   const double wheel_radps = 0.5 * (state.wheels[0].spin_radps + state.wheels[1].spin_radps);
-  const double input_radps =
-      wheel_radps * car.powertrain.final_ratio * car.powertrain.gear_ratio[gear - 1];
+  const double input_radps = wheel_radps * car.powertrain.final_ratio * car.powertrain.gear_ratio[gear - 1];
   CHECK(state.powertrain.engine_radps == doctest::Approx(input_radps).epsilon(0.01));
 }
 

@@ -6,8 +6,7 @@ using namespace septet::vehicle;
 
 TEST_CASE("ice is most slippery at its melting point") {
   for (double celsius = -25.0; celsius < 0.0; celsius += 1.0)
-    CHECK(peak_friction(SurfaceKind::ice, 273.15 + celsius) >
-          peak_friction(SurfaceKind::ice, 273.15));
+    CHECK(peak_friction(SurfaceKind::ice, 273.15 + celsius) > peak_friction(SurfaceKind::ice, 273.15));
 }
 
 TEST_CASE("surfaces rank dry over wet over snow over ice at every temperature") {
@@ -19,24 +18,18 @@ TEST_CASE("surfaces rank dry over wet over snow over ice at every temperature") 
 }
 
 TEST_CASE("a wet road freezes over below zero") {
-  CHECK(weather_friction(1.0, 0.0, 280.0) ==
-        doctest::Approx(peak_friction(SurfaceKind::wet, 280.0)));
-  CHECK(weather_friction(1.0, 0.0, 265.0) ==
-        doctest::Approx(peak_friction(SurfaceKind::ice, 265.0)));
-  CHECK(weather_friction(0.0, 0.0, 265.0) ==
-        doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
+  CHECK(weather_friction(1.0, 0.0, 280.0) == doctest::Approx(peak_friction(SurfaceKind::wet, 280.0)));
+  CHECK(weather_friction(1.0, 0.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::ice, 265.0)));
+  CHECK(weather_friction(0.0, 0.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
 }
 
 TEST_CASE("measured ice keeps its coefficient at minus five and gets more slippery as it thaws") {
   CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 268.15) == doctest::Approx(0.12));
-  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 273.15) ==
-        doctest::Approx(0.12 * 0.06 / 0.10));
-  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 253.15) ==
-        doctest::Approx(0.12 * 0.15 / 0.10));
+  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 273.15) == doctest::Approx(0.12 * 0.06 / 0.10));
+  CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 253.15) == doctest::Approx(0.12 * 0.15 / 0.10));
 }
 
 TEST_CASE("a measured dry surface gets wet and frozen in proportion to asphalt") {
   CHECK(given_friction(SurfaceKind::dry, 0.7, 0.0, 0.0, 290.0) == doctest::Approx(0.7));
-  CHECK(given_friction(SurfaceKind::dry, 0.7, 1.0, 0.0, 290.0) ==
-        doctest::Approx(0.7 * 0.55 / 0.9));
+  CHECK(given_friction(SurfaceKind::dry, 0.7, 1.0, 0.0, 290.0) == doctest::Approx(0.7 * 0.55 / 0.9));
 }

@@ -27,8 +27,7 @@ inline Ground hilly_ground(const VehicleParameters& car, const VehicleState& sta
   for (int i = 0; i < wheel_count; ++i) {
     const double x = centres_m[i].x, y = centres_m[i].y;
     ground[i].point_m = {x, y, 0.5 * std::sin(x / 9.0) + 0.3 * std::sin(y / 6.0)};
-    ground[i].normal =
-        glm::normalize(Vec3(-0.5 / 9.0 * std::cos(x / 9.0), -0.3 / 6.0 * std::cos(y / 6.0), 1.0));
+    ground[i].normal = glm::normalize(Vec3(-0.5 / 9.0 * std::cos(x / 9.0), -0.3 / 6.0 * std::cos(y / 6.0), 1.0));
     const long patch = std::lround(std::floor(x / 3.0) + 7.0 * std::floor(y / 3.0));
     ground[i].friction = 0.05 + 0.1 * static_cast<double>((patch % 10 + 10) % 10);
   }

@@ -14,11 +14,23 @@ using namespace septet::vehicle;
 namespace {
 
 Obstacle wall(const Vec2& from_m, const Vec2& to_m) {
-  return {.kind = ObstacleKind::guard_rail, .from_m = from_m, .to_m = to_m, .radius_m = 0.08, .low_m = -0.3, .high_m = 0.75, .friction = 0.3};
+  return {.kind = ObstacleKind::guard_rail,
+          .from_m = from_m,
+          .to_m = to_m,
+          .radius_m = 0.08,
+          .low_m = -0.3,
+          .high_m = 0.75,
+          .friction = 0.3};
 }
 
 Obstacle trunk(const Vec2& at_m, double radius_m, double yielding_kg = 0.0) {
-  return {.kind = ObstacleKind::tree, .from_m = at_m, .to_m = at_m, .radius_m = radius_m, .low_m = -1.0, .high_m = 10.0, .yielding_kg = yielding_kg};
+  return {.kind = ObstacleKind::tree,
+          .from_m = at_m,
+          .to_m = at_m,
+          .radius_m = radius_m,
+          .low_m = -1.0,
+          .high_m = 10.0,
+          .yielding_kg = yielding_kg};
 }
 
 struct Drive {
@@ -29,7 +41,8 @@ struct Drive {
 };
 
 /// From the origin of the vehicle frame with this heading and speed, rolling free.
-Drive drive_into(const std::vector<Obstacle>& obstacles, const Vec2& origin_m, double heading_rad, double speed_mps, double time_s) {
+Drive drive_into(const std::vector<Obstacle>& obstacles, const Vec2& origin_m, double heading_rad, double speed_mps,
+                 double time_s) {
   static const VehicleParameters car = read_car("volvo-s80");
   DriverInput input;
   input.selector = GearSelector::neutral;
@@ -61,7 +74,7 @@ TEST_CASE("a car that runs into a wall crushes as far as its speed says and hard
     REQUIRE(drive.report.over.size() == 1);
     const HullTouch& blow = drive.report.over.front();
     CHECK(blow.closing_speed_mps == doctest::Approx(speed).epsilon(0.05));
-    CHECK(blow.delta_v_mps.x < -speed);         // All of it, and a little rebound,
+    CHECK(blow.delta_v_mps.x < -speed);  // All of it, and a little rebound,
     CHECK(blow.delta_v_mps.x > -1.6 * speed);
     CHECK(drive.state.velocity_mps.x < 0.0);
     CHECK(std::abs(heading_rad(drive.state)) < 0.02);
@@ -73,7 +86,8 @@ TEST_CASE("restitution falls with the speed") {
   for (const double speed : {1.0, 3.0, 8.0, 15.0}) {
     const Drive drive = drive_into({wall({4.5, -20.0}, {4.5, 20.0})}, {0.0, 0.0}, 0.0, speed, 0.8 / speed + 0.5);
     REQUIRE(drive.report.over.size() == 1);
-    const double restitution = -drive.report.over.front().delta_v_mps.x / drive.report.over.front().closing_speed_mps - 1.0;
+    const double restitution =
+        -drive.report.over.front().delta_v_mps.x / drive.report.over.front().closing_speed_mps - 1.0;
     CHECK(restitution < last);
     CHECK(restitution > 0.1);
     last = restitution;
@@ -110,7 +124,8 @@ TEST_CASE("a car slides along a rail and is neither held nor thrown") {
       const double heading = degrees * 3.14159265 / 180.0;
       const Drive drive = drive_into({wall({-100.0, 3.0}, {900.0, 3.0})}, {0.0, 1.4}, heading, speed, 3.0);
       const double along = speed * std::cos(heading), into = speed * std::sin(heading);
-      CHECK(drive.state.velocity_mps.x > along - 2.2 * into);  // Coulomb's share of the blow, and what the yaw takes up.
+      CHECK(drive.state.velocity_mps.x >
+            along - 2.2 * into);  // Coulomb's share of the blow, and what the yaw takes up.
       CHECK(drive.state.velocity_mps.x < along + 0.1);
       CHECK(drive.state.velocity_mps.y > -0.6 * into - 0.5);
       CHECK(drive.report.begun.size() == 1);
@@ -142,7 +157,8 @@ TEST_CASE("a marker post takes the momentum of its mass and no more") {
   const Drive drive = drive_into({trunk({8.0, 0.0}, 0.06, 3.0)}, {0.0, 0.0}, 0.0, 30.0, 0.6);
   static const VehicleParameters car = read_car("volvo-s80");
   REQUIRE(drive.report.over.size() == 1);
-  CHECK(drive.report.over.front().delta_v_mps.x == doctest::Approx(-30.0 * 3.0 / (car.body.mass_kg + 3.0)).epsilon(0.02));
+  CHECK(drive.report.over.front().delta_v_mps.x ==
+        doctest::Approx(-30.0 * 3.0 / (car.body.mass_kg + 3.0)).epsilon(0.02));
   CHECK(drive.state.velocity_mps.x > 29.0);
   CHECK(*std::ranges::max_element(drive.hull.crush_m) == 0.0);
 }
@@ -164,9 +180,9 @@ TEST_CASE("a blow takes energy and gives none") {
     for (const double beside : {-0.8, 0.0, 0.5}) {
       static const VehicleParameters car = read_car("volvo-s80");
       const double heading = degrees * 3.14159265 / 180.0;
-      const Drive drive = drive_into({wall({-100.0, 3.0}, {100.0, 3.0}), trunk({12.0, 1.0 + beside}, 0.2)}, {0.0, 0.0}, heading, 20.0, 1.5);
-      CHECK(mechanical_energy_j(car, drive.state) <
-            mechanical_energy_j(car, standstill(car, {}, 20.0)));
+      const Drive drive = drive_into({wall({-100.0, 3.0}, {100.0, 3.0}), trunk({12.0, 1.0 + beside}, 0.2)}, {0.0, 0.0},
+                                     heading, 20.0, 1.5);
+      CHECK(mechanical_energy_j(car, drive.state) < mechanical_energy_j(car, standstill(car, {}, 20.0)));
       CHECK(drive.most_mps2 < 800.0);
     }
 }

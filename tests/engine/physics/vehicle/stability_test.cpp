@@ -81,8 +81,7 @@ TEST_CASE("a car in the air falls freely and lands on its wheels") {
 
 TEST_CASE("a car on its roof comes to rest above the ground") {
   const VehicleParameters car = read_car("volvo-s80");
-  VehicleState state =
-      standstill(car, {Vec3(0.0, 0.0, 2.0), orientation_from_angles(0, 0, 3.0)}, 5.0);
+  VehicleState state = standstill(car, {Vec3(0.0, 0.0, 2.0), orientation_from_angles(0, 0, 3.0)}, 5.0);
   DriverInput input;
   input.selector = GearSelector::neutral;
   drive(car, input, level_ground(), 10.0, state);
@@ -97,8 +96,7 @@ TEST_CASE("on split friction the braked car turns towards the side that grips") 
   CHECK(outputs(car, braked_on_split_friction(car, 1.0)).yaw_rate_radps > 0.02);
 }
 
-TEST_CASE(
-    "on split friction the anti-lock system turns the braked car less than locked wheels do") {
+TEST_CASE("on split friction the anti-lock system turns the braked car less than locked wheels do") {
   const auto heading_after = [](bool anti_lock) {
     VehicleParameters car = read_car("volvo-s80");
     car.brakes.stability_control = false;
@@ -176,7 +174,8 @@ constexpr double high_side = 0.9, low_side = 0.1;
 struct SplitStop {
   double heading_deg = 0.0, aside_m = 0.0;  ///< Greatest.
   double developed_mps2 = 0.0;              ///< Mean fully developed deceleration, from 80 to 10 % of the speed.
-  double wheel_2_s_deg = 0.0, wheel_deg = 0.0;  ///< Greatest turn of the hand wheel in the first two seconds, and in all.
+  double wheel_2_s_deg = 0.0,
+         wheel_deg = 0.0;  ///< Greatest turn of the hand wheel in the first two seconds, and in all.
 };
 
 /// Full brake, left wheels on the high side and right ones on the low side, for `time_s` or to 1 km/h. The driver takes half a
@@ -215,18 +214,23 @@ SplitStop split_stop(double speed_mps, bool stability_control, bool hands_on, do
 
 }  // namespace
 
-TEST_CASE("braked on split friction with the hands off the car stays in its lane for two seconds with stability control and not without") {
+TEST_CASE(
+    "braked on split friction with the hands off the car stays in its lane for two seconds with stability control and "
+    "not without") {
   constexpr double beside_the_car_m = 0.5 * (3.5 - 1.83);
   for (const double speed_kmph : {50.0, 100.0}) {
     CAPTURE(speed_kmph);
-    const SplitStop without = split_stop(speed_kmph / 3.6, false, false, 2.0), with = split_stop(speed_kmph / 3.6, true, false, 2.0);
+    const SplitStop without = split_stop(speed_kmph / 3.6, false, false, 2.0),
+                    with = split_stop(speed_kmph / 3.6, true, false, 2.0);
     CHECK(with.aside_m < beside_the_car_m);
     CHECK(with.heading_deg < 3.0);
     CHECK(without.heading_deg > 20.0);
   }
 }
 
-TEST_CASE("braked on split friction a driver holds the car in its lane with little steering and it decelerates as UN R13-H asks") {
+TEST_CASE(
+    "braked on split friction a driver holds the car in its lane with little steering and it decelerates as UN R13-H "
+    "asks") {
   // UN Regulation No. 13-H, annex 6, 5.3.6: from 50 km/h; 120 degrees in the first two seconds, 240 in all.
   const SplitStop stop = split_stop(50.0 / 3.6, true, true, 15.0);
   CHECK(stop.developed_mps2 > 0.75 * (4.0 * low_side + high_side) / 5.0 * gravity_mps2);

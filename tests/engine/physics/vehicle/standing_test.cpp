@@ -45,8 +45,7 @@ TEST_CASE("the parking brake and the pawl each hold the car on a slope") {
     input.selector = pawl ? GearSelector::park : GearSelector::neutral;
     input.parking_brake = !pawl;
     drive(car, input, sloping_ground(0.12), 10.0, state);
-    CHECK(glm::length(state.world_from_body.position_m -
-                      standstill(car, downhill).world_from_body.position_m) < 0.05);
+    CHECK(glm::length(state.world_from_body.position_m - standstill(car, downhill).world_from_body.position_m) < 0.05);
     CHECK(glm::length(state.velocity_mps) < 1e-3);
   }
 }

@@ -36,7 +36,8 @@ Climb climb(double speed_mps, double accelerator) {
         const double x_m = centres[wheel].x;
         ground[wheel].point_m = {x_m, centres[wheel].y, x_m > step_x_m ? step_m : 0.0};
         ground[wheel].edge_m.reset();
-        if (std::abs(x_m - step_x_m) < car.tyre.radius_m) ground[wheel].edge_m = Vec3(step_x_m, centres[wheel].y, step_m);
+        if (std::abs(x_m - step_x_m) < car.tyre.radius_m)
+          ground[wheel].edge_m = Vec3(step_x_m, centres[wheel].y, step_m);
       }
     }
     advance_vehicle(car, input, ground, 0.001, state);
@@ -62,7 +63,8 @@ TEST_CASE("a car that rolls at a step of 15 cm at walking pace is stopped by it"
 TEST_CASE("a car climbs a step of 15 cm at 30 km/h without a jump and loses speed") {
   const Climb fast = climb(30.0 / 3.6, 0.0);
   CHECK(fast.end.world_from_vehicle.position_m.x > 20.0);
-  CHECK(fast.end.world_from_vehicle.position_m.z > 0.4 * step_m);  // On its rims: so fast a strike cuts the tyres (wheel_damage_test.cpp).
+  CHECK(fast.end.world_from_vehicle.position_m.z >
+        0.4 * step_m);  // On its rims: so fast a strike cuts the tyres (wheel_damage_test.cpp).
   CHECK(fast.end.world_from_vehicle.position_m.z < step_m);
   CHECK(fast.highest_m < step_m + 0.15);
   CHECK(fast.end.speed_mps < 0.9 * 30.0 / 3.6);

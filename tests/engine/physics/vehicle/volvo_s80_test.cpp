@@ -34,14 +34,11 @@ TEST_CASE("the S80 rolls out against drag and rolling resistance") {
   // Drag and rolling resistance by hand; the wheels' inertia adds some per cent to the mass.
   const auto expected = [&](double speed_mps) {
     const double drag_n = 0.5 * 1.225 * car.body.drag_area_m2 * speed_mps * speed_mps;
-    const double rolling =
-        car.tyre.rolling_resistance + car.tyre.rolling_resistance_s2pm2 * speed_mps * speed_mps;
+    const double rolling = car.tyre.rolling_resistance + car.tyre.rolling_resistance_s2pm2 * speed_mps * speed_mps;
     return drag_n / car.body.mass_kg + rolling * gravity_mps2;
   };
-  CHECK(report.figure("deceleration at 100 km/h") ==
-        doctest::Approx(expected(100.0 / 3.6)).epsilon(0.06).scale(0.0));
-  CHECK(report.figure("deceleration at 50 km/h") ==
-        doctest::Approx(expected(50.0 / 3.6)).epsilon(0.06).scale(0.0));
+  CHECK(report.figure("deceleration at 100 km/h") == doctest::Approx(expected(100.0 / 3.6)).epsilon(0.06).scale(0.0));
+  CHECK(report.figure("deceleration at 50 km/h") == doctest::Approx(expected(50.0 / 3.6)).epsilon(0.06).scale(0.0));
 }
 
 TEST_CASE("the anti-lock system stops the S80 within what the surface allows") {
@@ -85,12 +82,14 @@ TEST_CASE("at 200 km/h each axle is lightened by the lift of its own area") {
     VehicleState state = standstill(tested, {}, speed_mps);
     drive(tested, input, level_ground(), 4.0, state);
     const VehicleOutputs now = outputs(tested, state);
-    return std::array{now.wheel_load_n[0] + now.wheel_load_n[1], now.wheel_load_n[2] + now.wheel_load_n[3], now.speed_mps};
+    return std::array{now.wheel_load_n[0] + now.wheel_load_n[1], now.wheel_load_n[2] + now.wheel_load_n[3],
+                      now.speed_mps};
   };
   const auto lifted = axle_loads_n(car), resting = axle_loads_n(without);
   const double pressure_pa = 0.5 * 1.225 * lifted[2] * lifted[2];
   for (int axle = 0; axle < axle_count; ++axle)
-    CHECK(resting[axle] - lifted[axle] == doctest::Approx(pressure_pa * car.body.lift_area_m2[axle]).epsilon(0.08).scale(0.0));
+    CHECK(resting[axle] - lifted[axle] ==
+          doctest::Approx(pressure_pa * car.body.lift_area_m2[axle]).epsilon(0.08).scale(0.0));
 }
 
 TEST_CASE("started with full throttle on ice the driven wheels turn no faster than the traction control lets them") {
@@ -103,7 +102,8 @@ TEST_CASE("started with full throttle on ice the driven wheels turn no faster th
   for (int i = 0; i < steps; ++i) {
     advance_vehicle(car, input, level_ground(0.0, 0.1), 0.001, state);
     if (i < from) continue;
-    const double over_mps = 0.5 * (state.wheels[0].spin_radps + state.wheels[1].spin_radps) * car.tyre.radius_m * 0.98 - outputs(car, state).speed_mps;
+    const double over_mps = 0.5 * (state.wheels[0].spin_radps + state.wheels[1].spin_radps) * car.tyre.radius_m * 0.98 -
+                            outputs(car, state).speed_mps;
     most_mps = std::max(most_mps, over_mps);
     sum_mps += over_mps;
   }

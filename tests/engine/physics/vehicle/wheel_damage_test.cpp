@@ -37,7 +37,8 @@ void roll_over(const VehicleParameters& car, const Step& step, double time_s, Ve
         ground[wheel].point_m = {centre.x, centre.y, inside ? step.height_m : 0.0};
         ground[wheel].edge_m.reset();
         for (const double edge_m : {step.from_m, step.to_m})
-          if (meets && std::abs(centre.x - edge_m) < car.tyre.radius_m) ground[wheel].edge_m = Vec3(edge_m, centre.y, std::max(step.height_m, 0.0));
+          if (meets && std::abs(centre.x - edge_m) < car.tyre.radius_m)
+            ground[wheel].edge_m = Vec3(edge_m, centre.y, std::max(step.height_m, 0.0));
       }
     }
     advance_vehicle(car, input, ground, 1.0 / 960.0, state);
@@ -76,7 +77,8 @@ TEST_CASE("a kerb of 12 cm struck square at 15 m/s cuts the front tyres and bend
 
 TEST_CASE("low edges and walking pace do no damage and the faster the deeper the bend") {
   const VehicleParameters car = read_car("volvo-s80");
-  for (const auto& gentle : {std::array{0.15, 1.4}, std::array{0.10, 4.0}, std::array{0.05, 14.0}, std::array{0.03, 35.0}}) {
+  for (const auto& gentle :
+       {std::array{0.15, 1.4}, std::array{0.10, 4.0}, std::array{0.05, 14.0}, std::array{0.03, 35.0}}) {
     const VehicleState state = rolled_over(car, {.height_m = gentle[0]}, gentle[1], 8.0 / gentle[1]);
     for (const WheelState& wheel : state.wheels) {
       CHECK_MESSAGE(!wheel.damage.any(), gentle[0], " m at ", gentle[1], " m/s");
@@ -117,7 +119,8 @@ TEST_CASE("a car with a wheel that was struck pulls to that side and is slowed b
   const VehicleParameters car = read_car("volvo-s80");
   std::array<VehicleOutputs, 3> end;
   for (const int side : {0, 1, 2}) {
-    VehicleState state = rolled_over(car, {.height_m = 0.12, .to_m = 8.0, .left = side == 0, .right = side == 1}, 20.0, 1.0);
+    VehicleState state =
+        rolled_over(car, {.height_m = 0.12, .to_m = 8.0, .left = side == 0, .right = side == 1}, 20.0, 1.0);
     if (side == 2) state = rolled_over(car, road, 20.0, 1.0);
     roll_over(car, road, 3.0, state);
     end[side] = outputs(car, state);
@@ -125,7 +128,8 @@ TEST_CASE("a car with a wheel that was struck pulls to that side and is slowed b
   CHECK(end[0].world_from_vehicle.position_m.y > 2.0);
   CHECK(end[0].yaw_rate_radps > 0.02);
   CHECK(end[0].yaw_rate_radps < 0.12);
-  CHECK(end[1].world_from_vehicle.position_m.y == doctest::Approx(-end[0].world_from_vehicle.position_m.y).epsilon(0.05));
+  CHECK(end[1].world_from_vehicle.position_m.y ==
+        doctest::Approx(-end[0].world_from_vehicle.position_m.y).epsilon(0.05));
   CHECK(std::abs(end[2].world_from_vehicle.position_m.y) < 0.01);
   // A fifth of the wheel's load of 5 kN on 1.75 t, and what the wheel's slip takes.
   CHECK(end[2].speed_mps - end[0].speed_mps > 1.5);
@@ -145,7 +149,8 @@ TEST_CASE("a flat tyre lets its corner down onto the rim and answers steering le
   TyreContact contact{.load_n = 4000.0, .sliding_mps = {0.0, -0.5}, .rolling_mps = 20.0, .forward_mps = 20.0};
   TyreContact sliding = contact;
   sliding.sliding_mps.y = -100.0;
-  const double whole_n = load_sensitive_force(car.tyre, contact).force_n.y, whole_sliding_n = load_sensitive_force(car.tyre, sliding).force_n.y;
+  const double whole_n = load_sensitive_force(car.tyre, contact).force_n.y,
+               whole_sliding_n = load_sensitive_force(car.tyre, sliding).force_n.y;
   contact.firmness = flat.wheels[0].damage.firmness();
   contact.friction *= flat.wheels[0].damage.grip();
   CHECK(load_sensitive_force(car.tyre, contact).force_n.y < 0.35 * whole_n);
