@@ -180,3 +180,55 @@ TEST_CASE("commands are packed where that makes them smaller and unpacked to exa
     CHECK_FALSE(replication::decode(wrong).has_value());
   }
 }
+
+TEST_CASE("every node of a large world is listed") {
+  Wire wire;
+  for (int i = 0; i < 800; ++i) wire.build.add_object("", {});
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  CHECK(end.client->store().nodes().size() == 800);
+}
+
+TEST_CASE("a small window is enough for a large world because clients acknowledge what they have") {
+  Wire wire({.batch_bytes = 512, .window_bytes = 2048});
+  for (int i = 0; i < 400; ++i) wire.build.add_object("", {});
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  // Nothing is asked for any more: acknowledgements go alone.
+  for (NodeId id = 1; id <= 400; ++id) wire.build.apply(TransformSet{id, {{1.0 * id, 0, 0}}});
+  REQUIRE(wire.settle(end));
+  CHECK(same_content(end.client->store(), wire.store));
+}
+
+TEST_CASE("a client takes a batch that comes again once and says hello again where one is missing") {
+  ReplicationClient client;
+  client.connected();
+  REQUIRE(client.receive(replication::encode(Welcome{7, false, 0})).has_value());
+  Bytes create;
+  scene::encode(NodeCreate{1, NodeType::object}, create);
+  CHECK(client.receive(replication::encode(CommandBatch{1, 0, create})).has_value());
+  CHECK(client.receive(replication::encode(CommandBatch{1, 0, create})).has_value());
+  CHECK(client.store().nodes().size() == 1);
+  // Before it has asked for anything nothing can be complete.
+  CHECK(client.receive(replication::encode(Complete{1, 0})).has_value());
+  CHECK_FALSE(client.complete());
+  CHECK_FALSE(client.receive(replication::encode(CommandBatch{3, 0, create})).has_value());
+  std::vector<Message> said;
+  client.pump([&](std::span<const std::byte> bytes) {
+    said.push_back(replication::decode(bytes).value());
+    return true;
+  });
+  REQUIRE(said.size() == 1);
+  CHECK(std::get<Hello>(said[0]).token == 0);
+}
+
+TEST_CASE("what an earlier connection sent is not taken before the welcome of the new one") {
+  ReplicationClient client;
+  client.connected();
+  REQUIRE(client.receive(replication::encode(Welcome{7, false, 0})).has_value());
+  client.connected();
+  Bytes create;
+  scene::encode(NodeCreate{1, NodeType::object}, create);
+  CHECK(client.receive(replication::encode(CommandBatch{1, 0, create})).has_value());
+  CHECK(client.store().nodes().empty());
+}
