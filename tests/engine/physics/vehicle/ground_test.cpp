@@ -23,6 +23,16 @@ TEST_CASE("a wet road freezes over below zero") {
   CHECK(weather_friction(0.0, 0.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::dry, 265.0)));
 }
 
+TEST_CASE("a wet road is water down to one degree of frost and no wetness is more than wet") {
+  CHECK(weather_friction(1.0, 0.0, 272.3) == doctest::Approx(peak_friction(SurfaceKind::wet, 272.3)));
+  CHECK(weather_friction(1.0, 0.0, 272.0) == doctest::Approx(peak_friction(SurfaceKind::ice, 272.0)));
+  CHECK(weather_friction(0.5, 0.0, 280.0) == doctest::Approx(0.5 * (0.9 + 0.55)));
+  CHECK(weather_friction(3.0, 0.0, 280.0) == doctest::Approx(0.55));
+  CHECK(weather_friction(-1.0, 0.0, 280.0) == doctest::Approx(0.9));
+  CHECK(weather_friction(0.3, 1.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::snow, 265.0)));
+  CHECK(weather_friction(0.0, 2.0, 265.0) == doctest::Approx(peak_friction(SurfaceKind::snow, 265.0)));
+}
+
 TEST_CASE("measured ice keeps its coefficient at minus five and gets more slippery as it thaws") {
   CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 268.15) == doctest::Approx(0.12));
   CHECK(given_friction(SurfaceKind::ice, 0.12, 0.0, 0.0, 273.15) == doctest::Approx(0.12 * 0.06 / 0.10));

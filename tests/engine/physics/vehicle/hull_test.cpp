@@ -81,6 +81,15 @@ TEST_CASE("a car that runs into a wall crushes as far as its speed says and hard
   }
 }
 
+TEST_CASE("beyond its crumple zone a car is six times as stiff") {
+  constexpr double speed = 25.0, crumple_m = 0.7;
+  const Drive drive = drive_into({wall({4.5, -20.0}, {4.5, 20.0})}, {0.0, 0.0}, 0.0, speed, 0.5);
+  // V²/ω² = C² + 5 (C − 0.7)².
+  const double soft_m = speed / 23.5, c = crumple_m;
+  const double expected_m = (5.0 * c + std::sqrt(25.0 * c * c - 6.0 * (5.0 * c * c - soft_m * soft_m))) / 6.0;
+  CHECK(drive.deepest_m == doctest::Approx(expected_m).epsilon(0.03).scale(0.0));
+}
+
 TEST_CASE("restitution falls with the speed") {
   double last = 1.0;
   for (const double speed : {1.0, 3.0, 8.0, 15.0}) {
@@ -160,6 +169,43 @@ TEST_CASE("a rail of many stretches is the same as one") {
   const Drive one = drive_into({wall({-100.0, 3.0}, {400.0, 3.0})}, {0.0, 0.0}, 0.25, 25.0, 2.0);
   CHECK(glm::length(many.state.world_from_body.position_m - one.state.world_from_body.position_m) < 0.05);
   CHECK(many.report.begun.size() == 1);
+}
+
+TEST_CASE(
+    "a car that leaves a rail for a fifth of a second scrapes along it still and after a second touches it anew") {
+  static const VehicleParameters car = read_car("volvo-s80");
+  const Obstacle rail = wall({-100.0, 3.0}, {900.0, 3.0});
+  const VehicleState upright = standstill(car, {Vec3(0.0, 0.0, 0.0), Quat(1, 0, 0, 0)}, 20.0);
+  HullState hull;
+  HullReport report;
+  double x_m = 0.0;
+  // Held at a distance from the rail: two centimetres in it, or half a metre off.
+  const auto hold = [&](bool touching, double time_s) {
+    for (int i = 0; i < static_cast<int>(time_s * 1000.0 + 0.5); ++i) {
+      VehicleState state = upright;
+      state.world_from_body.position_m.x += x_m += 0.02;
+      state.world_from_body.position_m.y += (touching ? 2.94 : 2.44) - 0.5 * car.body.width_m;
+      advance_hull(car, std::span(&rail, 1), 0.001, state, hull, report);
+    }
+  };
+  for (int k = 0; k < 4; ++k) {
+    hold(true, 0.05);
+    hold(false, 0.2);
+  }
+  CHECK(report.begun.size() == 1);
+  CHECK(report.over.size() == 1);
+  hold(false, 0.25);
+  CHECK(hull.touches.size() == 1);
+  hold(false, 0.1);
+  CHECK(hull.touches.empty());
+  hold(true, 0.05);
+  CHECK(report.begun.size() == 2);
+  hold(false, 0.09);
+  CHECK(report.over.size() == 1);  // It might come back.
+  hold(false, 0.02);
+  CHECK(report.over.size() == 2);
+  hold(true, 0.05);
+  CHECK(report.begun.size() == 2);
 }
 
 TEST_CASE("a trunk beside the middle turns the car about it") {

@@ -1,6 +1,7 @@
 #include "engine/physics/vehicle/tyre.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -51,6 +52,75 @@ TEST_CASE("the aligning torque falls before the side force does") {
     if (torque > best_torque) best_torque = torque, best_torque_slip = slip;
   }
   CHECK(best_torque_slip < 0.7 * best_force_slip);
+}
+
+TEST_CASE("the side force peaks where the curves say at the nominal load and at twice of it") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const LoadSensitiveTyre& curves = tyre.load_sensitive;
+  for (const auto& [load_n, curve] :
+       {std::pair(4000.0, curves.lateral_nominal), std::pair(8000.0, curves.lateral_double)}) {
+    double best_n = 0.0, best_slip = 0.0;
+    for (double slip = 0.01; slip < 0.6; slip += 0.001) {
+      const double force_n = load_sensitive_force(tyre, rolling(load_n, 0.0, slip)).force_n.y;
+      if (force_n > best_n) best_n = force_n, best_slip = slip;
+    }
+    CHECK(best_n == doctest::Approx(curve.peak_force_n).epsilon(1e-4).scale(0.0));
+    CHECK(best_slip == doctest::Approx(curve.peak_slip).epsilon(0.01).scale(0.0));
+    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 1e-5)).force_n.y / 1e-5 ==
+          doctest::Approx(curve.slope_n).epsilon(1e-3).scale(0.0));
+    CHECK(load_sensitive_force(tyre, rolling(load_n, 0.0, 0.9)).force_n.y ==
+          doctest::Approx(curve.sliding_force_n).epsilon(1e-4).scale(0.0));
+  }
+  // Beyond two and a half times the nominal load the parabola is no longer trusted.
+  const double at_10_kn = load_sensitive_force(tyre, rolling(10e3, 0.0, 0.2)).force_n.y;
+  CHECK(load_sensitive_force(tyre, rolling(20e3, 0.0, 0.2)).force_n.y == doctest::Approx(2.0 * at_10_kn));
+}
+
+TEST_CASE("half the friction halves the peak and keeps the slope") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const auto force_n = [&](double friction, double slip) {
+    TyreContact contact = rolling(4000.0, 0.0, slip);
+    contact.friction = friction;
+    return load_sensitive_force(tyre, contact).force_n.y;
+  };
+  CHECK(force_n(0.45, 0.085) == doctest::Approx(0.5 * force_n(0.9, 0.17)));
+  CHECK(force_n(0.45, 1e-5) == doctest::Approx(force_n(0.9, 1e-5)).epsilon(1e-3).scale(0.0));
+}
+
+TEST_CASE("a tyre that leans to the right pushes to the right") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  TyreContact leaning = rolling(4000.0, 0.0, 0.0);
+  leaning.inclination_rad = 0.01;
+  const double slope_n = tyre.load_sensitive.lateral_nominal.slope_n;
+  CHECK(load_sensitive_force(tyre, leaning).force_n.y ==
+        doctest::Approx(-0.01 * tyre.load_sensitive.camber_slip * slope_n).epsilon(0.02).scale(0.0));
+}
+
+TEST_CASE("the pneumatic trail begins as its share of the contact and ends a little in front of the middle") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const auto trail_m = [&](double slip) {
+    TyreContact contact = rolling(4000.0, 0.0, slip);
+    contact.length_m = 0.14;
+    return load_sensitive_force(tyre, contact).trail_m;
+  };
+  const double whole_m = tyre.load_sensitive.trail_over_length * 0.14;
+  CHECK(trail_m(0.0) == doctest::Approx(whole_m));
+  CHECK(trail_m(0.5 * tyre.load_sensitive.trail_zero_slip) < 0.6 * whole_m);
+  CHECK(trail_m(1.5 * tyre.load_sensitive.trail_zero_slip) ==
+        doctest::Approx(-0.05 * whole_m).epsilon(1e-6).scale(0.0));
+}
+
+TEST_CASE("a patch carries no more than the surface can hold and springs back from there") {
+  const TyreParameters tyre = read_car("volvo-s80").tyre;
+  const TyreForce steady = load_sensitive_force(tyre, rolling(4000.0, 0.05, 0.1));
+  Vec2 deflection_m{0.0};
+  Vec2 force_n{0.0};
+  for (int i = 0; i < 1000; ++i) force_n = relax(steady, 1000.0, 0.001, deflection_m);
+  CHECK(glm::length(force_n) == doctest::Approx(1000.0));
+  CHECK(force_n.x * steady.force_n.y == doctest::Approx(force_n.y * steady.force_n.x).epsilon(0.2).scale(0.0));
+  // The deflection is cut with the force: nothing is wound up behind it.
+  const Vec2 held_n = steady.stiffness_npm * deflection_m;
+  CHECK(glm::length(held_n) < 1200.0);
 }
 
 TEST_CASE("the side force builds up over the relaxation length") {

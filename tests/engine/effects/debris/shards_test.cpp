@@ -1,0 +1,120 @@
+// Rigid shards of glass, and what lies on the road.
+
+#include "engine/effects/debris/shards.hpp"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <Eigen/Geometry>
+#include <glm/geometric.hpp>
+
+#include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/physics/elastic/body_measures.hpp"
+#include "tests/engine/effects/debris/pieces.hpp"
+
+using namespace septet;
+using namespace septet::debris;
+
+namespace {
+
+constexpr double step_s = 0.001;
+
+ContactWorld level_road() {
+  return {[](double, double) { return GroundPoint{}; }, {}};
+}
+
+State with_shard(const Vec3& position_m, const Vec3& velocity_mps) {
+  State state;
+  Shard shard;
+  shard.position_m = position_m;
+  shard.velocity_mps = velocity_mps;
+  shard.mass_kg = 0.01;
+  state.shards.push_back(shard);
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("a shard falls freely and a fifth of its speed comes back from the road") {
+  State state = with_shard({0, 0, 5}, {2, 0, 0});
+  const ContactWorld road = level_road();
+  for (int k = 0; k < 500; ++k) advance_shards(state, road, step_s);
+  CHECK(state.shards[0].velocity_mps.z == doctest::Approx(-9.81 * 0.5));
+  CHECK(state.shards[0].velocity_mps.x == 2.0);
+  CHECK(state.shards[0].position_m.x == doctest::Approx(1.0));
+  double closing_mps = 0.0;
+  while (state.shards[0].velocity_mps.z <= 0.0) {
+    closing_mps = -state.shards[0].velocity_mps.z;
+    advance_shards(state, road, step_s);
+  }
+  CHECK(state.shards[0].velocity_mps.z == doctest::Approx(0.2 * closing_mps).epsilon(0.02).scale(0.0));
+  CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the blow takes more than it had.
+}
+
+TEST_CASE("a shard that grazes the road loses Coulomb's share and comes to rest on it") {
+  State state = with_shard({0, 0, 1e-6}, {20, 0, -3});
+  advance_shards(state, level_road(), step_s);
+  CHECK(state.shards[0].velocity_mps.x == doctest::Approx(20.0 - 0.4 * 1.2 * 3.0).epsilon(0.005).scale(0.0));
+  for (int k = 0; k < 10'000; ++k) advance_shards(state, level_road(), step_s);
+  CHECK(state.shards[0].velocity_mps == Vec3(0.0));
+  CHECK(state.shards[0].position_m.z == 0.0);
+}
+
+TEST_CASE("a shard bounces off a vehicle that moves and leaves it on its outside") {
+  State state = with_shard({0.1, 0, 1}, {0, 0, 0});
+  ContactWorld world;
+  Box car;
+  car.half_size_m = {1.0, 1.0, 1.0};
+  car.world_from_box.position_m = {-0.95, 0, 1};  // Its front five centimetres short of it.
+  car.velocity_mps = {10, 0, 0};
+  world.boxes = {car};
+  for (int k = 0; k < 20; ++k) {
+    advance_shards(state, world, step_s);
+    world.boxes[0].world_from_box.position_m.x += 10.0 * step_s;
+  }
+  CHECK(state.shards[0].velocity_mps.x == doctest::Approx(12.0));
+  CHECK(state.shards[0].position_m.x > world.boxes[0].world_from_box.position_m.x + 1.0);
+}
+
+TEST_CASE("one splinter of glass is a shard with its mass and motion and turns at most at thirty radians a second") {
+  Piece glass = part_at_rest(Part::windscreen);
+  CHECK_FALSE(is_shard(glass));
+  for (int& splinter : glass.splinter) splinter = 3;
+  CHECK(is_shard(glass));
+  for (const double rate : {10.0, 300.0}) {
+    for (int i = 0; i < glass.body.node_count(); ++i) {
+      const Eigen::Vector3d arm = glass.body.position_m[i] - elastic::centre_of_mass_m(glass.body);
+      glass.body.velocity_mps[i] = Eigen::Vector3d(1, 2, 3) + Eigen::Vector3d(0, 0, rate).cross(arm);
+    }
+    const Shard shard = shard_of(glass);
+    CHECK(shard.mass_kg == doctest::Approx(part_recipe(Part::windscreen).mass_kg).epsilon(0.001));
+    CHECK(glm::length(shard.velocity_mps - Vec3(1, 2, 3)) < 1e-9);
+    CHECK(shard.angular_velocity_radps.z == doctest::Approx(std::min(rate, 30.0)));
+  }
+  Piece bumper = part_at_rest(Part::bumper);
+  for (int& splinter : bumper.splinter) splinter = 0;
+  CHECK_FALSE(is_shard(bumper));  // Plastic flies on as an elastic piece.
+}
+
+TEST_CASE("the shards' keyframe sleeps once all of them do") {
+  std::vector<Shard> shards(2);
+  CHECK(keyframe_of(shards).asleep);
+  shards[0].velocity_mps = {1, 0, 0};
+  CHECK_FALSE(keyframe_of(shards).asleep);
+  shards[0].velocity_mps = {0, 0, 0};
+  shards[1].velocity_mps = {1, 0, 0};
+  CHECK_FALSE(keyframe_of(shards).asleep);
+  CHECK(keyframe_of(shards).vertices_m.size() == 6);
+}
+
+TEST_CASE("a wheel meets a slab that lies flat and nothing thinner than a centimetre") {
+  State state;
+  Piece slab = part_at_rest(Part::ice_slab);
+  const double top_m = 2.0 + 0.5 * part_recipe(Part::ice_slab).size_m.z;
+  state.pieces = {slab};
+  REQUIRE(highest_debris_m(state, 0.0, 0.0, 0.2));
+  CHECK(*highest_debris_m(state, 0.0, 0.0, 0.2) == doctest::Approx(top_m));
+  CHECK_FALSE(highest_debris_m(state, 1.3, 0.0, 0.2));
+  for (auto& x : state.pieces[0].body.position_m) x.z() *= 0.1;  // 8 mm.
+  CHECK_FALSE(highest_debris_m(state, 0.0, 0.0, 0.2));
+}

@@ -1,0 +1,132 @@
+// Boxes that meet, and what the driver's car gets of it.
+
+#include "engine/simulation/effects/crashes.hpp"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/simulation/effects/body_box.hpp"
+
+using namespace septet;
+using namespace septet::simulation;
+
+namespace {
+
+Participant participant(ParticipantId id, std::string_view model, double x_m, double y_m, double heading_rad,
+                        double speed_mps) {
+  Participant p;
+  p.id = id;
+  p.model = *find_vehicle_model(model);
+  p.world_from_vehicle = {{x_m, y_m, 0.0}, orientation_from_angles(heading_rad, 0.0, 0.0)};
+  p.velocity_mps = p.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
+  return p;
+}
+
+double front_m(const Participant& p) { return vehicle_models()[p.model].front_m(); }
+double rear_m(const Participant& p) { return vehicle_models()[p.model].rear_overhang_m; }
+
+/// The driver's car behind another one, their bumpers ten centimetres in each other.
+std::vector<Participant> in_a_row(std::string_view ahead, double speed_mps, double ahead_mps) {
+  std::vector<Participant> both{participant(1, "volvo-s80", 0.0, 0.0, 0.0, speed_mps),
+                                participant(7, ahead, 0.0, 0.0, 0.0, ahead_mps)};
+  both[1].world_from_vehicle.position_m.x = front_m(both[0]) + rear_m(both[1]) - 0.1;
+  return both;
+}
+
+CrashOutcome crash(const std::vector<Participant>& participants, ParticipantId driver = 1) {
+  CrashMemory memory;
+  memory.struck_by_driver = {driver == 1 ? ParticipantId{7} : ParticipantId{1}};
+  debris::State debris;
+  Random random(1);
+  const CrashOutcome outcome = advance_crashes(participants, driver, {}, memory, debris, random);
+  CHECK(memory.struck_by_driver.empty());
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("the driver's car and who it runs into go on with their common speed") {
+  struct Row {
+    const char* model;
+    double mass_kg;
+  };
+  for (const Row& row : {Row{"saloon", 1500.0}, Row{"van", 2400.0}, Row{"lorry", 16'000.0}}) {
+    CAPTURE(row.model);
+    const auto participants = in_a_row(row.model, 22.0, 2.0);
+    CHECK(vehicle_mass_kg(participants[1]) == row.mass_kg);
+    const CrashOutcome outcome = crash(participants);
+    CHECK(outcome.crashes == 1);
+    // A plastic blow, and some parts less.
+    const double common_kg = 1500.0 * row.mass_kg / (1500.0 + row.mass_kg);
+    CHECK(outcome.impulse_on_driver_ns.x == doctest::Approx(-common_kg * 20.0).epsilon(0.03).scale(0.0));
+    CHECK(std::abs(outcome.impulse_on_driver_ns.y) < 0.02 * common_kg * 20.0);
+  }
+}
+
+TEST_CASE("who is run into from behind is pushed on") {
+  const auto participants = in_a_row("saloon", 20.0, 8.0);
+  const CrashOutcome outcome = crash(participants, 7);
+  CHECK(outcome.impulse_on_driver_ns.x == doctest::Approx(750.0 * 12.0).epsilon(0.03).scale(0.0));
+}
+
+TEST_CASE("cars that part or touch at walking pace have no crash") {
+  CHECK(crash(in_a_row("saloon", 10.0, 12.0)).crashes == 0);
+  CHECK(crash(in_a_row("saloon", 10.0, 7.2)).crashes == 0);
+  CHECK(crash(in_a_row("saloon", 10.0, 6.8)).crashes == 1);
+}
+
+TEST_CASE("two boxes touch where their sides do and the shortest way out is the normal") {
+  Participant one = participant(1, "saloon", 0.0, 0.0, 0.5, 0.0);
+  const debris::Box a = body_box(one);
+  const Vec3 left = a.world_from_box.orientation * Vec3(0.0, 1.0, 0.0),
+             ahead = a.world_from_box.orientation * Vec3(1.0, 0.0, 0.0);
+  const auto moved = [&](const Vec3& by) {
+    debris::Box b = a;
+    b.world_from_box.position_m += by;
+    return b;
+  };
+  const double width = 2.0 * a.half_size_m.y, length = 2.0 * a.half_size_m.x;
+  const auto side = contact_of(a, moved((width - 0.1) * left + 1.0 * ahead));
+  REQUIRE(side);
+  CHECK(side->depth_m == doctest::Approx(0.1));
+  CHECK(glm::length(side->normal + left) < 1e-9);  // From b, which is to the left, to a.
+  const auto front = contact_of(a, moved((length - 0.2) * ahead));
+  REQUIRE(front);
+  CHECK(front->depth_m == doctest::Approx(0.2));
+  CHECK(glm::length(front->normal + ahead) < 1e-9);
+  CHECK(glm::length(front->point_m - (a.world_from_box.position_m + 0.5 * (length - 0.2) * ahead)) < 0.15);
+  CHECK_FALSE(contact_of(a, moved((width + 0.01) * left)));
+  CHECK_FALSE(contact_of(a, moved((length + 0.01) * ahead)));
+  CHECK(contact_of(a, moved(Vec3(0.0, 0.0, 1.9 * a.half_size_m.z))));
+  CHECK_FALSE(contact_of(a, moved(Vec3(0.0, 0.0, 2.1 * a.half_size_m.z))));
+}
+
+TEST_CASE("a corner that a turned box keeps free is no contact") {
+  const debris::Box a = body_box(participant(1, "saloon", 0.0, 0.0, 0.0, 0.0));
+  // Turned by 45 degrees beside the front corner: the axes of a alone would have them overlap.
+  debris::Box b = a;
+  b.world_from_box.orientation = orientation_from_angles(0.785398, 0.0, 0.0);
+  const double reach = (b.half_size_m.x + b.half_size_m.y) * std::sqrt(0.5);
+  b.world_from_box.position_m += Vec3(a.half_size_m.x + reach - 0.3, -(a.half_size_m.y + reach - 0.3), 0.0);
+  CHECK_FALSE(contact_of(a, b));
+  CHECK_FALSE(contact_of(b, a));
+}
+
+TEST_CASE("a body begins above the ground and its middle moves with the turn of the vehicle") {
+  Participant car = participant(1, "saloon", 3.0, 4.0, 1.0, 10.0);
+  car.angular_velocity_radps = {0.0, 0.0, 0.5};
+  const VehicleModel& model = vehicle_models()[car.model];
+  const debris::Box box = body_box(car);
+  CHECK(2.0 * box.half_size_m.x == doctest::Approx(model.length_m));
+  CHECK(2.0 * box.half_size_m.y == doctest::Approx(model.width_m));
+  CHECK(box.world_from_box.position_m.z - box.half_size_m.z == doctest::Approx(0.2));
+  CHECK(box.world_from_box.position_m.z + box.half_size_m.z == doctest::Approx(model.height_m));
+  const Vec3 forward = box.world_from_box.orientation * Vec3(1.0, 0.0, 0.0),
+             left = box.world_from_box.orientation * Vec3(0.0, 1.0, 0.0);
+  CHECK(glm::dot(box.world_from_box.position_m - car.world_from_vehicle.position_m, forward) ==
+        doctest::Approx(model.centre_x_m()));
+  CHECK(glm::dot(box.velocity_mps, forward) == doctest::Approx(10.0));
+  CHECK(glm::dot(box.velocity_mps, left) == doctest::Approx(0.5 * model.centre_x_m()));
+}
