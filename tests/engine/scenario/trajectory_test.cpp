@@ -142,10 +142,10 @@ TEST_CASE("a clothoid is the Fresnel integral") {
     (n % 2 == 0 ? x : y) += (n % 4 < 2 ? 1.0 : -1.0) * term / (2 * n + 1);
     term *= u / (n + 1);
   }
-  CHECK(path.points.back().position_m.x == doctest::Approx(length * x).epsilon(1e-6));
-  CHECK(path.points.back().position_m.y == doctest::Approx(length * y).epsilon(1e-6));
+  CHECK(path.points.back().position_m.x == doctest::Approx(length * x).epsilon(1e-6).scale(0.0));
+  CHECK(path.points.back().position_m.y == doctest::Approx(length * y).epsilon(1e-6).scale(0.0));
   CHECK(path.points.back().heading_rad == doctest::Approx(u));
-  CHECK(path_at_station(path, 40.0).heading_rad == doctest::Approx(u / 4.0).epsilon(1e-5));
+  CHECK(path_at_station(path, 40.0).heading_rad == doctest::Approx(u / 4.0).epsilon(1e-5).scale(0.0));
 }
 
 TEST_CASE("segments of a clothoid spline go on where the one before ends and turn by their offset") {
@@ -183,7 +183,7 @@ TEST_CASE("nine weighted points are a circle") {
   for (double s = 0.0; s < path.length_m(); s += 3.0) {
     const PathPoint point = path_at_station(path, s);
     CHECK(glm::length(point.position_m) == doctest::Approx(radius).epsilon(1e-4));
-    CHECK(point.heading_rad == doctest::Approx(pi / 2.0 + s / radius).epsilon(0.005));
+    CHECK(point.heading_rad == doctest::Approx(pi / 2.0 + s / radius).epsilon(0.005).scale(0.0));
   }
 }
 
