@@ -141,22 +141,6 @@ TEST_CASE("a car slides along a rail and is neither held nor thrown") {
     }
 }
 
-TEST_CASE("a car that scrapes along a barrier with short gaps has touched it once and after a long one twice") {
-  static const VehicleParameters car = read_car("volvo-s80");
-  const std::vector<Obstacle> barrier{wall({-100.0, 0.8}, {900.0, 0.8})};
-  for (const double gap_s : {0.2, 0.6}) {
-    HullState hull;
-    HullReport report;
-    for (int scrape = 0; scrape < 4; ++scrape) {
-      VehicleState state = standstill(car, {Vec3(0.0), orientation_from_angles(0.0, 0.0, 0.0)}, 20.0);
-      for (int ms = 0; ms < 20; ++ms) advance_hull(car, barrier, 0.001, state, hull, report);
-      for (int ms = 0; ms < static_cast<int>(1000.0 * gap_s); ++ms) advance_hull(car, {}, 0.001, state, hull, report);
-    }
-    CHECK(report.begun.size() == (gap_s < 0.5 ? 1 : 4));
-    CHECK(report.over.size() == report.begun.size());
-  }
-}
-
 TEST_CASE("a rail of many stretches is the same as one") {
   std::vector<Obstacle> stretches;
   for (int k = 0; k < 50; ++k) {
