@@ -1,8 +1,8 @@
 #pragma once
-/// A recorded session to the pictures of a film: log → interpolate → scene → frame.
+/// A recorded session to the pictures of a film, drawn off-screen by the rasteriser.
 ///
-/// A frame depends on the session, the shot and its number in it, and on no other frame, so that any share of a film can be
-/// drawn anywhere. Pictures are drawn off-screen by the rasteriser.
+/// A frame depends on the session, the shot and its number in it (film_frames.hpp), and on no other frame, so that any share of a
+/// film can be drawn anywhere.
 
 #include <filesystem>
 #include <functional>

@@ -13,7 +13,8 @@ class SessionInstants {
   /// For instants from `from_s` on.
   static Expected<SessionInstants> start(const logging::SessionReader& session, double from_s);
 
-  /// The world at an instant, between its two ticks; not before the one asked for last. `history()` then holds the ticks around it.
+  /// The world at an instant, between its two ticks; not before the one asked for last. `history()` then holds the ticks around it,
+  /// the same ones whatever was asked for before.
   Expected<Snapshot> at(double instant_s);
   const frame::TickHistory& history() const { return history_; }
   double tick_s() const { return tick_s_; }

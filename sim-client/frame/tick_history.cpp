@@ -45,6 +45,10 @@ void TickHistory::add(HistoryTick entry) {
   if (ticks_.size() > kept) ticks_.pop_front();
 }
 
+void TickHistory::forget_before(double simulated_time_s) {
+  while (ticks_.size() > 1 && ticks_[1].snapshot.simulated_time_s <= simulated_time_s) ticks_.pop_front();
+}
+
 TickHistory::Neighbours TickHistory::around(double simulated_time_s) const {
   const auto after = std::ranges::upper_bound(ticks_, simulated_time_s, {},
                                               [](const HistoryTick& entry) { return entry.snapshot.simulated_time_s; });

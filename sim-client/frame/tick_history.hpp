@@ -30,6 +30,8 @@ class TickHistory {
   const Error& error() const { return error_; }
   /// One tick that is decoded already, such as a session's.
   void add(HistoryTick entry);
+  /// Forgets what is older than the last tick at or before this simulated time.
+  void forget_before(double simulated_time_s);
   /// Forgets everything: the server was restarted.
   void clear() { ticks_.clear(); }
 

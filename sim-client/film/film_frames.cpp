@@ -1,0 +1,214 @@
+#include "sim-client/film/film_frames.hpp"
+
+#include <fmt/core.h>
+
+#include "engine/core/regular_file.hpp"
+#include "engine/film_script/film_script.hpp"
+#include "engine/scene/resolve.hpp"
+#include "logging/recorded_scene.hpp"
+#include "sim-client/frame/client_frame.hpp"
+
+namespace septet::film {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double time_slack_s = 1e-6;
+constexpr std::size_t longest_script_bytes = 1 << 22;
+constexpr std::size_t most_frames = 1'000'000;
+
+Expected<std::pair<double, double>> span_of(const logging::SessionReader& session, const fs::path& file) {
+  const auto span = session.time_span_s();
+  if (!span) return tl::unexpected(span.error());
+  if (!*span) return failure("the session holds no tick", file.string(), "record a longer drive");
+  return **span;
+}
+
+Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
+  return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
+    return instants.at(instant_s);
+  });
+}
+
+/// Where the driver's eyes were: in the rig that was driven with, which the session holds.
+Vec3 driver_eye_m(const logging::SessionInfo& info) {
+  for (const auto& source : info.files)
+    if (source.role == "rig")
+      if (const auto rig = rig::read_rig(source.content, source.name)) return rig->eye_point_m;
+  return frame::eye_in(vehicle_models().front());
+}
+
+/// What each shot's camera hangs on.
+Expected<std::vector<Pivot>> find_pivots(const logging::SessionReader& session, const FilmPlan& plan) {
+  const Vec3 eye_m = driver_eye_m(session.info());
+  std::vector<Pivot> pivots;
+  for (std::size_t n = 0; n < plan.script.shots.size(); ++n) {
+    const auto world = world_at(session, plan.script.shots[n].from_s);
+    if (!world) return tl::unexpected(world.error());
+    const auto pivot = find_pivot(plan.script.shots[n], *world, eye_m, plan.paths[n]);
+    if (!pivot) return tl::unexpected(pivot.error());
+    pivots.push_back(*pivot);
+  }
+  return pivots;
+}
+
+/// The script of the options, or one for the whole session.
+Expected<Script> choose_script(const FilmOptions& options, const logging::SessionReader& session,
+                               std::pair<double, double> span_s) {
+  if (!options.shots.empty()) {
+    const auto text = read_regular_file(options.shots, longest_script_bytes);
+    if (!text) return tl::unexpected(text.error());
+    return read_script(*text, options.shots.string());
+  }
+  const double from_s = options.from_s.value_or(span_s.first), to_s = options.to_s.value_or(span_s.second);
+  if (!(from_s >= span_s.first - time_slack_s && to_s <= span_s.second + time_slack_s && from_s < to_s))
+    return failure(fmt::format("from {} to {} s is not a part of the session, which lasts from {:.2f} to {:.2f} s",
+                               from_s, to_s, span_s.first, span_s.second),
+                   "--from, --to", "choose a beginning and a later end within it");
+  Script script = default_script(from_s, to_s, options.frames_per_second);
+  const auto world = world_at(session, script.shots.back().from_s);
+  if (!world) return tl::unexpected(world.error());
+  if (world->participants.size() < 2 && script.shots.size() > 1) script.shots.pop_back();
+  return script;
+}
+
+/// Where the camera waits for a participant that is gone: where the last tick of the shot shows them that has them. Reads on
+/// as instants ascend.
+class LastSeen {
+ public:
+  static Expected<LastSeen> start(const logging::SessionReader& session, const Shot& shot, const Pivot& pivot) {
+    const auto world = world_at(session, shot.from_s);
+    if (!world) return tl::unexpected(world.error());
+    auto cursor = session.snapshots_from(shot.from_s);
+    if (!cursor) return tl::unexpected(cursor.error());
+    return LastSeen(shot, pivot, std::move(*cursor), viewpoint_at(shot, pivot, *world, {}));
+  }
+
+  /// At an instant not before the one asked for last.
+  Expected<frame::Viewpoint> at(double instant_s) {
+    while (!ended_ && (!next_ || next_->simulated_time_s <= instant_s)) {
+      if (next_) viewpoint_ = viewpoint_at(*shot_, pivot_, *next_, viewpoint_);
+      auto next = cursor_.next();
+      if (!next) return tl::unexpected(next.error());
+      next_ = std::move(*next);
+      ended_ = !next_.has_value();
+    }
+    return viewpoint_;
+  }
+
+ private:
+  LastSeen(const Shot& shot, const Pivot& pivot, logging::SnapshotCursor cursor, const frame::Viewpoint& viewpoint)
+      : shot_(&shot), pivot_(pivot), cursor_(std::move(cursor)), viewpoint_(viewpoint) {}
+
+  const Shot* shot_;
+  Pivot pivot_;
+  logging::SnapshotCursor cursor_;
+  std::optional<Snapshot> next_;
+  frame::Viewpoint viewpoint_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+struct FilmFrames::Parts {
+  logging::SessionReader session;
+  FilmPlan plan;
+  std::vector<Pivot> pivots;  ///< By shot.
+  scene::ResolvedScene scene;
+  std::uint32_t width_px, height_px;
+  // From here on what was read for the frame before, which spares reading it again.
+  std::optional<FilmFrame> last{};
+  std::optional<SessionInstants> instants{};
+  std::optional<LastSeen> last_seen{};
+  frame::EffectsDrawing effects{};
+};
+
+FilmFrames::FilmFrames(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+FilmFrames::FilmFrames(FilmFrames&&) noexcept = default;
+FilmFrames& FilmFrames::operator=(FilmFrames&&) noexcept = default;
+FilmFrames::~FilmFrames() = default;
+
+const FilmPlan& FilmFrames::plan() const { return parts_->plan; }
+const scene::ResolvedScene& FilmFrames::scene() const { return parts_->scene; }
+const logging::SessionInfo& FilmFrames::session() const { return parts_->session.info(); }
+
+Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
+  auto session = logging::SessionReader::open(options.session);
+  if (!session) return tl::unexpected(session.error());
+  const auto span_s = span_of(*session, options.session);
+  if (!span_s) return tl::unexpected(span_s.error());
+  auto script = choose_script(options, *session, *span_s);
+  if (!script) return tl::unexpected(script.error());
+  auto plan = plan_film(std::move(*script), options.frames_per_second, *span_s);
+  if (!plan) return tl::unexpected(plan.error());
+  std::erase_if(plan->frames, [&](const FilmFrame& frame) {
+    return !(frame.instant_s >= options.from_s.value_or(frame.instant_s) - time_slack_s &&
+             frame.instant_s <= options.to_s.value_or(frame.instant_s) + time_slack_s);
+  });
+  if (plan->frames.empty())
+    return failure("the film shows nothing between them", "--from, --to", "choose them within the script's shots");
+  auto pivots = find_pivots(*session, *plan);
+  if (!pivots) return tl::unexpected(pivots.error());
+  scene::Store store;
+  if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
+  return FilmFrames(std::unique_ptr<Parts>(new Parts{std::move(*session), std::move(*plan), std::move(*pivots),
+                                                     scene::resolve(store), options.width_px, options.height_px}));
+}
+
+Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
+  Parts& p = *parts_;
+  const Shot& shot = p.plan.script.shots[film_frame.shot];
+  const Pivot& pivot = p.pivots[film_frame.shot];
+  const bool follows = p.last && p.last->shot == film_frame.shot && p.last->number <= film_frame.number;
+  p.last.reset();  // Where reading fails, the next frame begins anew.
+  if (!follows) {
+    auto instants = SessionInstants::start(p.session, film_frame.instant_s);
+    if (!instants) return tl::unexpected(instants.error());
+    p.instants.emplace(std::move(*instants));
+    p.last_seen.reset();
+  }
+  const auto world = p.instants->at(film_frame.instant_s);
+  if (!world) return tl::unexpected(world.error());
+  frame::Viewpoint waiting;
+  if (pivot.participant && !find_participant(*world, *pivot.participant)) {
+    if (!p.last_seen) {
+      auto last_seen = LastSeen::start(p.session, shot, pivot);
+      if (!last_seen) return tl::unexpected(last_seen.error());
+      p.last_seen.emplace(std::move(*last_seen));
+    }
+    const auto seen = p.last_seen->at(film_frame.instant_s);
+    if (!seen) return tl::unexpected(seen.error());
+    waiting = *seen;
+  }
+  const Look& look = p.plan.paths[film_frame.shot][film_frame.number_in_shot];
+  auto input = frame::client_frame(*world, views_at(shot, pivot, look, p.width_px, p.height_px),
+                                   viewpoint_at(shot, pivot, *world, waiting), p.scene);
+  p.effects.show(*world, p.instants->history(), p.instants->tick_s(), p.scene);
+  p.effects.add_to(input);
+  p.last = film_frame;
+  return input;
+}
+
+Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<double, double> span_s) {
+  FilmPlan plan;
+  for (std::size_t n = 0; n < script.shots.size(); ++n) {
+    const Shot& shot = script.shots[n];
+    if (shot.from_s < span_s.first - time_slack_s || shot.to_s > span_s.second + time_slack_s)
+      return failure(fmt::format("it shows {} to {} s, and the session lasts from {:.2f} to {:.2f} s", shot.from_s,
+                                 shot.to_s, span_s.first, span_s.second),
+                     shot.where, "choose instants within the session");
+    if (!((shot.to_s - shot.from_s) / shot.speed * frames_per_second <
+          static_cast<double>(most_frames - plan.frames.size())))
+      return failure(fmt::format("with it the film has more than {} frames", most_frames), shot.where,
+                     "split the film");
+    auto path = camera_path(shot, frames_per_second);
+    if (!path) return tl::unexpected(path.error());
+    for (std::size_t in_shot = 0; in_shot < path->size(); ++in_shot)
+      plan.frames.push_back({plan.frames.size() + 1, n, in_shot,
+                             shot.from_s + static_cast<double>(in_shot) * shot.speed / frames_per_second});
+    plan.paths.push_back(std::move(*path));
+  }
+  plan.script = std::move(script);
+  return plan;
+}
+
+}  // namespace septet::film

@@ -1,0 +1,36 @@
+#pragma once
+/// What each frame of a film shows: log → interpolate → scene → frame, for whichever renderer draws it.
+///
+/// A frame is a function of the session, its shot and its number in it. Any may be asked for in any order, on any machine that
+/// has the session; ascending ones are cheapest. One thread.
+
+#include "engine/instant/frame_input.hpp"
+#include "sim-client/film/camera.hpp"
+#include "sim-client/film/film.hpp"
+#include "sim-client/film/session_instants.hpp"
+#include "sim-client/frame/effects_drawing.hpp"
+
+namespace septet::film {
+
+class FilmFrames {
+ public:
+  /// Reads script and scene. Errors: those of the session, the script, and shots that the session does not hold.
+  static Expected<FilmFrames> open(const FilmOptions& options);
+  FilmFrames(FilmFrames&&) noexcept;
+  FilmFrames& operator=(FilmFrames&&) noexcept;
+  ~FilmFrames();
+
+  const FilmPlan& plan() const;  ///< Its frames are those between the options' `from_s` and `to_s`.
+  const scene::ResolvedScene& scene() const;
+  const logging::SessionInfo& session() const;
+
+  /// `frame` is one of the plan's. Error: the session cannot be read there.
+  Expected<instant::FrameInput> input_of(const FilmFrame& frame);
+
+ private:
+  struct Parts;
+  explicit FilmFrames(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace septet::film
