@@ -11,7 +11,7 @@
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
-#include "engine/scenery/road_world.hpp"
+#include "engine/scenery/world/road_world.hpp"
 #include "sim-server/resources.hpp"
 
 namespace septet::server {

@@ -25,8 +25,8 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scene/command_codec.hpp"
 #include "engine/scene/resolve.hpp"
-#include "engine/scenery/road_world.hpp"
-#include "engine/scenery/vehicles.hpp"
+#include "engine/scenery/vehicles/vehicles.hpp"
+#include "engine/scenery/world/road_world.hpp"
 
 namespace septet {
 namespace {

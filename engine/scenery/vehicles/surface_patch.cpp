@@ -1,0 +1,193 @@
+#include "engine/scenery/vehicles/surface_patch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace septet::scenery {
+namespace {
+
+using geometry::PolygonMesh;
+
+/// Axes of the picture and of the look, and which end of the look is nearer.
+struct FaceAxes {
+  int u, v, depth;
+  float towards_viewer;
+};
+
+FaceAxes axes_of(Face face) {
+  switch (face) {
+    case Face::front:
+      return {1, 2, 0, 1.0f};
+    case Face::rear:
+      return {1, 2, 0, -1.0f};
+    case Face::left:
+      return {0, 2, 1, 1.0f};
+    case Face::right:
+      return {0, 2, 1, -1.0f};
+    case Face::top:
+      return {0, 1, 2, 1.0f};
+  }
+  return {1, 2, 0, 1.0f};
+}
+
+float cross2(glm::vec2 a, glm::vec2 b) { return a.x * b.y - a.y * b.x; }
+
+glm::vec2 flat(const FaceAxes& axes, const glm::vec3& p) { return {p[axes.u], p[axes.v]}; }
+
+struct SurfaceVertex {
+  glm::vec3 position_m, normal;
+};
+
+/// Sums of the area vectors around each vertex.
+std::vector<glm::vec3> vertex_normals(const PolygonMesh& mesh) {
+  std::vector<glm::vec3> normals(mesh.vertices_m.size(), glm::vec3(0.0f));
+  for (const auto& corners : mesh.polygons) {
+    const std::uint32_t last = corners[geometry::corner_count(corners) - 1];
+    const glm::vec3 normal = glm::cross(mesh.vertices_m[corners[2]] - mesh.vertices_m[corners[0]],
+                                        mesh.vertices_m[last] - mesh.vertices_m[corners[1]]);
+    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) normals[corners[k]] += normal;
+  }
+  for (glm::vec3& normal : normals) normal = glm::length(normal) > 0.0f ? glm::normalize(normal) : glm::vec3(0, 0, 1);
+  return normals;
+}
+
+/// The outline with its corners cut off by a chord and a half.
+std::vector<glm::vec2> rounded(const PatchOutline& outline, float cut) {
+  std::vector<glm::vec2> points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const glm::vec2 corner = outline.corners[k], before = outline.corners[(k + 3) % 4],
+                    after = outline.corners[(k + 1) % 4];
+    if (cut <= 0.0f) {
+      points.push_back(corner);
+      continue;
+    }
+    // As long on both sides, so that the rounding is one of a circle.
+    const float reach = cut * std::min(glm::distance(corner, before), glm::distance(corner, after)) * 2.0f;
+    const glm::vec2 from = corner + glm::normalize(before - corner) * reach,
+                    to = corner + glm::normalize(after - corner) * reach;
+    points.insert(points.end(), {from, (from + to + corner * 2.0f) * 0.25f, to});
+  }
+  return points;
+}
+
+float twice_area(const std::vector<glm::vec2>& polygon) {
+  float area = 0.0f;
+  for (std::size_t k = 0; k < polygon.size(); ++k) area += cross2(polygon[k], polygon[(k + 1) % polygon.size()]);
+  return area;
+}
+
+/// Sutherland and Hodgman 1974: what of `piece` lies left of every edge of the border.
+std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece, const std::vector<glm::vec2>& border,
+                                   const FaceAxes& axes) {
+  for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e) {
+    const glm::vec2 from = border[e], along = border[(e + 1) % border.size()] - from;
+    const auto side = [&](const SurfaceVertex& v) { return cross2(along, flat(axes, v.position_m) - from); };
+    std::vector<SurfaceVertex> kept;
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const SurfaceVertex &a = piece[k], &b = piece[(k + 1) % piece.size()];
+      const float side_a = side(a), side_b = side(b);
+      if (side_a >= 0.0f) kept.push_back(a);
+      if ((side_a > 0.0f && side_b < 0.0f) || (side_a < 0.0f && side_b > 0.0f)) {
+        const float t = side_a / (side_a - side_b);
+        kept.push_back({glm::mix(a.position_m, b.position_m, t), glm::mix(a.normal, b.normal, t)});
+      }
+    }
+    piece = std::move(kept);
+  }
+  return piece;
+}
+
+}  // namespace
+
+PatchOutline rectangle(Face face, glm::vec2 low, glm::vec2 high) {
+  // Seen from the front the car's left (greater y) is on the right; seen from its left side the
+  // front (greater x) is on the left.
+  if (face == Face::rear || face == Face::left) std::swap(low.x, high.x);
+  if (face == Face::top) return {{{{low.x, high.y}, {low.x, low.y}, {high.x, low.y}, {high.x, high.y}}}};
+  return {{{{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}}};
+}
+
+std::optional<glm::vec3> surface_point(const PolygonMesh& body, Face face, glm::vec2 point) {
+  const FaceAxes axes = axes_of(face);
+  std::optional<glm::vec3> best;
+  for (const auto& corners : body.polygons)
+    for (std::uint32_t k = 1; k + 1 < geometry::corner_count(corners); ++k) {
+      const glm::vec3& p = body.vertices_m[corners[0]];
+      const glm::vec3& q = body.vertices_m[corners[k]];
+      const glm::vec3& r = body.vertices_m[corners[k + 1]];
+      const glm::vec2 a = flat(axes, p), ab = flat(axes, q) - a, ac = flat(axes, r) - a, offset = point - a;
+      const float area = cross2(ab, ac);
+      if (std::abs(area) < 1e-9f) continue;
+      const float wb = cross2(offset, ac) / area, wc = cross2(ab, offset) / area;
+      if (wb < -1e-4f || wc < -1e-4f || wb + wc > 1.0001f) continue;
+      const glm::vec3 hit = p + (q - p) * wb + (r - p) * wc;
+      if (!best || (hit[axes.depth] - (*best)[axes.depth]) * axes.towards_viewer > 0.0f) best = hit;
+    }
+  return best;
+}
+
+void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face face, const PatchOutline& outline,
+                const PatchOptions& options) {
+  const FaceAxes axes = axes_of(face);
+  std::vector<glm::vec2> border = rounded(outline, options.corner_cut);
+  // The clipping below wants the border counter-clockwise in the picture's own axes.
+  if (twice_area(border) < 0.0f) std::reverse(border.begin(), border.end());
+  const std::vector<glm::vec3> normals = vertex_normals(body);
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
+  const auto vertex = [&](const SurfaceVertex& v) {
+    const glm::vec3 p = v.position_m + glm::normalize(v.normal) * options.lift_m;
+    const std::array<std::int64_t, 3> key{std::llround(p.x * 4096.0), std::llround(p.y * 4096.0),
+                                          std::llround(p.z * 4096.0)};
+    const auto [place, fresh] = known.try_emplace(key, 0u);
+    if (fresh) place->second = builder.vertex(p);
+    return place->second;
+  };
+  const glm::vec2 across = outline.corners[1] - outline.corners[0], up = outline.corners[3] - outline.corners[0];
+  const auto uv = [&](const SurfaceVertex& v) {
+    const glm::vec2 offset = flat(axes, v.position_m) - outline.corners[0];
+    const float area = cross2(across, up);
+    return glm::vec2(cross2(offset, up) / area, 1.0f - cross2(across, offset) / area);
+  };
+  for (const auto& corners : body.polygons) {
+    std::vector<SurfaceVertex> piece;
+    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
+      piece.push_back({body.vertices_m[corners[k]], normals[corners[k]]});
+    const glm::vec3 facing =
+        glm::cross(piece[2].position_m - piece[0].position_m, piece.back().position_m - piece[1].position_m);
+    if (facing[axes.depth] * axes.towards_viewer <= options.min_facing * glm::length(facing)) continue;
+    piece = clipped(std::move(piece), border, axes);
+    if (piece.size() < 3) continue;
+    // A polygon that another part of the body hides from the viewer keeps clear of the patch.
+    glm::vec3 middle(0.0f);
+    for (const SurfaceVertex& v : piece) middle += v.position_m / static_cast<float>(piece.size());
+    const auto front = surface_point(body, face, flat(axes, middle));
+    if (front && ((*front)[axes.depth] - middle[axes.depth]) * axes.towards_viewer > 0.15f) continue;
+    for (std::size_t k = 1; k + 1 < piece.size(); k += 2) {
+      const std::uint32_t a = vertex(piece[0]), b = vertex(piece[k]), c = vertex(piece[k + 1]);
+      const bool has_fourth = k + 2 < piece.size();
+      const std::uint32_t d = has_fourth ? vertex(piece[k + 2]) : a;
+      if (has_fourth && a != b && b != c && c != d && d != a)
+        builder.quad(a, b, c, d, {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), uv(piece[k + 2])}});
+      else {
+        if (a != b && b != c && c != a) builder.triangle(a, b, c, {{uv(piece[0]), uv(piece[k]), uv(piece[k + 1]), {}}});
+        if (has_fourth && a != c && c != d && d != a)
+          builder.triangle(a, c, d, {{uv(piece[0]), uv(piece[k + 1]), uv(piece[k + 2]), {}}});
+      }
+    }
+  }
+}
+
+void draw_patch_on_both_sides(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body,
+                              const PatchOutline& outline, const PatchOptions& options) {
+  draw_patch(builder, body, Face::left, outline, options);
+  const auto& c = outline.corners;
+  draw_patch(builder, body, Face::right, {{c[1], c[0], c[3], c[2]}}, options);
+}
+
+}  // namespace septet::scenery

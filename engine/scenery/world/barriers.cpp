@@ -1,0 +1,186 @@
+#include <array>
+#include <cmath>
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/roadside/barrier_lines.hpp"
+#include "engine/scenery/world/far_road.hpp"
+#include "engine/scenery/world/world_context.hpp"
+#include "engine/scenery/world/world_finish.hpp"
+
+namespace septet::scenery {
+namespace {
+
+using geometry::MeshBuilder;
+using geometry::PathFrame;
+
+using roadside::BarrierForm;
+using roadside::BesideLine;
+
+/// Frames along a line within a tile; right is −t, up is off the surface, the origin on the
+/// surface.
+std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const BesideLine& line, double step_m) {
+  std::vector<PathFrame> path;
+  for (const double s : roadside::stations(tile, line, step_m)) {
+    const double t = line.t_at(s);
+    const glm::vec3 p = world.roads.local(tile, s, t);
+    const glm::vec3 left = world.roads.local(tile, s, t + 1.0) - p;
+    path.push_back({p, -left, glm::vec3(0, 0, 1), static_cast<float>((s - tile.s0_m) / 4.0)});
+  }
+  return path;
+}
+
+void extrude_into(MeshBuilder& builder, Ground ground, std::span<const glm::vec2> profile,
+                  const std::vector<PathFrame>& path, bool closed) {
+  if (path.size() < 2) return;
+  builder.material = index_of(ground);
+  geometry::PolygonMesh mesh = geometry::extrude(profile, path, closed);
+  const bool textured = ground == Ground::concrete || ground == Ground::noise_wall;
+  for (auto& uvs : mesh.corner_uvs)
+    for (glm::vec2& uv : uvs) uv = textured ? glm::vec2(uv.y, uv.x / 4.0f) : glm::vec2(0.0f);
+  geometry::crease_by_angle(mesh, 0.5f);
+  builder.append(mesh, glm::mat4(1.0f), true);
+}
+
+/// The steps of a New Jersey wall, seen along the road, counter-clockwise.
+constexpr std::array<glm::vec2, 8> jersey{{{-0.30f, -0.05f},
+                                           {0.30f, -0.05f},
+                                           {0.30f, 0.08f},
+                                           {0.14f, 0.34f},
+                                           {0.09f, 0.90f},
+                                           {-0.09f, 0.90f},
+                                           {-0.14f, 0.34f},
+                                           {-0.30f, 0.08f}}};
+/// The W of a guard rail towards traffic at the left of the profile, folded round its back.
+constexpr std::array<glm::vec2, 7> rail_left{{{-0.05f, 0.44f},
+                                              {0.0f, 0.48f},
+                                              {-0.08f, 0.53f},
+                                              {-0.08f, 0.56f},
+                                              {0.0f, 0.60f},
+                                              {-0.08f, 0.66f},
+                                              {-0.05f, 0.75f}}};
+constexpr std::array<glm::vec2, 4> rail_simple{{{-0.04f, 0.44f}, {0.02f, 0.44f}, {0.02f, 0.75f}, {-0.04f, 0.75f}}};
+
+/// A profile for the other side of the road, still counter-clockwise.
+template <std::size_t N>
+std::array<glm::vec2, N> mirrored(const std::array<glm::vec2, N>& profile) {
+  std::array<glm::vec2, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = {-profile[N - 1 - i].x, profile[N - 1 - i].y};
+  return result;
+}
+
+void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground ground, const glm::vec3& low,
+               const glm::vec3& high) {
+  builder.material = index_of(ground);
+  geometry::PolygonMesh post = geometry::box(low, high);
+  post.corner_uvs.clear();  // Plain materials need none.
+  for (const PathFrame& frame : path) {
+    glm::mat4 place(1.0f);
+    const glm::vec3 forward = glm::cross(frame.up, frame.right);
+    place[0] = glm::vec4(forward, 0);
+    place[1] = glm::vec4(-frame.right, 0);
+    place[2] = glm::vec4(frame.up, 0);
+    place[3] = glm::vec4(frame.position_m, 1);
+    builder.append(post, place, true);
+  }
+}
+
+struct BarrierPen {
+  const WorldContext& world;
+  const RoadTile& tile;
+  MeshBuilder near, posts;
+
+  void draw(const roadside::Barrier& barrier) {
+    const bool left = barrier.line.t0_m > 0.0;
+    const auto path = frames(world, tile, barrier.line, roadside::barrier_step_m);
+    switch (barrier.form) {
+      case BarrierForm::jersey:
+        extrude_into(near, Ground::concrete, jersey, path, true);
+        break;
+      case BarrierForm::railing:
+        draw_parapet(path);
+        break;
+      case BarrierForm::rail:
+        // Traffic is on the side of the axis.
+        extrude_into(near, Ground::metal, rail_left_sheet(!left), path, true);
+        add_posts(posts, frames(world, tile, barrier.line, 4.0), Ground::metal_dark,
+                  {-0.05f, left ? 0.0f : -0.1f, -0.4f}, {0.05f, left ? 0.1f : 0.0f, 0.72f});
+        break;
+    }
+  }
+
+  /// The rail as a thin closed tube: the W in front, a flat back.
+  static std::vector<glm::vec2> rail_left_sheet(bool on_right) {
+    // For the left-hand side traffic is to the right (+x of the profile).
+    const auto w = on_right ? rail_left : mirrored(rail_left);
+    std::vector<glm::vec2> profile(w.begin(), w.end());
+    if (on_right) {
+      // Upwards along the front, which lies at the left: turned round, so that the tube is
+      // counter-clockwise.
+      profile = {w.rbegin(), w.rend()};
+      profile.push_back({0.03f, 0.46f});
+      profile.push_back({0.03f, 0.73f});
+    } else {
+      profile = {w.rbegin(), w.rend()};
+      profile.push_back({-0.03f, 0.73f});
+      profile.push_back({-0.03f, 0.46f});
+    }
+    return profile;
+  }
+
+  void draw_parapet(const std::vector<PathFrame>& path) {
+    constexpr std::array<glm::vec2, 4> kerb{{{-0.16f, -0.1f}, {0.16f, -0.1f}, {0.16f, 0.35f}, {-0.16f, 0.35f}}};
+    extrude_into(near, Ground::concrete, kerb, path, true);
+    for (const float z : {0.62f, 0.90f, 1.16f}) {
+      const std::array<glm::vec2, 4> bar{{{-0.03f, z}, {0.03f, z}, {0.03f, z + 0.06f}, {-0.03f, z + 0.06f}}};
+      extrude_into(near, Ground::metal, bar, path, true);
+    }
+    add_posts(posts, path, Ground::metal, {-0.04f, -0.04f, 0.3f}, {0.04f, 0.04f, 1.2f});
+  }
+};
+
+/// Reflecting posts every 50 m behind the rail, a kilometre board every 500 m.
+void add_marker_posts(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
+  for (const BesideLine& line : roadside::marker_posts(world.roads, tile)) {
+    const std::vector<PathFrame> path = frames(world, tile, line, roadside::marker_post_step_m);
+    if (path.empty()) continue;
+    const std::vector<PathFrame> one{path.front()};
+    add_posts(builder, one, Ground::post, {-0.05f, -0.06f, -0.3f}, {0.05f, 0.06f, 1.05f});
+    add_posts(builder, one, Ground::metal_dark, {-0.055f, -0.065f, 0.72f}, {0.055f, 0.065f, 0.95f});
+    add_posts(builder, one, Ground::reflector, {-0.06f, -0.03f, 0.76f}, {0.06f, 0.03f, 0.91f});
+  }
+}
+
+void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
+  for (const BesideLine& line : roadside::noise_walls(world.roads, tile)) {
+    const auto path = frames(world, tile, line, roadside::noise_wall_step_m);
+    constexpr std::array<glm::vec2, 4> panel{{{-0.09f, -0.9f}, {0.09f, -0.9f}, {0.09f, 3.6f}, {-0.09f, 3.6f}}};
+    extrude_into(builder, Ground::noise_wall, panel, path, true);
+    add_posts(builder, path, Ground::metal_dark, {-0.1f, -0.16f, -0.9f}, {0.1f, 0.16f, 3.75f});
+  }
+}
+
+}  // namespace
+
+void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
+  for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) {
+    constexpr std::array<glm::vec2, 4> wall{{{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
+    extrude_into(builder, Ground::far_concrete, barrier.form == BarrierForm::rail ? rail_simple : wall,
+                 frames(world, tile, barrier.line, step_m), true);
+  }
+}
+
+void build_barriers(const WorldContext& world) {
+  for (const RoadTile& tile : world.roads.tiles(160.0)) {
+    BarrierPen pen{world, tile, {}, {}};
+    for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) pen.draw(barrier);
+    add_marker_posts(pen.posts, world, tile);
+    MeshBuilder wall;
+    add_noise_wall(wall, world, tile);
+    add_tile_mesh(world, tile, "barriers", pen.near.mesh(), 0.0f, road_near_m, true);
+    add_tile_mesh(world, tile, "posts", pen.posts.mesh(), 0.0f, 220.0f);
+    add_tile_mesh(world, tile, "noise wall", wall.mesh(), 0.0f, 3000.0f, true);
+  }
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,75 @@
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/roadside/raised_areas.hpp"
+#include "engine/scenery/world/world_context.hpp"
+#include "engine/scenery/world/world_finish.hpp"
+
+namespace septet::scenery {
+namespace {
+
+double turn(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+}
+
+/// Cuts ears off until a triangle is left; what crosses itself is drawn as far as it goes.
+void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top) {
+  std::vector<std::size_t> left(top.size());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = i;
+  const auto is_ear = [&](std::size_t k) {
+    const std::size_t n = left.size();
+    const glm::vec3 &a = top[left[(k + n - 1) % n]], &b = top[left[k]], &c = top[left[(k + 1) % n]];
+    if (turn(a, b, c) < 0.0) return false;
+    for (std::size_t m = 0; m + 3 < n; ++m) {
+      const glm::vec3& p = top[left[(k + 2 + m) % n]];
+      if (turn(a, b, p) > 0.0 && turn(b, c, p) > 0.0 && turn(c, a, p) > 0.0) return false;
+    }
+    return true;
+  };
+  std::size_t k = 0;
+  while (left.size() >= 3) {
+    const std::size_t n = left.size();
+    // From the last ear on, beside which the next one mostly is.
+    std::size_t tried = 0;
+    for (k %= n; tried < n && !is_ear(k); ++tried) k = (k + 1) % n;
+    if (tried == n) return;
+    builder.triangle(builder.vertex(top[left[(k + n - 1) % n]]), builder.vertex(top[left[k]]),
+                     builder.vertex(top[left[(k + 1) % n]]));
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
+}  // namespace
+
+void build_kerbs(const WorldContext& world) {
+  const roadside::RaisedAreas raised(world.roads.network());
+  if (raised.all().empty()) return;
+  constexpr float foot_m = 0.5f;  // So far down: the road under it may fall away.
+  for (const RoadTile& tile : world.roads.tiles(160.0)) {
+    geometry::MeshBuilder builder;
+    builder.material = index_of(Ground::concrete);
+    for (const roadside::RaisedArea& area : raised.all()) {
+      if (area.road != tile.road || area.s_m < tile.s0_m || area.s_m >= tile.s1_m) continue;
+      std::vector<glm::vec3> top;
+      for (const Vec3& corner : area.top_m) top.push_back(world.roads.local(tile, corner));
+      double around = 0.0;
+      for (std::size_t i = 0; i < top.size(); ++i) {
+        const glm::vec3 &a = top[i], &b = top[(i + 1) % top.size()];
+        around += a.x * b.y - a.y * b.x;
+      }
+      if (around < 0.0) top = {top.rbegin(), top.rend()};
+      for (std::size_t i = 0; i < top.size(); ++i) {
+        const glm::vec3 &a = top[i], &b = top[(i + 1) % top.size()], down(0.0f, 0.0f, -foot_m);
+        builder.patch(a + down, b + down, b, a);
+      }
+      fill_top(builder, top);
+    }
+    geometry::PolygonMesh mesh = builder.take();
+    mesh.default_edge_crease = geometry::crease_sharp;
+    add_tile_mesh(world, tile, "kerbs", mesh, 0.0f, road_near_m);
+  }
+}
+
+}  // namespace septet::scenery

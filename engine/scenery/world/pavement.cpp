@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/random.hpp"
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/road/lane_geometry.hpp"
+#include "engine/scenery/world/far_road.hpp"
+#include "engine/scenery/world/world_context.hpp"
+#include "engine/scenery/world/world_finish.hpp"
+
+namespace septet::scenery {
+namespace {
+
+using geometry::MeshBuilder;
+
+constexpr double texture_length_m = 7.5, texture_width_m = 3.75;
+constexpr double near_step_m = 10.0;
+constexpr float marks_near_m = 190.0f;
+constexpr double mark_lift_m = 0.010, repair_lift_m = 0.005, far_mark_lift_m = 0.04;
+
+/// Points between a tile's stations lie on the chords that the pavement is made of, so that what is
+/// painted stays above it.
+class TileSurface {
+ public:
+  TileSurface(const RoadShape& roads, const RoadTile& tile, double step_m)
+      : roads_(roads), tile_(tile), stations_(stations(tile, step_m)) {}
+
+  const std::vector<double>& at() const { return stations_; }
+  glm::vec3 point(double s_m, double t_m, double up_m) const {
+    const auto next = std::upper_bound(stations_.begin() + 1, stations_.end() - 1, s_m);
+    const double s0 = *(next - 1), s1 = *next;
+    return glm::mix(roads_.local(tile_, s0, t_m, up_m), roads_.local(tile_, s1, t_m, up_m),
+                    static_cast<float>((s_m - s0) / (s1 - s0)));
+  }
+
+ private:
+  const RoadShape& roads_;
+  const RoadTile& tile_;
+  std::vector<double> stations_;
+};
+
+Ground asphalt_of(const RoadTile& tile) {
+  if (tile.in_tunnel) return Ground::asphalt_tunnel;
+  // Stretches were laid in different years.
+  const auto stretch = static_cast<std::int64_t>(std::floor(tile.middle_m() / 900.0)) + tile.road * 3;
+  constexpr Ground laid[]{Ground::asphalt, Ground::asphalt_old, Ground::asphalt, Ground::asphalt_fresh};
+  return laid[((stretch % 4) + 4) % 4];
+}
+
+geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& tile) {
+  const road::Road& road = world.roads.road(tile.road);
+  const road::LaneSection& section = road::section_at(road, tile.middle_m());
+  MeshBuilder builder;
+  builder.material = index_of(asphalt_of(tile));
+  const std::vector<double> along = stations(tile, near_step_m);
+  // Vertices are shared between neighbouring lanes; the centre line is border 0.
+  std::vector<std::vector<std::uint32_t>> borders;
+  std::vector<std::vector<double>> border_t;
+  for (int lane = section.left_count; lane >= -section.right_count; --lane) {
+    auto& column = borders.emplace_back();
+    auto& column_t = border_t.emplace_back();
+    for (const double s : along) {
+      column_t.push_back(road::outer_border_t_m(road, section, lane, s));
+      column.push_back(builder.vertex(world.roads.local(tile, s, column_t.back())));
+    }
+  }
+  for (std::size_t k = 0; k + 1 < borders.size(); ++k)
+    for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+      const double width0 = border_t[k][i] - border_t[k + 1][i], width1 = border_t[k][i + 1] - border_t[k + 1][i + 1];
+      if (width0 < 1e-3 && width1 < 1e-3) continue;
+      const bool lane = std::max(width0, width1) > 3.0;
+      const auto u0 = static_cast<float>(lane ? 1.0 : width0 / texture_width_m),
+                 u1 = static_cast<float>(lane ? 1.0 : width1 / texture_width_m);
+      const auto v0 = static_cast<float>((along[i] - tile.s0_m) / texture_length_m),
+                 v1 = static_cast<float>((along[i + 1] - tile.s0_m) / texture_length_m);
+      builder.quad(borders[k][i], borders[k + 1][i], borders[k + 1][i + 1], borders[k][i + 1],
+                   {{{0, v0}, {u0, v0}, {u1, v1}, {0, v1}}});
+    }
+  return builder.take();
+}
+
+/// A stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
+template <class T>
+void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1, double width_m, double lift_m,
+                 const T& t_of, bool textured = false) {
+  std::vector<double> cuts{s0};
+  for (const double s : surface.at())
+    if (s > s0 + 0.05 && s < s1 - 0.05) cuts.push_back(s);
+  cuts.push_back(s1);
+  std::uint32_t left = 0, right = 0;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const double t = t_of(cuts[i]);
+    const std::uint32_t new_left = builder.vertex(surface.point(cuts[i], t + width_m / 2, lift_m));
+    const std::uint32_t new_right = builder.vertex(surface.point(cuts[i], t - width_m / 2, lift_m));
+    if (i > 0) {
+      const auto u = static_cast<float>(width_m / texture_width_m),
+                 v0 = static_cast<float>((cuts[i - 1] - s0) / texture_length_m),
+                 v1 = static_cast<float>((cuts[i] - s0) / texture_length_m);
+      builder.quad(left, right, new_right, new_left,
+                   textured ? geometry::CornerUvs{{{0, v0}, {u, v0}, {u, v1}, {0, v1}}} : geometry::CornerUvs{});
+    }
+    left = new_left;
+    right = new_right;
+  }
+}
+
+/// Lines that are seen as less than a pixel are drawn wider and as much darker.
+Ground mark_of(const RoadTile& tile, bool broken, bool near, double widening) {
+  if (near) return tile.in_tunnel ? Ground::mark_tunnel : widening > 1.0 ? Ground::mark_far : Ground::mark;
+  return broken ? Ground::far_mark_broken : Ground::far_mark;
+}
+
+/// All lines of a tile; far away broken ones become continuous in their mean grey, which keeps
+/// still.
+void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near, double step_m,
+                double widening) {
+  const road::Road& road = world.roads.road(tile.road);
+  const road::LaneSection& section = road::section_at(road, tile.middle_m());
+  const TileSurface surface(world.roads, tile, step_m);
+  for (const road::Lane& lane : section.lanes) {
+    const auto border = [&](double s) { return road::outer_border_t_m(road, section, lane.id, s); };
+    for (const road::RoadMark& mark : lane.marks)
+      for (const road::RoadMarkLine& line : mark.lines) {
+        const double begin = std::max(tile.s0_m, mark.s_m > 1e-6 ? mark.s_m : tile.s0_m);
+        const double end = std::min(tile.s1_m, mark.s_end_m < road.length_m - 1e-6 ? mark.s_end_m : tile.s1_m);
+        if (end - begin < 0.05 || line.width_m <= 0.0) continue;
+        const auto t_of = [&](double s) { return border(s) + line.t_offset_m; };
+        const bool broken = line.space_m > 0.0;
+        if (broken && step_m > 60.0) continue;  // Too far to be told from the asphalt.
+        builder.material = index_of(mark_of(tile, broken, near, widening));
+        if (!broken || !near) {
+          draw_stripe(builder, surface, begin, end, line.width_m * widening, near ? mark_lift_m : far_mark_lift_m,
+                      t_of);
+          continue;
+        }
+        const double period = line.length_m + line.space_m;
+        const double origin = mark.s_m + line.s_offset_m;
+        for (double s = origin + std::floor((begin - origin) / period) * period; s < end; s += period) {
+          const double s0 = std::max(s, begin), s1 = std::min(s + line.length_m, end);
+          if (s1 - s0 > 0.05) draw_stripe(builder, surface, s0, s1, line.width_m * widening, mark_lift_m, t_of);
+        }
+      }
+  }
+}
+
+/// Repaired rectangles and sealed cracks.
+geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, Random& random) {
+  const road::Road& road = world.roads.road(tile.road);
+  const road::LaneSection& section = road::section_at(road, tile.middle_m());
+  const TileSurface surface(world.roads, tile, near_step_m);
+  MeshBuilder builder;
+  builder.material = index_of(Ground::repair);
+  std::vector<int> lanes;
+  for (const road::Lane& lane : section.lanes)
+    if (road::is_drivable(lane.type)) lanes.push_back(lane.id);
+  if (lanes.empty() || tile.on_bridge || tile.in_tunnel) return {};
+  const auto any_lane = [&] { return lanes[static_cast<std::size_t>(random.below(lanes.size()))]; };
+  const double length = tile.s1_m - tile.s0_m;
+  if (random.uniform() < 0.55 && length > 40.0) {
+    const int lane = any_lane();
+    const double s0 = tile.s0_m + random.uniform(2.0, length - 25.0), s1 = s0 + random.uniform(4.0, 22.0);
+    const road::LaneBorders borders = road::lane_borders(road, section, lane, s0);
+    const double width = borders.width_m() * random.uniform(0.45, 0.92),
+                 shift = random.uniform(-0.5, 0.5) * (borders.width_m() - width - 0.3);
+    draw_stripe(
+        builder, surface, s0, s1, width, repair_lift_m,
+        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; }, true);
+  }
+  for (int crack = 0; crack < 2; ++crack) {
+    const int lane = any_lane();
+    double s = tile.s0_m + random.uniform(0.0, length * 0.6), t = random.uniform(-1.4, 1.4);
+    const double end = std::min(tile.s1_m - 1.0, s + random.uniform(8.0, 40.0));
+    while (s < end) {
+      const double next_s = s + random.uniform(0.8, 2.5),
+                   next_t = std::clamp(t + random.uniform(-0.14, 0.14), -1.6, 1.6);
+      const double stop = std::min(next_s, tile.s1_m);
+      draw_stripe(
+          builder, surface, s, stop, 0.05, repair_lift_m,
+          [&](double at) {
+            return road::lane_borders(road, section, lane, at).centre_t_m() +
+                   std::lerp(t, next_t, (at - s) / (stop - s));
+          },
+          true);
+      s = stop;
+      t = next_t;
+    }
+  }
+  return builder.take();
+}
+
+}  // namespace
+
+void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
+  builder.material = index_of(tile.in_tunnel ? Ground::asphalt_tunnel : Ground::far_asphalt);
+  std::uint32_t last = 0;
+  const std::vector<double> along = stations(tile, step_m);
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
+    const std::uint32_t row = builder.vertex(world.roads.local(tile, along[i], extent.left_t_m));
+    builder.vertex(world.roads.local(tile, along[i], std::clamp(0.0, extent.right_t_m, extent.left_t_m)));
+    builder.vertex(world.roads.local(tile, along[i], extent.right_t_m));
+    if (i > 0)
+      for (std::uint32_t k = 0; k < 2; ++k) builder.quad(last + k, last + k + 1, row + k + 1, row + k);
+    last = row;
+  }
+}
+
+void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
+  draw_marks(builder, world, tile, false, step_m, 3.0);
+}
+
+void build_pavement(const WorldContext& world) {
+  Random random(world.seed, 1);
+  for (const RoadTile& tile : world.roads.tiles(160.0)) {
+    MeshBuilder marks, wide_marks;
+    draw_marks(marks, world, tile, true, near_step_m, 1.0);
+    draw_marks(wide_marks, world, tile, true, near_step_m, 1.7);
+    add_tile_mesh(world, tile, "pavement", near_pavement(world, tile), 0.0f, road_near_m);
+    add_tile_mesh(world, tile, "marks", marks.mesh(), 0.0f, marks_near_m);
+    add_tile_mesh(world, tile, "marks", wide_marks.mesh(), marks_near_m, road_near_m);
+    add_tile_mesh(world, tile, "repairs", repairs(world, tile, random), 0.0f, 200.0f);
+  }
+}
+
+}  // namespace septet::scenery

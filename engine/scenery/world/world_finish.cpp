@@ -1,0 +1,194 @@
+#include "engine/scenery/world/world_finish.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "engine/image/draw.hpp"
+#include "engine/scenery/lettering.hpp"
+#include "engine/scenery/world/textures.hpp"
+
+namespace septet::scenery {
+namespace {
+
+enum class Texture { none, asphalt, ground, concrete, leaf, needle, tree, edge, facade, exit, palette };
+
+struct Look {
+  const char* name;
+  glm::vec3 color;  ///< Linear; times the texture's mean.
+  Texture texture;
+  float roughness = 0.9f;
+  float metallic = 0.0f;
+  glm::vec3 emission{0.0f};
+};
+
+/// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
+constexpr std::array<Look, 57> looks{{
+    {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
+    {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
+    {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
+    {"asphalt tunnel", {0.95f, 0.95f, 0.95f}, Texture::asphalt},
+    {"repair", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
+    {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f},
+    {"mark far", {0.46f, 0.46f, 0.45f}, Texture::none, 0.75f},
+    {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f},
+    {"concrete", {0.56f, 0.55f, 0.53f}, Texture::concrete},
+    {"concrete dark", {0.34f, 0.34f, 0.33f}, Texture::concrete},
+    {"concrete tunnel", {0.42f, 0.42f, 0.42f}, Texture::concrete},
+    {"tiles tunnel", {0.98f, 0.98f, 0.95f}, Texture::concrete},
+    {"lamp tunnel", {0.9f, 0.9f, 0.9f}, Texture::none, 0.5f, 0.0f, {3.4f, 3.1f, 2.5f}},
+    {"exit sign", {0.9f, 0.9f, 0.9f}, Texture::exit, 0.7f, 0.0f, {1.3f, 1.3f, 1.3f}},
+    {"metal", {0.46f, 0.47f, 0.48f}, Texture::none, 0.62f},
+    {"metal dark", {0.20f, 0.21f, 0.22f}, Texture::none, 0.65f},
+    {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f},
+    {"post", {0.68f, 0.68f, 0.66f}, Texture::none, 0.7f},
+    {"verge", {0.27f, 0.30f, 0.105f}, Texture::ground},
+    {"gravel", {0.34f, 0.32f, 0.28f}, Texture::ground},
+    {"meadow", {0.20f, 0.29f, 0.085f}, Texture::ground},
+    {"pasture", {0.17f, 0.265f, 0.07f}, Texture::ground},
+    {"wheat", {0.52f, 0.42f, 0.17f}, Texture::ground},
+    {"rape", {0.55f, 0.49f, 0.06f}, Texture::ground},
+    {"soil", {0.24f, 0.165f, 0.105f}, Texture::ground},
+    {"crop", {0.24f, 0.34f, 0.10f}, Texture::ground},
+    {"wood floor", {0.10f, 0.115f, 0.05f}, Texture::ground},
+    {"canopy", {0.115f, 0.150f, 0.050f}, Texture::ground},
+    {"wood edge", {0.80f, 0.85f, 0.75f}, Texture::edge},
+    {"leaves oak", {0.72f, 0.74f, 0.62f}, Texture::leaf},
+    {"leaves birch", {0.95f, 0.95f, 0.72f}, Texture::leaf},
+    {"needles", {0.85f, 0.92f, 0.85f}, Texture::needle},
+    {"crown core", {0.035f, 0.050f, 0.020f}, Texture::none},
+    {"bark", {0.085f, 0.065f, 0.050f}, Texture::none},
+    {"bark birch", {0.50f, 0.48f, 0.44f}, Texture::none},
+    {"trees", {0.85f, 0.88f, 0.78f}, Texture::tree},
+    {"noise wall", {0.30f, 0.36f, 0.24f}, Texture::concrete},
+    {"water", {0.035f, 0.055f, 0.060f}, Texture::none, 0.08f},
+    {"facade red", {0.52f, 0.095f, 0.060f}, Texture::facade},
+    {"facade white", {0.82f, 0.80f, 0.72f}, Texture::facade},
+    {"roof tiles", {0.34f, 0.13f, 0.080f}, Texture::none},
+    {"roof dark", {0.085f, 0.085f, 0.090f}, Texture::none},
+    {"planks", {0.30f, 0.055f, 0.040f}, Texture::none},
+    // Far forms: near colour times the mean of its texture.
+    {"far asphalt", {0.105f, 0.104f, 0.102f}, Texture::none},
+    {"palette", {1.0f, 1.0f, 1.0f}, Texture::palette},
+    {"far mark", {0.40f, 0.40f, 0.39f}, Texture::none},
+    {"far mark broken", {0.19f, 0.19f, 0.188f}, Texture::none},
+    {"far concrete", {0.31f, 0.305f, 0.295f}, Texture::none},
+    {"far verge", {0.150f, 0.165f, 0.052f}, Texture::none},
+    {"far meadow", {0.112f, 0.160f, 0.042f}, Texture::none},
+    {"far pasture", {0.095f, 0.147f, 0.035f}, Texture::none},
+    {"far wheat", {0.290f, 0.232f, 0.085f}, Texture::none},
+    {"far rape", {0.306f, 0.270f, 0.030f}, Texture::none},
+    {"far soil", {0.134f, 0.092f, 0.053f}, Texture::none},
+    {"far crop", {0.134f, 0.188f, 0.050f}, Texture::none},
+    {"far wood", {0.056f, 0.064f, 0.025f}, Texture::none},
+    {"far canopy", {0.078f, 0.102f, 0.036f}, Texture::none},
+}};
+
+bool is_in_tunnel(Ground ground) {
+  using enum Ground;
+  return ground == asphalt_tunnel || ground == mark_tunnel || ground == concrete_tunnel || ground == tiles_tunnel ||
+         ground == lamp_tunnel || ground == exit_sign;
+}
+
+constexpr std::uint32_t first_color = index_of(Ground::palette) + 1;
+constexpr std::uint32_t palette_side = 4, block_px = 16;
+
+std::uint8_t srgb_byte(float linear) {
+  const float encoded = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(255.0f * encoded));
+}
+
+image::Image palette_texture() {
+  image::Image palette(palette_side * block_px, palette_side * block_px);
+  for (std::uint32_t i = first_color; i < looks.size(); ++i) {
+    const std::uint32_t block = i - first_color;
+    const glm::vec3 c = looks[i].color;
+    image::fill(palette, block % palette_side * block_px, block / palette_side * block_px, block_px, block_px,
+                {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b)});
+  }
+  return palette;
+}
+
+image::Image exit_sign_texture() {
+  image::Image sign(128, 64, {10, 130, 70});
+  const Lettering bold(image::FontStyle::bold);
+  bold.centred(sign, 64, 30, "EXIT", 26, {250, 255, 250});
+  bold.centred(sign, 64, 56, "◀ 150 m", 20, {250, 255, 250});
+  return sign;
+}
+
+}  // namespace
+
+Ground far_of(Ground ground) {
+  using enum Ground;
+  switch (ground) {
+    case verge:
+      return far_verge;
+    case meadow:
+      return far_meadow;
+    case pasture:
+      return far_pasture;
+    case wheat:
+      return far_wheat;
+    case rape:
+      return far_rape;
+    case soil:
+      return far_soil;
+    case crop:
+      return far_crop;
+    case wood_floor:
+      return far_wood;
+    default:
+      return ground;
+  }
+}
+
+void to_palette(geometry::PolygonMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    std::uint32_t& material = mesh.polygon_materials[i];
+    if (material < first_color) continue;
+    const std::uint32_t block = material - first_color;
+    const glm::vec2 uv((static_cast<float>(block % palette_side) + 0.5f) / palette_side,
+                       (static_cast<float>(block / palette_side) + 0.5f) / palette_side);
+    mesh.corner_uvs[i].fill(uv);
+    material = index_of(Ground::palette);
+  }
+}
+
+Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
+  std::array<scene::NodeId, 11> bitmaps;
+  bitmaps.fill(scene::no_node);
+  const auto add = [&](Texture texture, const char* name, const image::Image& image) {
+    bitmaps[static_cast<std::size_t>(texture)] = builder.add_bitmap(name, image.width, image.height, image.rgba);
+  };
+  add(Texture::asphalt, "asphalt", asphalt_texture(seed));
+  add(Texture::ground, "ground", ground_texture(seed + 10));
+  add(Texture::concrete, "concrete", concrete_texture(seed + 20));
+  add(Texture::leaf, "leaves", leaf_texture(seed + 30));
+  add(Texture::needle, "needles", needle_texture(seed + 40));
+  add(Texture::tree, "trees", tree_picture_texture(seed + 50));
+  add(Texture::edge, "wood edge", wood_edge_texture(seed + 60));
+  add(Texture::facade, "facade", facade_texture(seed + 70));
+  add(Texture::exit, "exit sign", exit_sign_texture());
+  add(Texture::palette, "palette", palette_texture());
+  Palette palette;
+  for (std::uint32_t i = 0; i < looks.size(); ++i) {
+    if (i >= first_color) {
+      palette.push_back(scene::no_node);
+      continue;
+    }
+    const Look& look = looks[i];
+    scene::MaterialParameters material;
+    material.base_color = look.color;
+    material.base_color_bitmap = bitmaps[static_cast<std::size_t>(look.texture)];
+    material.roughness = look.roughness;
+    material.metallic = look.metallic;
+    material.emission = look.emission;
+    material.wettable = i <= index_of(Ground::mark_far) || i == index_of(Ground::far_asphalt);
+    material.share_of_sky = is_in_tunnel(static_cast<Ground>(i)) ? 0.0f : 1.0f;
+    palette.push_back(builder.add_material(std::string("world/") + look.name, material));
+  }
+  return palette;
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,148 @@
+#include "engine/scenery/vehicles/vehicles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "engine/geometry/mesh_measures.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/cage.hpp"
+#include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/vehicle_parts.hpp"
+#include "engine/world/vehicle_body.hpp"
+
+namespace septet::scenery {
+namespace {
+
+bool has_role(const VehicleParts& parts, scene::PartRole role, float distance_m) {
+  return std::any_of(parts.begin(), parts.end(), [&](const VehiclePart& part) {
+    return std::any_of(part.places.begin(), part.places.end(), [&](const Placement& place) {
+      return place.role == role && distance_m >= place.visible_from_m && distance_m < place.visible_to_m;
+    });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("the body of a car is closed and faces outwards and fills its bounding box") {
+  for (const VehicleModel& model : vehicle_models()) {
+    if (model.kind != ParticipantKind::car && model.kind != ParticipantKind::van) continue;
+    CAPTURE(model.name);
+    for (const std::uint32_t level : {0u, 1u}) {
+      const auto body = shown_surface(car_body_cage(model, car_shape(model), level), level);
+      CHECK(geometry::is_finite(body));
+      CHECK(geometry::is_closed(body));
+      const double box = model.length_m * model.width_m * model.height_m;
+      CHECK(geometry::signed_volume_m3(body) > 0.45 * box);
+      CHECK(geometry::signed_volume_m3(body) < 0.90 * box);
+      const geometry::Bounds bounds = geometry::bounds(body);
+      CHECK(bounds.max_m.x == doctest::Approx(model.front_m()).epsilon(0.001));
+      CHECK(bounds.min_m.x == doctest::Approx(-model.rear_overhang_m).epsilon(0.001));
+      CHECK(bounds.max_m.y == doctest::Approx(model.width_m / 2).epsilon(0.001));
+      CHECK(bounds.max_m.z == doctest::Approx(model.height_m).epsilon(0.001));
+    }
+  }
+}
+
+TEST_CASE("the slope that debris meets at a vehicle's front lies close around what is drawn of it") {
+  for (const VehicleModel& model : vehicle_models()) {
+    const auto slope = front_slope(model.kind);
+    if (!slope) continue;
+    CAPTURE(model.name);
+    // In side view: z over x, from the bonnet's edge at the front to where the roof begins.
+    const double rise = (1.0 - slope->edge_height) * model.height_m, run = slope->roof_begins * model.length_m;
+    double furthest_out_m = -1e9;
+    for (const auto& vertex : shown_surface(car_body_cage(model, car_shape(model), 1), 1).vertices_m) {
+      const double behind_m = model.front_m() - vertex.x, above_edge_m = vertex.z - slope->edge_height * model.height_m;
+      if (behind_m > run) continue;
+      furthest_out_m = std::max(furthest_out_m, (above_edge_m * run - behind_m * rise) / std::hypot(rise, run));
+    }
+    CHECK(furthest_out_m < 0.02);
+    CHECK(furthest_out_m > -0.12);
+  }
+}
+
+TEST_CASE("every vehicle keeps within its triangle budgets and gets simpler with distance") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    const VehicleParts parts = vehicle_parts(model);
+    const std::size_t near = triangles_at(parts, 5.0f), middle = triangles_at(parts, 80.0f),
+                      far = triangles_at(parts, 400.0f);
+    CHECK(near <= 4400);
+    CHECK(middle <= 860);
+    CHECK(far <= 170);
+    CHECK(near > middle);
+    CHECK(middle > far);
+    CHECK(far > 0);
+    CHECK(triangles_at(parts, vehicles_until_m) == 0);
+  }
+}
+
+TEST_CASE("at each distance a vehicle is drawn in one level of detail, and its levels meet") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    // From where to where something is drawn, each range once.
+    std::set<std::pair<float, float>> ranges;
+    for (const VehiclePart& part : vehicle_parts(model))
+      for (const Placement& place : part.places) ranges.insert({place.visible_from_m, place.visible_to_m});
+    float reached_m = 0.0f;
+    for (const auto& [from_m, to_m] : ranges) {
+      CHECK(from_m == reached_m);
+      CHECK(to_m > from_m);
+      reached_m = to_m;
+    }
+    CHECK(ranges.size() == 3);
+    CHECK(reached_m == vehicles_until_m);
+  }
+}
+
+TEST_CASE("every part of every vehicle is finite and lies within reach of its body") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    for (const VehiclePart& part : vehicle_parts(model)) {
+      CAPTURE(part.name);
+      CHECK(geometry::is_finite(part.mesh));
+      CHECK_FALSE(part.mesh.polygons.empty());
+      const geometry::Bounds bounds = geometry::bounds(part.mesh);
+      for (const Placement& place : part.places) {
+        const glm::vec3 at(place.parent_from_object.position_m);
+        CHECK(bounds.max_m.x + at.x < model.front_m() + 0.15);
+        CHECK(bounds.min_m.x + at.x > -model.rear_overhang_m - 0.15);
+        CHECK(bounds.max_m.z + at.z < model.height_m + 0.15);
+        CHECK(bounds.min_m.z + at.z > -0.06);
+      }
+    }
+  }
+}
+
+TEST_CASE("cars have the lamps and wheels that move and light") {
+  using enum scene::PartRole;
+  for (const VehicleModel& model : vehicle_models()) {
+    if (model.kind == ParticipantKind::pedestrian) continue;
+    CAPTURE(model.name);
+    const VehicleParts parts = vehicle_parts(model);
+    for (const auto role : {lamp_head, lamp_tail, lamp_brake, lamp_indicator_left, lamp_indicator_right,
+                            wheel_front_left, wheel_rear_left})
+      CHECK(has_role(parts, role, 10.0f));
+    for (const auto role : {lamp_head, lamp_tail}) CHECK(has_role(parts, role, 500.0f));
+    CHECK(has_role(parts, beacon, 500.0f) == (model.kind == ParticipantKind::ambulance));
+  }
+}
+
+TEST_CASE("the scene holds a prototype for every model of the catalogue") {
+  scene::Store store;
+  scene::SceneBuilder builder(store);
+  build_vehicles(builder);
+  const scene::ResolvedScene scene = scene::resolve(store);
+  CHECK(scene.instances.empty());
+  CHECK(scene.prototypes.size() == vehicle_models().size() + 1);
+  for (const scene::Prototype& prototype : scene.prototypes) {
+    CAPTURE(prototype.name);
+    CHECK(prototype.parts.size() >= 3);
+  }
+}
+
+}  // namespace septet::scenery
