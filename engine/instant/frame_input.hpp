@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/effects/ice/ice_body.hpp"
 #include "engine/instant/view.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -43,6 +44,7 @@ struct DynamicMesh {
   Vec3 origin_m{0.0};     ///< World.
   float radius_m = 0.0f;  ///< Around the origin.
   glm::vec3 paint{1.0f};  ///< Linear Rec. 709, for materials that take it.
+  bool seen = true;       ///< False: casts a shadow only, because something else draws it (FrameInput::ice).
   std::vector<scene::SurfaceVertex>
       vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
 };
@@ -81,6 +83,8 @@ struct FrameInput {
   std::vector<FrameView> views;
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
+  std::vector<ice::IceBody> ice;           ///< To see through; a mesh of its shape that is not `seen` casts its shadow.
+  std::uint32_t ice_surroundings_px = 64;  ///< Side of each of the six pictures of what lies around it.
   std::vector<SmokePuff> smoke;
   SootField soot;
   std::vector<OverlayText> overlay;

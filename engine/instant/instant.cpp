@@ -52,6 +52,12 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
     const float share = share_of_sky(scene, mesh.origin_m);
     instant.loose.push_back({std::move(mesh), material, share});
   }
+  for (ice::IceBody& body : input.ice) {
+    if (body.vertices.size() < 3) continue;
+    body.look.share_of_sky *= share_of_sky(scene, body.origin_m);
+    instant.ice.push_back(std::move(body));
+  }
+  instant.ice_surroundings_px = input.ice_surroundings_px;
   instant.views = std::move(input.views);
   instant.smoke = std::move(input.smoke);
   instant.soot = std::move(input.soot);

@@ -9,7 +9,7 @@
 /// units of 8000 lx, lamps' intensity in units of 8000 cd (luminance_unit_cdpm2 in atmosphere.hpp), so that half floats
 /// hold all from starlight to the sun's disc. Radiance · exposure.scale() is what the tone curve takes.
 ///
-/// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`; the
+/// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
 /// surfaces; fog of light->fog_per_m that gives off the horizon's radiance.
 
@@ -41,6 +41,8 @@ struct Instant {
   std::vector<FrameView> views;   ///< At least one.
   std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
+  std::vector<ice::IceBody> ice;  ///< None without vertices.
+  std::uint32_t ice_surroundings_px = 64;
   std::vector<LampGlow> lamps;        ///< That shine and are seen, for the glow around them.
   std::vector<Headlight> headlights;  ///< Empty where it is too light to see their pool.
   std::vector<SmokePuff> smoke;

@@ -86,7 +86,8 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
 
 }  // namespace
 
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant) {
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant, std::uint32_t width,
+                            std::uint32_t height) {
   const Vec3 eye_m = world_eye(instant.views.front());
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant.loose);
   const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
@@ -94,6 +95,13 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
+  frame.ice = ice_tiles(instant.ice, instant.views, width, height);
+  if (!frame.ice.list.empty()) {
+    frame.ice_upload = upload_ice(context, instant.ice);
+    frame.around = surrounding_views(middle_of_ice(instant.ice, eye_m), instant.ice_surroundings_px);
+    for (const FrameView& view : frame.around)
+      frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
+  }
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
   return frame;

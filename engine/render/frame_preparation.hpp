@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/instant/instant.hpp"
+#include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
@@ -25,8 +26,14 @@ struct PreparedFrame {
   std::vector<PreparedView> views;
   ShadowCascades shadows;
   std::array<SurfaceDraws, cascade_count> casters;
+  IceTiles ice;
+  IceUpload ice_upload;
+  std::vector<FrameView> around;  ///< The surroundings of the ice; nothing where none is seen.
+  std::vector<PreparedView> around_views;
 };
 
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant);
+/// For a target of this size.
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant, std::uint32_t width,
+                            std::uint32_t height);
 
 }  // namespace septet::render

@@ -10,9 +10,7 @@ namespace septet::render {
 
 struct FrameTargets {
   std::uint32_t width = 0, height = 0;
-  /// What the views give, linear, before exposure; with multisampling four samples a pixel. A pass that draws after the opaque
-  /// surfaces may sample it and the depth, to show what lies behind (ice, glass): it ends the rendering, takes both with
-  /// Access::sampled, and draws on with what they hold loaded.
+  /// What the views give, linear, before exposure; with multisampling four samples a pixel.
   vulkan::DeviceImage radiance, depth;
   vulkan::DeviceImage mapped;   ///< The display's codes, before smoothing; absent without it.
   vulkan::DeviceImage picture;  ///< The finished frame, the display's codes.
@@ -28,8 +26,9 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
                           std::uint32_t width, std::uint32_t height, bool smoothed);
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
-/// Begins drawing into all of radiance and depth, cleared to darkness and an empty depth.
-void begin_view_rendering(PassContext& context, const FrameTargets& targets);
+/// Begins drawing into all of a target and its depth, cleared to darkness and an empty depth.
+void begin_view_rendering(PassContext& context, const vulkan::DeviceImage& target,
+                          const vulkan::DeviceImage& depth_target);
 /// Empties the depth of a part of the target, for a view that lies over another, and draws a black rim around it.
 void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle);
 

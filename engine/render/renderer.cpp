@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
 #include "engine/render/passes/sky_pass.hpp"
@@ -38,6 +40,12 @@ Expected<void> check_size(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
+using AddImage = std::function<ResourceId(const char*, const vulkan::DeviceImage&, Access)>;
+
+struct IceResources {
+  ResourceId front, back, depth, inside, around, around_depth, cube;
+};
+
 struct Renderer::Parts {
   RendererOptions options;
   vulkan::Device device;
@@ -55,6 +63,7 @@ struct Renderer::Parts {
   SkyPass sky_pass;
   GlowPass glow_pass;
   SmokePass smoke_pass;
+  IcePass ice_pass;
   ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
@@ -72,7 +81,13 @@ struct Renderer::Parts {
   void destroy();
   void draw(const Instant& instant);
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
-  void draw_views(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
+  void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
+                 const std::function<void()>& draw_seen_through);
+  void draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant);
+  IceResources add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
+                              const PreparedFrame& frame, const Instant& instant,
+                              const std::vector<ResourceUse>& view_reads);
+  void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
 
 void Renderer::Parts::create(const RendererOptions& wanted) {
@@ -124,6 +139,7 @@ void Renderer::Parts::destroy() {
   if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
   destroy_smoothing_pass(smoothing_pass, device);
   destroy_tone_mapping_pass(tone_mapping_pass, device);
+  destroy_ice_pass(ice_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
@@ -141,28 +157,85 @@ void Renderer::Parts::destroy() {
   destroy_device(device);
 }
 
-void Renderer::Parts::draw_views(PassContext& context, std::span<const PreparedView> views, const Instant& instant) {
+void Renderer::Parts::draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant,
+                                const FrameData& soot, const std::function<void()>& draw_seen_through) {
   const Environment& environment = instant.environment;
+  set_viewport(context, prepared.view->viewport);
+  vkCmdSetFrontFace(context.slot.commands,
+                    prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+  push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
+  bind_instances(context, prepared.draws.records);
+  const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights,
+                                   environment.snow_cover > 0.0, !instant.soot.cover.empty()};
+  push_records(context, soot);
+  draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
+  draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
+  draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
+  draw_seen_through();
+  draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
+  draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
+  draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
+}
+
+void Renderer::Parts::draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant) {
   const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
-  begin_view_rendering(context, targets);
-  for (const PreparedView& prepared : views) {
-    if (prepared.view != views.front().view) clear_inset(context, targets, prepared.view->viewport);
-    set_viewport(context, prepared.view->viewport);
-    vkCmdSetFrontFace(context.slot.commands,
-                      prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
-    bind_instances(context, prepared.draws.records);
-    const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights,
-                                     environment.snow_cover > 0.0, !instant.soot.cover.empty()};
-    push_records(context, soot);
-    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
-    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
-    draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
-    draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
-    draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
-    draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
+  begin_view_rendering(context, targets.radiance, targets.depth);
+  for (std::uint32_t i = 0; i < frame.views.size(); ++i) {
+    const PreparedView& prepared = frame.views[i];
+    if (i > 0) clear_inset(context, targets, prepared.view->viewport);
+    draw_view(context, prepared, instant, soot, [&] {
+      if (frame.ice.list.empty()) return;
+      draw_ice(ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
+      // Ice has no instances and its own constants; what follows has both.
+      bind_instances(context, prepared.draws.records);
+    });
   }
   vkCmdEndRendering(context.slot.commands);
+}
+
+void Renderer::Parts::draw_surroundings(PassContext& context, std::span<const PreparedView> views,
+                                        const Instant& instant) {
+  const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
+  begin_view_rendering(context, ice_pass.targets.around, ice_pass.targets.around_depth);
+  for (const PreparedView& prepared : views) draw_view(context, prepared, instant, soot, [] {});
+  vkCmdEndRendering(context.slot.commands);
+}
+
+IceResources Renderer::Parts::add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
+                                             const PreparedFrame& frame, const Instant& instant,
+                                             const std::vector<ResourceUse>& view_reads) {
+  const IceTargets& held = ice_pass.targets;
+  const IceResources ice{add_image("ice front", held.front, held.front_access),
+                         add_image("ice back", held.back, held.back_access),
+                         add_image("ice depth", held.depth, held.depth_access),
+                         add_image("ice inside", held.inside, held.inside_access),
+                         add_image("surroundings", held.around, held.around_access),
+                         add_image("surroundings depth", held.around_depth, held.around_depth_access),
+                         add_image("surroundings cube", held.cube, held.cube_access)};
+  const auto layer = [this, &context, &frame, &instant](IceLayer which) {
+    return [this, &context, &frame, &instant, which] {
+      draw_ice_layer(ice_pass, context, which, frame.ice, instant.ice, frame.ice_upload,
+                     {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view});
+    };
+  };
+  graph.add_pass("surroundings",
+                 {view_reads, {{ice.around, Access::color_attachment}, {ice.around_depth, Access::depth_attachment}}},
+                 [this, &context, &frame, &instant] { draw_surroundings(context, frame.around_views, instant); });
+  graph.add_pass("surroundings cube",
+                 {{{ice.around, Access::transfer_source}}, {{ice.cube, Access::transfer_destination}}},
+                 [this, &context] { copy_surroundings(ice_pass, context); });
+  graph.add_pass("ice front faces",
+                 {view_reads, {{ice.front, Access::color_attachment}, {ice.depth, Access::depth_attachment}}},
+                 layer(IceLayer::front));
+  std::vector<ResourceUse> reads = view_reads;
+  reads.push_back({ice.front, Access::sampled});
+  graph.add_pass("ice back faces",
+                 {reads, {{ice.back, Access::color_attachment}, {ice.depth, Access::depth_attachment}}},
+                 layer(IceLayer::back));
+  reads.push_back({ice.back, Access::sampled});
+  reads.push_back({ice.cube, Access::sampled});
+  graph.add_pass("ice inside", {reads, {{ice.inside, Access::color_attachment}}}, layer(IceLayer::inside));
+  return ice;
 }
 
 std::optional<std::uint32_t> Renderer::Parts::next_window_image(const vulkan::FrameSlot& slot) {
@@ -182,8 +255,13 @@ void Renderer::Parts::draw(const Instant& instant) {
   table_light = instant.light;
   exposure = instant.exposure;
 
-  const PreparedFrame frame = prepare_frame(context, scene, instant);
+  const PreparedFrame frame = prepare_frame(context, scene, instant, targets.width, targets.height);
   const bool new_text = lay_out(*overlay_pass, instant.overlay);
+  const bool icy = !frame.ice.list.empty();
+  if (icy && !ice_targets_fit(ice_pass, targets.width, targets.height, instant.ice_surroundings_px)) {
+    wait_for_frames(ring, device);
+    prepare_ice_targets(ice_pass, context, targets.width, targets.height, instant.ice_surroundings_px);
+  }
 
   RenderGraph graph;
   std::vector<vulkan::ImageBarrier> images;  // By resource.
@@ -210,10 +288,15 @@ void Renderer::Parts::draw(const Instant& instant) {
       draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
                    targets.shadow_map.layer_views[i]);
   });
-  graph.add_pass("views",
-                 {{{table, Access::sampled}, {shadow_map, Access::sampled}},
-                  {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
-                 [&] { draw_views(context, frame.views, instant); });
+  std::vector<ResourceUse> view_reads{{table, Access::sampled}, {shadow_map, Access::sampled}};
+  std::optional<IceResources> ice;
+  if (icy) {
+    ice = add_ice_passes(graph, add_image, context, frame, instant, view_reads);
+    for (const ResourceId seen : {ice->front, ice->back, ice->inside, ice->cube})
+      view_reads.push_back({seen, Access::sampled});
+  }
+  graph.add_pass("views", {view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
+                 [&] { draw_views(context, frame, instant); });
   graph.add_pass("tone mapping",
                  {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
                    draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view,
@@ -260,6 +343,16 @@ void Renderer::Parts::draw(const Instant& instant) {
   targets.picture_access = left[picture];
   atlas_access = left[atlas];
   targets.radiance_access = left[radiance];
+  if (ice) {
+    IceTargets& held = ice_pass.targets;
+    held.front_access = left[ice->front];
+    held.back_access = left[ice->back];
+    held.depth_access = left[ice->depth];
+    held.inside_access = left[ice->inside];
+    held.around_access = left[ice->around];
+    held.around_depth_access = left[ice->around_depth];
+    held.cube_access = left[ice->cube];
+  }
   if (mapped) targets.mapped_access = left[*mapped];
   if (window_image) {
     submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});

@@ -1,6 +1,6 @@
 #include "car-io/driving_keys.hpp"
 #include "program/command_line.hpp"
-#include "sim-server/command/film_command.hpp"
+#include "sim-server/command/other_program.hpp"
 #include "sim-server/command/replay_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/septet/options.hpp"
@@ -75,12 +75,17 @@ void add_drive_commands(CLI::App& app, Options& options) {
     };
   });
 
-  // Its options are those of septet-film, which explains them too.
+  // The options of these two are those of the programs that they start, which explain them too.
   auto* film_command = app.add_subcommand(
       "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
   film_command->set_help_flag();
-  film_command->callback([&] { options.work = [&] { return run_film(options.film); }; });
+  film_command->callback([&] { options.work = [&] { return become("septet-film", options.passed_on); }; });
+
+  auto* ice_command = app.add_subcommand("ice", "Draw an object of ice alone, turning, each part of it on or off");
+  ice_command->prefix_command();
+  ice_command->set_help_flag();
+  ice_command->callback([&] { options.work = [&] { return become("septet-ice", options.passed_on); }; });
 
   auto* report_command = app.add_subcommand("report", "Write report.html for a session");
   report_command->add_option("session", options.session, "Session file")->required();

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
   });
   app.option_defaults()->always_capture_default();
   server::Options options;
-  if (argc > 2) options.film = {argv + 2, argv + argc};
+  if (argc > 2) options.passed_on = {argv + 2, argv + argc};
   server::add_drive_commands(app, options);
   server::add_track_commands(app, options);
   server::add_file_commands(app, options);

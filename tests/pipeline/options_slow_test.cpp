@@ -29,7 +29,7 @@ bool has(const std::string& text, const std::string& words) { return text.find(w
 }  // namespace
 
 TEST_CASE("every program names its version with the revision") {
-  for (const char* program : {"septet", "septet-server", "septet-screen", "septet-film", "septet-car"}) {
+  for (const char* program : {"septet", "septet-server", "septet-screen", "septet-film", "septet-ice", "septet-car"}) {
     CAPTURE(program);
     CHECK(output_of(std::string(program) + " --version") == version_text() + "\n");
   }
@@ -45,7 +45,8 @@ TEST_CASE("no program takes a number that is none, and each ends with status 2 f
         Line{"septet", "drive", "--no-screens", "--seed", "99999999999999999999", "--out", out},
         Line{"septet", "replay", "x.sqlite", "--from", "nan"},
         Line{"septet", "vehicle", "test", "--manoeuvre", "stop", "--speed", "nan"},
-        Line{"septet", "film", "x.sqlite", "--fps", "nan"}, Line{"septet-server", "--keys", "keys", "--seconds", "nan"},
+        Line{"septet", "film", "x.sqlite", "--fps", "nan"}, Line{"septet", "ice", "--bump", "nan"},
+        Line{"septet", "ice", "--mode", "glass"}, Line{"septet-server", "--keys", "keys", "--seconds", "nan"},
         Line{"septet-server", "--keys", "keys", "--wait-for-screens", "nan"}, Line{"septet-server", "--nonsense"},
         Line{"septet-screen", "--nonsense"}, Line{"septet-car", "--nonsense"}}) {
     const Ended ended = run(line.front(), {line.begin() + 1, line.end()}, folder / "err");

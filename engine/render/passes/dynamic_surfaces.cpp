@@ -14,6 +14,7 @@ DynamicSurfaces upload_dynamic(PassContext& context, const DeviceScene& scene, s
     surface.placed.radius_m = mesh.radius_m;
     surface.placed.tint = glm::vec4(mesh.paint, 1.0f);
     surface.placed.share_of_sky = share_of_sky;
+    surface.placed.seen = mesh.seen;
     const FrameData vertices = store(context, std::span<const scene::SurfaceVertex>(mesh.vertices));
     surface.vertices = vertices.buffer;
     surface.vertices_at = vertices.offset;

@@ -45,6 +45,24 @@ constexpr std::uint32_t tone_mapping_frag_code[] = {
 constexpr std::uint32_t tone_mapping_samples_frag_code[] = {
 #include "engine/render/shaders/tone_mapping_samples.frag.inc"
 };
+constexpr std::uint32_t ice_vert_code[] = {
+#include "engine/render/shaders/ice.vert.inc"
+};
+constexpr std::uint32_t ice_frag_code[] = {
+#include "engine/render/shaders/ice.frag.inc"
+};
+constexpr std::uint32_t ice_layer_vert_code[] = {
+#include "engine/render/shaders/ice_layer.vert.inc"
+};
+constexpr std::uint32_t ice_layer_frag_code[] = {
+#include "engine/render/shaders/ice_layer.frag.inc"
+};
+constexpr std::uint32_t ice_crack_frag_code[] = {
+#include "engine/render/shaders/ice_crack.frag.inc"
+};
+constexpr std::uint32_t ice_inside_frag_code[] = {
+#include "engine/render/shaders/ice_inside.frag.inc"
+};
 constexpr std::uint32_t overlay_vert_code[] = {
 #include "engine/render/shaders/overlay.vert.inc"
 };
@@ -68,6 +86,12 @@ std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_co
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
 std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_code; }
 std::span<const std::uint32_t> tone_mapping_samples_frag() { return tone_mapping_samples_frag_code; }
+std::span<const std::uint32_t> ice_vert() { return ice_vert_code; }
+std::span<const std::uint32_t> ice_frag() { return ice_frag_code; }
+std::span<const std::uint32_t> ice_layer_vert() { return ice_layer_vert_code; }
+std::span<const std::uint32_t> ice_layer_frag() { return ice_layer_frag_code; }
+std::span<const std::uint32_t> ice_crack_frag() { return ice_crack_frag_code; }
+std::span<const std::uint32_t> ice_inside_frag() { return ice_inside_frag_code; }
 std::span<const std::uint32_t> overlay_vert() { return overlay_vert_code; }
 std::span<const std::uint32_t> overlay_frag() { return overlay_frag_code; }
 

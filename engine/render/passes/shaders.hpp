@@ -20,6 +20,12 @@ std::span<const std::uint32_t> whole_target_vert();
 std::span<const std::uint32_t> smoothing_frag();
 std::span<const std::uint32_t> tone_mapping_frag();
 std::span<const std::uint32_t> tone_mapping_samples_frag();
+std::span<const std::uint32_t> ice_vert();
+std::span<const std::uint32_t> ice_frag();
+std::span<const std::uint32_t> ice_layer_vert();
+std::span<const std::uint32_t> ice_layer_frag();
+std::span<const std::uint32_t> ice_crack_frag();
+std::span<const std::uint32_t> ice_inside_frag();
 std::span<const std::uint32_t> overlay_vert();
 std::span<const std::uint32_t> overlay_frag();
 

@@ -64,11 +64,11 @@ void release(MemoryPool& pool, Allocation& allocation) {
   std::erase_if(pool.blocks, [&](const auto& other) { return other.get() == block; });
 }
 
-VkImageView create_view(const Device& device, const DeviceImage& image, bool array, std::uint32_t first,
+VkImageView create_view(const Device& device, const DeviceImage& image, VkImageViewType type, std::uint32_t first,
                         std::uint32_t count) {
   VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
   info.image = image.image;
-  info.viewType = array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+  info.viewType = type;
   info.format = image.description.format;
   info.subresourceRange = {image.description.aspect, 0, image.description.mip_levels, first, count};
   VkImageView view = VK_NULL_HANDLE;
@@ -116,6 +116,7 @@ DeviceImage create_image(MemoryPool& pool, const ImageDescription& description) 
   result.description = description;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = VK_IMAGE_TYPE_2D;
+  if (description.cube) info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
   info.format = description.format;
   info.extent = {description.width, description.height, 1};
   info.mipLevels = description.mip_levels;
@@ -131,10 +132,13 @@ DeviceImage create_image(MemoryPool& pool, const ImageDescription& description) 
     require(
         vkBindImageMemory(pool.device->device, result.image, result.allocation.block->memory, result.allocation.offset),
         "vkBindImageMemory");
-    result.view = create_view(*pool.device, result, description.array, 0, description.layers);
+    const VkImageViewType type = description.cube    ? VK_IMAGE_VIEW_TYPE_CUBE
+                                 : description.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                     : VK_IMAGE_VIEW_TYPE_2D;
+    result.view = create_view(*pool.device, result, type, 0, description.layers);
     if (description.layers > 1)
       for (std::uint32_t layer = 0; layer < description.layers; ++layer)
-        result.layer_views.push_back(create_view(*pool.device, result, false, layer, 1));
+        result.layer_views.push_back(create_view(*pool.device, result, VK_IMAGE_VIEW_TYPE_2D, layer, 1));
   } catch (const Failure&) {
     destroy_image(pool, result);
     throw;

@@ -54,6 +54,7 @@ struct ImageDescription {
   std::uint32_t mip_levels = 1;
   std::uint32_t layers = 1;
   bool array = false;  ///< The view is that of an array, even of one layer.
+  bool cube = false;   ///< The view is that of a cube, whose faces are the six layers.
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
 };

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/effects/ice/ice_body.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::render::vulkan {
@@ -22,13 +23,14 @@ VkPipelineColorBlendAttachmentState blend_state(Blend blend) {
   VkPipelineColorBlendAttachmentState state{};
   // The target stays opaque: alpha serves blending and coverage only.
   state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
-  state.blendEnable = blend != Blend::none;
+  if (blend == Blend::data || blend == Blend::layer) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
+  state.blendEnable = blend != Blend::none && blend != Blend::data;
   // Colours come premultiplied.
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor = blend == Blend::add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorBlendOp = VK_BLEND_OP_ADD;
-  state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.srcAlphaBlendFactor = blend == Blend::layer ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ZERO;
+  state.dstAlphaBlendFactor = blend == Blend::layer ? VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }
@@ -107,7 +109,18 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
       {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 64},
   }};
   VkPipelineVertexInputStateCreateInfo vertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-  if (description.vertex_input != VertexInput::none) {
+  using ice::IceVertex;
+  constexpr VkVertexInputBindingDescription ice_buffer{0, sizeof(IceVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+  constexpr std::array<VkVertexInputAttributeDescription, 3> ice_attributes{
+      {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(IceVertex, position_m)},
+       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(IceVertex, normal)},
+       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(IceVertex, rest_m)}}};
+  if (description.vertex_input == VertexInput::ice) {
+    vertices.vertexBindingDescriptionCount = 1;
+    vertices.pVertexBindingDescriptions = &ice_buffer;
+    vertices.vertexAttributeDescriptionCount = ice_attributes.size();
+    vertices.pVertexAttributeDescriptions = ice_attributes.data();
+  } else if (description.vertex_input != VertexInput::none) {
     vertices.vertexBindingDescriptionCount = buffers.size();
     vertices.pVertexBindingDescriptions = buffers.data();
     vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? 8 : 5;

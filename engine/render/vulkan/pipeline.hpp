@@ -17,7 +17,12 @@ enum Binding : std::uint32_t {
   binding_shadow = 3,
   binding_noise = 4,
   binding_image = 5,  ///< The material's image, or the overlay's.
-  binding_count = 6,
+  binding_ice_front =
+      6,                 ///< Ice (passes/ice_pass.hpp): normals and depth of its nearest front faces, of the back faces
+  binding_ice_back = 7,  ///< behind them, what is inside it,
+  binding_ice_inside = 8,
+  binding_surroundings = 9,  ///< and the cube map of what lies around it.
+  binding_count = 10,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
@@ -30,11 +35,12 @@ struct PipelineLayout {
 void create_pipeline_layout(PipelineLayout& layout, const Device& device);
 void destroy_pipeline_layout(PipelineLayout& layout, const Device& device);
 
-enum class Blend : std::uint8_t { none, over, add };
+/// `data`: no blending, and alpha is stored like the other three. `layer`: as `over`, onto a picture with an alpha of its own.
+enum class Blend : std::uint8_t { none, over, add, data, layer };
 /// What the vertex shader takes. Buffer 0, scene::SurfaceVertex: position, texture coordinates and normal at locations 0, 1,
 /// 2. Buffer 1, once an instance: five vectors of four floats at locations 3 to 7. `shadow` goes without the normal and the
-/// last two vectors.
-enum class VertexInput : std::uint8_t { none, shadow, surface };
+/// last two vectors. `ice`: one buffer of ice::IceVertex, position, normal and place at rest at locations 0, 1, 2.
+enum class VertexInput : std::uint8_t { none, shadow, surface, ice };
 
 inline constexpr std::uint32_t instance_stride = 80;
 

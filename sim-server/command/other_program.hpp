@@ -1,5 +1,5 @@
 #pragma once
-/// `septet film`: the film is made by `septet-film`, which lies beside this program and takes its place.
+/// `septet film` and `septet ice`: what draws is a program of its own, which lies beside this one and takes its place.
 
 #include <string>
 #include <vector>
@@ -9,6 +9,6 @@
 namespace septet::server {
 
 /// Returns only where that program cannot be started.
-Expected<int> run_film(std::vector<std::string> arguments);
+Expected<int> become(const std::string& name, std::vector<std::string> arguments);
 
 }  // namespace septet::server

@@ -1,4 +1,4 @@
-#include "sim-server/command/film_command.hpp"
+#include "sim-server/command/other_program.hpp"
 
 #include <unistd.h>
 
@@ -9,8 +9,8 @@
 
 namespace septet::server {
 
-Expected<int> run_film(std::vector<std::string> arguments) {
-  std::string program = (program::own_folder() / "septet-film").string();
+Expected<int> become(const std::string& name, std::vector<std::string> arguments) {
+  std::string program = (program::own_folder() / name).string();
   std::vector<char*> argv{program.data()};
   for (auto& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);

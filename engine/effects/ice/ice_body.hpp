@@ -1,0 +1,47 @@
+#pragma once
+/// One body of ice as a renderer draws it: its surface, what is inside it, and how it looks. Plain data.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/effects/ice/optics.hpp"
+
+namespace septet::ice {
+
+enum class Mode : std::uint8_t {
+  paper,    ///< Equations 1 to 4: one lookup for both faces.
+  quality,  ///< Light is followed from face to face: two interfaces, total reflection, absorption.
+};
+
+struct Look {
+  Mode mode = Mode::paper;
+  bool two_sided = true;  ///< Off: the front face alone refracts.
+  BackSign back_sign = BackSign::as_printed;
+  float back_share = static_cast<float>(paper_back_share);
+  bool reflects = true;        ///< Off: what is seen through it alone.
+  bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
+  float bump = 0.12f;          ///< Slope of the unevenness; 0: as smooth as its mesh.
+  float bump_size_m = 0.05f;   ///< Length of its longest waves.
+  float roughness = 0.0f;      ///< Share of the surface that crystals of frost make white.
+  float share_of_sky = 1.0f;   ///< Of the sun's light that reaches it.
+  glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
+};
+
+/// Of a body's surface; `rest_m`: where the point lay in the whole body before anything moved or broke, which is what
+/// unevenness, cracks and air keep to. Of what is inside (cracks.hpp): texture coordinates, and which kind it is.
+struct IceVertex {
+  glm::vec3 position_m{0.0f};
+  glm::vec3 normal{0.0f};
+  glm::vec3 rest_m{0.0f};
+};
+
+struct IceBody {
+  Vec3 origin_m{0.0};               ///< World.
+  std::vector<IceVertex> vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
+  std::vector<IceVertex> inside;    ///< Cracks and planes of air, seen from both sides, reaching beyond the surface.
+  Look look;
+};
+
+}  // namespace septet::ice

@@ -1,0 +1,47 @@
+#pragma once
+/// Where the layers of each body of ice are drawn: a rectangle a body in one image, seen through a frustum fitted to it.
+///
+/// Near plane and rectangle close around the body, as the paper closes its near and far planes (section 3.3), so the cost
+/// follows the body's size on the screen. The frustum depends on the eye and the body alone: on both sides of a screen's
+/// edge the layers hold the same. No device is needed.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "engine/instant/instant.hpp"
+#include "engine/render/words.hpp"
+
+namespace septet::render {
+
+/// The twin of Ice in shaders/ice.glsl.
+struct IceConstants {
+  glm::vec4 u{0.0f}, v{0.0f}, forward{0.0f}, origin{0.0f}, blend{0.0f}, absorption{0.0f}, rectangle{0.0f};
+};
+
+struct IceTile {
+  std::uint32_t body = 0, view = 0;  ///< Indices of Instant::ice and Instant::views.
+  PixelRectangle rectangle;
+  IceConstants constants;
+};
+
+struct IceTiles {
+  std::vector<IceTile> list;  ///< Nearest body last.
+  std::uint32_t used_width = 0, used_height = 0;
+};
+
+/// A rectangle for each body that a view sees, in one image of this size. Where they do not fit, all are drawn coarser.
+IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameView> views, std::uint32_t width,
+                   std::uint32_t height);
+
+/// From where the surroundings of the ice are seen: the middle of all of it, what is near to the eye first. The same on all
+/// screens of one eye.
+Vec3 middle_of_ice(std::span<const ice::IceBody> bodies, const Vec3& eye_m);
+
+/// The six views of a cube map, side by side in two rows of three: +x, −x, +z, −z, +y, −y, as `around` in shaders/ice.glsl
+/// looks them up.
+std::vector<FrameView> surrounding_views(const Vec3& middle_m, std::uint32_t side_px);
+
+}  // namespace septet::render

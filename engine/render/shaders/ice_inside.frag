@@ -1,0 +1,69 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+#include "ice.glsl"
+
+// Cracks and planes of air, clipped between the body's front and back faces (section 3.3 of the paper).
+
+layout(constant_id = 0) const uint quality = 0;
+
+layout(location = 0) in vec3 relative;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 place;  // Texture coordinates, and 1 for air, 2 for a mark.
+layout(location = 0) out vec4 result;
+
+float random(vec2 cell) { return fract(sin(dot(cell, vec2(12.9898, 78.233))) * 43758.5453); }
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  float front = texelFetch(ice_front, at, 0).w, back = texelFetch(ice_back, at, 0).w;
+  float depth = dot(relative, ice.forward.xyz);
+  if (front == 0.0 || depth < front || depth > back) discard;
+  if (place.z > 1.5) {
+    result = vec4(1.0, 0.0, 0.0, 1.0);
+    return;
+  }
+  vec3 n = normalize(normal), eye = normalize(relative);
+  vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;
+  if (place.z > 0.5) {
+    // Haze where the noise is high, and bubbles: one at most in each cell.
+    float rank = textureLod(noise, place.xy * 1.7, 0.0).r;
+    vec2 cell = floor(place.xy * 22.0), off = place.xy * 22.0 - cell - 0.5;
+    float size = random(cell), bubble = 0.0;
+    if (size > 0.72) {
+      off -= 0.5 * (vec2(random(cell + 7.1), random(cell + 3.7)) - 0.5);
+      float radius = 0.06 + 0.5 * (size - 0.72);
+      bubble = 0.35 * (1.0 - smoothstep(0.6 * radius, radius, length(off)));
+    }
+    // Seen along its edge a plane would show what it is.
+    float alpha = (0.07 * smoothstep(0.55, 1.0, rank * rank) + bubble) * smoothstep(0.1, 0.5, abs(dot(n, eye)));
+    vec3 light = 0.5 * (around(vec3(0.0, 0.0, 1.0)) + around(-eye));
+    result = vec4(0.8 * (light + 0.12 * sunlight) * alpha, alpha);
+    return;
+  }
+  // Uneven as a broken face is.
+  vec2 q = place.xy * 9.0;
+  n = normalize(n + 0.10 * vec3(cos(q.x + 1.3 * sin(q.y)), cos(1.4 * q.y + sin(0.7 * q.x)), sin(q.x - q.y)));
+  n *= -sign(dot(n, eye) + 1e-6);
+  // Light mirrored on the side of the eye, and light that comes through from the other one.
+  vec3 h = normalize(view.light_direction.xyz - eye);
+  float shine = pow(abs(dot(n, h)), 90.0);
+  vec3 radiance = sunlight * shine;
+  float share = 0.0;
+  if (quality != 0) {
+    // A thin gap of air: twice a face's share, and all of it beyond the limit of total reflection.
+    vec3 in_ice = eye;
+    float cosine = abs(dot(n, in_ice)), square = 1.0 - out_of_ice * out_of_ice * (1.0 - cosine * cosine);
+    float beyond = sqrt(max(square, 0.0)), s = (out_of_ice * cosine - beyond) / (out_of_ice * cosine + beyond);
+    float p = (out_of_ice * beyond - cosine) / (out_of_ice * beyond + cosine);
+    float once = square < 0.0 ? 1.0 : 0.5 * (s * s + p * p);
+    // Cracks touch here and there.
+    share = 0.8 * (2.0 * once / (1.0 + once)) * smoothstep(0.2, 0.6, textureLod(noise, place.xy * 0.23, 0.0).r);
+    radiance += share * around(reflect(eye, n));
+  } else {
+    // The paper's: transparent but for its highlight; what glares in the surroundings is a light, too.
+    vec3 mirrored = around(reflect(eye, n));
+    radiance += mirrored * 0.35 * smoothstep(0.6, 1.6, dot(mirrored, vec3(0.33)));
+  }
+  result = vec4(radiance, share);
+}
