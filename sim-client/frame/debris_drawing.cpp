@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/effects/ice/cracks.hpp"
 
 namespace septet::frame {
 namespace {
@@ -57,10 +60,52 @@ std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const Ti
   return DebrisInstant{before, before, 0.0};
 }
 
+namespace {
+
+/// How large the pieces between the cracks of a slab are, about.
+constexpr float crack_cell_m = 0.45f;
+
+/// Cracks of the field that reach into what lies between these places.
+std::vector<ice::IceVertex> cracks_between(std::span<const Vec3> rest_m) {
+  std::vector<ice::IceVertex> inside;
+  if (rest_m.empty()) return inside;
+  Vec3 low(INFINITY), high(-INFINITY);
+  for (const Vec3& place : rest_m) low = glm::min(low, place), high = glm::max(high, place);
+  for (const ice::Crack& crack : ice::cracks_in({glm::vec3(low), glm::vec3(high)}, crack_cell_m))
+    ice::append_crack(inside, crack, ice::InsideKind::crack, 3);
+  return inside;
+}
+
+/// Axes through three points: from the first to the second, and in their plane.
+glm::dmat3 axes_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 x = glm::normalize(b - a), z = glm::normalize(glm::cross(x, c - a));
+  return {x, glm::cross(z, x), z};
+}
+
+/// How a body that hardly deforms lies: by its three vertices that span the widest triangle, about. Nothing for one that has
+/// no width.
+std::optional<glm::dmat3> turn_from_rest(std::span<const Vec3> rest_m, std::span<const Vec3> places) {
+  std::size_t b = 0, c = 0;
+  double widest = 0.0;
+  for (std::size_t i = 1; i < rest_m.size(); ++i)
+    if (const double away = glm::length(rest_m[i] - rest_m[0]); away > widest) widest = away, b = i;
+  double area = 0.0;
+  for (std::size_t i = 1; i < rest_m.size(); ++i)
+    if (const double size = glm::length(glm::cross(rest_m[b] - rest_m[0], rest_m[i] - rest_m[0])); size > area)
+      area = size, c = i;
+  if (area < 1e-6 || glm::length(glm::cross(places[b] - places[0], places[c] - places[0])) < 1e-6) return std::nullopt;
+  return axes_of(places[0], places[b], places[c]) * glm::transpose(axes_of(rest_m[0], rest_m[b], rest_m[c]));
+}
+
+}  // namespace
+
 DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
     : part_(to.part),
       material_(to.material),
       both_sides_(to.shards),
+      rest_m_(to.rest_m.size() == std::max(from.vertices_m.size(), to.vertices_m.size()) ? to.rest_m
+                                                                                           : std::vector<Vec3>()),
+      inside_(cracks_between(rest_m_)),
       from_m_(places_of(from, to)),
       step_m_(places_of(to, from)),
       triangles_(to.triangles),
@@ -95,6 +140,34 @@ instant::DynamicMesh DebrisWay::at(double share) const {
   return mesh;
 }
 
+std::optional<ice::IceBody> DebrisWay::ice_of(const instant::DynamicMesh& mesh) const {
+  if (rest_m_.empty() || mesh.vertices.size() != 3 * triangles_.size()) return std::nullopt;
+  ice::IceBody body;
+  body.origin_m = mesh.origin_m;
+  body.look.bump_size_m = 0.16f;
+  body.look.bump = 0.10f;
+  body.vertices.reserve(mesh.vertices.size());
+  std::vector<Vec3> places(rest_m_.size(), Vec3(0.0));
+  Vec3 rest_middle(0.0), middle(0.0);
+  double count = 0.0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const std::uint16_t vertex = triangles_[i / 3][i % 3];
+    places[vertex] = Vec3(mesh.vertices[i].position_m);
+    rest_middle += rest_m_[vertex], middle += places[vertex], count += 1.0;
+    body.vertices.push_back({mesh.vertices[i].position_m, mesh.vertices[i].normal, glm::vec3(rest_m_[vertex])});
+  }
+  const auto turn = turn_from_rest(rest_m_, places);
+  if (!turn) return body;
+  rest_middle /= count, middle /= count;
+  const glm::mat3 turned(*turn);
+  body.inside = inside_;
+  for (ice::IceVertex& vertex : body.inside) {
+    vertex.position_m = glm::vec3(middle + *turn * (Vec3(vertex.position_m) - rest_middle));
+    vertex.normal = turned * vertex.normal;
+  }
+  return body;
+}
+
 std::string_view debris_look(debris::Part part, debris::Material material) {
   switch (part) {
     case debris::Part::traffic_cone:
@@ -125,9 +198,10 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
   return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};
 }
 
-std::vector<instant::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
-                                                      const scene::ResolvedScene& scene) {
-  std::vector<instant::DynamicMesh> meshes;
+DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
+                                const scene::ResolvedScene& scene) {
+  DrawnDebris drawn;
+  std::vector<instant::DynamicMesh>& meshes = drawn.meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;
   for (auto& [key, entry] : ways_) entry.used = false;
   for (const EffectMoment& moment : moments) {
@@ -148,10 +222,14 @@ std::vector<instant::DynamicMesh> DebrisDrawing::draw(std::span<const EffectMome
     if (look == scene.prototypes.end()) continue;
     meshes.push_back(way.at(instant->share));
     meshes.back().prototype = static_cast<std::uint32_t>(look - scene.prototypes.begin());
+    if (auto body = way.ice_of(meshes.back())) {
+      meshes.back().seen = false;
+      drawn.ice.push_back(std::move(*body));
+    }
   }
   std::erase_if(decoded_, [](const auto& entry) { return !entry.second.used; });
   std::erase_if(ways_, [](const auto& entry) { return !entry.second.used; });
-  return meshes;
+  return drawn;
 }
 
 }  // namespace septet::frame

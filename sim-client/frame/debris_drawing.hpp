@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/ice/ice_body.hpp"
 #include "engine/geometry/temporal_normals.hpp"
 #include "engine/instant/frame_input.hpp"
 #include "sim-client/frame/effect_playout.hpp"
@@ -43,11 +44,16 @@ class DebrisWay {
   instant::DynamicMesh at(double share) const;
   debris::Part part() const { return part_; }
   debris::Material material() const { return material_; }
+  /// The same triangles as ice to see through, with the cracks of the field that they lie in; nothing where they are of
+  /// something else. `mesh` is what `at` gave.
+  std::optional<ice::IceBody> ice_of(const instant::DynamicMesh& mesh) const;
 
  private:
   debris::Part part_;
   debris::Material material_;
   bool both_sides_;
+  std::vector<Vec3> rest_m_;               ///< Of each vertex; only of ice.
+  std::vector<ice::IceVertex> inside_;     ///< In the frame at rest.
   std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and the way to its next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;
   TemporalNormals normals_;
@@ -56,11 +62,17 @@ class DebrisWay {
 /// Name of the prototype whose material a piece wears: "debris/ice".
 std::string_view debris_look(debris::Part part, debris::Material material);
 
+/// Debris as a frame shows it: what is `ice` is among the meshes as well, for its shadow.
+struct DrawnDebris {
+  std::vector<instant::DynamicMesh> meshes;
+  std::vector<ice::IceBody> ice;
+};
+
 class DebrisDrawing {
  public:
   /// All debris of the moments, ready for a frame.
-  std::vector<instant::DynamicMesh> draw(std::span<const EffectMoment> moments, double tick,
-                                         const scene::ResolvedScene& scene);
+  DrawnDebris draw(std::span<const EffectMoment> moments, double tick,
+                   const scene::ResolvedScene& scene);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes whose normals were worked out so far.

@@ -5,13 +5,14 @@ namespace septet::frame {
 void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, double tick_s,
                           const scene::ResolvedScene& scene) {
   const double simulated_time_s = instant.simulated_time_s;
-  meshes_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene);
+  debris_shown_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene);
   puffs_ = smoke_.draw(instant.effects, simulated_time_s);
   soot_.draw(instant.effects);
 }
 
 void EffectsDrawing::add_to(instant::FrameInput& frame) const {
-  frame.meshes = meshes_;
+  frame.meshes = debris_shown_.meshes;
+  frame.ice = debris_shown_.ice;
   frame.smoke = puffs_;
   frame.soot = soot_.field();
 }

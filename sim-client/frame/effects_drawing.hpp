@@ -18,7 +18,7 @@ class EffectsDrawing {
   DebrisDrawing debris_;
   SmokeDrawing smoke_;
   SootDrawing soot_;
-  std::vector<instant::DynamicMesh> meshes_;
+  DrawnDebris debris_shown_;
   std::vector<instant::SmokePuff> puffs_;
 };
 

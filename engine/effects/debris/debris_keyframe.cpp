@@ -10,7 +10,8 @@
 namespace septet::debris {
 namespace {
 
-constexpr std::uint8_t version = 1;
+/// Whether the places at rest follow.
+constexpr std::uint8_t without_rest = 1, with_rest = 2;
 /// A coordinate of the first vertex, and a difference between vertices, in quanta.
 constexpr std::int64_t furthest = 1'000'000'000, widest = 1'000'000;
 
@@ -24,6 +25,38 @@ Place quantised(const Vec3& p) {
         std::clamp<std::int64_t>(std::llround(std::clamp(p[c] / position_quantum_m, -1e9, 1e9)), -furthest, furthest);
   }
   return result;
+}
+
+/// Each from the one before.
+void put_places(ByteWriter& writer, std::span<const Vec3> places) {
+  Place last{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place place = quantised(places[i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t limit = i == 0 ? furthest : widest;
+      const std::int64_t step = std::clamp(place[c] - last[c], -limit, limit);
+      writer.put_signed_varint(step);
+      last[c] += step;
+    }
+  }
+}
+
+/// False where one is out of bounds.
+bool read_places(ByteReader& reader, std::size_t count, std::vector<Vec3>& places) {
+  places.reserve(count);
+  Place place{};
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t step = reader.get_signed_varint(), limit = i == 0 ? furthest : widest;
+      if (!reader.ok() || step < -limit || step > limit) return false;
+      place[c] += step;
+      if (place[c] < -2 * furthest || place[c] > 2 * furthest) return false;
+    }
+    places.emplace_back(
+        Vec3(static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2])) *
+        position_quantum_m);
+  }
+  return true;
 }
 
 }  // namespace
@@ -56,7 +89,11 @@ Keyframe keyframe_of(const Piece& piece) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [found, fresh] =
           place.try_emplace(triangle.nodes[c], static_cast<std::uint16_t>(keyframe.vertices_m.size()));
-      if (fresh) keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
+      if (fresh) {
+        keyframe.vertices_m.push_back(from_eigen(piece.body.position_m[triangle.nodes[c]]));
+        if (keyframe.material == Material::ice)
+          keyframe.rest_m.push_back(from_eigen(piece.body.rest_position_m[triangle.nodes[c]]));
+      }
       corners[c] = found->second;
     }
     keyframe.triangles.push_back(corners);
@@ -69,21 +106,15 @@ Keyframe keyframe_of(const Piece& piece) {
 Bytes encode(const Keyframe& keyframe) {
   Bytes bytes;
   ByteWriter writer(bytes);
-  writer.put(version);
+  writer.put(keyframe.rest_m.empty() ? without_rest : with_rest);
   writer.put(static_cast<std::uint8_t>(keyframe.part));
   writer.put(static_cast<std::uint8_t>(keyframe.material));
   writer.put(static_cast<std::uint8_t>((keyframe.shards ? 1 : 0) | (keyframe.asleep ? 2 : 0)));
   writer.put_varint(keyframe.vertices_m.size());
-  Place last{};
-  for (std::size_t i = 0; i < keyframe.vertices_m.size(); ++i) {
-    Place place = quantised(keyframe.vertices_m[i]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t limit = i == 0 ? furthest : widest;
-      const std::int64_t step = std::clamp(place[c] - last[c], -limit, limit);
-      writer.put_signed_varint(step);
-      last[c] += step;
-    }
-  }
+  SEPTET_CHECK(keyframe.rest_m.empty() || keyframe.rest_m.size() == keyframe.vertices_m.size(), "{} places at rest",
+               keyframe.rest_m.size());
+  put_places(writer, keyframe.vertices_m);
+  if (!keyframe.rest_m.empty()) put_places(writer, keyframe.rest_m);
   writer.put_varint(keyframe.triangles.size());
   std::int64_t last_index = 0;
   for (const auto& triangle : keyframe.triangles)
@@ -100,7 +131,8 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   const auto refuse = [](const char* what) {
     return failure(what, "debris keyframe", "send what the same version of Septet wrote");
   };
-  if (reader.get<std::uint8_t>() != version) return refuse("unknown version");
+  const auto version = reader.get<std::uint8_t>();
+  if (version != without_rest && version != with_rest) return refuse("unknown version");
   const auto part = reader.get<std::uint8_t>(), material = reader.get<std::uint8_t>(),
              flags = reader.get<std::uint8_t>();
   if (!reader.ok() || part >= part_count || material >= material_count || flags > 3)
@@ -110,19 +142,9 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   keyframe.shards = (flags & 1) != 0;
   keyframe.asleep = (flags & 2) != 0;
   const std::size_t vertices = reader.get_count(std::min(max_vertices, reader.remaining() / 3));
-  keyframe.vertices_m.reserve(vertices);
-  Place place{};
-  for (std::size_t i = 0; i < vertices; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t step = reader.get_signed_varint(), limit = i == 0 ? furthest : widest;
-      if (!reader.ok() || step < -limit || step > limit) return refuse("coordinate out of bounds");
-      place[c] += step;
-      if (place[c] < -2 * furthest || place[c] > 2 * furthest) return refuse("coordinate out of bounds");
-    }
-    keyframe.vertices_m.emplace_back(
-        Vec3(static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2])) *
-        position_quantum_m);
-  }
+  if (!read_places(reader, vertices, keyframe.vertices_m)) return refuse("coordinate out of bounds");
+  if (version == with_rest && (vertices == 0 || !read_places(reader, vertices, keyframe.rest_m)))
+    return refuse("place at rest out of bounds");
   const std::size_t triangles = reader.get_count(std::min(max_triangles, reader.remaining() / 3));
   keyframe.triangles.reserve(triangles);
   std::int64_t index = 0;

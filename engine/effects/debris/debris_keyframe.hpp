@@ -28,6 +28,8 @@ struct Keyframe {
   bool shards = false;
   bool asleep = false;
   std::vector<Vec3> vertices_m;
+  /// Of ice, of each vertex: where it lay in the whole part, before anything moved or broke. What is inside keeps to it.
+  std::vector<Vec3> rest_m;
   std::vector<std::array<std::uint16_t, 3>> triangles;
 };
 

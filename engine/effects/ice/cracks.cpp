@@ -48,11 +48,11 @@ std::vector<Crack> cracks_in(const Box& rest_box, float cell_m) {
   constexpr int furthest = 1 << 20, most_cells = 512;
   std::array<int, 3> low{}, high{};
   for (int c = 0; c < 3; ++c) {
-    // A crack reaches over its cell's border by less than half a cell.
+    // A crack reaches over its cell's border by less than a cell.
     low[static_cast<std::size_t>(c)] =
-        std::clamp(static_cast<int>(std::floor(rest_box.min_m[c] / cell_m - 0.5f)), -furthest, furthest);
+        std::clamp(static_cast<int>(std::floor(rest_box.min_m[c] / cell_m - 0.8f)), -furthest, furthest);
     high[static_cast<std::size_t>(c)] =
-        std::clamp(static_cast<int>(std::floor(rest_box.max_m[c] / cell_m + 0.5f)), -furthest, furthest);
+        std::clamp(static_cast<int>(std::floor(rest_box.max_m[c] / cell_m + 0.8f)), -furthest, furthest);
   }
   std::vector<Crack> cracks;
   int cells = 0;
@@ -66,7 +66,10 @@ std::vector<Crack> cracks_in(const Box& rest_box, float cell_m) {
         for (int c = 0; c < 3; ++c) at[c] = static_cast<float>(random.uniform());
         const auto size = static_cast<float>(random.uniform(0.6, 1.0));
         const Crack crack = any_crack(random, (glm::vec3(x, y, z) + at) * cell_m, size * cell_m);
-        if (random.uniform() < 0.6) cracks.push_back(crack);
+        // Its corners lie √½ of its size from its middle, and it bends.
+        const glm::vec3 nearest = glm::clamp(crack.middle_m, rest_box.min_m, rest_box.max_m);
+        const bool reaches = glm::length(crack.middle_m - nearest) < 0.8f * crack.size_m;
+        if (random.uniform() < 0.6 && reaches) cracks.push_back(crack);
       }
   return cracks;
 }

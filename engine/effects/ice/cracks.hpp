@@ -34,7 +34,7 @@ struct Crack {
 
 /// `count` cracks near the middle of a box that their size covers; the same for the same seed.
 std::vector<Crack> generic_cracks(const Box& box, std::uint32_t count, std::uint64_t seed);
-/// The cracks of the field's cells that a box of rest space touches; `cell_m` is the side of a cell.
+/// The cracks of the field that may reach into a box of rest space; `cell_m` is the side of a cell.
 std::vector<Crack> cracks_in(const Box& rest_box, float cell_m);
 
 /// A crack's triangles, two a cell of `cells` times `cells`; `rest_m` = texture coordinates and kind. Their normals are to one

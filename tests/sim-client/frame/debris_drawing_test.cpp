@@ -125,7 +125,7 @@ TEST_CASE("screens that lost different ticks show the same debris at the same in
       DebrisDrawing drawing;
       scene::ResolvedScene scene;
       scene.prototypes.push_back({"debris/bumper-plastic", {}});
-      const auto meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene);
+      const auto meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene).meshes;
       REQUIRE(meshes.size() == 1);
       return meshes.front().origin_m.x;
     };
@@ -141,6 +141,72 @@ TEST_CASE("a keyframe that cannot be read is left out and counted") {
   TickHistory history;
   history.add(tick_payload(snapshot));
   DebrisDrawing drawing;
-  CHECK(drawing.draw(effects_at(history, 4 * tick_s, tick_s), 4.0, {}).empty());
+  CHECK(drawing.draw(effects_at(history, 4 * tick_s, tick_s), 4.0, {}).meshes.empty());
   CHECK(drawing.refused() == 1);
+}
+
+namespace {
+
+/// A box of ice in the slab's frame at rest that lies turned in the world.
+debris::Keyframe ice_box(const Vec3& low_m, const Vec3& high_m, const RigidTransform& world_from_slab) {
+  debris::Keyframe keyframe;
+  keyframe.part = debris::Part::ice_slab;
+  keyframe.material = debris::Material::ice;
+  for (int i = 0; i < 8; ++i) {
+    keyframe.rest_m.emplace_back(i & 1 ? high_m.x : low_m.x, i & 2 ? high_m.y : low_m.y, i & 4 ? high_m.z : low_m.z);
+    keyframe.vertices_m.push_back(world_from_slab * keyframe.rest_m.back());
+  }
+  keyframe.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return keyframe;
+}
+
+ice::IceBody ice_of(const debris::Keyframe& keyframe) {
+  const auto sent = debris::decode(debris::encode(keyframe));
+  REQUIRE(sent.has_value());
+  const DebrisWay way(*sent, *sent);
+  const auto body = way.ice_of(way.at(0.0));
+  REQUIRE(body.has_value());
+  return *body;
+}
+
+}  // namespace
+
+TEST_CASE("a crack of a slab of ice stays in its place within two millimetres when the slab breaks") {
+  const RigidTransform lying{{812.3, -40.1, 3.5}, orientation_from_angles(0.7, 0.1, -0.2)};
+  const ice::IceBody whole = ice_of(ice_box({-1.0, -0.6, -0.05}, {1.0, 0.6, 0.05}, lying));
+  REQUIRE(!whole.inside.empty());
+  std::size_t compared = 0;
+  for (const auto& [low_x, high_x] : {std::pair{-1.0, 0.2}, std::pair{0.2, 1.0}}) {
+    const ice::IceBody half = ice_of(ice_box({low_x, -0.6, -0.05}, {high_x, 0.6, 0.05}, lying));
+    for (const ice::IceVertex& vertex : half.inside) {
+      // Texture coordinates name the crack and the place on it.
+      const Vec3 place = half.origin_m + Vec3(vertex.position_m);
+      double nearest = 1e9;
+      for (const ice::IceVertex& other : whole.inside)
+        if (other.rest_m == vertex.rest_m)
+          nearest = std::min(nearest, glm::length(whole.origin_m + Vec3(other.position_m) - place));
+      CHECK(nearest < 2e-3);
+      ++compared;
+    }
+  }
+  CHECK(compared >= whole.inside.size());
+}
+
+TEST_CASE("ice is drawn by its own pass and throws its shadow as a mesh, and steel is drawn as it was") {
+  for (const bool of_ice : {true, false}) {
+    debris::Keyframe keyframe = ice_box({-1, -1, -1}, {1, 1, 1}, {});
+    if (!of_ice) keyframe.material = debris::Material::steel_sheet, keyframe.rest_m.clear();
+    Snapshot snapshot = flight(4);
+    snapshot.effects.front().data = encode(keyframe);
+    TickHistory history;
+    history.add(tick_payload(snapshot));
+    DebrisDrawing drawing;
+    scene::ResolvedScene scene;
+    scene.prototypes.push_back({std::string(debris_look(keyframe.part, keyframe.material)), {}});
+    const DrawnDebris drawn = drawing.draw(effects_at(history, 4 * tick_s, tick_s), 4.0, scene);
+    REQUIRE(drawn.meshes.size() == 1);
+    CHECK(drawn.meshes[0].seen == !of_ice);
+    CHECK(drawn.ice.size() == (of_ice ? 1 : 0));
+  }
 }

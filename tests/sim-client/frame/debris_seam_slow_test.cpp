@@ -68,7 +68,7 @@ image::Image picture_of(render::Renderer& renderer, const scene::ResolvedScene& 
   instant::FrameInput frame =
       client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
   DebrisDrawing drawing;
-  frame.meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene);
+  frame.meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene).meshes;
   REQUIRE(frame.meshes.size() == 1);
   REQUIRE(renderer.draw(frame).has_value());
   return *renderer.read_back();

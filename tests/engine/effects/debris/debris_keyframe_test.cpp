@@ -28,6 +28,23 @@ TEST_CASE("a keyframe comes back within half a millimetre and with the same tria
       CHECK(std::abs(received->vertices_m[i][c] - sent.vertices_m[i][c]) <= 0.5 * position_quantum_m + 1e-9);
 }
 
+TEST_CASE("ice brings its places at rest, which stay where they were however the piece moves") {
+  Random random(3);
+  Piece slab = make_part(Part::ice_slab, {{500, -20, 4}, orientation_from_angles(1.0, 0.2, 0.0)}, Vec3(0), Vec3(0), random);
+  const Keyframe sent = keyframe_of(slab);
+  REQUIRE(sent.rest_m.size() == sent.vertices_m.size());
+  const auto received = decode(encode(sent));
+  REQUIRE(received.has_value());
+  for (std::size_t i = 0; i < sent.rest_m.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      CHECK(std::abs(received->rest_m[i][c] - sent.rest_m[i][c]) <= 0.5 * position_quantum_m + 1e-9);
+  for (auto& place : slab.body.position_m) place.x() += 3.0;
+  CHECK(keyframe_of(slab).rest_m == sent.rest_m);
+  const Bytes good = encode(sent);
+  for (std::size_t length = 0; length < good.size(); length += 3)
+    CHECK_FALSE(decode(std::span(good).first(length)).has_value());
+}
+
 TEST_CASE("the snapshot gets one effect for the shards and one per piece in ascending order") {
   const auto effects = effect_keyframes(scene());
   REQUIRE(effects.size() == 2);
