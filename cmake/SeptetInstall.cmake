@@ -1,6 +1,6 @@
 # What `cmake --install` copies, in two components: `programs` (with data and documents) and `development` (libraries, headers,
 # samples). The target `installed` is all that has to be built for it. Programs find data and module by their own place, so
-# every prefix will do (sim-server/resources.hpp).
+# every prefix will do (program/resources.hpp).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(SEPTET_INSTALL_DATA ${CMAKE_INSTALL_DATADIR}/septet)

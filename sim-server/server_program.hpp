@@ -3,7 +3,7 @@
 
 #include "engine/core/expected.hpp"
 #include "logging/drive_end.hpp"
-#include "sim-server/server_options.hpp"
+#include "sim-server/drive/server_options.hpp"
 
 namespace septet::server {
 

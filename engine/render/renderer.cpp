@@ -12,9 +12,9 @@
 
 #include "engine/core/check.hpp"
 #include "engine/render/frame_preparation.hpp"
-#include "engine/render/frame_targets.hpp"
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/passes/device_scene.hpp"
+#include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/overlay_pass.hpp"

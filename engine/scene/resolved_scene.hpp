@@ -1,7 +1,7 @@
 #pragma once
 /// The scene as a renderer wants it: triangles, materials, images and placed parts, resolved from the node store.
 ///
-/// The rasteriser (engine/render) and the ray tracer (engine/raytrace) both draw this, so that neither knows the node
+/// A rasteriser (engine/render) and a ray tracer can both draw this, so that neither knows the node
 /// model. Lengths are metres; meshes and parts are in their object's frame; only `world_from_object` is double. Everything
 /// carries a revision: a renderer uploads again what has a higher one than it last saw.
 

@@ -17,11 +17,11 @@
 #include "logging/drive_end.hpp"
 #include "program/child_process.hpp"
 #include "program/console.hpp"
+#include "program/resources.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-server/command/drive_folder.hpp"
 #include "sim-server/command/panorama_file.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -242,7 +242,7 @@ Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_
 Expected<fs::path> folder_of(const DriveOptions& options) {
   if (options.replay.empty()) {
     if (!options.out.empty()) return options.out;
-    const auto data = data_folder();
+    const auto data = program::data_folder();
     if (!data) return tl::unexpected(data.error());
     return *data / "out" / "latest";
   }
@@ -288,14 +288,14 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
 Expected<int> run_drive(DriveOptions options) {
   if (!has_display()) options.virtual_screens = true;
   if (options.rig.empty()) options.rig = options.virtual_screens ? "seven-screens" : "desktop";
-  const auto rig_file = find_resource(options.rig, "rigs", ".toml");
+  const auto rig_file = program::find_resource(options.rig, "rigs", ".toml");
   if (!rig_file) return tl::unexpected(rig_file.error());
   const auto rig_text = read_regular_file(*rig_file);
   if (!rig_text) return tl::unexpected(rig_text.error());
   const auto rig = rig::read_rig(*rig_text, rig_file->string());
   if (!rig) return tl::unexpected(rig.error());
   if (options.replay.empty()) {
-    const auto scenario = find_resource(options.scenario, "scenarios", ".xosc");
+    const auto scenario = program::find_resource(options.scenario, "scenarios", ".xosc");
     if (!scenario) return tl::unexpected(scenario.error());
     options.scenario = scenario->string();
   }

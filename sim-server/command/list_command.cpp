@@ -9,7 +9,7 @@
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/scenario/scenario_reader.hpp"
-#include "sim-server/resources.hpp"
+#include "program/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -38,14 +38,14 @@ Expected<std::vector<Entry>> entries_of(const std::string& kind) {
     return entries;
   }
   const bool scenarios = kind == "scenarios";
-  const auto data = data_folder();
+  const auto data = program::data_folder();
   if (!data) return tl::unexpected(data.error());
   std::set<std::string> names;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(*data / kind, ignored))
     names.insert(entry.path().stem().string());
   for (const auto& name : names) {
-    const auto file = find_resource(name, kind, scenarios ? ".xosc" : ".toml");
+    const auto file = program::find_resource(name, kind, scenarios ? ".xosc" : ".toml");
     if (!file) continue;  // Something else that lies there.
     const auto text = read_regular_file(*file);
     if (!text) return tl::unexpected(text.error());

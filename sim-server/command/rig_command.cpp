@@ -4,14 +4,14 @@
 
 #include "engine/core/regular_file.hpp"
 #include "engine/rig/rig.hpp"
+#include "program/resources.hpp"
 #include "sim-server/host/rig_keys.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
 
 Expected<std::vector<std::string>> write_keys(const std::string& name, const std::filesystem::path& out) {
-  const auto file = find_resource(name, "rigs", ".toml");
+  const auto file = program::find_resource(name, "rigs", ".toml");
   if (!file) return tl::unexpected(file.error());
   const auto text = read_regular_file(*file);
   if (!text) return tl::unexpected(text.error());

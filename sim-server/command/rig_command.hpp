@@ -8,7 +8,7 @@
 
 namespace septet::server {
 
-/// Writes the keys of a rig's machines below `out` (sim-server/rig_keys.hpp) and says what is new.
+/// Writes the keys of a rig's machines below `out` (sim-server/host/rig_keys.hpp) and says what is new.
 Expected<int> run_rig_keys(const std::string& rig, const std::filesystem::path& out);
 
 }  // namespace septet::server

@@ -9,9 +9,9 @@
 #include "engine/math/angle_units.hpp"
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "program/console.hpp"
+#include "program/resources.hpp"
 #include "sim-server/command/input_table.hpp"
 #include "sim-server/command/manoeuvre_files.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -45,7 +45,7 @@ void warn_of(const vehicle::ManoeuvreOptions& conditions, double steering_ratio)
 }  // namespace
 
 Expected<int> run_vehicle_test(const VehicleTestOptions& options) {
-  const auto file = find_resource(options.vehicle, "vehicles", ".toml");
+  const auto file = program::find_resource(options.vehicle, "vehicles", ".toml");
   if (!file) return tl::unexpected(file.error());
   const auto parameters = load_vehicle(*file);
   if (!parameters) return tl::unexpected(parameters.error());

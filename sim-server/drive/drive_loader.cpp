@@ -12,7 +12,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
-#include "sim-server/resources.hpp"
+#include "program/resources.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -143,7 +143,7 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
         if (role == "rig") return from_disk(role, files.rig);
         if (role == "scenario") return from_disk(role, files.scenario);
         if (role == "vehicle")
-          return find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) {
+          return program::find_resource(name, "vehicles", ".toml").and_then([&](const fs::path& path) {
             return from_disk(role, path);
           });
         if (role == "catalog-folder") {

@@ -14,8 +14,8 @@
 #include "logging/outcome.hpp"
 #include "logging/session_writer.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/server_options.hpp"
 #include "sim-server/host/serve.hpp"
-#include "sim-server/server_options.hpp"
 
 namespace septet::server {
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every #include of the tree looks down the table of layers; third-party headers stay in .cpp files; headers form no circle.
+"""Every #include of the tree looks down the table of layers, also within the folders that have a table of their own; third-party
+headers stay in .cpp files; headers form no circle.
 
 Reads tests/architecture/layers.txt. Exits 1 and prints one line per violation.
 """
@@ -18,18 +19,50 @@ FREE = ("tests/",)
 
 
 def read_layers(root):
-    level_of = {}
-    lines = [l for l in (root / "tests/architecture/layers.txt").read_text().splitlines() if l and not l.startswith("#")]
-    for level, line in enumerate(lines):
-        for folder in line.split("|"):
-            level_of[folder.strip()] = level
-    return level_of
+    """Of the tree, by "", and of each folder that has a table of its own, by its path: the level of each name."""
+    tables = {"": {}}
+    table = tables[""]
+    for level, line in enumerate((root / "tests/architecture/layers.txt").read_text().splitlines()):
+        if line.startswith("["):
+            table = tables.setdefault(line.strip("[] "), {})
+        elif line and not line.startswith("#"):
+            table.update({name.strip(): level for name in line.split("|")})
+    return tables
 
 
 def folder_of(path, level_of):
     """The longest folder of the table that holds this path."""
     candidates = [f for f in level_of if path.startswith(f + "/")]
     return max(candidates, key=len) if candidates else None
+
+
+def name_within(path, level_of):
+    """What a path from within a folder is by the folder's table: the most precise of its names."""
+    def holds(name):
+        return path.startswith(name[:-1]) if name.endswith("*") else path == name or path.startswith((name + "/", name + "."))
+    candidates = [name for name in level_of if holds(name)]
+    return max(candidates, key=len) if candidates else None
+
+
+def violations_within(folder, level_of, includes_of):
+    """`includes_of`: each file of the tree with the paths that it includes."""
+    used = set()
+    for path, includes in includes_of.items():
+        if not path.startswith(folder + "/"):
+            continue
+        own = name_within(path[len(folder) + 1:], level_of)
+        used.add(own)
+        if own is None:
+            yield f"{path}: layers.txt has no line for it in [{folder}]"
+            continue
+        for target in includes:
+            other = name_within(target[len(folder) + 1:], level_of) if target.startswith(folder + "/") else None
+            used.add(other)
+            if other is not None and other != own and level_of[other] <= level_of[own]:
+                yield f"{path}: includes {target}, which is not below it in [{folder}] of layers.txt"
+    for name in level_of:
+        if name not in used:
+            yield f"layers.txt: nothing in {folder} is called {name}"
 
 
 def circles(headers_of):
@@ -50,8 +83,9 @@ def circles(headers_of):
 
 
 def violations(root):
-    level_of = read_layers(root)
-    headers_of = {}
+    tables = read_layers(root)
+    level_of = tables.pop("")
+    headers_of, includes_of = {}, {}
     for folder in level_of:
         if not (root / folder).is_dir():
             yield f"layers.txt: {folder} is no folder of the tree"
@@ -65,8 +99,9 @@ def violations(root):
                 yield f"{path}: its folder is not in layers.txt"
                 continue
             includes = INCLUDE.findall(file.read_text())
+            includes_of[path] = [target for bracket, target in includes if bracket == '"']
             if file.suffix == ".hpp":
-                headers_of[path] = [target for bracket, target in includes if bracket == '"']
+                headers_of[path] = includes_of[path]
             for bracket, target in includes:
                 if bracket == "<":
                     third_party = "/" in target or target.endswith(".h") or target.endswith(".hpp")
@@ -83,6 +118,8 @@ def violations(root):
                     continue
                 if level_of[other] <= level_of[own]:
                     yield f"{path}: includes {target}, which is not below it in layers.txt"
+    for folder, table in tables.items():
+        yield from violations_within(folder, table, includes_of)
     for circle in circles(headers_of):
         yield f"headers in a circle: {circle}"
 

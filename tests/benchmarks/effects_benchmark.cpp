@@ -11,10 +11,10 @@
 #include "engine/core/check.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/world/wire_snapshot.hpp"
+#include "program/resources.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t baseline_age = 3;
 
 void effects_tick(benchmark::State& bench, const char* name, int seconds_before) {
-  const auto scenario = find_resource(name, "scenarios", ".xosc");
-  const auto rig = find_resource("seven-screens", "rigs", ".toml");
+  const auto scenario = program::find_resource(name, "scenarios", ".xosc");
+  const auto rig = program::find_resource("seven-screens", "rigs", ".toml");
   SEPTET_CHECK(scenario && rig, "the shipped scenario and rig are missing");
   const auto loaded = load_drive(DriveFiles{scenario->string(), rig->string(), 1});
   SEPTET_CHECK(loaded.has_value(), "{}", describe(loaded.error()));

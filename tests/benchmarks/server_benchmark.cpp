@@ -8,17 +8,17 @@
 #include "engine/core/check.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "engine/world/wire_snapshot.hpp"
+#include "program/resources.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 namespace {
 
 LoadedDrive motorway_drive() {
-  const auto scenario = find_resource("motorway-ambulance", "scenarios", ".xosc");
-  const auto rig = find_resource("seven-screens", "rigs", ".toml");
+  const auto scenario = program::find_resource("motorway-ambulance", "scenarios", ".xosc");
+  const auto rig = program::find_resource("seven-screens", "rigs", ".toml");
   SEPTET_CHECK(scenario && rig, "the shipped scenario and rig are missing");
   auto drive = load_drive(DriveFiles{scenario->string(), rig->string(), 1});
   SEPTET_CHECK(drive.has_value(), "{}", describe(drive.error()));

@@ -10,9 +10,9 @@
 
 #include "engine/road/road_locate.hpp"
 #include "engine/simulation/server_step.hpp"
+#include "program/resources.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
-#include "sim-server/resources.hpp"
 #include "sim-server/sumo/sumo_client.hpp"
 
 namespace septet::server {
@@ -26,8 +26,8 @@ bool has_sumo() {
 
 std::shared_ptr<const simulation::Model> motorway() {
   ::setenv("SEPTET_DATA", SEPTET_SOURCE_DIR, 1);
-  const auto scenario = find_resource("motorway-ambulance", "scenarios", ".xosc");
-  const auto rig = find_resource("desktop", "rigs", ".toml");
+  const auto scenario = program::find_resource("motorway-ambulance", "scenarios", ".xosc");
+  const auto rig = program::find_resource("desktop", "rigs", ".toml");
   REQUIRE(scenario.has_value());
   REQUIRE(rig.has_value());
   auto drive = load_drive(DriveFiles{scenario->string(), rig->string(), 1});

@@ -9,7 +9,7 @@
 
 #include <map>
 
-#include "engine/render/frame_targets.hpp"
+#include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/ice_tiles.hpp"
 #include "engine/render/passes/pass_context.hpp"
 

@@ -1,4 +1,4 @@
-"""Draws the references of tests/images/ice with Mitsuba 3.5.2 (PyPI): a path tracer sees the same object in the same panorama.
+"""Draws the references that ice is compared with, by Mitsuba 3.5.2 (PyPI): a path tracer sees the same object in the same panorama.
 
     python3 -m venv V && V/bin/pip install mitsuba==3.5.2 numpy
     V/bin/python ice_reference.py SEPTET_ICE OUT_FOLDER [SAMPLES]

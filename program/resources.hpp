@@ -7,7 +7,7 @@
 
 #include "engine/core/expected.hpp"
 
-namespace septet::server {
+namespace septet::program {
 
 /// The root of the tree of data: SEPTET_DATA; else, of an installed program, `../share/septet`; else the nearest folder above the
 /// program (or the working folder) that holds `rigs/` and `scenarios/`.
@@ -18,4 +18,4 @@ Expected<std::filesystem::path> data_folder();
 Expected<std::filesystem::path> find_resource(const std::string& name, std::string_view kind,
                                               std::string_view extension);
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,11 +1,11 @@
-#include "sim-server/server_options.hpp"
+#include "sim-server/drive/server_options.hpp"
 
 #include <fmt/core.h>
 
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/printable.hpp"
+#include "program/resources.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
-#include "sim-server/resources.hpp"
 
 namespace septet::server {
 
@@ -23,11 +23,11 @@ Expected<void> check_names(const ServerOptions& options) {
 }
 
 Expected<void> find_files(ServerOptions& options) {
-  const auto rig = find_resource(options.rig, "rigs", ".toml");
+  const auto rig = program::find_resource(options.rig, "rigs", ".toml");
   if (!rig) return tl::unexpected(rig.error());
   options.rig = rig->string();
   if (!options.replay.empty()) return {};
-  const auto scenario = find_resource(options.scenario, "scenarios", ".xosc");
+  const auto scenario = program::find_resource(options.scenario, "scenarios", ".xosc");
   if (!scenario) return tl::unexpected(scenario.error());
   options.scenario = scenario->string();
   return {};

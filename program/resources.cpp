@@ -1,4 +1,4 @@
-#include "sim-server/resources.hpp"
+#include "program/resources.hpp"
 
 #include <cstdlib>
 #include <set>
@@ -7,7 +7,7 @@
 
 #include "program/child_process.hpp"
 
-namespace septet::server {
+namespace septet::program {
 namespace fs = std::filesystem;
 namespace {
 
@@ -50,10 +50,10 @@ Expected<fs::path> data_folder() {
     return failure("it holds no rigs/ and scenarios/", fmt::format("SEPTET_DATA={}", chosen),
                    "point it at Septet's folder");
   }
-  if (const fs::path installed = program::own_folder().parent_path() / "share/septet"; is_data_folder(installed))
+  if (const fs::path installed = own_folder().parent_path() / "share/septet"; is_data_folder(installed))
     return installed;
   std::error_code ignored;
-  for (fs::path start : {program::own_folder(), fs::current_path(ignored)})
+  for (fs::path start : {own_folder(), fs::current_path(ignored)})
     for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
       if (is_data_folder(folder)) return folder;
       if (folder == folder.root_path()) break;
@@ -80,4 +80,4 @@ Expected<fs::path> find_resource(const std::string& name, std::string_view kind,
                  fmt::format("give a file, or one of: {}", names_in(place, extension)));
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

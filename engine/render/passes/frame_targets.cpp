@@ -1,4 +1,4 @@
-#include "engine/render/frame_targets.hpp"
+#include "engine/render/passes/frame_targets.hpp"
 
 #include <array>
 #include <cstring>

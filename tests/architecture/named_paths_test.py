@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""No document, comment or script names a folder or file of the tree that is not there.
+
+    named_paths_test.py ROOT
+
+A name is a path from the root (engine/road/CHECKS.md), or, where it ends as a source does or stands in a document between backquotes,
+from within any folder (passes/smoke_pass); the file's ending may be left out. What users put into data folders is theirs to name.
+Prints one line for each name that leads nowhere, and exits 1.
+"""
+import pathlib
+import re
+import sys
+
+READ = {".md", ".hpp", ".cpp", ".txt", ".toml", ".cmake", ".py", ".json", ".vert", ".frag", ".comp", ".glsl", ".in", ""}
+MADE = {"build", ".git", "out", "__pycache__"}
+# They speak of other trees.
+BY_OTHERS = ("tests/conformance/data/", "tests/fuzz/corpus/", "tests/architecture/breaches_test.py")
+DATA = ("rigs", "scenarios", "vehicles")
+# Not within a longer path, and without what stands for something else: NAME, *, …, {a,b}, <folder>, $variable.
+NAME = re.compile(r"(?<![\w./\\{}$…*<>@:~-])((?:[a-z][\w-]*/)+[a-z_.][\w.-]*)/?(?![\w/\\…*<>{}$(-])")
+SOURCE = re.compile(r"\.(hpp|cpp|md|py|glsl|frag|vert|comp|cmake)$")
+
+
+def files_of(root, folder=""):
+    """Files and folders, by their path from the root."""
+    for path in sorted((root / folder).iterdir()):
+        if path.name in MADE or path.is_symlink():
+            continue
+        name = folder + path.name
+        yield name, path
+        if path.is_dir():
+            yield from files_of(root, name + "/")
+
+
+def endings(name):
+    """The path and what is left of it without the folders at its beginning, each with and without the endings of the file."""
+    parts = name.split("/")
+    for i in range(len(parts)):
+        end = "/".join(parts[i:])
+        while True:
+            yield end
+            if "." not in end.rsplit("/", 1)[-1].strip("."):
+                break
+            end = end.rsplit(".", 1)[0]
+
+
+def broken_names(root):
+    files = list(files_of(root))
+    there = {end for name, _ in files for end in endings(name)}
+    folders = {path.name for _, path in files if path.is_dir()}
+    tops = {name for name, path in files if "/" not in name and path.is_dir()} - set(DATA)
+    for file, path in files:
+        if path.suffix not in READ or not path.is_file() or file.startswith(BY_OTHERS):
+            continue
+        for number, line in enumerate(path.read_text(errors="replace").split("\n"), 1):
+            if line.lstrip().startswith("#include"):
+                continue  # The compiler finds these, and some are made.
+            for found in NAME.finditer(line):
+                name = found[1].rstrip(".")
+                first = name.split("/")[0]
+                is_quoted = path.suffix == ".md" and line[:found.start()].endswith("`") and line[found.end():].startswith("`")
+                if first in tops or first in folders and first not in DATA and (SOURCE.search(name) or is_quoted):
+                    if name not in there:
+                        yield f"{file}:{number}: there is no {name}"
+
+
+if __name__ == "__main__":
+    broken = list(broken_names(pathlib.Path(sys.argv[1])))
+    print("\n".join(broken))
+    sys.exit(1 if broken else 0)
