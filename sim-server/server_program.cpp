@@ -185,7 +185,8 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   scene::SceneBuilder builder(drive.store);
   scenery::build_vehicles(builder);
   scenery::build_debris_looks(builder);
-  scenery::build_road_world(builder, drive.loaded.model->roads, options.seed);
+  scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
+                            {.raised = drive.loaded.model->raised.get()});
   auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, progress);
   if (!seat) return tl::unexpected(seat.error());
   drive.by_person = !seat->look;

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
-#include "engine/roadside/raised_areas.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -43,8 +42,7 @@ void fill_top(geometry::MeshBuilder& builder, const std::vector<glm::vec3>& top)
 
 }  // namespace
 
-void build_kerbs(const WorldContext& world) {
-  const roadside::RaisedAreas raised(world.roads.network());
+void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised) {
   if (raised.all().empty()) return;
   constexpr float foot_m = 0.5f;  // So far down: the road under it may fall away.
   for (const RoadTile& tile : world.roads.tiles(160.0)) {

@@ -1,5 +1,7 @@
 #include "engine/scenery/world/road_world.hpp"
 
+#include <optional>
+
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -11,12 +13,13 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   const Terrain terrain(roads, seed);
   const Palette palette = add_world_finishes(builder, seed);
   const WorldContext world{builder, roads, terrain, palette, seed};
+  std::optional<roadside::RaisedAreas> own_raised;
   build_pavement(world);
   build_verges(world);
   build_far_road(world);
   build_land(world);
   build_barriers(world);
-  build_kerbs(world);
+  build_kerbs(world, options.raised ? *options.raised : own_raised.emplace(network));
   build_bridges(world);
   build_tunnels(world);
   build_gantries(world);

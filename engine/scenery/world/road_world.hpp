@@ -9,6 +9,7 @@
 
 #include "engine/core/expected.hpp"
 #include "engine/road/road_network.hpp"
+#include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/road_shape.hpp"
 #include "engine/scene/builder.hpp"
 
@@ -18,6 +19,8 @@ struct RoadWorldOptions {
   bool vegetation = true;
   bool buildings = true;
   double overrun_m = roadside::usual_overrun_m;  ///< How far loose ends of roads run on.
+  const roadside::RaisedAreas* raised =
+      nullptr;  ///< Of this network, where the caller has them; else they are worked out.
 };
 
 /// Whether the world around the roads can be built in reasonable time and memory: as much land,

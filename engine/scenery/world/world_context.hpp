@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/roadside/plants.hpp"
+#include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/road_shape.hpp"
 #include "engine/roadside/terrain.hpp"
 #include "engine/scenery/palette.hpp"
@@ -49,7 +50,7 @@ void build_far_road(const WorldContext& world);  ///< All of the road's parts, s
 void build_verges(const WorldContext& world);    ///< From the asphalt's edge into the land.
 void build_land(const WorldContext& world);      ///< Fields, woods, far hills, water.
 void build_barriers(const WorldContext& world);  ///< Guard rails, median barrier, parapets, noise walls, posts.
-void build_kerbs(const WorldContext& world);     ///< Kerbs and islands that are objects.
+void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised);
 void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);  ///< With signs and speed displays.

@@ -58,11 +58,29 @@ TEST_CASE("the land between roads that are far apart is not walked") {
           .substr(std::string("<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"8\"></header>\n").size()));
   scene::Store store;
   scene::SceneBuilder builder(store);
-  RoadWorldOptions options{false, false, 0.0};
+  RoadWorldOptions options{.vegetation = false, .buildings = false, .overrun_m = 0.0};
   const road::RoadNetwork network = road::read_or_fail(xml);
   REQUIRE(check_world_size(network, options).has_value());
   build_road_world(builder, network, 3, options);
   CHECK(scene::resolve(store).meshes.size() > 0);
+}
+
+TEST_CASE("kerbs are drawn from the areas that wheels climb, where they are worked out already") {
+  const road::RoadNetwork network = road::read_or_fail(road::replaced(
+      road::SmallRoad{}.xml(), "</lanes>",
+      "</lanes><objects><object id=\"1\" type=\"trafficIsland\" s=\"50\" t=\"0\" length=\"4\" width=\"1\" "
+      "height=\"0.15\"/></objects>"));
+  const roadside::RaisedAreas with_island(network), without(motorway());
+  REQUIRE(with_island.all().size() == 1);
+  REQUIRE(without.all().empty());
+  const auto world_from = [&](const roadside::RaisedAreas* raised) {
+    scene::Store store;
+    scene::SceneBuilder builder(store);
+    build_road_world(builder, network, 3, {.vegetation = false, .buildings = false, .raised = raised});
+    return encoded(store).hash;
+  };
+  CHECK(world_from(&with_island) == world_from(nullptr));
+  CHECK(world_from(&without) != world_from(nullptr));
 }
 
 TEST_CASE("everything of the world is finite and has a material") {
