@@ -1,17 +1,24 @@
 #pragma once
-/// Plain state to bytes and back, by one list of members for both ways.
+/// Plain state to bytes, back, and into the state hash, by one list of members for all three.
 ///
 ///     SEPTET_MEMBERS(WheelState, travel_m, spin_rad)     beside the struct's models, in the struct's namespace
 ///     StateWriter writer(bytes);  transfer(writer, wheel);
 ///     StateReader reader(bytes);  transfer(reader, wheel);  if (!reader.ok()) …reader.problem()…
+///     hash_members(hash, wheel);
 ///
 /// The list names every member in its order: it is a structured binding, so that a struct that gains a member does not compile before
-/// its list has it. What follows from other state and is not kept is bound and left out, by a `members` of one's own (below).
+/// its list has it. Each is kept and hashed, unless the list says otherwise, in groups:
+///
+///     SEPTET_MEMBER_GROUPS(Fire, hashed(vehicle, burning_s), kept(nearest_hint), left_out(picture))
+///
+/// `kept` but not hashed is what only shortens the way to the next state, or was drawn or read once and stays. Whoever uses the list
+/// says why, and why something is left out: it follows from the rest, or has a reader of its own.
 ///
 /// Bytes are those of this build: numbers as they stand in memory (little-endian), counts of 64 bits, no names. The reader trusts
 /// nothing: a count is no more than the bytes that are left, memory has a limit, no number is a NaN and no vector infinite; what an index
 /// may be is for whoever reads to require. After the first problem everything reads as zero.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -28,6 +35,7 @@
 #include <vector>
 
 #include "engine/core/bytes.hpp"
+#include "engine/core/hash.hpp"
 #include "engine/core/random.hpp"
 
 namespace septet {
@@ -36,7 +44,7 @@ static_assert(std::endian::native == std::endian::little);
 
 class StateWriter {
  public:
-  static constexpr bool reads = false;
+  static constexpr bool reads = false, hashes = false;
   explicit StateWriter(Bytes& out) : out_(out) {}
 
   void put(const void* from, std::size_t count) {
@@ -49,9 +57,31 @@ class StateWriter {
   Bytes& out_;
 };
 
+/// Bytes in words of eight, the last one filled up with zeros.
+class StateHasher {
+ public:
+  static constexpr bool reads = false, hashes = true;
+
+  void put(const void* from, std::size_t count) {
+    const auto* bytes = static_cast<const std::byte*>(from);
+    for (std::size_t done = 0; done < count; done += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + done, std::min(count - done, sizeof word));
+      chains_[turn_++ % chains_.size()].add(word);
+    }
+  }
+  void finish(StateHash& hash) const {
+    for (const StateHash& chain : chains_) hash.add(chain.value());
+  }
+
+ private:
+  std::array<StateHash, 4> chains_;  ///< They take turns: a single one would wait for every product.
+  std::size_t turn_ = 0;
+};
+
 class StateReader {
  public:
-  static constexpr bool reads = true;
+  static constexpr bool reads = true, hashes = false;
   explicit StateReader(std::span<const std::byte> bytes, std::size_t most_memory = std::size_t{256} << 20)
       : bytes_(bytes), memory_left_(most_memory) {}
 
@@ -94,13 +124,63 @@ class StateReader {
 template <class S, class T>
 concept SameButForConst = std::same_as<std::remove_const_t<S>, T>;
 
-/// The members of a plain struct, all of them, in their order.
-#define SEPTET_MEMBERS(Type, ...)               \
-  template <::septet::SameButForConst<Type> S_> \
-  auto members(S_& whole_) {                    \
-    auto& [__VA_ARGS__] = whole_;               \
-    return std::tie(__VA_ARGS__);               \
+namespace archive {
+/// A member that is kept and not hashed.
+template <class T>
+struct Kept {
+  T& value;
+};
+template <class T>
+inline constexpr bool is_kept = false;
+template <class T>
+inline constexpr bool is_kept<Kept<T>> = true;
+
+template <class T>
+const T& plain(const T& member) {
+  return member;
+}
+template <class T>
+const T& plain(const Kept<T>& member) {
+  return member.value;
+}
+
+template <class... T>
+std::tuple<T&...> hashed(T&... values) {
+  return {values...};
+}
+template <class... T>
+std::tuple<Kept<T>...> kept(T&... values) {
+  return {Kept<T>{values}...};
+}
+template <class... T>
+std::tuple<> left_out(T&...) {
+  return {};
+}
+}  // namespace archive
+
+/// The members of a plain struct, all of them, in their order: kept and hashed.
+#define SEPTET_MEMBERS(Type, ...) SEPTET_MEMBER_GROUPS(Type, hashed(__VA_ARGS__))
+
+/// The same in groups, each hashed(…), kept(…) or left_out(…).
+#define SEPTET_MEMBER_GROUPS(Type, ...)                                              \
+  template <::septet::SameButForConst<Type> S_>                                      \
+  auto members(S_& whole_) {                                                         \
+    auto& [SEPTET_EXPAND(SEPTET_EACH(SEPTET_NAMES_OF, __VA_ARGS__))] = whole_;       \
+    return std::tuple_cat(SEPTET_EXPAND(SEPTET_EACH(SEPTET_TUPLE_OF, __VA_ARGS__))); \
   }
+// A group stands for a call of one of the three functions above, and behind SEPTET_NAMES_ for its names alone.
+#define SEPTET_NAMES_hashed(...) __VA_ARGS__
+#define SEPTET_NAMES_kept(...) __VA_ARGS__
+#define SEPTET_NAMES_left_out(...) __VA_ARGS__
+#define SEPTET_NAMES_OF(group) SEPTET_NAMES_##group
+#define SEPTET_TUPLE_OF(group) ::septet::archive::group
+// macro(first), macro(second), …: a macro does not expand itself, so each round of SEPTET_EXPAND makes one more of SEPTET_AGAIN.
+#define SEPTET_EACH(macro, first, ...) macro(first) __VA_OPT__(, SEPTET_AGAIN SEPTET_PARENTHESES(macro, __VA_ARGS__))
+#define SEPTET_AGAIN() SEPTET_EACH
+#define SEPTET_PARENTHESES ()
+#define SEPTET_EXPAND(...) SEPTET_EXPAND_3(SEPTET_EXPAND_3(SEPTET_EXPAND_3(__VA_ARGS__)))
+#define SEPTET_EXPAND_3(...) SEPTET_EXPAND_1(SEPTET_EXPAND_1(SEPTET_EXPAND_1(__VA_ARGS__)))
+#define SEPTET_EXPAND_1(...) __VA_ARGS__
 
 namespace archive {
 template <class T>
@@ -164,7 +244,9 @@ inline std::size_t transfer_count(StateReader& reader, std::size_t element_size 
 template <class Archive, class V>
 void transfer(Archive& archive, V& value) {
   using T = std::remove_const_t<V>;
-  if constexpr (std::is_same_v<T, bool>) {
+  if constexpr (archive::is_kept<T>) {
+    if constexpr (!Archive::hashes) transfer(archive, value.value);
+  } else if constexpr (std::is_same_v<T, bool>) {
     auto byte = static_cast<std::uint8_t>(value);
     if constexpr (Archive::reads) {
       archive.get(&byte, 1);
@@ -181,8 +263,7 @@ void transfer(Archive& archive, V& value) {
     }
   } else if constexpr (archive::is_vector<T> || std::is_same_v<T, std::string>) {
     using Element = typename T::value_type;
-    constexpr bool is_flat =
-        (std::is_arithmetic_v<Element> && !std::is_same_v<Element, bool>) || std::is_same_v<Element, std::byte>;
+    constexpr bool is_flat = (std::is_arithmetic_v<Element> || std::is_enum_v<Element>)&&!std::is_same_v<Element, bool>;
     if constexpr (Archive::reads) {
       const std::size_t count = transfer_count(archive, is_flat ? sizeof(Element) : 1);
       value.clear();
@@ -273,8 +354,17 @@ void transfer(Archive& archive, V& value) {
       if constexpr (Archive::reads) archive.require(std::isfinite(value.data()[i]), "a matrix in it is endless");
     }
   } else {
-    std::apply([&](auto&... each) { (transfer(archive, each), ...); }, members(value));
+    auto all = members(value);
+    std::apply([&](auto&... each) { (transfer(archive, each), ...); }, all);
   }
+}
+
+/// What the lists say is hashed.
+template <class... V>
+void hash_members(StateHash& hash, const V&... values) {
+  StateHasher hasher;
+  (transfer(hasher, values), ...);
+  hasher.finish(hash);
 }
 
 }  // namespace septet

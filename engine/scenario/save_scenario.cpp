@@ -28,8 +28,9 @@ SEPTET_MEMBERS(LateralControl, active, action, transition, lane_change, to_the_l
 SEPTET_MEMBERS(InTheWay, gap_m, speed_mps)
 SEPTET_MEMBERS(PathPoint, s_m, position_m, heading_rad, time_s)
 SEPTET_MEMBERS(Path, points)
-SEPTET_MEMBERS(PathControl, active, action, path, timed, clock_s, station_m)
-SEPTET_MEMBERS(RouteState, roads, at)
+// What was worked out of the scenario once, and its values, is kept.
+SEPTET_MEMBER_GROUPS(PathControl, hashed(active, action), kept(path), hashed(timed, clock_s, station_m))
+SEPTET_MEMBER_GROUPS(RouteState, kept(roads), hashed(at))
 SEPTET_MEMBERS(Waypoint, lane, along_s)
 SEPTET_MEMBERS(PlannedRoute, waypoints, roads)
 SEPTET_MEMBERS(EntityState, active, external, on_road, lane, along_s, heading_offset_rad, world_from_entity, speed_mps,
@@ -39,16 +40,12 @@ SEPTET_MEMBERS(EntityState, active, external, on_road, lane, along_s, heading_of
 SEPTET_MEMBERS(ElementState, initialised, status, last_transition, transition_sequence, executions)
 SEPTET_MEMBERS(ConditionState::Change, time_s, value)
 SEPTET_MEMBERS(ConditionState, evaluated, last_value, sequence, delayed_value, delayed)
-SEPTET_MEMBERS(ScenarioState, time_s, sequence, step_sequence, finished, environment, friction_scale, entities, values,
-               routes, elements, conditions)
-
-/// All but the positions that a meeting's placements were found from, which nobody asks again.
-template <SameButForConst<SynchronizeAction> S>
-auto members(S& action) {
-  auto& [master, target, master_target, tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s] =
-      action;
-  return std::tie(master, tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s);
-}
+SEPTET_MEMBER_GROUPS(ScenarioState,
+                     hashed(time_s, sequence, step_sequence, finished, environment, friction_scale, entities, values),
+                     kept(routes), hashed(elements, conditions))
+// The positions that a meeting's placements were found from are asked by nobody again.
+SEPTET_MEMBER_GROUPS(SynchronizeAction, hashed(master), left_out(target, master_target),
+                     hashed(tolerance_m, master_tolerance_m, final_speed, final_value, steady_m, steady_s))
 
 namespace {
 
@@ -104,6 +101,8 @@ void require_whole(const Bounds& bounds, const EntityState& entity, StateReader&
 }  // namespace
 
 void save_scenario(const ScenarioState& state, StateWriter& writer) { transfer(writer, state); }
+
+void add_to_hash(const ScenarioState& state, StateHash& hash) { hash_members(hash, state); }
 
 void restore_scenario(const Scenario& scenario, const road::RoadNetwork& network, StateReader& reader,
                       ScenarioState& state) {

@@ -55,23 +55,4 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
   }
 }
 
-void add_to_hash(const ScenarioState& state, StateHash& hash) {
-  hash.add(state.time_s);
-  hash.add(state.sequence);
-  for (const EntityState& entity : state.entities) {
-    const Vec3& p = entity.world_from_entity.position_m;
-    const Quat& q = entity.world_from_entity.orientation;
-    for (const double value :
-         {p.x, p.y, p.z, q.w, q.x, q.y, q.z, entity.speed_mps, entity.held_back_mps, entity.travelled_m})
-      hash.add(value);
-    hash.add(entity.lane.road);
-    hash.add(entity.lane.lane);
-    hash.add(entity.lamps.bits);
-  }
-  for (const ElementState& element : state.elements) {
-    hash.add(static_cast<int>(element.status));
-    hash.add(element.executions);
-  }
-}
-
 }  // namespace septet::scenario

@@ -29,25 +29,15 @@ SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
 SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
 SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
 
-/// All but the smoke and its track, which have a reader of their own.
-template <SameButForConst<FireState> S>
-auto members(S& state) {
-  auto& [smoke, track, soot, fires, keyframes] = state;
-  return std::tie(soot, fires, keyframes);
-}
-/// All but debris, fires and the remembered surface.
-template <SameButForConst<EffectsState> S>
-auto members(S& state) {
-  auto& [debris, crashes, fires, random, published, hash, surface_memory, surface_hint] = state;
-  return std::tie(crashes, random, published, hash, surface_hint);
-}
-/// All but storyboard, traffic and effects.
-template <SameButForConst<State> S>
-auto members(S& state) {
-  auto& [tick, car, hull, wheel_roads, kerbs, strikes, car_road, scenario, traffic, effects, input, diagnostics,
-         touching] = state;
-  return std::tie(tick, car, hull, wheel_roads, kerbs, strikes, car_road, input, diagnostics, touching);
-}
+// Smoke and its track have a reader of their own; what is new of them is in the effects' chained hash.
+SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires), kept(keyframes))
+// Debris and fires have readers of their own; of debris what moved is in the chained hash. What is published follows from them, and the
+// rest remembers where something was found.
+SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(random), kept(published),
+                     hashed(hash), left_out(surface_memory), kept(surface_hint))
+// Storyboard, traffic and effects have readers of their own. What the input did is in the car.
+SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
+                     left_out(scenario, traffic, effects), kept(input), hashed(diagnostics, touching))
 
 namespace {
 
@@ -139,6 +129,15 @@ Expected<State> refused(const std::string& what, std::string_view where, const c
 }
 
 }  // namespace
+
+std::uint64_t hash_state(const State& state) {
+  StateHash hash;
+  hash_members(hash, state);
+  scenario::add_to_hash(state.scenario, hash);
+  state.traffic->add_to_hash(hash);
+  hash_members(hash, state.effects, state.effects.fires);
+  return hash.value();
+}
 
 Expected<Bytes> save_state(const Model& model, const State& state) {
   if (!state.traffic->can_be_saved())

@@ -24,7 +24,7 @@ class OwnTraffic final : public TrafficEngine {
   }
   void add_to_hash(StateHash& hash) const override {
     hash_state(hash, state_);
-    for (const auto word : random_.state()) hash.add(word);
+    hash_members(hash, random_);
   }
   bool can_be_saved() const override { return true; }
   void save(StateWriter& writer) const override {

@@ -20,27 +20,17 @@ SEPTET_MEMBERS(LaneOrder, lanes, has_straddlers)
 SEPTET_MEMBERS(RampMouth, x_m, lane)
 SEPTET_MEMBERS(Ramp, main, way, exit, entry, lane)
 
-/// The arrays, one entry a vehicle in each.
-template <SameButForConst<CorridorTraffic> S>
-auto vehicle_arrays(S& traffic) {
-  auto& [corridor, table, line, id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane,
-         change_part, change_offset_m, change_run_m, next_decision_s, lane_end_m, length_m, half_width_m, aside_m,
-         aside_mps, aside_target_m, heard_s, making_way, emergency, neighbour_hints, any_aside, order, exits] = traffic;
-  return std::tie(id, model, paint, driver, law, x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part,
-                  change_offset_m, change_run_m, next_decision_s, lane_end_m, length_m, half_width_m, aside_m,
-                  aside_mps, aside_target_m, heard_s, making_way, emergency, neighbour_hints);
-}
-/// All but the corridor and what is looked up of its roads.
-template <SameButForConst<CorridorTraffic> S>
-auto members(S& traffic) {
-  return std::tuple_cat(vehicle_arrays(traffic), std::tie(traffic.any_aside, traffic.order, traffic.exits));
-}
-/// All but the corridors.
-template <SameButForConst<TrafficState> S>
-auto members(S& state) {
-  auto& [corridors, ramps, time_s, foreign_places, foreign_speeds_mps, foreign_signals_s, bad_numbers] = state;
-  return std::tie(ramps, time_s, foreign_places, foreign_speeds_mps, foreign_signals_s, bad_numbers);
-}
+// Left out are the corridor and what is looked up of its roads. Kept is what a vehicle is for as long as it is there, drawn when it
+// came in, and what follows from the hashed or is found from it sooner.
+SEPTET_MEMBER_GROUPS(CorridorTraffic, left_out(corridor, table, line), hashed(id), kept(model, paint, driver, law),
+                     hashed(x_m, speed_mps, acceleration_mps2, lane, from_lane, change_part, change_offset_m,
+                            change_run_m, next_decision_s),
+                     kept(lane_end_m, length_m, half_width_m),
+                     hashed(aside_m, aside_mps, aside_target_m, heard_s, making_way, emergency),
+                     kept(neighbour_hints, any_aside, order, exits))
+// The corridors are taken one by one.
+SEPTET_MEMBER_GROUPS(TrafficState, left_out(corridors), kept(ramps), hashed(time_s), kept(foreign_places),
+                     hashed(foreign_speeds_mps, foreign_signals_s, bad_numbers))
 
 namespace {
 
@@ -80,8 +70,13 @@ Corridor corridor_of(const road::RoadNetwork& network, const RoadsOfCorridor& ke
 void require_whole(const CorridorTraffic& traffic, StateReader& reader) {
   const std::size_t count = traffic.size(), lanes = traffic.table.open.size();
   constexpr auto wrong = "traffic in it does not fit together";
-  std::apply([&](const auto&... each) { reader.require(((each.size() == count) && ...), wrong); },
-             vehicle_arrays(traffic));
+  // Every array but that of the exits has one entry a vehicle.
+  const auto require_count = [&](const auto& array) {
+    if constexpr (archive::is_vector<std::remove_cvref_t<decltype(array)>>)
+      if (static_cast<const void*>(&array) != &traffic.exits) reader.require(array.size() == count, wrong);
+  };
+  const auto all = members(traffic);
+  std::apply([&](const auto&... each) { (require_count(archive::plain(each)), ...); }, all);
   reader.require((count == 0 || (traffic.table.lowest >= 1 && traffic.table.lowest <= traffic.table.highest)) &&
                      traffic.order.lanes.size() == lanes && traffic.order.has_straddlers.size() == lanes,
                  wrong);
@@ -120,6 +115,11 @@ void require_whole(const road::RoadNetwork& network, const TrafficParameters& pa
 }
 
 }  // namespace
+
+void hash_state(StateHash& hash, const TrafficState& state) {
+  hash_members(hash, state);
+  for (const CorridorTraffic& traffic : state.corridors) hash_members(hash, traffic);
+}
 
 void save_traffic(const TrafficParameters& parameters, const TrafficState& state, StateWriter& writer) {
   transfer(writer, parameters);

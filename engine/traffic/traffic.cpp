@@ -89,21 +89,4 @@ std::uint32_t move(CorridorTraffic& traffic, double dt_s) {
   return bad_numbers;
 }
 
-void hash_state(StateHash& hash, const TrafficState& state) {
-  hash.add(state.time_s);
-  // A chain for each array: a single one would wait for every product.
-  std::array<StateHash, 5> chains;
-  for (const auto& traffic : state.corridors)
-    for (std::size_t i = 0; i < traffic.size(); ++i) {
-      // Three numbers in one word.
-      chains[0].add(std::uint64_t{traffic.id[i]} << 32 | static_cast<std::uint16_t>(traffic.lane[i]) << 16 |
-                    static_cast<std::uint16_t>(traffic.from_lane[i]));
-      chains[1].add(traffic.x_m[i]);
-      chains[2].add(traffic.speed_mps[i]);
-      chains[3].add(traffic.change_part[i]);
-      chains[4].add(traffic.aside_m[i]);
-    }
-  for (const StateHash& chain : chains) hash.add(chain.value());
-}
-
 }  // namespace septet::traffic

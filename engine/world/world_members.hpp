@@ -14,6 +14,7 @@ SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, sele
 SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover,
                rain_mm_per_h, road_wetness, snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
 SEPTET_MEMBERS(EffectKeyframe, id, kind, data, tick)
-SEPTET_MEMBERS(Diagnostics, bad_numbers, collisions, input_stale_ticks)
+// How late input came is not said by the input, from which a drive is run again.
+SEPTET_MEMBER_GROUPS(Diagnostics, hashed(bad_numbers, collisions), kept(input_stale_ticks))
 
 }  // namespace septet

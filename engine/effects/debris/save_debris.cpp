@@ -10,18 +10,11 @@ namespace septet::debris {
 
 SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
 
-/// All but what is its part's, what is drawn of it, and its body, which has a reader of its own.
-template <SameButForConst<Piece> S>
-auto members(S& piece) {
-  auto& [id, part, material, body, splinter, plastic_strain, surface, calm_s, asleep] = piece;
-  return std::tie(id, part, splinter, plastic_strain, calm_s, asleep);
-}
-/// All but the pieces.
-template <SameButForConst<State> S>
-auto members(S& state) {
-  auto& [pieces, shards, next_id, bad_numbers] = state;
-  return std::tie(shards, next_id, bad_numbers);
-}
+// Left out are what is its part's, what is drawn of it, and its body, which has a reader of its own.
+SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), left_out(material, body), kept(splinter), hashed(plastic_strain),
+                     left_out(surface), hashed(calm_s, asleep))
+// Pieces and, in the hash, shards are taken one by one.
+SEPTET_MEMBER_GROUPS(State, left_out(pieces), kept(shards), hashed(next_id, bad_numbers))
 
 namespace {
 
@@ -57,6 +50,18 @@ void save_debris(const State& state, StateWriter& writer) {
     transfer(writer, piece);
     elastic::save_body(piece.body, writer);
   }
+}
+
+void add_to_hash(const State& state, StateHash& hash) {
+  hash_members(hash, state);
+  for (const Piece& piece : state.pieces) {
+    hash.add(piece.id);
+    if (piece.asleep) continue;  // Hashed when it moved last.
+    hash_members(hash, piece);
+    elastic::add_to_hash(piece.body, hash);
+  }
+  for (const Shard& shard : state.shards)
+    if (shard.velocity_mps != Vec3(0.0)) hash_members(hash, shard);
 }
 
 void restore_debris(StateReader& reader, State& state) {

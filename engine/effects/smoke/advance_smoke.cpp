@@ -213,15 +213,4 @@ StepReport advance_smoke_literally(State& state, double step_s) {
   return report;
 }
 
-void add_to_hash(const State& state, StateHash& hash) {
-  const Particles& particles = state.particles;
-  hash.add(state.tick);
-  hash.add(state.births);
-  for (std::size_t n = 0; n < particles.size(); ++n) {
-    hash.add(particles.number[n]);
-    for (const auto* values : {&particles.x, &particles.y, &particles.z, &particles.age_s})
-      hash.add(std::bit_cast<std::uint32_t>((*values)[n]));
-  }
-}
-
 }  // namespace septet::smoke

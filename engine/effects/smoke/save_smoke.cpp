@@ -14,14 +14,10 @@ SEPTET_MEMBERS(Grid, world_from_grid, cell_m, nx, ny, nz, open_faces, wall)
 SEPTET_MEMBERS(KeyframeTrack, first_chunk, chunks)
 SEPTET_MEMBERS(KeyframeTrack::Chunk, time_s, place, known, data)
 
-/// All but the densities, which are counted again, and the memory of a step.
-template <SameButForConst<State> S>
-auto members(S& state) {
-  auto& [grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot, density,
-         extinction_area_m2, full, field] = state;
-  return std::tie(grid, parameters, emitters, particles, capacity, seed, tick, births, time_s, beside_wall, soot,
-                  extinction_area_m2, full);
-}
+// Kept is where the smoke is and what follows from the hashed; left out are the densities, which are counted again, and a step's memory.
+SEPTET_MEMBER_GROUPS(State, kept(grid), hashed(parameters, emitters, particles, capacity, seed, tick, births, time_s),
+                     kept(beside_wall), hashed(soot), left_out(density), kept(extinction_area_m2, full),
+                     left_out(field))
 
 namespace {
 
@@ -89,6 +85,8 @@ void require_whole(const KeyframeTrack& track, const State& state, StateReader& 
 }
 
 }  // namespace
+
+void add_to_hash(const State& state, StateHash& hash) { hash_members(hash, state); }
 
 void save_smoke(const State& state, const KeyframeTrack& track, StateWriter& writer) {
   transfer(writer, state);

@@ -4,20 +4,14 @@
 
 namespace septet::elastic {
 
-/// All but the places in the equations.
-template <SameButForConst<Element> S>
-auto members(S& element) {
-  auto& [nodes, rest_inverse, rest_volume_m3, slots] = element;
-  return std::tie(nodes, rest_inverse, rest_volume_m3);
-}
-/// All but the material and what follows from the elements; the factor at rest is made again when it is wanted.
-template <SameButForConst<ElasticBody> S>
-auto members(S& body) {
-  auto& [position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, material, rest_position_m,
-         mass_kg, elements, body_node_of_mesh_node, pattern, factor_structure, rotation, rest_factor, workspace] = body;
-  return std::tie(position_m, velocity_mps, force_n, fixed, contact_impulse_ns, step_stress_pa, rest_position_m,
-                  mass_kg, elements, body_node_of_mesh_node, rotation);
-}
+// Left out are the places in the equations.
+SEPTET_MEMBER_GROUPS(Element, hashed(nodes, rest_inverse, rest_volume_m3), left_out(slots))
+// Left out are the material and what follows from the elements; the factor at rest is made again when it is wanted. Kept is what a body
+// was made of, and what was made of the hashed.
+SEPTET_MEMBER_GROUPS(ElasticBody, hashed(position_m, velocity_mps),
+                     kept(force_n, fixed, contact_impulse_ns, step_stress_pa), left_out(material),
+                     kept(rest_position_m, mass_kg, elements, body_node_of_mesh_node),
+                     left_out(pattern, factor_structure), kept(rotation), left_out(rest_factor, workspace))
 
 namespace {
 
@@ -60,6 +54,8 @@ void require_whole(const ElasticBody& body, std::size_t most_elements, StateRead
 }  // namespace
 
 void save_body(const ElasticBody& body, StateWriter& writer) { transfer(writer, body); }
+
+void add_to_hash(const ElasticBody& body, StateHash& hash) { hash_members(hash, body); }
 
 void restore_body(StateReader& reader, std::size_t most_elements, ElasticBody& body) {
   transfer(reader, body);

@@ -8,6 +8,7 @@
 namespace septet::elastic {
 
 void save_body(const ElasticBody& body, StateWriter& writer);
+void add_to_hash(const ElasticBody& body, StateHash& hash);
 
 /// A body of `body.material` and of no more than `most_elements`. `reader` fails where it is none: then `body` is not to be used.
 void restore_body(StateReader& reader, std::size_t most_elements, ElasticBody& body);

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/physics/vehicle/vehicle_members.hpp"
 #include "engine/world/vehicle_body.hpp"
 
 namespace septet::vehicle {
@@ -251,14 +252,6 @@ void advance_hull(const VehicleParameters& parameters, std::span<const Obstacle>
   step.finish();
 }
 
-void hash_hull(StateHash& hash, const HullState& hull) {
-  for (const double crush : hull.crush_m) hash.add(crush);
-  for (const HullTouch& touch : hull.touches) {
-    hash.add(touch.run);
-    for (const double part :
-         {touch.delta_v_mps.x, touch.delta_v_mps.y, touch.age_s, touch.free_s, touch.depth_m, touch.side})
-      hash.add(part);
-  }
-}
+void hash_hull(StateHash& hash, const HullState& hull) { hash_members(hash, hull); }
 
 }  // namespace septet::vehicle

@@ -9,8 +9,9 @@
 namespace septet::vehicle {
 
 SEPTET_MEMBERS(WheelDamage, rim_bend_m, lost_air)
-SEPTET_MEMBERS(WheelState, travel_m, travel_rate_mps, spin_rad, spin_radps, deflection_m, damage, squeeze_m, force_n,
-               aligning_nm, steer_rad, slip, slip_angle_rad)
+// Of the last step's, force and aligning torque bend the suspension in the next one; the others are only told.
+SEPTET_MEMBER_GROUPS(WheelState, hashed(travel_m, travel_rate_mps, spin_rad, spin_radps, deflection_m, damage),
+                     kept(squeeze_m), hashed(force_n, aligning_nm), kept(steer_rad, slip, slip_angle_rad))
 SEPTET_MEMBERS(SteeringState, column_rad, torque_nm)
 SEPTET_MEMBERS(PowertrainState, engine_radps, engine_torque_nm, engine_running, clutch_nm, gear, next_gear, shift_s,
                since_shift_s)

@@ -10,6 +10,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/effects/debris/debris_keyframe.hpp"
 #include "engine/effects/debris/piece.hpp"
+#include "engine/effects/debris/save_debris.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 
 namespace septet::simulation {
@@ -34,19 +35,6 @@ void retire(const EffectsWorld& world, debris::State& debris) {
   while (debris.pieces.size() > most_pieces)
     debris.pieces.erase(std::ranges::max_element(
         debris.pieces, {}, [&](const debris::Piece& piece) { return distance(place_of(piece)); }));
-}
-
-void add_to_hash(const debris::State& debris, StateHash& hash) {
-  hash.add(debris.next_id);
-  for (const debris::Piece& piece : debris.pieces) {
-    hash.add(piece.id);
-    if (piece.asleep) continue;  // Hashed when it moved last.
-    for (const auto& x : piece.body.position_m)
-      for (int c = 0; c < 3; ++c) hash.add(x[c]);
-  }
-  for (const debris::Shard& shard : debris.shards)
-    if (shard.velocity_mps != Vec3(0.0))
-      for (int c = 0; c < 3; ++c) hash.add(shard.position_m[c]);
 }
 
 std::vector<EffectOffer> debris_offers(const debris::State& debris) {
@@ -131,8 +119,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   // What is new of the smoke; its keyframes follow wholly from it.
   for (const EffectKeyframe& keyframe : state.fires.keyframes)
     if (keyframe.tick == world.tick) hash.add_bytes(keyframe.data);
-  add_to_hash(state.debris, hash);
-  for (const auto word : state.random.state()) hash.add(word);
+  debris::add_to_hash(state.debris, hash);
+  hash_members(hash, state.random);
   state.hash = hash.value();
 
   report.published = publish(debris_offers(state.debris), world.tick + effects_step_ticks, {}, state.published);
