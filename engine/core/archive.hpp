@@ -286,13 +286,15 @@ void transfer(Archive& archive, V& value) {
         for (const Element& element : value) transfer(archive, element);
     }
   } else if constexpr (std::is_same_v<T, Random>) {  // Its state is all that it has.
-    std::array<std::uint64_t, 4> state = value.state();
     if constexpr (Archive::reads) {
+      Random::State state{};
       transfer(archive, state);
-      if (archive.require((state[0] | state[1] | state[2] | state[3]) != 0, "its random numbers would all be the same"))
-        value = std::bit_cast<Random>(state);
+      if (const auto restored = Random::from_state(state))
+        value = *restored;
+      else
+        archive.fail("its random numbers would all be the same");
     } else {
-      transfer(archive, std::as_const(state));
+      transfer(archive, value.state());
     }
   } else if constexpr (archive::is_array<T>) {
     for (auto& element : value) transfer(archive, element);

@@ -22,6 +22,13 @@ Random::Random(std::uint64_t seed, std::uint64_t stream) {
   for (auto& word : state_) word = split_mix(counter);
 }
 
+std::optional<Random> Random::from_state(const State& state) {
+  if (state == State{}) return std::nullopt;
+  Random random(0);
+  random.state_ = state;
+  return random;
+}
+
 std::uint64_t Random::next_bits() {
   const std::uint64_t result = std::rotl(state_[0] + state_[3], 23) + state_[0];
   const std::uint64_t shifted = state_[1] << 17;

@@ -6,12 +6,17 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace septet {
 
 class Random {
  public:
+  using State = std::array<std::uint64_t, 4>;
+
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+  /// Goes on where another was. Nothing for the one state that no seed leads to, all zeros, in which every number would be zero.
+  static std::optional<Random> from_state(const State& state);
 
   std::uint64_t next_bits();
   /// Uniform in [0, 1), 53 bits.
@@ -23,10 +28,10 @@ class Random {
   std::uint64_t below(std::uint64_t count);
 
   /// The whole state, so that it can be hashed, stored and restored.
-  const std::array<std::uint64_t, 4>& state() const { return state_; }
+  const State& state() const { return state_; }
 
  private:
-  std::array<std::uint64_t, 4> state_;
+  State state_;
 };
 
 }  // namespace septet

@@ -82,6 +82,28 @@ TEST_CASE("what was kept comes back, and what was left out stays as it is") {
   CHECK(hash_of(after) == hash_of(before));
 }
 
+TEST_CASE("random numbers go on from a state, but not from the one in which they would all be zero") {
+  Random random(5, 2);
+  random.normal();
+  auto same = Random::from_state(random.state());
+  REQUIRE(same.has_value());
+  for (int i = 0; i < 5; ++i) CHECK(same->next_bits() == random.next_bits());
+  CHECK_FALSE(Random::from_state({}).has_value());
+
+  Random restored(1);
+  Bytes bytes(sizeof(Random::State));
+  StateReader zeros(bytes);
+  transfer(zeros, restored);
+  CHECK_FALSE(zeros.ok());
+  bytes.clear();
+  StateWriter writer(bytes);
+  transfer(writer, std::as_const(random));
+  StateReader reader(bytes);
+  transfer(reader, restored);
+  CHECK(reader.ok());
+  CHECK(restored.next_bits() == random.next_bits());
+}
+
 TEST_CASE("bytes are hashed whole, however many they are and wherever they end") {
   std::vector<std::uint64_t> seen;
   std::string text;
