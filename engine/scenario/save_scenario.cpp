@@ -17,8 +17,8 @@ SEPTET_MEMBERS(DynamicConstraints, max_speed_mps, max_acceleration_mps2, max_dec
 SEPTET_MEMBERS(KeepDistanceAction, lateral, reference, distance_m, time_gap_s, reference_side, system, freespace,
                continuous, limits)
 SEPTET_MEMBERS(DistanceControl, what, side)
-SEPTET_MEMBERS(SpeedProfile::Part, start_s, speed_mps, acceleration_mps2, jerk_mps3)
-SEPTET_MEMBERS(SpeedProfile, parts, end_s, end_mps)
+SEPTET_MEMBERS(SpeedProfile::Phase, start_s, speed_mps, acceleration_mps2, jerk_mps3)
+SEPTET_MEMBERS(SpeedProfile, phases, end_s, end_mps)
 SEPTET_MEMBERS(Placement, on_road, lane, along_s, heading_offset_rad, pose)
 SEPTET_MEMBERS(Meeting, target, master_target, what)
 SEPTET_MEMBERS(SpeedControl, active, action, transition, follow, follow_factor, follow_delta_mps, profile, profile_s,
@@ -76,7 +76,7 @@ void require_roads(const Bounds& bounds, const std::vector<road::RoadIndex>& roa
 void require_whole(const Bounds& bounds, const SpeedControl& control, StateReader& reader) {
   require_action(bounds, control.action, reader);
   if (control.follow != no_entity) require_entity(bounds, control.follow, reader);
-  if (control.profile) reader.require(!control.profile->parts.empty(), wrong);
+  if (control.profile) reader.require(!control.profile->phases.empty(), wrong);
   if (control.distance) require_entity(bounds, control.distance->what.reference, reader);
   if (!control.meeting) return;
   require_entity(bounds, control.meeting->what.master, reader);

@@ -15,7 +15,7 @@ struct Lay {
 
   void add(double duration_s, double acceleration_mps2, double jerk_mps3) {
     if (duration_s <= 0.0) return;
-    profile.parts.push_back({profile.end_s, speed_mps, acceleration_mps2, jerk_mps3});
+    profile.phases.push_back({profile.end_s, speed_mps, acceleration_mps2, jerk_mps3});
     profile.end_s += duration_s;
     speed_mps += duration_s * (acceleration_mps2 + 0.5 * jerk_mps3 * duration_s);
   }
@@ -60,12 +60,13 @@ SpeedProfile lay_speed_profile(const SpeedProfileAction& action, double from_mps
 }
 
 double speed_at(const SpeedProfile& profile, double time_s) {
-  if (time_s >= profile.end_s || profile.parts.empty()) return profile.end_mps;
-  const auto after = std::upper_bound(profile.parts.begin(), profile.parts.end(), time_s,
-                                      [](double time, const SpeedProfile::Part& part) { return time < part.start_s; });
-  const SpeedProfile::Part& part = after == profile.parts.begin() ? *after : *(after - 1);
-  const double t = std::max(0.0, time_s - part.start_s);
-  return part.speed_mps + t * (part.acceleration_mps2 + 0.5 * part.jerk_mps3 * t);
+  if (time_s >= profile.end_s || profile.phases.empty()) return profile.end_mps;
+  const auto after =
+      std::upper_bound(profile.phases.begin(), profile.phases.end(), time_s,
+                       [](double time, const SpeedProfile::Phase& phase) { return time < phase.start_s; });
+  const SpeedProfile::Phase& phase = after == profile.phases.begin() ? *after : *(after - 1);
+  const double t = std::max(0.0, time_s - phase.start_s);
+  return phase.speed_mps + t * (phase.acceleration_mps2 + 0.5 * phase.jerk_mps3 * t);
 }
 
 }  // namespace septet::scenario

@@ -12,11 +12,11 @@ namespace septet::scenario {
 
 struct SpeedProfile {
   /// The change of acceleration is constant in each part; one without duration is a jump.
-  struct Part {
+  struct Phase {
     double start_s = 0.0;  ///< From the profile's start.
     double speed_mps = 0.0, acceleration_mps2 = 0.0, jerk_mps3 = 0.0;
   };
-  std::vector<Part> parts;
+  std::vector<Phase> phases;
   double end_s = 0.0, end_mps = 0.0;
 };
 

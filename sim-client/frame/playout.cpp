@@ -17,10 +17,10 @@ std::optional<double> playout_time_s(const TickHistory& history, std::int64_t nu
   return instant_s - (instant_s >= newest.next_from_s ? newest.next_offset_s : newest.offset_s);
 }
 
-Shown show(const TickHistory& history, double simulated_time_s, double tick_s) {
+PlayedOut show(const TickHistory& history, double simulated_time_s, double tick_s) {
   SEPTET_CHECK(!history.empty(), "no tick to show at {} s", simulated_time_s);
   const auto [before, after] = history.around(simulated_time_s);
-  Shown shown;
+  PlayedOut shown;
   if (!before) {  // Older than all that is kept: a screen that has just joined.
     shown.snapshot = after->snapshot;
   } else if (!after) {  // Nothing newer: the last tick, held.

@@ -20,13 +20,13 @@ std::int64_t frame_number(double server_now_s);
 /// The simulated time that frame `number` shows, or nothing before the first tick.
 std::optional<double> playout_time_s(const TickHistory& history, std::int64_t number);
 
-struct Shown {
+struct PlayedOut {
   Snapshot snapshot;     ///< Interpolated.
   Tick tick = 0;         ///< The tick at or before the shown time: what all screens must agree on.
   bool on_tick = false;  ///< False: nothing as new as the time asked for has arrived, and an older instant is shown.
 };
 
 /// The world at a simulated time, as well as the history allows: between two ticks, or the newest one held.
-Shown show(const TickHistory& history, double simulated_time_s, double tick_s);
+PlayedOut show(const TickHistory& history, double simulated_time_s, double tick_s);
 
 }  // namespace septet::frame

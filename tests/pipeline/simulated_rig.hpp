@@ -165,7 +165,7 @@ class SimulatedRig {
   }
 
   /// What a screen would present now, if it has anything.
-  std::optional<frame::Shown> shown(std::size_t i) const {
+  std::optional<frame::PlayedOut> shown(std::size_t i) const {
     const auto& link = screens_[i].link;
     if (!link || link->history().empty()) return std::nullopt;
     const auto server_s = link->server_time_s(screens_[i].machine->clock_s(now_s_));

@@ -167,7 +167,7 @@ double lost_j(const Piece& piece, const Frame& frame) {
 
 /// One elastic step with its bound of energy, `ahead_s` after the tick's start, and the plastic flow; adds what the boxes
 /// received, and returns what the contacts did to the piece.
-Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, Report& report) {
+Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double step_s, StepReport& report) {
   auto found = find_contacts(piece, world, step_s, ahead_s);
   const Frame frame = frame_of(piece, found, step_s);
   const auto closing_mps = add_restitution(piece, found, step_s);
@@ -192,7 +192,7 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
 
 /// Steps a piece from substep `first` of a tick of `count`. What breaks off goes on for the rest of
 /// the tick by itself; all that is left at its end is appended to `done`.
-void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s, Report& report,
+void step_piece(Piece piece, ContactWorld& world, int first, int count, double substep_s, StepReport& report,
                 std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
     const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
@@ -219,8 +219,8 @@ std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_fr
   return state.pieces.back().id;
 }
 
-Report advance_debris(State& state, ContactWorld& world, double step_s) {
-  Report report;
+StepReport advance_debris(State& state, ContactWorld& world, double step_s) {
+  StepReport report;
   for (Box& box : world.boxes) box.impulse_ns = Vec3(0.0);
   exchange_impulses(state.pieces, step_s);
   std::vector<Piece> kept, broken_off, done;

@@ -68,7 +68,7 @@ struct ContactWorld {
   std::vector<Box> boxes;
 };
 
-struct Report {
+struct StepReport {
   int fractures = 0;  ///< Faces that opened.
   int awake = 0;      ///< Pieces stepped.
   int bad_numbers = 0;
@@ -82,7 +82,7 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
                          const Vec3& angular_velocity_radps, Random& random);
 
-Report advance_debris(State& state, ContactWorld& world, double step_s);
+StepReport advance_debris(State& state, ContactWorld& world, double step_s);
 
 /// Height of the highest debris within `radius_m` of a place, for wheels that meet it; pieces
 /// thinner than a centimetre and shards are no obstacle.

@@ -105,7 +105,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   contacts.boxes = vehicle_boxes(world, state.debris, driver_box);
   const std::vector<debris::Box> standing = standing_boxes(world.obstacles, moving_places(state.debris));
   contacts.boxes.insert(contacts.boxes.end(), standing.begin(), standing.end());
-  const debris::Report stepped = debris::advance_debris(state.debris, contacts, step_s);
+  const debris::StepReport stepped = debris::advance_debris(state.debris, contacts, step_s);
   report.fractures = stepped.fractures;
   report.bad_numbers = stepped.bad_numbers;
   report.impulse_on_driver_ns = report.crashes.impulse_on_driver_ns;

@@ -49,7 +49,7 @@ TEST_CASE("a world between two ticks is interpolated and counts as of the tick b
   TickHistory history;
   history.add(tick_at(10, 0.0));
   history.add(tick_at(12, 0.02));
-  const Shown shown = show(history, 11.5 * tick_s, tick_s);
+  const PlayedOut shown = show(history, 11.5 * tick_s, tick_s);
   CHECK(shown.on_tick);
   CHECK(shown.tick == 11);  // Which never came: all screens agree on it all the same.
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x > 0.01);
@@ -62,7 +62,7 @@ TEST_CASE("beyond the newest tick it is held and the frame does not count as one
   TickHistory history;
   history.add(tick_at(10, 0.0));
   history.add(tick_at(12, 3.0));
-  const Shown held = show(history, 14.0 * tick_s, tick_s);
+  const PlayedOut held = show(history, 14.0 * tick_s, tick_s);
   CHECK_FALSE(held.on_tick);
   CHECK(held.tick == 12);
   CHECK(held.snapshot.participants[0].world_from_vehicle.position_m.x == 3.0);
@@ -73,7 +73,7 @@ TEST_CASE("beyond the newest tick it is held and the frame does not count as one
 TEST_CASE("a screen that has just joined shows the oldest tick that it has") {
   TickHistory history;
   history.add(tick_at(10, 7.0));
-  const Shown shown = show(history, 5.0 * tick_s, tick_s);
+  const PlayedOut shown = show(history, 5.0 * tick_s, tick_s);
   CHECK_FALSE(shown.on_tick);
   CHECK(shown.tick == 10);
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x == 7.0);
