@@ -160,8 +160,12 @@ Expected<Bytes> save_state(const Model& model, const State& state) {
   return bytes;
 }
 
-Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
-                              std::span<const std::byte> bytes, std::string_view where) {
+namespace {
+
+enum class ToldHash { must_agree, may_differ };
+
+Expected<State> restore(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                        std::span<const std::byte> bytes, std::string_view where, ToldHash told) {
   constexpr auto use_whole = "use an unaltered copy";
   const auto damaged = [&](const std::string& how) {
     return refused("the saved state is damaged: " + how, where, use_whole);
@@ -206,8 +210,21 @@ Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::Traff
   transfer(reader, state_hash);
   reader.require(reader.remaining() == sizeof bytes_hash, "it is too long");
   if (!reader.ok()) return damaged(reader.problem());
-  if (state_hash != hash_state(state)) return damaged("it gives another state hash than was saved");
+  if (told == ToldHash::must_agree && state_hash != hash_state(state))
+    return damaged("it gives another state hash than was saved");
   return state;
+}
+
+}  // namespace
+
+Expected<State> restore_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                              std::span<const std::byte> bytes, std::string_view where) {
+  return restore(model, std::move(traffic), bytes, where, ToldHash::must_agree);
+}
+
+Expected<State> restore_altered_state(const Model& model, std::unique_ptr<traffic::TrafficEngine> traffic,
+                                      std::span<const std::byte> bytes, std::string_view where) {
+  return restore(model, std::move(traffic), bytes, where, ToldHash::may_differ);
 }
 
 }  // namespace septet::simulation

@@ -223,11 +223,15 @@ TEST_CASE("a state that was changed with care is refused or is one that can be d
     const std::size_t at = 40 + random.below(changed.size() - 60);
     for (std::size_t n = 0; n < 1 + random.below(8); ++n) changed[at + n] = static_cast<std::byte>(random.below(256));
     sign(changed);
-    auto state = restored(*drive.loaded.model, changed);
+    const simulation::Model& model = *drive.loaded.model;
+    auto state =
+        simulation::restore_altered_state(model, traffic::own_traffic(model.roads, model.seed), changed, "test");
     if (!state) continue;
     ++accepted;
     for (int tick = 0; tick < 2; ++tick) simulation::server_step(*drive.loaded.model, input, *state, drive.events);
   }
+  MESSAGE(accepted << " of 300 altered states are driven on with");
+  CHECK(accepted > 0);
   CHECK(accepted < 300);
 }
 
