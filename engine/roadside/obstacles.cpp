@@ -18,6 +18,7 @@ namespace {
 
 constexpr double cell_m = 32.0;
 constexpr double endless_m = 1e6;
+constexpr double most_reach_m = 30.0;
 constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Numbers of what is not in the list.
 
 /// What a kind is made of. Friction of painted sheet metal, chosen: 0.3 on steel, 0.45 on concrete and bark.
@@ -291,8 +292,10 @@ void Obstacles::index() {
   }
 }
 
-std::vector<Obstacle> Obstacles::near(const Vec2& p, double reach_m) const {
+std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) const {
   std::vector<Obstacle> found;
+  if (!(std::abs(p.x) < endless_m && std::abs(p.y) < endless_m && wanted_reach_m >= 0.0)) return found;
+  const double reach_m = std::min(wanted_reach_m, most_reach_m);
   std::vector<std::uint32_t> numbers;
   bool may_be_wood = false;
   for_each_cell(p - reach_m, p + reach_m, [&](std::uint64_t key) {

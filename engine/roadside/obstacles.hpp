@@ -25,7 +25,7 @@ class Obstacles {
  public:
   Obstacles(const road::RoadNetwork& network, std::uint64_t seed, double overrun_m = roadside::usual_overrun_m);
 
-  /// Those within `reach_m` (at most 30) of p in plan, in a fixed order; the stems of woods are made on the spot.
+  /// Those within `reach_m` (at most 30) of p in plan, in a fixed order, woods' stems too; none where p is no number.
   std::vector<Obstacle> near(const Vec2& p, double reach_m) const;
 
   /// All but the stems of woods.

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/plants.hpp"
 #include "tests/engine/road/road_files.hpp"
@@ -102,6 +103,204 @@ TEST_CASE("the same seed gives the same obstacles and another seed other trees")
 
 TEST_CASE("a road without anything beside it has nothing to hit on it") {
   CHECK(Obstacles(road::RoadNetwork{}, 1).near({0.0, 0.0}, 5.0).empty());
+}
+
+TEST_CASE("near a place that is no number there is nothing and nothing is further than thirty metres") {
+  const double bad = std::nan("");
+  CHECK(motorway_obstacles().near({bad, 0.0}, 5.0).empty());
+  CHECK(motorway_obstacles().near({0.0, bad}, 5.0).empty());
+  CHECK(motorway_obstacles().near(on_motorway(901.5, 0.0), bad).empty());
+  CHECK(motorway_obstacles().near({1e300, 0.0}, 5.0).empty());
+  const Vec2 middle = on_motorway(901.5, 0.0);
+  CHECK(motorway_obstacles().near(middle, 1e30).size() == motorway_obstacles().near(middle, 30.0).size());
+}
+
+TEST_CASE("what is near is what of the list lies within reach, from edge to place") {
+  const auto distance_m = [](const Obstacle& obstacle, const Vec2& p) {
+    double least_m = INFINITY;
+    for (int i = 0; i <= 1000; ++i)
+      least_m = std::min(least_m, glm::distance(p, glm::mix(obstacle.from_m, obstacle.to_m, i / 1000.0)));
+    return least_m - obstacle.radius_m;
+  };
+  for (double s = 20.0; s < 7000.0; s += 431.0)
+    for (const double t : {-45.0, -21.0, 0.0, 23.0, 60.0})
+      for (const double reach_m : {2.0, 12.0, 30.0}) {
+        const Vec2 p = on_motorway(s, t);
+        std::vector<const Obstacle*> expected, doubtful;
+        for (const Obstacle& obstacle : motorway_obstacles().listed()) {
+          if (glm::distance(obstacle.from_m, p) > 120.0) continue;
+          const double away_m = distance_m(obstacle, p);
+          if (std::abs(away_m - reach_m) < 0.06)
+            doubtful.push_back(&obstacle);
+          else if (away_m < reach_m)
+            expected.push_back(&obstacle);
+        }
+        auto found = motorway_obstacles().near(p, reach_m);
+        std::erase_if(found, [](const Obstacle& o) { return (o.run & 0x8000'0000u) != 0; });
+        const auto is_found = [&](const Obstacle* wanted) {
+          return std::ranges::count_if(found, [&](const Obstacle& o) {
+            return o.run == wanted->run && o.from_m == wanted->from_m && o.to_m == wanted->to_m;
+          });
+        };
+        CAPTURE(s);
+        CAPTURE(t);
+        CAPTURE(reach_m);
+        for (const Obstacle* obstacle : expected) CHECK(is_found(obstacle) == 1);
+        CHECK(found.size() >= expected.size());
+        CHECK(found.size() <= expected.size() + doubtful.size());
+      }
+}
+
+TEST_CASE("a tunnel has walls half a metre beside its lanes and between them, up to where its ceiling begins") {
+  const road::Road& road = road::motorway().roads[0];
+  const auto tunnel = std::ranges::find(road.structures, road::RoadStructure::Kind::tunnel, &road::RoadStructure::kind);
+  REQUIRE(tunnel != road.structures.end());
+  const auto walls_at = [&](double s_m, double t_m) {
+    auto found = motorway_obstacles().near(on_motorway(s_m, t_m), 0.02);
+    std::erase_if(found, [](const Obstacle& o) { return o.kind != ObstacleKind::tunnel_wall; });
+    return found;
+  };
+  for (const double in_m : {15.0, 400.0, 785.0}) {
+    const double s = tunnel->s_m + in_m;
+    const road::RoadExtent extent = road::road_extent(road, s);
+    for (const double t : {extent.left_t_m + 0.5, 0.0, extent.right_t_m - 0.5}) {
+      CAPTURE(s);
+      CAPTURE(t);
+      const auto walls = walls_at(s, t);
+      REQUIRE(walls.size() >= 1);
+      const double road_z_m = road::evaluate(road::motorway(), {0, s, t}).position_m.z;
+      CHECK(walls.front().low_m < road_z_m);
+      CHECK(walls.front().low_m > road_z_m - 1.5);
+      CHECK(walls.front().high_m > road_z_m + 4.99);
+      CHECK(walls.front().high_m < road_z_m + 6.0);
+      CHECK(walls.front().friction == 0.45);
+      CHECK(walls.front().yielding_kg == 0.0);
+    }
+    CHECK(walls_at(s, extent.left_t_m + 0.2).empty());
+    CHECK(walls_at(s, extent.right_t_m - 0.8).empty());
+  }
+  CHECK(walls_at(tunnel->s_m - 3.0, 0.0).empty());
+  CHECK(walls_at(tunnel->s_m + tunnel->length_m + 3.0, 0.0).empty());
+  std::vector<double> lengths;
+  for (const Obstacle& obstacle : motorway_obstacles().listed())
+    if (obstacle.kind == ObstacleKind::portal) lengths.push_back(glm::distance(obstacle.from_m, obstacle.to_m));
+  REQUIRE(lengths.size() == 4);
+  for (const double length_m : lengths) CHECK(length_m == doctest::Approx(46.0 - 0.5 - 0.45).epsilon(1e-3));
+}
+
+TEST_CASE("marker posts yield and stand every fifty metres a little outside of the lanes but not where a wall is") {
+  const road::Road& road = road::motorway().roads[0];
+  const auto posts_at = [&](double s_m, double side) {
+    const road::RoadExtent extent = road::road_extent(road, s_m);
+    auto found = motorway_obstacles().near(
+        on_motorway(s_m - 0.5, side > 0.0 ? extent.left_t_m + 1.2 : extent.right_t_m - 1.2), 0.05);
+    std::erase_if(found, [](const Obstacle& o) { return o.kind != ObstacleKind::marker_post; });
+    return found;
+  };
+  for (const double s : {100.0, 150.0, 900.0, 5500.0})
+    for (const double side : {-1.0, 1.0}) {
+      CAPTURE(s);
+      const auto posts = posts_at(s, side);
+      REQUIRE(posts.size() == 1);
+      CHECK(posts.front().yielding_kg == 3.0);
+      CHECK(posts.front().from_m == posts.front().to_m);
+      const double z_m = road::evaluate(road::motorway(), {0, s, 0.0}).position_m.z;
+      CHECK(std::abs(posts.front().high_m - z_m - 1.05) < 0.8);  // The road is tilted.
+      CHECK(posts_at(s + 25.0, side).empty());
+    }
+  for (const double s : {1200.0, 1250.0, 3300.0, 3900.0}) CHECK(posts_at(s, 1.0).empty());
+}
+
+TEST_CASE("a house is a wall all round, no nearer to a road than seventy-five metres less its half") {
+  const Terrain terrain(RoadShape(road::motorway(), usual_overrun_m), 1);
+  std::vector<Obstacle> walls;
+  for (const Obstacle& obstacle : motorway_obstacles().listed())
+    if (obstacle.kind == ObstacleKind::house) walls.push_back(obstacle);
+  REQUIRE(walls.size() >= 8);
+  REQUIRE(walls.size() % 4 == 0);
+  std::map<std::pair<int, int>, int> sizes_dm;
+  for (std::size_t i = 0; i < walls.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Obstacle &wall = walls[i + k], &next = walls[i + (k + 1) % 4];
+      CHECK(glm::distance(wall.to_m, next.from_m) < 1e-6);
+      CHECK(std::abs(glm::dot(wall.to_m - wall.from_m, next.to_m - next.from_m)) < 1e-3);
+      CHECK(wall.high_m - wall.low_m > 1e5);
+      CHECK(wall.run != next.run);
+    }
+    const auto length_dm = [&](std::size_t k) {
+      return static_cast<int>(std::lround(10.0 * glm::distance(walls[i + k].from_m, walls[i + k].to_m)));
+    };
+    ++sizes_dm[{length_dm(0), length_dm(1)}];
+    const Vec2 middle = 0.5 * (walls[i].from_m + walls[i + 2].from_m);
+    CHECK(terrain.nearest(middle).outside_m > 40.0);
+  }
+  // Of a farm the dwelling, barn and shed; of a church nave and tower.
+  CHECK(sizes_dm.at({120, 80}) == sizes_dm.at({260, 110}));
+  CHECK(sizes_dm.at({120, 80}) == sizes_dm.at({90, 60}));
+  CHECK(sizes_dm.size() == (sizes_dm.contains({220, 100}) ? 5 : 3));
+}
+
+TEST_CASE("bushes give way and trees do not and both are as thick as their kind and size") {
+  int bushes = 0;
+  for (const Obstacle& obstacle : motorway_obstacles().listed()) {
+    if (obstacle.kind == ObstacleKind::tree) {
+      CHECK(obstacle.yielding_kg == 0.0);
+      CHECK(obstacle.radius_m >= 0.16 * 0.75);
+      CHECK(obstacle.radius_m <= 0.32 * 1.2);
+    } else if (obstacle.kind == ObstacleKind::bush) {
+      ++bushes;
+      CHECK(obstacle.yielding_kg == 40.0);
+      CHECK(obstacle.radius_m >= 0.8 * 0.75);
+      CHECK(obstacle.radius_m <= 0.8 * 1.2);
+    }
+  }
+  CHECK(bushes > 100);
+}
+
+TEST_CASE("the same stem is found from wherever one looks") {
+  int stems = 0;
+  for (double s = 100.0; s < 6000.0; s += 200.0)
+    for (const double t : {-160.0, 160.0}) {
+      const Vec2 p = on_motorway(s, t), q = p + Vec2(3.0, -2.0);
+      const auto from_p = motorway_obstacles().near(p, 6.0), from_q = motorway_obstacles().near(q, 12.0);
+      for (const Obstacle& stem : from_p) {
+        if ((stem.run & 0x8000'0000u) == 0) continue;
+        ++stems;
+        CHECK(stem.radius_m >= 0.10);
+        CHECK(stem.radius_m <= 0.20);
+        CHECK(glm::distance(stem.from_m, p) <= 6.0);
+        CHECK(std::ranges::count_if(from_q, [&](const Obstacle& o) {
+                return o.run == stem.run && o.from_m == stem.from_m && o.radius_m == stem.radius_m;
+              }) == 1);
+      }
+    }
+  CHECK(stems > 20);
+}
+
+TEST_CASE("a rail that goes on as another one has no end to run into") {
+  struct End {
+    Vec2 at, outwards;
+  };
+  std::vector<End> open;
+  std::size_t closed = 0;
+  std::map<std::uint32_t, std::pair<Obstacle, Obstacle>> runs;
+  for (const Obstacle& obstacle : motorway_obstacles().listed()) {
+    if (obstacle.from_m == obstacle.to_m || obstacle.kind == ObstacleKind::house) continue;
+    const auto [run, is_new] = runs.try_emplace(obstacle.run, obstacle, obstacle);
+    if (!is_new) run->second.second = obstacle;
+  }
+  for (const auto& [run, ends] : runs) {
+    const auto& [first, last] = ends;
+    if (first.open_from) open.push_back({first.from_m, glm::normalize(first.from_m - first.to_m)});
+    if (last.open_to) open.push_back({last.to_m, glm::normalize(last.to_m - last.from_m)});
+    closed += !first.open_from + !last.open_to;
+  }
+  CHECK(closed > 0);
+  CHECK(open.size() > 2);
+  for (std::size_t i = 0; i < open.size(); ++i)
+    for (std::size_t k = i + 1; k < open.size(); ++k)
+      CHECK_FALSE(
+          (glm::distance(open[i].at, open[k].at) < 0.75 && glm::dot(open[i].outwards, open[k].outwards) < -0.9));
 }
 
 }  // namespace septet::roadside

@@ -30,7 +30,8 @@ TEST_CASE("a keyframe comes back within half a millimetre and with the same tria
 
 TEST_CASE("ice brings its places at rest, which stay where they were however the piece moves") {
   Random random(3);
-  Piece slab = make_part(Part::ice_slab, {{500, -20, 4}, orientation_from_angles(1.0, 0.2, 0.0)}, Vec3(0), Vec3(0), random);
+  Piece slab =
+      make_part(Part::ice_slab, {{500, -20, 4}, orientation_from_angles(1.0, 0.2, 0.0)}, Vec3(0), Vec3(0), random);
   const Keyframe sent = keyframe_of(slab);
   REQUIRE(sent.rest_m.size() == sent.vertices_m.size());
   const auto received = decode(encode(sent));
