@@ -72,8 +72,19 @@ std::vector<ice::IceVertex> cracks_between(std::span<const Vec3> rest_m) {
   Vec3 low(INFINITY), high(-INFINITY);
   for (const Vec3& place : rest_m) low = glm::min(low, place), high = glm::max(high, place);
   for (const ice::Crack& crack : ice::cracks_in({glm::vec3(low), glm::vec3(high)}, crack_cell_m))
-    ice::append_crack(inside, crack, ice::InsideKind::crack, 3);
+    // Every third holds air: ice from a roof is milky with it.
+    ice::append_crack(inside, crack, crack.seed < 0.35f ? ice::InsideKind::air : ice::InsideKind::crack, 3);
   return inside;
+}
+
+/// Snow that was pressed and has frozen: uneven, with a crust.
+ice::Look slab_look() {
+  ice::Look look;
+  look.mode = ice::Mode::quality;
+  look.bump = 0.10f;
+  look.bump_size_m = 0.16f;
+  look.roughness = 0.4f;
+  return look;
 }
 
 /// Axes through three points: from the first to the second, and in their plane.
@@ -144,8 +155,7 @@ std::optional<ice::IceBody> DebrisWay::ice_of(const instant::DynamicMesh& mesh) 
   if (rest_m_.empty() || mesh.vertices.size() != 3 * triangles_.size()) return std::nullopt;
   ice::IceBody body;
   body.origin_m = mesh.origin_m;
-  body.look.bump_size_m = 0.16f;
-  body.look.bump = 0.10f;
+  body.look = slab_look();
   body.vertices.reserve(mesh.vertices.size());
   std::vector<Vec3> places(rest_m_.size(), Vec3(0.0));
   Vec3 rest_middle(0.0), middle(0.0);
