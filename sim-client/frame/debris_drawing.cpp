@@ -71,9 +71,12 @@ std::vector<ice::IceVertex> cracks_between(std::span<const Vec3> rest_m) {
   if (rest_m.empty()) return inside;
   Vec3 low(INFINITY), high(-INFINITY);
   for (const Vec3& place : rest_m) low = glm::min(low, place), high = glm::max(high, place);
-  for (const ice::Crack& crack : ice::cracks_in({glm::vec3(low), glm::vec3(high)}, crack_cell_m))
-    // Every third holds air: ice from a roof is milky with it.
-    ice::append_crack(inside, crack, crack.seed < 0.35f ? ice::InsideKind::air : ice::InsideKind::crack, 3);
+  // Every third holds air: ice from a roof is milky with it.
+  const auto cracks = ice::cracks_in({glm::vec3(low), glm::vec3(high)}, crack_cell_m);
+  for (const bool airy : {false, true})
+    for (const ice::Crack& crack : cracks)
+      if (airy == (crack.seed < 0.35f))
+        ice::append_crack(inside, crack, airy ? ice::InsideKind::air : ice::InsideKind::crack, 3);
   return inside;
 }
 
@@ -115,7 +118,7 @@ DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
       material_(to.material),
       both_sides_(to.shards),
       rest_m_(to.rest_m.size() == std::max(from.vertices_m.size(), to.vertices_m.size()) ? to.rest_m
-                                                                                           : std::vector<Vec3>()),
+                                                                                         : std::vector<Vec3>()),
       inside_(cracks_between(rest_m_)),
       from_m_(places_of(from, to)),
       step_m_(places_of(to, from)),
@@ -208,8 +211,7 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
   return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};
 }
 
-DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick,
-                                const scene::ResolvedScene& scene) {
+DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene) {
   DrawnDebris drawn;
   std::vector<instant::DynamicMesh>& meshes = drawn.meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;

@@ -13,6 +13,7 @@ void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, d
 void EffectsDrawing::add_to(instant::FrameInput& frame) const {
   frame.meshes = debris_shown_.meshes;
   frame.ice = debris_shown_.ice;
+  frame.ice_surroundings_px = 32;  // Uneven ice under a crust shows no more of them.
   frame.smoke = puffs_;
   frame.soot = soot_.field();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/effects/ice/cracks.hpp"
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
@@ -29,9 +30,10 @@ void push_layer(PassContext& context, std::uint32_t binding, VkImageView view) {
                             &image);
 }
 
-void draw_vertices(PassContext& context, const FrameData& vertices, std::uint32_t count) {
+void draw_vertices(PassContext& context, const FrameData& vertices, std::uint32_t count, std::uint32_t first = 0) {
+  if (count == 0) return;
   vkCmdBindVertexBuffers(context.slot.commands, 0, 1, &vertices.buffer, &vertices.offset);
-  vkCmdDraw(context.slot.commands, count, 1, 0, 0);
+  vkCmdDraw(context.slot.commands, count, 1, first, 0);
   context.statistics.triangles += count / 3;
   ++context.statistics.draws;
 }
@@ -62,8 +64,9 @@ VkPipeline crack_pipeline(IcePass& pass, PassContext& context) {
   return pass.cracks = create_pipeline(context.device, context.layout, description);
 }
 
-VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality) {
-  VkPipeline& pipeline = pass.insides[quality];
+/// `kind` as in shaders/ice_inside.frag.
+VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, std::uint32_t kind) {
+  VkPipeline& pipeline = pass.insides[std::uint32_t{quality} | kind << 1];
   if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::ice_layer_vert();
@@ -72,7 +75,7 @@ VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality) {
   description.color_format = inside_format;
   description.depth_write = false;
   description.blend = vulkan::Blend::layer;
-  description.constants = {quality};
+  description.constants = {quality, kind};
   return pipeline = create_pipeline(context.device, context.layout, description);
 }
 
@@ -132,6 +135,11 @@ IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies)
     vertices.surface_count = static_cast<std::uint32_t>(body.vertices.size() / 3 * 3);
     vertices.inside = store(context, std::span<const ice::IceVertex>(body.inside));
     vertices.inside_count = static_cast<std::uint32_t>(body.inside.size() / 3 * 3);
+    const auto is_air = [](const ice::IceVertex& v) { return v.rest_m.z == float(ice::InsideKind::air); };
+    vertices.first_air = vertices.inside_count;
+    while (vertices.first_air > 0 && is_air(body.inside[vertices.first_air - 1])) --vertices.first_air;
+    vertices.first_air = (vertices.first_air + 2) / 3 * 3;
+    vertices.mixed = std::any_of(body.inside.begin(), body.inside.begin() + vertices.first_air, is_air);
     upload.bodies.push_back(vertices);
   }
   return upload;
@@ -200,9 +208,12 @@ void draw_ice_layer(IcePass& pass, PassContext& context, IceLayer layer, const I
       const IceUpload::Vertices& vertices = upload.bodies[tile.body];
       if (vertices.inside_count == 0) continue;
       const bool quality = bodies[tile.body].look.mode == ice::Mode::quality;
-      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inside_pipeline(pass, context, quality));
       begin_tile(context, tile);
-      draw_vertices(context, vertices.inside, vertices.inside_count);
+      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                        inside_pipeline(pass, context, quality, vertices.mixed ? 0 : 1));
+      draw_vertices(context, vertices.inside, vertices.first_air);
+      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inside_pipeline(pass, context, quality, 2));
+      draw_vertices(context, vertices.inside, vertices.inside_count - vertices.first_air, vertices.first_air);
     }
   } else {
     vkCmdSetCullMode(commands, layer == IceLayer::front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);

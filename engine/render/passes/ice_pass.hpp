@@ -35,6 +35,8 @@ struct IceUpload {
   struct Vertices {
     FrameData surface, inside;
     std::uint32_t surface_count = 0, inside_count = 0;
+    std::uint32_t first_air = 0;  ///< From where on there is nothing but air.
+    bool mixed = false;           ///< Air before that, too.
   };
   std::vector<Vertices> bodies;  ///< One a body.
 };

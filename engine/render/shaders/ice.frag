@@ -116,7 +116,10 @@ void main() {
   radiance += sunlight * (pow(max(dot(n, h), 0.0), 220.0) * 1.5 * ice.blend.w);
   if (frosted != 0) {
     vec3 light = sunlight * max(dot(n, view.light_direction.xyz), 0.0) / pi + 0.5 * (around(n) + around(vec3(0.0, 0.0, 1.0)));
-    radiance = mix(radiance, 0.82 * light, ice.blend.z * smoothstep(0.1, 0.9, 0.5 + 0.5 * sin(dot(rest, vec3(61.0, 47.0, 53.0)) + 3.0 * sin(dot(rest, vec3(-29.0, 37.0, 31.0))))));
+    // The noise holds ranks, as square roots: a crust that is thick here and thin there.
+    float coarse = textureLod(noise, rest.xy * 0.7 + rest.z * 0.31, 0.0).r, fine = textureLod(noise, rest.yx * 5.3 - rest.z, 0.0).r;
+    float crust = 0.7 * coarse * coarse + 0.3 * fine * fine;
+    radiance = mix(radiance, 0.82 * light, ice.blend.z * smoothstep(0.15, 0.85, crust));
   }
 
   float fog = 1.0 - exp2(-length(relative) * view.sky_irradiance.w);

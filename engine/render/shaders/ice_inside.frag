@@ -6,6 +6,8 @@
 // Cracks and planes of air, clipped between the body's front and back faces (section 3.3 of the paper).
 
 layout(constant_id = 0) const uint quality = 0;
+// A software rasteriser runs both sides of a branch: 1 cracks alone, 2 air alone, 0 either.
+layout(constant_id = 1) const uint kind = 0;
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -19,13 +21,13 @@ void main() {
   float front = texelFetch(ice_front, at, 0).w, back = texelFetch(ice_back, at, 0).w;
   float depth = dot(relative, ice.forward.xyz);
   if (front == 0.0 || depth < front || depth > back) discard;
-  if (place.z > 1.5) {
+  if (kind != 2 && place.z > 1.5) {
     result = vec4(1.0, 0.0, 0.0, 1.0);
     return;
   }
   vec3 n = normalize(normal), eye = normalize(relative);
   vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;
-  if (place.z > 0.5) {
+  if (kind == 2 || (kind == 0 && place.z > 0.5)) {
     // Haze where the noise is high, and bubbles: one at most in each cell.
     float rank = textureLod(noise, place.xy * 1.7, 0.0).r;
     vec2 cell = floor(place.xy * 22.0), off = place.xy * 22.0 - cell - 0.5;
@@ -37,7 +39,7 @@ void main() {
     }
     // Seen along its edge a plane would show what it is.
     float alpha = (0.07 * smoothstep(0.55, 1.0, rank * rank) + bubble) * smoothstep(0.1, 0.5, abs(dot(n, eye)));
-    vec3 light = 0.5 * (around(vec3(0.0, 0.0, 1.0)) + around(-eye));
+    vec3 light = around(vec3(0.0, 0.0, 1.0));
     result = vec4(0.8 * (light + 0.12 * sunlight) * alpha, alpha);
     return;
   }
