@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "engine/image/font.hpp"
+#include "engine/math/angle_units.hpp"
 
 namespace septet::image {
 namespace {
 
-constexpr double degree_rad = std::numbers::pi / 180.0;
 constexpr Color background{18, 21, 26}, dark{33, 38, 46}, faint{96, 106, 120}, plain{176, 184, 196},
     bright{240, 243, 247}, accent{255, 196, 84};
 
@@ -83,9 +83,9 @@ void draw_labels(Image& target, const PanoramaView& view, const PanoramaLayout& 
   }
   const double bottom = row.top_px + row.height_px;
   const double right_azimuth = row.left_azimuth_rad - row.width_px / layout.pixels_per_rad;
-  const auto first = static_cast<int>(std::ceil(right_azimuth / degree_rad / 10.0 - 1e-9)) * 10;
-  for (int degrees = first; degrees * degree_rad <= row.left_azimuth_rad + 1e-9; degrees += 10) {
-    const double x = row.left_px + (row.left_azimuth_rad - degrees * degree_rad) * layout.pixels_per_rad;
+  const auto first = static_cast<int>(std::ceil(right_azimuth / radians_per_degree / 10.0 - 1e-9)) * 10;
+  for (int degrees = first; degrees * radians_per_degree <= row.left_azimuth_rad + 1e-9; degrees += 10) {
+    const double x = row.left_px + (row.left_azimuth_rad - degrees * radians_per_degree) * layout.pixels_per_rad;
     const bool labelled = degrees % 20 == 0;
     line(target, x, bottom + 3, x, bottom + (labelled ? 10 : 6), 1.5, labelled ? plain : faint);
     const int turned = degrees > 180 ? 360 - degrees : degrees;
@@ -94,7 +94,7 @@ void draw_labels(Image& target, const PanoramaView& view, const PanoramaLayout& 
       fonts.regular.draw_centred(target, x, bottom + 25, fmt::format("{}°{}", std::abs(turned), side), 13.0, plain);
   }
   for (int degrees = -10; degrees <= 10; degrees += 10) {
-    const double y = row.top_px + (row.top_elevation_rad - degrees * degree_rad) * layout.pixels_per_rad;
+    const double y = row.top_px + (row.top_elevation_rad - degrees * radians_per_degree) * layout.pixels_per_rad;
     if (y < row.top_px || y > bottom) continue;
     const std::string text = fmt::format("{:+d}°", degrees);
     fonts.regular.draw(target, row.left_px - 8 - fonts.regular.width_px(text, 12.0), y + 4,

@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "engine/image/panorama.hpp"
+#include "engine/math/angle_units.hpp"
 
 namespace septet::image {
 namespace {
 
-constexpr double degree_rad = std::numbers::pi / 180.0;
 /// A screen whose middle is further from straight ahead than this belongs to the row behind.
-constexpr double ahead_limit_rad = 125.0 * degree_rad;
+constexpr double ahead_limit_rad = 125.0 * radians_per_degree;
 constexpr double margin_px = 44.0, label_above_px = 34.0, label_below_px = 40.0;
 
 double azimuth_rad(const Vec3& direction) { return std::atan2(direction.y, direction.x); }
@@ -73,7 +73,7 @@ std::optional<Point> screen_point(const PanoramaScreen& screen, const Vec3& eye_
 
 PanoramaLayout layout_panorama(const PanoramaView& view) {
   PanoramaLayout layout;
-  layout.pixels_per_rad = view.pixels_per_degree / degree_rad;
+  layout.pixels_per_rad = view.pixels_per_degree / radians_per_degree;
   std::vector<std::size_t> ahead, behind;
   for (std::size_t i = 0; i < view.screens.size(); ++i) {
     const double azimuth = azimuth_rad(middle(view.screens[i]) - view.eye_point_m);

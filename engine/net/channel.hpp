@@ -18,6 +18,8 @@
 
 namespace septet::net {
 
+/// So that a flood of datagrams cannot hold whoever pumps.
+inline constexpr std::size_t max_datagrams_per_pump = 8192;
 inline constexpr std::size_t data_header_bytes = scene_prefix_bytes + 4 + 8;
 
 /// Connection number of a data datagram; none if it is too short to be one.

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace septet::net {
-namespace {
-
-/// An honest sender's fragments weigh at least this much in the window.
-constexpr std::size_t fragment_weight = 32;
-
-}  // namespace
 
 bool ReliableReceiver::accept(const Frame& frame, std::vector<Bytes>& completed) {
   if (frame.message < next_) return true;  // Delivered already, resent in vain.

@@ -8,8 +8,6 @@
 namespace septet::net {
 namespace {
 
-/// What a fragment weighs in the window beside its bytes, so that empty messages are bounded too.
-constexpr std::size_t fragment_weight = 32;
 /// A packet's last bytes are left empty rather than filled with a sliver of a message.
 constexpr std::size_t smallest_piece = 64;
 constexpr double longest_backoff_s = 0.25;

@@ -36,6 +36,9 @@ struct Frame {
 bool read_frame(ByteReader& reader, Frame& out);
 void write_frame(const Frame& frame, ByteWriter& writer);
 
+/// What a fragment weighs at least, beside its bytes, in the sender's and the receiver's window: empty messages are bounded too.
+inline constexpr std::size_t fragment_weight = 32;
+
 std::size_t varint_bytes(std::uint64_t value);
 /// Of a fragment frame without its bytes.
 std::size_t fragment_overhead(std::uint64_t message, std::uint64_t message_bytes, std::uint64_t offset,

@@ -13,7 +13,6 @@
 namespace septet::net {
 namespace {
 
-constexpr std::size_t max_datagrams_per_pump = 8192;
 constexpr double first_retry_s = 0.05, longest_retry_s = 0.25;
 /// To a server that has been away for long, and to one that has refused us.
 constexpr double patient_after_s = 10.0, patient_retry_s = 1.0;

@@ -11,7 +11,6 @@
 namespace septet::net {
 namespace {
 
-constexpr std::size_t max_datagrams_per_pump = 8192;
 constexpr double handshakes_per_s = 50.0;
 constexpr double unconfirmed_s = 10.0;
 constexpr double refusal_report_s = 1.0, same_refusal_report_s = 30.0;

@@ -10,13 +10,14 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/barrier_lines.hpp"
 #include "engine/roadside/buildings.hpp"
+#include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 
 namespace septet::roadside {
 namespace {
 
-constexpr double cell_m = 32.0;
+constexpr PlaneCells obstacle_cells{32.0};
 constexpr double endless_m = 1e6;
 constexpr double most_reach_m = 30.0;
 constexpr std::uint32_t stem_runs = 0x8000'0000u;  // Numbers of what is not in the list.
@@ -217,18 +218,6 @@ void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed
     }
 }
 
-std::uint64_t key_of(std::int64_t x, std::int64_t y) {
-  return static_cast<std::uint64_t>(x) << 32 ^ (static_cast<std::uint64_t>(y) & 0xffff'ffffu);
-}
-
-std::int64_t cell_index(double x) { return static_cast<std::int64_t>(std::floor(x / cell_m)); }
-
-template <class Visit>
-void for_each_cell(const Vec2& low, const Vec2& high, const Visit& visit) {
-  for (std::int64_t y = cell_index(low.y); y <= cell_index(high.y); ++y)
-    for (std::int64_t x = cell_index(low.x); x <= cell_index(high.x); ++x) visit(key_of(x, y));
-}
-
 double distance_m(const Obstacle& obstacle, const Vec2& p) {
   const Vec2 along = obstacle.to_m - obstacle.from_m;
   const double square = glm::dot(along, along);
@@ -257,7 +246,7 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
       const road::RoadExtent extent = road::road_extent(network.roads[road], s);
       for (double t = extent.right_t_m; t <= extent.left_t_m; t += 12.0) {
         const Vec3 p = roads.point(road, s, t);
-        treeless_.insert(key_of(cell_index(p.x), cell_index(p.y)));
+        treeless_.insert(obstacle_cells.key_at(p));
       }
     }
 }
@@ -286,9 +275,9 @@ void Obstacles::close_ends() {
 void Obstacles::index() {
   for (std::uint32_t i = 0; i < obstacles_.size(); ++i) {
     const Obstacle& obstacle = obstacles_[i];
-    for_each_cell(glm::min(obstacle.from_m, obstacle.to_m) - obstacle.radius_m,
-                  glm::max(obstacle.from_m, obstacle.to_m) + obstacle.radius_m,
-                  [&](std::uint64_t key) { cells_[key].push_back(i); });
+    obstacle_cells.for_each(glm::min(obstacle.from_m, obstacle.to_m) - obstacle.radius_m,
+                            glm::max(obstacle.from_m, obstacle.to_m) + obstacle.radius_m,
+                            [&](std::uint64_t key) { cells_[key].push_back(i); });
   }
 }
 
@@ -298,7 +287,7 @@ std::vector<Obstacle> Obstacles::near(const Vec2& p, double wanted_reach_m) cons
   const double reach_m = std::min(wanted_reach_m, most_reach_m);
   std::vector<std::uint32_t> numbers;
   bool may_be_wood = false;
-  for_each_cell(p - reach_m, p + reach_m, [&](std::uint64_t key) {
+  obstacle_cells.for_each(p - reach_m, p + reach_m, [&](std::uint64_t key) {
     may_be_wood |= !treeless_.contains(key);
     const auto cell = cells_.find(key);
     if (cell == cells_.end()) return;

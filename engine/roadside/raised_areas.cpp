@@ -12,11 +12,13 @@
 
 #include "engine/math/polygon.hpp"
 #include "engine/road/road_position.hpp"
+#include "engine/roadside/plane_cells.hpp"
 
 namespace septet::roadside {
 namespace {
 
-constexpr double cell_m = 16.0, margin_m = 1.0;
+constexpr PlaneCells area_cells{16.0};
+constexpr double margin_m = 1.0;
 constexpr double stone_m = 0.15;  // Width of a kerb stone where the file gives none.
 constexpr double step_m = 2.0;    // Of a long kerb, so that it bends with its road.
 constexpr double lowest_m = 0.005;
@@ -40,9 +42,9 @@ struct Stand {
   double up_m = 0.0;
 };
 
-class Builder {
+class AreaBuilder {
  public:
-  Builder(const road::RoadNetwork& network, std::vector<RaisedArea>& areas, bool& complete)
+  AreaBuilder(const road::RoadNetwork& network, std::vector<RaisedArea>& areas, bool& complete)
       : network_(network), areas_(areas), complete_(complete) {}
 
   void add(road::RoadIndex index, const road::RoadObject& object) {
@@ -159,12 +161,6 @@ class Builder {
   std::size_t corners_left_ = most_corners_of_all;
 };
 
-std::uint64_t key_of(std::int64_t x, std::int64_t y) {
-  return static_cast<std::uint64_t>(x) << 32 ^ (static_cast<std::uint64_t>(y) & 0xffff'ffffu);
-}
-std::int64_t cell_index(double x) { return static_cast<std::int64_t>(std::floor(x / cell_m)); }
-std::uint64_t cell_of(const Vec2& p) { return key_of(cell_index(p.x), cell_index(p.y)); }
-
 bool holds(const RaisedArea& area, const Vec2& p) {
   if (p.x < area.low_m.x || p.x > area.high_m.x || p.y < area.low_m.y || p.y > area.high_m.y) return false;
   return is_inside(area.top_m, p);
@@ -186,28 +182,30 @@ double height_of(const RaisedArea& area, const Vec2& p) {
 }  // namespace
 
 RaisedAreas::RaisedAreas(const road::RoadNetwork& network) {
-  Builder builder(network, areas_, complete_);
+  AreaBuilder builder(network, areas_, complete_);
   for (road::RoadIndex index = 0; index < network.roads.size(); ++index)
     for (const road::RoadObject& object : network.roads[index].objects)
       if (is_raised(object)) builder.add(index, object);
   if (areas_.size() == most_areas) complete_ = false;
-  std::size_t cells = 0;
+  std::size_t entries = 0;
   for (std::uint32_t i = 0; i < areas_.size(); ++i) {
-    if (cells > most_cells) {
+    if (entries > most_cells) {
       areas_.resize(i);
       complete_ = false;
       break;
     }
     const Vec2 low = areas_[i].low_m - margin_m, high = areas_[i].high_m + margin_m;
-    for (std::int64_t y = cell_index(low.y); y <= cell_index(high.y); ++y)
-      for (std::int64_t x = cell_index(low.x); x <= cell_index(high.x); ++x, ++cells) cells_[key_of(x, y)].push_back(i);
+    area_cells.for_each(low, high, [&](std::uint64_t key) {
+      cells_[key].push_back(i);
+      ++entries;
+    });
   }
 }
 
 double RaisedAreas::ground_at(const Vec2& p, double road_z_m) const {
   double ground_m = road_z_m;
   if (areas_.empty()) return ground_m;
-  if (const auto cell = cells_.find(cell_of(p)); cell != cells_.end())
+  if (const auto cell = cells_.find(area_cells.key_at(p)); cell != cells_.end())
     for (const std::uint32_t i : cell->second) {
       if (!holds(areas_[i], p)) continue;
       if (const double top_m = height_of(areas_[i], p); top_m < road_z_m + storey_m)
@@ -218,7 +216,7 @@ double RaisedAreas::ground_at(const Vec2& p, double road_z_m) const {
 
 bool RaisedAreas::is_near(const Vec2& p, double reach_m) const {
   if (areas_.empty()) return false;
-  const auto cell = cells_.find(cell_of(p));
+  const auto cell = cells_.find(area_cells.key_at(p));
   return cell != cells_.end() && std::ranges::any_of(cell->second, [&](std::uint32_t i) {
            const Vec2 apart = glm::max(glm::max(areas_[i].low_m - p, p - areas_[i].high_m), Vec2(0.0));
            return glm::dot(apart, apart) <= reach_m * reach_m;

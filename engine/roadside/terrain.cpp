@@ -13,11 +13,12 @@
 namespace septet::roadside {
 namespace {
 
-constexpr double sample_step_m = 20.0, cell_m = 128.0;
+constexpr double sample_step_m = 20.0, sample_cell_m = 128.0;
 constexpr std::size_t coarse_stride = 12;
 
 std::pair<std::int64_t, std::int64_t> cell_of(const Vec2& p) {
-  return {static_cast<std::int64_t>(std::floor(p.x / cell_m)), static_cast<std::int64_t>(std::floor(p.y / cell_m))};
+  return {static_cast<std::int64_t>(std::floor(p.x / sample_cell_m)),
+          static_cast<std::int64_t>(std::floor(p.y / sample_cell_m))};
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ void Terrain::look_in(const Cell& cell, const Vec2& p, Nearest& best) const {
 Nearest Terrain::nearest(const Vec2& p) const {
   Nearest best;
   const Cell home = cell_of(p);
-  const auto rings = static_cast<std::int64_t>(reach_m / cell_m) + 1;
+  const auto rings = static_cast<std::int64_t>(reach_m / sample_cell_m) + 1;
   std::int64_t last = rings;
   for (std::int64_t ring = 0; ring <= last; ++ring) {
     for (std::int64_t y = -ring; y <= ring; ++y)

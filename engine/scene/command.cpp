@@ -3,7 +3,7 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, std::variant_size_v<Command>> names = {
+constexpr std::array<std::string_view, std::variant_size_v<Command>> command_names = {
     "node index subscribe", "node subscribe",     "part subscribe",
     "node create",          "node destroy",       "node name set",
     "tag group set",        "tag group destroy",  "tag set",
@@ -63,6 +63,6 @@ CommandAddress address_of(const Command& command) {
       command);
 }
 
-std::string_view name_of(const Command& command) { return names[command.index()]; }
+std::string_view name_of(const Command& command) { return command_names[command.index()]; }
 
 }  // namespace septet::scene

@@ -5,19 +5,19 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 13> names = {
+constexpr std::array<std::string_view, 13> role_names = {
     "fixed",      "wheel_front_left", "wheel_front_right",   "wheel_rear_left",      "wheel_rear_right",
     "lamp_brake", "lamp_reverse",     "lamp_indicator_left", "lamp_indicator_right", "lamp_head",
     "lamp_tail",  "beacon",           "steering_wheel"};
-static_assert(names.size() == static_cast<std::size_t>(PartRole::steering_wheel) + 1);
+static_assert(role_names.size() == static_cast<std::size_t>(PartRole::steering_wheel) + 1);
 
 }  // namespace
 
-std::string_view name_of(PartRole role) { return names[static_cast<std::size_t>(role)]; }
+std::string_view name_of(PartRole role) { return role_names[static_cast<std::size_t>(role)]; }
 
 PartRole part_role(std::string_view name) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<PartRole>(i);
+  for (std::size_t i = 0; i < role_names.size(); ++i)
+    if (role_names[i] == name) return static_cast<PartRole>(i);
   return PartRole::fixed;
 }
 

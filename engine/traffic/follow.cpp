@@ -6,7 +6,6 @@
 namespace septet::traffic {
 namespace {
 
-constexpr double look_ahead_lane_end_m = 250.0;
 constexpr double side_clearance_m = 0.3;
 constexpr int most_passed = 40;
 /// How much faster than those it passes an emergency vehicle drives, and how far ahead it looks at

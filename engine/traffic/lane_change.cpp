@@ -7,7 +7,6 @@ namespace septet::traffic {
 namespace {
 
 constexpr double refused = -no_leader;
-constexpr double look_ahead_lane_end_m = 250.0;
 constexpr double smallest_gap_m = 2.0;
 constexpr LaneEntry standing{};  ///< The end of a lane.
 /// What making room for an emergency vehicle outweighs.

@@ -25,6 +25,9 @@ struct ForeignTraffic {
   std::vector<EmergencyVehicle> emergencies;
 };
 
+/// From where on the end of a lane matters to whoever drives in it.
+inline constexpr double look_ahead_lane_end_m = 250.0;
+
 /// The `vehicle` of an entry that is shown where it is not.
 inline constexpr std::int32_t nobody_here = -1'000'000;
 

@@ -52,9 +52,9 @@ class DebrisWay {
   debris::Part part_;
   debris::Material material_;
   bool both_sides_;
-  std::vector<Vec3> rest_m_;               ///< Of each vertex; only of ice.
-  std::vector<ice::IceVertex> inside_;     ///< In the frame at rest.
-  std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and the way to its next.
+  std::vector<Vec3> rest_m_;            ///< Of each vertex; only of ice.
+  std::vector<ice::IceVertex> inside_;  ///< In the frame at rest.
+  std::vector<Vec3> from_m_, step_m_;   ///< World; each vertex' place and the way to its next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;
   TemporalNormals normals_;
 };
@@ -71,8 +71,7 @@ struct DrawnDebris {
 class DebrisDrawing {
  public:
   /// All debris of the moments, ready for a frame.
-  DrawnDebris draw(std::span<const EffectMoment> moments, double tick,
-                   const scene::ResolvedScene& scene);
+  DrawnDebris draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes whose normals were worked out so far.

@@ -6,7 +6,7 @@
 namespace septet::smoke {
 namespace {
 
-constexpr std::uint8_t version = 1;
+constexpr std::uint8_t soot_version = 1;
 
 std::uint8_t level_of(float soot) {
   return static_cast<std::uint8_t>(std::lround(std::sqrt(soot) * (soot_levels - 1)));
@@ -37,7 +37,7 @@ void put_runs(ByteWriter& writer, std::span<const std::uint8_t> level) {
   }
 }
 
-tl::unexpected<Error> refuse(const char* what) {
+tl::unexpected<Error> refuse_soot(const char* what) {
   return failure(what, "soot keyframe", "send what the same version of Septet wrote");
 }
 
@@ -61,7 +61,7 @@ Bytes encode_soot(const State& state) {
   }
   Bytes bytes;
   ByteWriter writer(bytes);
-  writer.put(version);
+  writer.put(soot_version);
   const Vec3 corner = grid.world_from_cells(Vec3(box.low[0], box.low[1], box.low[2]));
   for (int c = 0; c < 3; ++c) writer.put(corner[c]);
   const Quat& q = grid.world_from_grid.orientation;
@@ -73,9 +73,9 @@ Bytes encode_soot(const State& state) {
 }
 
 Expected<SootKeyframe> decode_soot(std::span<const std::byte> bytes) {
-  if (bytes.size() > max_soot_bytes) return refuse("too long");
+  if (bytes.size() > max_soot_bytes) return refuse_soot("too long");
   ByteReader reader(bytes);
-  if (reader.get<std::uint8_t>() != version) return refuse("unknown version");
+  if (reader.get<std::uint8_t>() != soot_version) return refuse_soot("unknown version");
   SootKeyframe keyframe;
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   bool good = true;
@@ -91,15 +91,15 @@ Expected<SootKeyframe> decode_soot(std::span<const std::byte> bytes) {
     *size = static_cast<int>(reader.get_count(max_cells_along));
   const std::int64_t cells = std::int64_t{keyframe.nx} * keyframe.ny * keyframe.nz;
   if (!reader.ok() || !good || cells < 1 || cells > static_cast<std::int64_t>(max_soot_cells))
-    return refuse("header out of bounds");
+    return refuse_soot("header out of bounds");
   while (!reader.at_end()) {
     const std::uint64_t run = reader.get_varint(), length = run / soot_levels;
     if (!reader.ok() || length == 0 || length > static_cast<std::uint64_t>(cells) - keyframe.level.size())
-      return refuse("run out of bounds");
+      return refuse_soot("run out of bounds");
     keyframe.level.insert(keyframe.level.end(), static_cast<std::size_t>(length),
                           static_cast<std::uint8_t>(run % soot_levels));
   }
-  if (keyframe.level.size() != static_cast<std::size_t>(cells)) return refuse("length does not fit");
+  if (keyframe.level.size() != static_cast<std::size_t>(cells)) return refuse_soot("length does not fit");
   return keyframe;
 }
 

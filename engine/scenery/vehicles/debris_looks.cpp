@@ -9,7 +9,7 @@
 namespace septet::scenery {
 namespace {
 
-struct Look {
+struct DebrisLook {
   const char* name;
   glm::vec3 color;  ///< Linear Rec. 709.
   float roughness;
@@ -18,7 +18,7 @@ struct Look {
 };
 
 // Crazed glass and ice with air in it scatter light: both look white rather than clear.
-constexpr std::array<Look, 9> looks{{
+constexpr std::array<DebrisLook, 9> known_looks{{
     {"steel-sheet", {0.42f, 0.43f, 0.44f}, 0.35f, 0.9f},
     {"door", {0.20f, 0.22f, 0.25f}, 0.30f, 0.2f},
     {"bumper-plastic", {0.030f, 0.030f, 0.032f}, 0.50f},
@@ -33,7 +33,7 @@ constexpr std::array<Look, 9> looks{{
 }  // namespace
 
 void build_debris_looks(scene::SceneBuilder& builder) {
-  for (const Look& look : looks) {
+  for (const DebrisLook& look : known_looks) {
     scene::MaterialParameters material;
     material.base_color = look.color;
     material.roughness = look.roughness;

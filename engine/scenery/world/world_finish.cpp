@@ -13,7 +13,7 @@ namespace {
 
 enum class Texture { none, asphalt, ground, concrete, leaf, needle, tree, edge, facade, exit, palette };
 
-struct Look {
+struct WorldLook {
   const char* name;
   glm::vec3 color;  ///< Linear; times the texture's mean.
   Texture texture;
@@ -23,7 +23,7 @@ struct Look {
 };
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<Look, 57> looks{{
+constexpr std::array<WorldLook, 57> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -100,9 +100,9 @@ std::uint8_t srgb_byte(float linear) {
 
 image::Image palette_texture() {
   image::Image palette(palette_side * block_px, palette_side * block_px);
-  for (std::uint32_t i = first_color; i < looks.size(); ++i) {
+  for (std::uint32_t i = first_color; i < ground_looks.size(); ++i) {
     const std::uint32_t block = i - first_color;
-    const glm::vec3 c = looks[i].color;
+    const glm::vec3 c = ground_looks[i].color;
     image::fill(palette, block % palette_side * block_px, block / palette_side * block_px, block_px, block_px,
                 {srgb_byte(c.r), srgb_byte(c.g), srgb_byte(c.b)});
   }
@@ -172,12 +172,12 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
   add(Texture::exit, "exit sign", exit_sign_texture());
   add(Texture::palette, "palette", palette_texture());
   Palette palette;
-  for (std::uint32_t i = 0; i < looks.size(); ++i) {
+  for (std::uint32_t i = 0; i < ground_looks.size(); ++i) {
     if (i >= first_color) {
       palette.push_back(scene::no_node);
       continue;
     }
-    const Look& look = looks[i];
+    const WorldLook& look = ground_looks[i];
     scene::MaterialParameters material;
     material.base_color = look.color;
     material.base_color_bitmap = bitmaps[static_cast<std::size_t>(look.texture)];

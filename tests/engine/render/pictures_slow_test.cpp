@@ -12,7 +12,7 @@
 namespace septet::render {
 namespace {
 
-constexpr std::uint32_t width = 960, height = 540;
+constexpr std::uint32_t picture_width = 960, picture_height = 540;
 
 void save(const image::Image& picture, const std::string& name) {
   const std::filesystem::path folder = std::filesystem::path(SEPTET_BINARY_DIR) / "images";
@@ -23,7 +23,7 @@ void save(const image::Image& picture, const std::string& name) {
 FrameInput traffic(const ReferenceScene& reference, Lamps lamps) {
   FrameInput input;
   input.environment = reference_day();
-  input.views = {forward_view({0, -1.875, 0}, width, height)};
+  input.views = {forward_view({0, -1.875, 0}, picture_width, picture_height)};
   const glm::vec3 paints[] = {
       {0.34f, 0.022f, 0.026f}, {0.8f, 0.8f, 0.79f}, {0.05f, 0.11f, 0.3f}, {0.02f, 0.02f, 0.02f}};
   const double places[][2] = {{11, -5.6}, {20, 1.9}, {34, -1.9}, {60, 5.6}, {85, -5.6}, {110, -1.9}};
@@ -43,8 +43,8 @@ FrameInput traffic(const ReferenceScene& reference, Lamps lamps) {
 TEST_CASE(
     "the reference scene by day and dusk and night in rain and in a tunnel draws without a word of the validation "
     "layer") {
-  Expected<Renderer> renderer =
-      Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
+  Expected<Renderer> renderer = Renderer::create(
+      {picture_width, picture_height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   ReferenceOptions options;
   ReferenceScene reference = reference_scene(options);
@@ -90,7 +90,7 @@ TEST_CASE(
   REQUIRE(renderer->draw(input).has_value());
   save(*renderer->read_back(), "tunnel_ahead");
   for (DrawnParticipant& car : input.participants) car.world_from_vehicle.position_m.x += 150.0;
-  input.views = {forward_view({150, -1.875, 0}, width, height)};
+  input.views = {forward_view({150, -1.875, 0}, picture_width, picture_height)};
   REQUIRE(renderer->draw(input).has_value());
   save(*renderer->read_back(), "tunnel");
 

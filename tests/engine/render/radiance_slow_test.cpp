@@ -15,7 +15,7 @@
 namespace septet::render {
 namespace {
 
-constexpr std::uint32_t width = 320, height = 200;
+constexpr std::uint32_t radiance_width = 320, radiance_height = 200;
 
 struct Drawn {
   image::Image picture;
@@ -24,7 +24,7 @@ struct Drawn {
 };
 
 Renderer renderer_of(Antialiasing antialiasing) {
-  return *Renderer::create({width, height, DevicePreference::software, true, antialiasing, nullptr});
+  return *Renderer::create({radiance_width, radiance_height, DevicePreference::software, true, antialiasing, nullptr});
 }
 
 Drawn shown(Renderer& renderer, const FrameInput& input) {
@@ -38,7 +38,7 @@ FrameInput forward(double elevation_rad) {
   FrameInput input;
   input.environment = reference_day();
   input.environment.sun_elevation_rad = elevation_rad;
-  input.views = {forward_view({0, 0, 0}, width, height)};
+  input.views = {forward_view({0, 0, 0}, radiance_width, radiance_height)};
   return input;
 }
 
@@ -56,7 +56,7 @@ glm::vec3 wall_radiance(Renderer& renderer, float emission, double away_m = 4.0)
   scene.revision = ++revision;
   for (scene::SurfaceMesh& mesh : scene.meshes) mesh.revision = revision;
   REQUIRE(renderer.upload(scene).has_value());
-  return shown(renderer, forward(0.9)).light.at(width / 2, height / 2);
+  return shown(renderer, forward(0.9)).light.at(radiance_width / 2, radiance_height / 2);
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ TEST_CASE("smoke of optical depth one before a wall leaves the share of its radi
     puff.albedo = glm::vec3(0.0f);
     puff.extinction_area_m2 = depth * 2.0f * 3.14159265f * 9.0f;
     input.smoke = {puff};
-    return shown(renderer, input).light.at(width / 2, height / 2).g;
+    return shown(renderer, input).light.at(radiance_width / 2, radiance_height / 2).g;
   };
   // The pattern of the smoke varies the depth; twice the smoke has twice that depth wherever it is.
   const float once = with_smoke(0.5f) / behind, twice = with_smoke(1.0f) / behind;
@@ -123,8 +123,8 @@ TEST_CASE(
     REQUIRE(renderer.draw(instant).has_value());
     const RadianceImage light = *renderer.read_radiance();
     double furthest = 0.0;
-    for (std::uint32_t y = 0; y < height / 2; y += 7)
-      for (std::uint32_t x = 0; x < width; x += 5) {
+    for (std::uint32_t y = 0; y < radiance_height / 2; y += 7)
+      for (std::uint32_t x = 0; x < radiance_width; x += 5) {
         const glm::vec3 ray(ray_through(instant.views[0], x + 0.5, y + 0.5));
         const glm::vec3 said = sky_radiance(*instant.light, ray), drawn = light.at(x, y);
         // The sun's glare is the picture's own.

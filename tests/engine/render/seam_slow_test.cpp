@@ -11,7 +11,7 @@
 namespace septet::render {
 namespace {
 
-constexpr std::uint32_t width = 640, height = 420;
+constexpr std::uint32_t seam_width = 640, seam_height = 420;
 const Vec3 car_m(100e3, -80e3, 35.0);
 
 /// A glowing bar 12 m ahead of the car, 16 m long, that rises to one side.
@@ -26,7 +26,7 @@ scene::ResolvedScene bar_scene() {
 
 TEST_CASE("a straight line drawn across two screens meets within a pixel from wherever the eye looks") {
   Expected<Renderer> renderer =
-      Renderer::create({width, height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
+      Renderer::create({seam_width, seam_height, DevicePreference::software, true, Antialiasing::automatic, nullptr});
   REQUIRE(renderer.has_value());
   REQUIRE(renderer->upload(bar_scene()).has_value());
   // Two screens of 44° side by side that meet straight ahead, a little to the left.
@@ -39,7 +39,7 @@ TEST_CASE("a straight line drawn across two screens meets within a pixel from wh
     input.environment.sun_elevation_rad = -0.4;
     FrameView view;
     view.world_from_car = {car_m, {1, 0, 0, 0}};
-    view.viewport = {0, 0, width, height};
+    view.viewport = {0, 0, seam_width, seam_height};
     view.projection = *off_axis_view(left, eye_m);
     input.views = {view};
     REQUIRE(renderer->draw(input).has_value());

@@ -36,7 +36,6 @@ std::string beside_text(const std::string& attributes, const std::string& limits
   return lateral("<LateralDistanceAction entityRef=\"B\" continuous=\"" + std::string(continuous ? "true" : "false") +
                  "\" " + attributes + ">" + limits + "</LateralDistanceAction>");
 }
-std::string at_time(double time_s) { return trigger_text(time_text(time_s)); }
 
 /// A at 100 m with 20 m/s, B so far ahead in a lane of its own or the same.
 std::string cars(double ahead_m, double b_mps, int b_lane = -2) {

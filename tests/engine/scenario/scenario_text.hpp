@@ -65,6 +65,9 @@ inline std::string speed_text(double speed, const std::string& shape = "step", c
          "\"/><SpeedActionTarget><AbsoluteTargetSpeed value=\"" + std::to_string(speed) +
          "\"/></SpeedActionTarget></SpeedAction></LongitudinalAction></PrivateAction>";
 }
+/// A at 100 m with 20 m/s, B in the same lane 100 m ahead with 10 m/s.
+inline const std::string two_cars =
+    private_text("A", place_text(-2, 100) + speed_text(20)) + private_text("B", place_text(-2, 200) + speed_text(10));
 inline std::string lane_change_text(int to_the_left, const std::string& shape, const std::string& dimension,
                                     double value) {
   return "<PrivateAction><LateralAction><LaneChangeAction><LaneChangeActionDynamics "
@@ -82,6 +85,7 @@ inline std::string time_text(double after) {
   return "<ByValueCondition><SimulationTimeCondition rule=\"greaterOrEqual\" value=\"" + std::to_string(after) +
          "\"/></ByValueCondition>";
 }
+inline std::string at_time(double time_s) { return trigger_text(time_text(time_s)); }
 inline std::string of_entity_text(const std::string& entity, const std::string& condition) {
   return "<ByEntityCondition><TriggeringEntities triggeringEntitiesRule=\"any\"><EntityRef "
          "entityRef=\"" +

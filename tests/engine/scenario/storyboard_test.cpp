@@ -16,17 +16,13 @@ std::string state_text(const std::string& type, const std::string& name, const s
   return "<ByValueCondition><StoryboardElementStateCondition storyboardElementType=\"" + type +
          "\" storyboardElementRef=\"" + name + "\" state=\"" + state + "\"/></ByValueCondition>";
 }
-std::string at(double time_s) { return trigger_text(time_text(time_s)); }
-
-const std::string two_cars =
-    private_text("A", place_text(-2, 100) + speed_text(20)) + private_text("B", place_text(-2, 200) + speed_text(10));
 
 }  // namespace
 
 TEST_CASE("every shape takes its time and ends at its speed") {
   for (const std::string shape : {"linear", "sinusoidal", "cubic"}) {
     CAPTURE(shape);
-    Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at(1.0)))));
+    Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30, shape, "time", 4.0), at_time(1.0)))));
     drive.run_until(3.0);
     CHECK(drive.a().speed_mps == doctest::Approx(25.0).epsilon(0.001));
     drive.run_until(6.0);
@@ -38,7 +34,8 @@ TEST_CASE("every shape takes its time and ends at its speed") {
 }
 
 TEST_CASE("a rate is the greatest rate and a distance is kept") {
-  Drive rate(scenario_text(two_cars, story_text(event_text("e", speed_text(30, "sinusoidal", "rate", 2.0), at(0.0)))));
+  Drive rate(
+      scenario_text(two_cars, story_text(event_text("e", speed_text(30, "sinusoidal", "rate", 2.0), at_time(0.0)))));
   double greatest = 0.0;
   while (rate.state.time_s < 10.0) {
     rate.run_until(rate.state.time_s + 0.01);
@@ -46,7 +43,7 @@ TEST_CASE("a rate is the greatest rate and a distance is kept") {
   }
   CHECK(greatest == doctest::Approx(2.0).epsilon(0.001));
   Drive distance(
-      scenario_text(two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at(0.0)))));
+      scenario_text(two_cars, story_text(event_text("e", speed_text(30, "linear", "distance", 125.0), at_time(0.0)))));
   distance.run_until(4.0);
   CHECK(distance.a().speed_mps == doctest::Approx(28.0));
   distance.run_until(5.0);
@@ -55,7 +52,7 @@ TEST_CASE("a rate is the greatest rate and a distance is kept") {
 }
 
 TEST_CASE("acceleration never exceeds what the vehicle can do") {
-  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(50, "cubic", "time", 0.5), at(0.0)))));
+  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(50, "cubic", "time", 0.5), at_time(0.0)))));
   double greatest = 0.0;
   while (drive.state.time_s < 8.0) {
     drive.run_until(drive.state.time_s + 0.01);
@@ -70,7 +67,7 @@ TEST_CASE("a lane change is one smooth curve to the centre of the next lane") {
     CAPTURE(dimension);
     const double value = dimension == "time" ? 4.0 : dimension == "distance" ? 80.0 : 3.5 * std::numbers::pi / 8.0;
     Drive drive(scenario_text(
-        two_cars, story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at(0.0)))));
+        two_cars, story_text(event_text("e", lane_change_text(1, "sinusoidal", dimension, value), at_time(0.0)))));
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-5.25));
     drive.run_until(2.0);
     CHECK(drive.a().world_from_entity.position_m.y == doctest::Approx(-3.5).epsilon(0.01));
@@ -136,7 +133,7 @@ TEST_CASE("before 1.2 an acceleration is that of the speed") {
   const std::string none = R"(<AccelerationCondition rule="equalTo" value="0"/>)";
   const auto rises = [&](const std::string& revision) {
     std::string text = scenario_text(
-        two_cars, story_text(event_text("change", lane_change_text(1, "sinusoidal", "time", 4.0), at(1.0)) +
+        two_cars, story_text(event_text("change", lane_change_text(1, "sinusoidal", "time", 4.0), at_time(1.0)) +
                              event_text("e", speed_text(20), trigger_text(of_entity_text("A", none), "falling"))));
     text.replace(text.find("revMinor=\"3\""), 12, "revMinor=\"" + revision + "\"");
     Drive drive(text);
@@ -157,8 +154,9 @@ TEST_CASE("a distance along the world's axes minds the boxes") {
 }
 
 TEST_CASE("a rate of 0 keeps the speed and ends at once where that is the target") {
-  Drive drive(scenario_text(two_cars, story_text(event_text("same", speed_text(20, "linear", "rate", 0.0), at(0.0)) +
-                                                 event_text("other", speed_text(30, "linear", "rate", 0.0), at(1.0)))));
+  Drive drive(
+      scenario_text(two_cars, story_text(event_text("same", speed_text(20, "linear", "rate", 0.0), at_time(0.0)) +
+                                         event_text("other", speed_text(30, "linear", "rate", 0.0), at_time(1.0)))));
   drive.run_until(3.0);
   CHECK(drive.time_of("same", ElementTransition::end) == doctest::Approx(0.0));
   CHECK(drive.count_of("other", ElementTransition::start) == 1);
@@ -184,9 +182,9 @@ TEST_CASE("conditions see parameters and variables that actions change") {
       R"(<VariableDeclarations><VariableDeclaration name="count" variableType="double" value="1"/></VariableDeclarations>)";
   Drive drive(scenario_text(
       two_cars,
-      story_text(event_text("add", value("Variable", "count", add), at(1.0)) +
-                 event_text("double", value("Variable", "count", twice), at(2.0)) +
-                 event_text("set", value("Parameter", "mood", "<SetAction value=\"angry\"/>"), at(3.0)) +
+      story_text(event_text("add", value("Variable", "count", add), at_time(1.0)) +
+                 event_text("double", value("Variable", "count", twice), at_time(2.0)) +
+                 event_text("set", value("Parameter", "mood", "<SetAction value=\"angry\"/>"), at_time(3.0)) +
                  event_text("three", speed_text(20), is("Variable", "variableRef=\"count\"", "equalTo", "3")) +
                  event_text("six", speed_text(20), is("Variable", "variableRef=\"count\"", "greaterThan", "5.5")) +
                  event_text("angry", speed_text(20), is("Parameter", "parameterRef=\"mood\"", "equalTo", "angry"))),
@@ -225,7 +223,7 @@ TEST_CASE("a trajectory is followed at one's own speed or by its times and then 
            "</TimeReference><TrajectoryFollowingMode "
            "followingMode=\"position\"/></FollowTrajectoryAction></RoutingAction></PrivateAction>";
   };
-  Drive own(scenario_text(two_cars, story_text(event_text("e", follow("<None/>"), at(2.0)))));
+  Drive own(scenario_text(two_cars, story_text(event_text("e", follow("<None/>"), at_time(2.0)))));
   own.run_until(4.0);
   // 40 m along a line of 3 : 4.
   CHECK(own.a().world_from_entity.position_m.x == doctest::Approx(164.0));
@@ -237,8 +235,9 @@ TEST_CASE("a trajectory is followed at one's own speed or by its times and then 
   CHECK(heading_rad(own.a().world_from_entity.orientation) == doctest::Approx(0.5 * std::atan2(4.0, 3.0)));
 
   Drive timed(scenario_text(
-      two_cars, story_text(event_text(
-                    "e", follow(R"(<Timing domainAbsoluteRelative="relative" scale="0.5" offset="0"/>)"), at(2.0)))));
+      two_cars,
+      story_text(event_text("e", follow(R"(<Timing domainAbsoluteRelative="relative" scale="0.5" offset="0"/>)"),
+                            at_time(2.0)))));
   timed.run_until(4.5);
   CHECK(timed.a().world_from_entity.position_m.x == doctest::Approx(200.0));
   CHECK(timed.a().speed_mps == doctest::Approx(60.0));
@@ -250,11 +249,11 @@ TEST_CASE("a trajectory is followed at one's own speed or by its times and then 
 
 TEST_CASE("overwrite stops the running event skip waits and parallel goes along") {
   const std::string slow = speed_text(30, "linear", "time", 4.0);
-  const std::string first = event_text("first", slow, at(0.0));
+  const std::string first = event_text("first", slow, at_time(0.0));
   const auto with = [&](const std::string& priority) {
     Drive drive(scenario_text(
         two_cars,
-        story_text(first + event_text("second", lane_change_text(1, "linear", "time", 1.0), at(1.0), priority))));
+        story_text(first + event_text("second", lane_change_text(1, "linear", "time", 1.0), at_time(1.0), priority))));
     drive.run_until(6.0);
     return drive;
   };
@@ -272,7 +271,7 @@ TEST_CASE("overwrite stops the running event skip waits and parallel goes along"
 TEST_CASE("a later event hears of the end of an earlier one and the act completes") {
   Drive drive(scenario_text(
       two_cars,
-      story_text(event_text("first", speed_text(30, "linear", "time", 1.0), at(0.5)) +
+      story_text(event_text("first", speed_text(30, "linear", "time", 1.0), at_time(0.5)) +
                  event_text("second", speed_text(10), trigger_text(state_text("event", "first", "endTransition"))))));
   drive.run_until(3.0);
   CHECK(drive.time_of("second", ElementTransition::start) == doctest::Approx(1.5));
@@ -282,8 +281,8 @@ TEST_CASE("a later event hears of the end of an earlier one and the act complete
 
 TEST_CASE("a new speed action takes the entity over from the old one") {
   Drive drive(
-      scenario_text(two_cars, story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
-                                         event_text("second", speed_text(15, "linear", "time", 1.0), at(1.0)))));
+      scenario_text(two_cars, story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at_time(0.0)) +
+                                         event_text("second", speed_text(15, "linear", "time", 1.0), at_time(1.0)))));
   drive.run_until(3.0);
   CHECK(drive.a().speed_mps == 15.0);
   CHECK(drive.time_of("first action", ElementTransition::stop) == doctest::Approx(1.0));
@@ -291,8 +290,8 @@ TEST_CASE("a new speed action takes the entity over from the old one") {
 
 TEST_CASE("an entity whose numbers go bad stands where it was and everything else goes on") {
   constexpr double bad = std::numeric_limits<double>::quiet_NaN(), endless = std::numeric_limits<double>::infinity();
-  const std::string stories = story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at(0.0)) +
-                                         event_text("second", speed_text(15, "linear", "time", 1.0), at(2.0)));
+  const std::string stories = story_text(event_text("first", speed_text(40, "linear", "time", 10.0), at_time(0.0)) +
+                                         event_text("second", speed_text(15, "linear", "time", 1.0), at_time(2.0)));
   const auto with = [&](auto spoil) {
     Drive drive(scenario_text(two_cars, stories));
     drive.run_until(1.0);
@@ -325,7 +324,7 @@ TEST_CASE("the stop trigger ends the scenario") {
   std::string stop = trigger_text(time_text(2.0));
   stop.replace(1, 5, "Stop");
   stop.replace(stop.rfind("StartTrigger"), 5, "Stop");
-  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30), at(5.0))) + stop));
+  Drive drive(scenario_text(two_cars, story_text(event_text("e", speed_text(30), at_time(5.0))) + stop));
   drive.run_until(6.0);
   CHECK(drive.state.finished);
   CHECK(drive.count_of("e", ElementTransition::start) == 0);

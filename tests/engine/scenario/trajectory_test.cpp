@@ -49,9 +49,6 @@ std::string follow_text(const std::string& vertices, const std::string& referenc
          "\"/></FollowTrajectoryAction></RoutingAction></PrivateAction>";
 }
 const std::string relative_times = R"(<Timing domainAbsoluteRelative="relative" scale="1" offset="0"/>)";
-std::string at_time(double time_s) { return trigger_text(time_text(time_s)); }
-const std::string two_cars =
-    private_text("A", place_text(-2, 100) + speed_text(20)) + private_text("B", place_text(-2, 200) + speed_text(10));
 
 /// A road that forks after 100 m: straight on ("S", then "D") or in a quarter turn to the left of radius 50 m ("T", then "E").
 road::RoadNetwork fork() {

@@ -15,7 +15,7 @@ geometry::PolygonMesh triangle() {
   return mesh;
 }
 
-struct World {
+struct DrawnWorld {
   Store store;
   SceneBuilder build{store};
   NodeId bitmap = build.add_bitmap("", 1, 1, std::vector<std::uint8_t>(4, 255));
@@ -34,7 +34,7 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
   const MaterialParameters before{.opacity = 0.5f};
   std::vector<MaterialParameters> changes(10, before);
   changes[0].base_color = {0.1f, 0.8f, 0.8f};
-  const World any;
+  const DrawnWorld any;
   changes[1].base_color_bitmap = any.bitmap;
   changes[2].roughness = 0.25f;
   changes[3].metallic = 1.0f;
@@ -46,7 +46,7 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
   changes[9].share_of_sky = 0.0f;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     CAPTURE(i);
-    World world, changed;
+    DrawnWorld world, changed;
     const NodeId material = world.add_drawn(before);
     REQUIRE(changed.add_drawn(changes[i]) == material);
     Resolver resolver;
@@ -64,7 +64,7 @@ TEST_CASE("whatever of a material changes is shown and what does not change it m
 }
 
 TEST_CASE("a loop of children draws each of them once") {
-  World world;
+  DrawnWorld world;
   const NodeId a = world.build.add_object("", {.geometry = world.mesh}),
                b = world.build.add_object("", {.geometry = world.mesh}), root = world.build.add_object("", {});
   world.build.add_child(root, a), world.build.add_child(a, b), world.build.add_child(b, a);
@@ -72,7 +72,7 @@ TEST_CASE("a loop of children draws each of them once") {
 }
 
 TEST_CASE("of a chain of children the first thirty-two are drawn") {
-  World world;
+  DrawnWorld world;
   NodeId top = world.build.add_object("", {.geometry = world.mesh});
   for (int i = 1; i < 40; ++i) {
     const NodeId above = world.build.add_object("", {.geometry = world.mesh});
@@ -83,7 +83,7 @@ TEST_CASE("of a chain of children the first thirty-two are drawn") {
 }
 
 TEST_CASE("a hidden object hides its children and one that is shown again shows them") {
-  World world;
+  DrawnWorld world;
   const NodeId parent = world.build.add_object("", {}), child = world.build.add_object("", {.geometry = world.mesh});
   world.build.add_child(parent, child);
   Resolver resolver;
@@ -98,7 +98,7 @@ TEST_CASE("a hidden object hides its children and one that is shown again shows 
 }
 
 TEST_CASE("a parent turns and stretches where its child stands and then the child itself") {
-  World world;
+  DrawnWorld world;
   const Quat quarter = orientation_from_angles(1.5707963267948966, 0.0, 0.0);
   const NodeId parent =
       world.build.add_object("", {.parent_from_object = {{0, 0, 0}, quarter}, .scale = {1.0f, 2.0f, 3.0f}});
@@ -114,7 +114,7 @@ TEST_CASE("a parent turns and stretches where its child stands and then the chil
 }
 
 TEST_CASE("an image is made again when its bitmap changes and only then") {
-  World world;
+  DrawnWorld world;
   world.add_drawn({.base_color_bitmap = world.bitmap});
   Resolver resolver;
   resolver.update(world.store);

@@ -19,9 +19,9 @@ using road::motorway;
 
 namespace {
 
-constexpr double tick_s = 1.0 / 120.0;
+constexpr double step_s = 1.0 / 120.0;
 
-RigidTransform on_lane(double s_m, int lane) {
+RigidTransform on_motorway(double s_m, int lane) {
   return road::world_from_lane(road::evaluate_lane(motorway(), {0, lane, s_m, 0.0}));
 }
 
@@ -29,7 +29,7 @@ Participant vehicle_on_lane(ParticipantId id, std::string_view model, double s_m
   Participant p;
   p.id = id;
   p.model = *find_vehicle_model(model);
-  p.world_from_vehicle = on_lane(s_m, lane);
+  p.world_from_vehicle = on_motorway(s_m, lane);
   p.velocity_mps = p.world_from_vehicle.orientation * Vec3(speed_mps, 0.0, 0.0);
   return p;
 }
@@ -39,9 +39,9 @@ EffectsReport run(std::vector<Participant>& participants, EffectsState& state, T
   EffectsReport last;
   static const Environment environment;
   for (Tick tick = from; tick < from + ticks; tick += effects_step_ticks) {
-    last = advance_effects({motorway(), nullptr, participants, environment, 1, 1.0, tick, tick_s}, state);
+    last = advance_effects({motorway(), nullptr, participants, environment, 1, 1.0, tick, step_s}, state);
     for (Participant& p : participants)
-      p.world_from_vehicle.position_m += p.velocity_mps * (tick_s * static_cast<double>(effects_step_ticks));
+      p.world_from_vehicle.position_m += p.velocity_mps * (step_s * static_cast<double>(effects_step_ticks));
   }
   return last;
 }
@@ -53,7 +53,7 @@ EffectsState slab_from_a_lorry(std::uint64_t seed) {
   lorry.box = {{1.7, 0.0, 1.925}, 11.9, 2.55, 3.85};
   scenario::EntityState where;
   where.active = true;
-  where.world_from_entity = on_lane(850.0, -5);
+  where.world_from_entity = on_motorway(850.0, -5);
   where.velocity_mps = where.world_from_entity.orientation * Vec3(22.0, 0.0, 0.0);
   scenario::EffectAction action;
   action.part = "ice-slab";
@@ -65,7 +65,7 @@ EffectsState slab_from_a_lorry(std::uint64_t seed) {
 
 /// A part at rest, its middle so high over the lane at 900 m.
 void put_on_lane(debris::Part part, double up_m, EffectsState& state) {
-  RigidTransform place = on_lane(900.0, -5);
+  RigidTransform place = on_motorway(900.0, -5);
   place.position_m += place.orientation * Vec3(0.0, 0.0, up_m);
   Random random(1);
   debris::spawn_part(state.debris, part, place, Vec3(0.0), Vec3(0.0), random);
@@ -128,7 +128,7 @@ TEST_CASE("the same seed gives the same effects and another seed others") {
 TEST_CASE("a slab that lies on the road lifts the wheel that rolls over it") {
   EffectsState state;
   put_on_lane(debris::Part::ice_slab, 0.045, state);
-  const Vec3 ground = on_lane(900.0, -5).position_m;
+  const Vec3 ground = on_motorway(900.0, -5).position_m;
   CHECK(obstacle_height_m(state, ground) == doctest::Approx(0.085).epsilon(0.1).scale(0.0));
   CHECK(obstacle_height_m(state, ground + Vec3(0.0, 5.0, 0.0)) == 0.0);
 }
@@ -234,7 +234,7 @@ TEST_CASE("cones that the scenario sets up stand still and cost one keyframe eac
     scenario.entities.push_back(cone);
     scenario::EntityState where;
     where.active = true;
-    where.world_from_entity = on_lane(1000.0 + 5.0 * i, -5);
+    where.world_from_entity = on_motorway(1000.0 + 5.0 * i, -5);
     storyboard.entities.push_back(where);
   }
   EffectsState state = initial_effects(scenario, storyboard, 1);

@@ -14,7 +14,7 @@
 namespace septet::frame {
 namespace {
 
-constexpr double tick_s = 1.0 / 120.0;
+constexpr double seam_tick_s = 1.0 / 120.0;
 const Vec3 car_m(3000.0, -2000.0, 35.0);
 
 /// A prototype whose material glows, so that its pixels are told from everything else.
@@ -48,7 +48,7 @@ debris::Keyframe bar_at(double tick) {
 Snapshot instant(Tick tick) {
   Snapshot snapshot;
   snapshot.tick = tick;
-  snapshot.simulated_time_s = static_cast<double>(tick) * tick_s;
+  snapshot.simulated_time_s = static_cast<double>(tick) * seam_tick_s;
   snapshot.environment.sun_elevation_rad = -0.4;
   Participant car;
   car.id = 1;
@@ -68,7 +68,7 @@ image::Image picture_of(render::Renderer& renderer, const scene::ResolvedScene& 
   instant::FrameInput frame =
       client_frame(history.newest().snapshot, *views, driver_viewpoint(history.newest().snapshot), scene);
   DebrisDrawing drawing;
-  frame.meshes = drawing.draw(effects_at(history, tick * tick_s, tick_s), tick, scene).meshes;
+  frame.meshes = drawing.draw(effects_at(history, tick * seam_tick_s, seam_tick_s), tick, scene).meshes;
   REQUIRE(frame.meshes.size() == 1);
   REQUIRE(renderer.draw(frame).has_value());
   return *renderer.read_back();

@@ -9,12 +9,12 @@ using namespace septet::frame;
 
 namespace {
 
-constexpr double tick_s = 1.0 / 120.0;
+constexpr double played_tick_s = 1.0 / 120.0;
 
 HistoryTick tick_at(Tick tick, double x_m = 0.0) {
   HistoryTick entry;
   entry.snapshot.tick = tick;
-  entry.snapshot.simulated_time_s = static_cast<double>(tick) * tick_s;
+  entry.snapshot.simulated_time_s = static_cast<double>(tick) * played_tick_s;
   Participant car;
   car.id = 1;
   car.world_from_vehicle.position_m.x = x_m;
@@ -49,31 +49,31 @@ TEST_CASE("a world between two ticks is interpolated and counts as of the tick b
   TickHistory history;
   history.add(tick_at(10, 0.0));
   history.add(tick_at(12, 0.02));
-  const PlayedOut shown = show(history, 11.5 * tick_s, tick_s);
+  const PlayedOut shown = show(history, 11.5 * played_tick_s, played_tick_s);
   CHECK(shown.on_tick);
   CHECK(shown.tick == 11);  // Which never came: all screens agree on it all the same.
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x > 0.01);
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x < 0.02);
-  CHECK(show(history, 10.0 * tick_s, tick_s).tick == 10);
-  CHECK(show(history, 12.0 * tick_s - 1e-9, tick_s).tick == 12);  // Nearer to it than clocks can tell.
+  CHECK(show(history, 10.0 * played_tick_s, played_tick_s).tick == 10);
+  CHECK(show(history, 12.0 * played_tick_s - 1e-9, played_tick_s).tick == 12);  // Nearer to it than clocks can tell.
 }
 
 TEST_CASE("beyond the newest tick it is held and the frame does not count as one on its tick") {
   TickHistory history;
   history.add(tick_at(10, 0.0));
   history.add(tick_at(12, 3.0));
-  const PlayedOut held = show(history, 14.0 * tick_s, tick_s);
+  const PlayedOut held = show(history, 14.0 * played_tick_s, played_tick_s);
   CHECK_FALSE(held.on_tick);
   CHECK(held.tick == 12);
   CHECK(held.snapshot.participants[0].world_from_vehicle.position_m.x == 3.0);
-  CHECK(show(history, 12.0 * tick_s, tick_s).on_tick);
-  CHECK_FALSE(show(history, 12.0 * tick_s + 1e-5, tick_s).on_tick);
+  CHECK(show(history, 12.0 * played_tick_s, played_tick_s).on_tick);
+  CHECK_FALSE(show(history, 12.0 * played_tick_s + 1e-5, played_tick_s).on_tick);
 }
 
 TEST_CASE("a screen that has just joined shows the oldest tick that it has") {
   TickHistory history;
   history.add(tick_at(10, 7.0));
-  const PlayedOut shown = show(history, 5.0 * tick_s, tick_s);
+  const PlayedOut shown = show(history, 5.0 * played_tick_s, played_tick_s);
   CHECK_FALSE(shown.on_tick);
   CHECK(shown.tick == 10);
   CHECK(shown.snapshot.participants[0].world_from_vehicle.position_m.x == 7.0);
@@ -87,7 +87,7 @@ TEST_CASE("of an effect the keyframes around the instant are found however often
     entry.snapshot.effects = {keyframe(7, tick < 8 ? 4 : tick < 16 ? 12 : 20)};
     history.add(entry);
   }
-  const auto at = [&](double tick) { return effects_at(history, tick * tick_s, tick_s).at(0); };
+  const auto at = [&](double tick) { return effects_at(history, tick * played_tick_s, played_tick_s).at(0); };
   EffectMoment moment = at(15.0);
   REQUIRE(moment.before);
   REQUIRE(moment.after);
@@ -114,11 +114,11 @@ TEST_CASE("an effect that is gone is not shown and one that is new has nothing b
     if (tick >= 5) entry.snapshot.effects = {keyframe(2, 6)};
     history.add(entry);
   }
-  CHECK(effects_at(TickHistory{}, 1.0, tick_s).empty());
-  const auto moments = effects_at(history, 9.0 * tick_s, tick_s);
+  CHECK(effects_at(TickHistory{}, 1.0, played_tick_s).empty());
+  const auto moments = effects_at(history, 9.0 * played_tick_s, played_tick_s);
   REQUIRE(moments.size() == 1);
   CHECK(moments[0].before->id == 2);
   CHECK(moments[0].earlier == nullptr);
-  CHECK(effects_at(history, 4.5 * tick_s, tick_s).at(0).before->id == 1);
-  CHECK(effects_at(history, -1.0, tick_s).at(0).before == nullptr);  // Older than all that is kept.
+  CHECK(effects_at(history, 4.5 * played_tick_s, played_tick_s).at(0).before->id == 1);
+  CHECK(effects_at(history, -1.0, played_tick_s).at(0).before == nullptr);  // Older than all that is kept.
 }

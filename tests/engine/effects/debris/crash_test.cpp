@@ -8,6 +8,7 @@
 
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "tests/engine/effects/debris/pieces.hpp"
 
 using namespace septet;
 using namespace septet::debris;
@@ -15,10 +16,6 @@ using namespace septet::debris;
 namespace {
 
 constexpr double crash_speed_mps = 70.0 / 3.6;
-
-ContactWorld level_road() {
-  return {[](double, double) { return GroundPoint{}; }, {}};
-}
 
 CrashBody car_at(double x_m, double speed_mps) {
   CrashBody car;

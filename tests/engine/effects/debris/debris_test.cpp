@@ -12,15 +12,12 @@
 #include "engine/effects/debris/fracture.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
 #include "engine/physics/elastic/element.hpp"
+#include "tests/engine/effects/debris/pieces.hpp"
 
 using namespace septet;
 using namespace septet::debris;
 
 namespace {
-
-ContactWorld level_road() {
-  return {[](double, double) { return GroundPoint{}; }, {}};
-}
 
 Piece piece_of(Part part, std::uint64_t seed = 1) {
   State state;

@@ -4,10 +4,16 @@
 #include <array>
 #include <utility>
 
+#include "engine/effects/debris/contacts.hpp"
 #include "engine/effects/debris/debris_state.hpp"
 #include "engine/effects/debris/piece.hpp"
 
 namespace septet::debris {
+
+/// A plane at z = 0 and nothing on it.
+inline ContactWorld level_road() {
+  return {[](double, double) { return GroundPoint{}; }, {}};
+}
 
 inline Piece tetrahedron(const std::array<Eigen::Vector3d, 4>& corners_m, Material material) {
   elastic::TetrahedralMesh mesh;

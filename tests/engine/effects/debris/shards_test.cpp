@@ -17,11 +17,7 @@ using namespace septet::debris;
 
 namespace {
 
-constexpr double step_s = 0.001;
-
-ContactWorld level_road() {
-  return {[](double, double) { return GroundPoint{}; }, {}};
-}
+constexpr double shard_step_s = 0.001;
 
 State with_shard(const Vec3& position_m, const Vec3& velocity_mps) {
   State state;
@@ -38,14 +34,14 @@ State with_shard(const Vec3& position_m, const Vec3& velocity_mps) {
 TEST_CASE("a shard falls freely and a fifth of its speed comes back from the road") {
   State state = with_shard({0, 0, 5}, {2, 0, 0});
   const ContactWorld road = level_road();
-  for (int k = 0; k < 500; ++k) advance_shards(state, road, step_s);
+  for (int k = 0; k < 500; ++k) advance_shards(state, road, shard_step_s);
   CHECK(state.shards[0].velocity_mps.z == doctest::Approx(-9.81 * 0.5));
   CHECK(state.shards[0].velocity_mps.x == 2.0);
   CHECK(state.shards[0].position_m.x == doctest::Approx(1.0));
   double closing_mps = 0.0;
   while (state.shards[0].velocity_mps.z <= 0.0) {
     closing_mps = -state.shards[0].velocity_mps.z;
-    advance_shards(state, road, step_s);
+    advance_shards(state, road, shard_step_s);
   }
   CHECK(state.shards[0].velocity_mps.z == doctest::Approx(0.2 * closing_mps).epsilon(0.02).scale(0.0));
   CHECK(state.shards[0].velocity_mps.x == 0.0);  // Friction of 0.4 times 1.2 times the blow takes more than it had.
@@ -53,9 +49,9 @@ TEST_CASE("a shard falls freely and a fifth of its speed comes back from the roa
 
 TEST_CASE("a shard that grazes the road loses Coulomb's share and comes to rest on it") {
   State state = with_shard({0, 0, 1e-6}, {20, 0, -3});
-  advance_shards(state, level_road(), step_s);
+  advance_shards(state, level_road(), shard_step_s);
   CHECK(state.shards[0].velocity_mps.x == doctest::Approx(20.0 - 0.4 * 1.2 * 3.0).epsilon(0.005).scale(0.0));
-  for (int k = 0; k < 10'000; ++k) advance_shards(state, level_road(), step_s);
+  for (int k = 0; k < 10'000; ++k) advance_shards(state, level_road(), shard_step_s);
   CHECK(state.shards[0].velocity_mps == Vec3(0.0));
   CHECK(state.shards[0].position_m.z == 0.0);
 }
@@ -69,8 +65,8 @@ TEST_CASE("a shard bounces off a vehicle that moves and leaves it on its outside
   car.velocity_mps = {10, 0, 0};
   world.boxes = {car};
   for (int k = 0; k < 20; ++k) {
-    advance_shards(state, world, step_s);
-    world.boxes[0].world_from_box.position_m.x += 10.0 * step_s;
+    advance_shards(state, world, shard_step_s);
+    world.boxes[0].world_from_box.position_m.x += 10.0 * shard_step_s;
   }
   CHECK(state.shards[0].velocity_mps.x == doctest::Approx(12.0));
   CHECK(state.shards[0].position_m.x > world.boxes[0].world_from_box.position_m.x + 1.0);

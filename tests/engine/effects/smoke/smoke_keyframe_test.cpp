@@ -11,7 +11,7 @@ using namespace septet::smoke;
 
 namespace {
 
-constexpr double step_s = 1.0 / 120.0;
+constexpr double tick_s = 1.0 / 120.0;
 
 /// 20,000 particles at once, near the fire.
 State full_tunnel() {
@@ -28,7 +28,7 @@ std::vector<EffectKeyframe> keyframes_after(int ticks, State& state) {
   KeyframeTrack track;
   std::vector<EffectKeyframe> effects;
   for (int tick = 0; tick < ticks; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
+    advance_smoke(state, Vec3(0.0), {}, tick_s);
     effects = advance_keyframes(track, state);
   }
   return effects;
@@ -47,7 +47,7 @@ TEST_CASE("a keyframe gives back every particle within its stated bound") {
     REQUIRE(keyframe);
     // Those taken this very tick can be compared with the state.
     if (keyframe->time_s != state.time_s) continue;
-    CHECK(keyframe->duration_s == doctest::Approx(keyframe_ticks * step_s));
+    CHECK(keyframe->duration_s == doctest::Approx(keyframe_ticks * tick_s));
     for (const auto& p : keyframe->particles) {
       const auto number = static_cast<std::uint32_t>(keyframe->chunk * chunk_slots + p.slot);
       const auto found = std::ranges::find(state.particles.number, number);
@@ -70,7 +70,7 @@ TEST_CASE("what is shown goes on without a jump when the next keyframe comes") {
   std::optional<Keyframe> last;
   int joined = 0;
   for (int tick = 0; tick < 400; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
+    advance_smoke(state, Vec3(0.0), {}, tick_s);
     const auto effects = advance_keyframes(track, state);
     if (effects.empty()) continue;
     auto now = decode(effects.front().data);
@@ -113,7 +113,7 @@ TEST_CASE("twenty thousand visible particles need less than two megabytes a seco
   std::map<std::uint32_t, Bytes> seen;
   std::size_t bytes = 0, largest_tick = 0, snapshot = 0;
   for (int tick = 0; tick < 180; ++tick) {
-    advance_smoke(state, Vec3(0.0), {}, step_s);
+    advance_smoke(state, Vec3(0.0), {}, tick_s);
     std::size_t this_tick = 0;
     snapshot = 0;
     for (const EffectKeyframe& effect : advance_keyframes(track, state)) {
