@@ -5,6 +5,9 @@ set(SEPTET_COMMON_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesy
     <set> <span> <sstream> <string> <variant> <vector> <fmt/format.h> <glm/glm.hpp> <glm/gtc/matrix_transform.hpp>
     <glm/gtc/quaternion.hpp> <tl/expected.hpp>)
 set(SEPTET_WARNINGS -Wall -Wextra -Wno-missing-field-initializers)
+if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND SEPTET_WARNINGS -Wno-unknown-pragmas)  # Some speak to gcc's vectoriser alone.
+endif()
 if(CMAKE_UNITY_BUILD)
   # In a lump every file looks like a header to gcc, and the names of one file like those that the next one hides.
   list(APPEND SEPTET_WARNINGS $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
