@@ -18,7 +18,6 @@
 /// nothing: a count is no more than the bytes that are left, memory has a limit, no number is a NaN and no vector infinite; what an index
 /// may be is for whoever reads to require. After the first problem everything reads as zero.
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -64,17 +63,28 @@ class StateHasher {
 
   void put(const void* from, std::size_t count) {
     const auto* bytes = static_cast<const std::byte*>(from);
-    for (std::size_t done = 0; done < count; done += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + done, std::min(count - done, sizeof word));
-      chains_[turn_++ % chains_.size()].add(word);
+    if (count > 4 * word_size) {  // By chains of one's own, which no byte can be a part of.
+      auto chains = chains_;
+      for (; count >= 4 * word_size; bytes += 4 * word_size, count -= 4 * word_size)
+        for (std::size_t i = 0; i < 4; ++i) chains[i].add(word_of(bytes + i * word_size, word_size));
+      chains_ = chains;
     }
+    for (; count >= word_size; bytes += word_size, count -= word_size) add(word_of(bytes, word_size));
+    if (count > 0) add(word_of(bytes, count));
   }
   void finish(StateHash& hash) const {
     for (const StateHash& chain : chains_) hash.add(chain.value());
   }
 
  private:
+  static constexpr std::size_t word_size = sizeof(std::uint64_t);
+  static std::uint64_t word_of(const std::byte* bytes, std::size_t count) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, count);
+    return word;
+  }
+  void add(std::uint64_t word) { chains_[turn_++ % chains_.size()].add(word); }
+
   std::array<StateHash, 4> chains_;  ///< They take turns: a single one would wait for every product.
   std::size_t turn_ = 0;
 };

@@ -1,6 +1,8 @@
 // What the lists of members say: what is kept, what is hashed, and what is neither.
 #include "engine/core/archive.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 namespace septet {
