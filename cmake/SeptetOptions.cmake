@@ -12,8 +12,12 @@ set(SEPTET_ARCHITECTURE "x86-64-v3" CACHE STRING "Instruction set (-march); empt
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND SEPTET_ARCHITECTURE)
   add_compile_options(-march=${SEPTET_ARCHITECTURE})
 endif()
-# Contraction to fused multiply-add differs between compilers; without it the state hash is the same on all of them.
+# Which products and sums are fused differs between compilers; without it the state hash is the same on all of them. gcc 12 fuses
+# alternating sums and differences (vfmaddsub) although contraction is off, so it is given no such instruction.
 add_compile_options(-ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-mno-fma)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # gcc 12 sees bounds broken within std::string's own operator+, and an empty std::optional read within its own destructor.
   add_compile_options(-Wno-array-bounds -Wno-maybe-uninitialized)

@@ -109,8 +109,8 @@ function(septet_program name)
   endif()
 endfunction()
 
-# septet_test(NAME [SERIAL] [DEPENDS library…] [PRIVATE library…])
-# SERIAL: its slow tests run alone. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files
+# septet_test(NAME [SERIAL] [THREADS] [DEPENDS library…] [PRIVATE library…])
+# SERIAL: its slow tests run alone. THREADS: its fast tests start threads, so the thread sanitizer's build has them; it has no others. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files
 # (a slow test starts processes, draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that
 # drive for hours; `./test --long`). Every test case is one CTest test. The limits are for a hang, however busy the machine.
 function(septet_test name)
@@ -124,10 +124,10 @@ function(septet_test name)
 endfunction()
 
 function(septet_test_program name label timeout_s sources)
-  if(NOT sources)
+  cmake_parse_arguments(arg "SERIAL;THREADS" "" "DEPENDS;PRIVATE" ${ARGN})
+  if(NOT sources OR (SEPTET_SANITIZE STREQUAL "thread" AND NOT (arg_THREADS AND label STREQUAL "fast")))
     return()
   endif()
-  cmake_parse_arguments(arg "SERIAL" "" "DEPENDS;PRIVATE" ${ARGN})
   add_executable(${name} ${sources})
   target_compile_options(${name} PRIVATE ${SEPTET_WARNINGS})
   target_compile_definitions(${name} PRIVATE SEPTET_SOURCE_DIR="${CMAKE_SOURCE_DIR}"

@@ -8,6 +8,7 @@
 
 #include "engine/effects/debris/contacts.hpp"
 #include "engine/physics/elastic/body_measures.hpp"
+#include "tests/engine/effects/debris/crashes.hpp"
 #include "tests/engine/effects/debris/pieces.hpp"
 
 using namespace septet;
@@ -15,33 +16,10 @@ using namespace septet::debris;
 
 namespace {
 
-constexpr double crash_speed_mps = 70.0 / 3.6;
-
-CrashBody car_at(double x_m, double speed_mps) {
-  CrashBody car;
-  car.box.world_from_box.position_m = {x_m, 0, 0.75};
-  car.box.half_size_m = {2.2, 0.9, 0.7};
-  car.box.velocity_mps = {speed_mps, 0, 0};
-  car.mass_kg = 1500.0;
-  car.parts = passenger_car_parts(car.box.half_size_m);
-  return car;
-}
-
 double carried_mass_kg(const CrashBody& body) {
   double mass = 0.0;
   for (const auto& m : body.parts) mass += part_recipe(m.part).mass_kg;
   return mass;
-}
-
-/// A car whose front touches a wall at x = 0.
-Crash into_barrier(double speed_mps) {
-  Crash crash;
-  crash.point_m = {0, 0, 0.5};
-  crash.normal = {-1, 0, 0};
-  crash.first = car_at(-2.2, speed_mps);
-  crash.second.box.world_from_box.position_m = {0.25, 0, 0.4};
-  crash.second.box.half_size_m = {0.25, 20.0, 0.4};
-  return crash;
 }
 
 }  // namespace
@@ -82,28 +60,6 @@ TEST_CASE("what a crash throws keeps mass and momentum and gets no energy") {
   const Vec3 after = from_eigen(momentum) + crash.first.impulse_ns;
   CHECK(glm::length(after - before) < 0.02 * before.x);
   CHECK(energy < 0.5 * mass * report.closing_speed_mps * report.closing_speed_mps);
-}
-
-TEST_CASE("debris of a crash lies in the way and none of it in the barrier") {
-  State state;
-  Random random(3);
-  Crash crash = into_barrier(crash_speed_mps);
-  debris::crash(state, crash, level_road(), random);
-  ContactWorld world = level_road();
-  crash.first.box.velocity_mps = Vec3(0);
-  world.boxes = {crash.first.box, crash.second.box};
-  double widest = 0.0;
-  for (int k = 0; k < 90; ++k) advance_debris(state, world, 1.0 / 60);
-  for (const Piece& p : state.pieces) {
-    const auto centre = elastic::centre_of_mass_m(p.body);
-    CHECK(centre.z() > -0.05);
-    CHECK(centre.allFinite());
-    for (const Box& box : world.boxes) CHECK(gap_to_box(box, from_eigen(centre)).gap_m > -0.05);
-    widest = std::max(widest, std::abs(centre.y()));
-  }
-  CHECK(widest > 2.0);   // Beyond the car's own lane half,
-  CHECK(widest < 40.0);  // and not beyond what its energy allows.
-  CHECK(state.bad_numbers == 0);
 }
 
 TEST_CASE("two cars that meet head on both lose their bumpers") {

@@ -9,6 +9,8 @@
 
 namespace septet::smoke {
 
+inline constexpr double step_s = 1.0 / 60.0;
+
 /// A closed room of 24 × 24 × 16 cells of one metre, and a fire on its floor that gives off 18,432 particles in 25 s.
 inline State paper_room(std::uint64_t seed = 1) {
   Emitter fire;

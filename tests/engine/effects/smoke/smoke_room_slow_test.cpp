@@ -10,8 +10,6 @@ using namespace septet::smoke;
 
 namespace {
 
-constexpr double step_s = 1.0 / 60.0;
-
 struct History {
   std::array<Layers, 5> at;  ///< After 1, 5, 10, 25 and 50 s.
   int most = 0;
