@@ -154,7 +154,8 @@ TEST_CASE("a windscreen thrown at a wall cracks and shatters on the road and los
   State state;
   CHECK(throw_windscreen_at_wall(state) > 20);
   CHECK(state.shards.size() > 5);
-  CHECK(mass_of(state) == doctest::Approx(elastic::total_mass_kg(part_at_rest(Part::windscreen, 3).body)).epsilon(1e-9));
+  CHECK(mass_of(state) ==
+        doctest::Approx(elastic::total_mass_kg(part_at_rest(Part::windscreen, 3).body)).epsilon(1e-9));
   for (const auto& s : state.shards) {
     CHECK(s.position_m.z >= 0.0);
     CHECK(glm::length(s.velocity_mps) < 40.0);
