@@ -55,7 +55,7 @@ inline int run(std::string_view name, CLI::App& app, int argc, char** argv,
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? 0 : wrong_use_status;
+    return app.exit(error, std::cout, std::cerr) == 0 ? status_after_output(name, 0) : wrong_use_status;
   }
   return run(name, work);
 }

@@ -1,5 +1,8 @@
 #include "program/run.hpp"
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 
@@ -13,12 +16,18 @@ int run(std::string_view name, const std::function<Expected<int>()>& work) {
   std::string wrong;
   try {
     const auto status = work();
-    if (status) return *status;
+    if (status) return status_after_output(name, *status);
     wrong = describe(status.error());
   } catch (const std::exception& error) {
     wrong = error.what();
   }
   say(std::string(name) + ": " + wrong);
+  return failed_status;
+}
+
+int status_after_output(std::string_view name, int status) {
+  if (std::fflush(stdout) == 0 || errno == EPIPE || status != 0) return status;
+  say(std::string(name) + ": standard output: " + std::strerror(errno) + ": make room, then run this again");
   return failed_status;
 }
 

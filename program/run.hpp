@@ -14,4 +14,7 @@ inline constexpr int failed_status = 1, wrong_use_status = 2;
 /// A failed write is an error of whoever writes, and not the program's end.
 int run(std::string_view name, const std::function<Expected<int>()>& work);
 
+/// `status`, or failed_status with a word if what was printed cannot be written, which shows at the end. Who stops reading wants no more of it.
+int status_after_output(std::string_view name, int status);
+
 }  // namespace septet::program

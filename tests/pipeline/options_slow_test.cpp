@@ -115,6 +115,16 @@ TEST_CASE("septet list names what there is with a description each") {
   CHECK(has(output_of("septet list drivers"), "tired        Corrects late"));
 }
 
+TEST_CASE("what cannot be written fails and what nobody reads on does not") {
+  for (const char* command : {"septet list scenarios", "septet --help", "septet-car --version"}) {
+    CAPTURE(command);
+    const std::string said = output_of(fmt::format("{} 2>&1 >/dev/full; test $? = 1 && echo status 1", command));
+    CHECK(has(said, "No space left on device"));
+    CHECK(has(said, "status 1"));
+  }
+  CHECK(output_of("septet list scenarios | true").empty());
+}
+
 TEST_CASE("vehicle, parameters and participant of a drive are in its log, its summary and its report") {
   const TemporaryFolder folder;
   const fs::path session = folder / "out" / "session.sqlite";
