@@ -46,7 +46,7 @@ struct IceResources {
   ResourceId front, back, depth, inside, around, around_depth, cube;
 };
 
-struct Renderer::Parts {
+struct Renderer::State {
   RendererOptions options;
   vulkan::Device device;
   vulkan::MemoryPool memory;
@@ -76,7 +76,7 @@ struct Renderer::Parts {
   std::shared_ptr<const SkyLight> table_light;  ///< Whose sky the table holds.
   RenderStatistics statistics;
 
-  ~Parts() { destroy(); }
+  ~State() { destroy(); }
   void create(const RendererOptions& wanted);
   void destroy();
   void draw(const Instant& instant);
@@ -90,7 +90,7 @@ struct Renderer::Parts {
   void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
 
-void Renderer::Parts::create(const RendererOptions& wanted) {
+void Renderer::State::create(const RendererOptions& wanted) {
   options = wanted;
   memory.device = &device;
   vulkan::DeviceOptions device_options{wanted.device == DevicePreference::software, wanted.validation, {}, {}};
@@ -130,7 +130,7 @@ void Renderer::Parts::create(const RendererOptions& wanted) {
   create_overlay_pass(*overlay_pass, device, memory, layout, formats);
 }
 
-void Renderer::Parts::destroy() {
+void Renderer::State::destroy() {
   if (!device.device) {
     destroy_device(device);
     return;
@@ -157,7 +157,7 @@ void Renderer::Parts::destroy() {
   destroy_device(device);
 }
 
-void Renderer::Parts::draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant,
+void Renderer::State::draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant,
                                 const FrameData& soot, const std::function<void()>& draw_seen_through) {
   const Environment& environment = instant.environment;
   set_viewport(context, prepared.view->viewport);
@@ -177,7 +177,7 @@ void Renderer::Parts::draw_view(PassContext& context, const PreparedView& prepar
   draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
 }
 
-void Renderer::Parts::draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant) {
+void Renderer::State::draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant) {
   const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
   begin_view_rendering(context, targets.radiance, targets.depth);
   for (std::uint32_t i = 0; i < frame.views.size(); ++i) {
@@ -193,7 +193,7 @@ void Renderer::Parts::draw_views(PassContext& context, const PreparedFrame& fram
   vkCmdEndRendering(context.slot.commands);
 }
 
-void Renderer::Parts::draw_surroundings(PassContext& context, std::span<const PreparedView> views,
+void Renderer::State::draw_surroundings(PassContext& context, std::span<const PreparedView> views,
                                         const Instant& instant) {
   const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
   begin_view_rendering(context, ice_pass.targets.around, ice_pass.targets.around_depth);
@@ -201,7 +201,7 @@ void Renderer::Parts::draw_surroundings(PassContext& context, std::span<const Pr
   vkCmdEndRendering(context.slot.commands);
 }
 
-IceResources Renderer::Parts::add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
+IceResources Renderer::State::add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
                                              const PreparedFrame& frame, const Instant& instant,
                                              const std::vector<ResourceUse>& view_reads) {
   const IceTargets& held = ice_pass.targets;
@@ -238,7 +238,7 @@ IceResources Renderer::Parts::add_ice_passes(RenderGraph& graph, const AddImage&
   return ice;
 }
 
-std::optional<std::uint32_t> Renderer::Parts::next_window_image(const vulkan::FrameSlot& slot) {
+std::optional<std::uint32_t> Renderer::State::next_window_image(const vulkan::FrameSlot& slot) {
   if (!options.window) return std::nullopt;
   if (swapchain.stale) {
     vkDeviceWaitIdle(device.device);
@@ -247,7 +247,7 @@ std::optional<std::uint32_t> Renderer::Parts::next_window_image(const vulkan::Fr
   return acquire(swapchain, device, slot.image_acquired);
 }
 
-void Renderer::Parts::draw(const Instant& instant) {
+void Renderer::State::draw(const Instant& instant) {
   statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
   PassContext context{device, memory, layout, samplers, formats, begin_frame(ring, device), statistics};
 
@@ -368,27 +368,27 @@ void Renderer::Parts::draw(const Instant& instant) {
   }
 }
 
-Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
 Expected<Renderer> Renderer::create(const RendererOptions& options) {
   if (auto possible = check_size(options.width, options.height); !possible) return tl::unexpected(possible.error());
-  auto parts = std::make_unique<Parts>();
+  auto state = std::make_unique<State>();
   try {
-    parts->create(options);
+    state->create(options);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
-  return Renderer(std::move(parts));
+  return Renderer(std::move(state));
 }
 
 Expected<void> Renderer::upload(const scene::ResolvedScene& scene) {
-  if (parts_->scene.revision == scene.revision) return {};
+  if (state_->scene.revision == scene.revision) return {};
   try {
-    wait_for_frames(parts_->ring, parts_->device);
-    upload_scene(parts_->scene, scene, parts_->device, parts_->memory);
+    wait_for_frames(state_->ring, state_->device);
+    upload_scene(state_->scene, scene, state_->device, state_->memory);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
@@ -397,13 +397,13 @@ Expected<void> Renderer::upload(const scene::ResolvedScene& scene) {
 
 Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
   if (auto possible = check_size(width, height); !possible) return possible;
-  if (width == parts_->targets.width && height == parts_->targets.height) return {};
+  if (width == state_->targets.width && height == state_->targets.height) return {};
   try {
-    wait_for_frames(parts_->ring, parts_->device);
-    destroy_frame_targets(parts_->targets, parts_->memory);
-    create_frame_targets(parts_->targets, parts_->memory, parts_->formats, width, height, parts_->smoothed);
-    parts_->drawn = false;
-    parts_->swapchain.stale = true;
+    wait_for_frames(state_->ring, state_->device);
+    destroy_frame_targets(state_->targets, state_->memory);
+    create_frame_targets(state_->targets, state_->memory, state_->formats, width, height, state_->smoothed);
+    state_->drawn = false;
+    state_->swapchain.stale = true;
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
@@ -418,7 +418,7 @@ Expected<void> Renderer::draw(const Instant& instant) {
         "a view of {} × {} pixels at ({}, {}) in a picture of {} × {}", w, h, x, y, width(), height());
   }
   try {
-    parts_->draw(instant);
+    state_->draw(instant);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
@@ -426,33 +426,33 @@ Expected<void> Renderer::draw(const Instant& instant) {
 }
 
 Expected<void> Renderer::draw(FrameInput input) {
-  if (parts_->lit_environment != input.environment) {
-    parts_->light = std::make_shared<const SkyLight>(sky_light(input.environment));
-    parts_->lit_environment = input.environment;
+  if (state_->lit_environment != input.environment) {
+    state_->light = std::make_shared<const SkyLight>(sky_light(input.environment));
+    state_->lit_environment = input.environment;
   }
-  return draw(instant::describe(std::move(input), parts_->scene.summary, parts_->light));
+  return draw(instant::describe(std::move(input), state_->scene.summary, state_->light));
 }
 
 Expected<image::Image> Renderer::read_back() {
-  image::Image picture(parts_->targets.width, parts_->targets.height);
-  if (!parts_->drawn) return picture;
+  image::Image picture(state_->targets.width, state_->targets.height);
+  if (!state_->drawn) return picture;
   try {
-    read_picture(parts_->targets, parts_->device, parts_->memory, picture.rgba);
+    read_picture(state_->targets, state_->device, state_->memory, picture.rgba);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
   return picture;
 }
 
-Exposure Renderer::exposure() const { return parts_->exposure; }
+Exposure Renderer::exposure() const { return state_->exposure; }
 
 Expected<RadianceImage> Renderer::read_radiance() {
-  RadianceImage result{parts_->targets.width, parts_->targets.height, {}};
+  RadianceImage result{state_->targets.width, state_->targets.height, {}};
   result.radiance.resize(std::size_t{result.width} * result.height, glm::vec3(0.0f));
-  if (!parts_->drawn) return result;
+  if (!state_->drawn) return result;
   std::vector<std::uint64_t> halves(result.radiance.size());
   try {
-    render::read_radiance(parts_->targets, parts_->device, parts_->memory, halves);
+    render::read_radiance(state_->targets, state_->device, state_->memory, halves);
   } catch (const vulkan::Failure& refused) {
     return tl::unexpected(refused.error);
   }
@@ -461,9 +461,9 @@ Expected<RadianceImage> Renderer::read_radiance() {
   return result;
 }
 
-std::uint32_t Renderer::width() const { return parts_->targets.width; }
-std::uint32_t Renderer::height() const { return parts_->targets.height; }
-const RenderStatistics& Renderer::statistics() const { return parts_->statistics; }
-std::string_view Renderer::device_name() const { return parts_->device.properties.deviceName; }
+std::uint32_t Renderer::width() const { return state_->targets.width; }
+std::uint32_t Renderer::height() const { return state_->targets.height; }
+const RenderStatistics& Renderer::statistics() const { return state_->statistics; }
+std::string_view Renderer::device_name() const { return state_->device.properties.deviceName; }
 
 }  // namespace septet::render

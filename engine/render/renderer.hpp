@@ -92,9 +92,9 @@ class Renderer {
   std::string_view device_name() const;
 
  private:
-  struct Parts;
-  explicit Renderer(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace septet::render

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/road/lane_geometry.hpp"
-#include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
 
 namespace septet::road {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
-#include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
 
 namespace septet::road {

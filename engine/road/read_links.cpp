@@ -4,7 +4,7 @@
 #include <pugixml.hpp>
 
 #include "engine/road/lane_links.hpp"
-#include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_elements.hpp"
 
 namespace septet::road {
 namespace {

@@ -5,7 +5,7 @@
 #include <pugixml.hpp>
 
 #include "engine/road/cubic_range.hpp"
-#include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_elements.hpp"
 #include "engine/road/road_limits.hpp"
 #include "engine/road/road_position.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/road/opendrive_parts.hpp"
+#include "engine/road/road_elements.hpp"
 
 namespace septet::road {
 

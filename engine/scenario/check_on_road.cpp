@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/scenario/resolve_position.hpp"
-#include "engine/scenario/scenario_parts.hpp"
+#include "engine/scenario/scenario_reading.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 
 namespace septet::scenario {

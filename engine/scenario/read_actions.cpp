@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scenario/scenario_parts.hpp"
+#include "engine/scenario/scenario_reading.hpp"
 
 namespace septet::scenario {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/regular_file.hpp"
-#include "engine/scenario/scenario_parts.hpp"
+#include "engine/scenario/scenario_reading.hpp"
 
 namespace septet::scenario {
 namespace {

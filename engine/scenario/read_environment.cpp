@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/scenario/scenario_parts.hpp"
+#include "engine/scenario/scenario_reading.hpp"
 
 namespace septet::scenario {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/scenario/scenario_parts.hpp"
+#include "engine/scenario/scenario_reading.hpp"
 
 namespace septet::scenario {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 
 namespace septet::traffic {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 
 namespace septet::traffic {
 namespace {

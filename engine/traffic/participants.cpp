@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "engine/road/lane_geometry.hpp"
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 #include "engine/world/indicator.hpp"
 
 namespace septet::traffic {

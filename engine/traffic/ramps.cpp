@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "engine/road/lane_links.hpp"
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 
 namespace septet::traffic {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/core/check.hpp"
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 
 namespace septet::traffic {
 

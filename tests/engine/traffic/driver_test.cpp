@@ -6,7 +6,7 @@
 
 #include "engine/traffic/lane_order.hpp"
 #include "engine/traffic/lateral.hpp"
-#include "engine/traffic/traffic_parts.hpp"
+#include "engine/traffic/traffic_stages.hpp"
 #include "tests/engine/traffic/ring_road.hpp"
 
 namespace septet::traffic {

@@ -1,6 +1,5 @@
 #pragma once
-/// The parts of the OpenDRIVE reader; each fills its part of a road from the road's element. Used
-/// by the reader only.
+/// Readers of the elements of an OpenDRIVE road: each fills what its element tells of the road. Used by the OpenDRIVE reader only.
 
 #include "engine/road/road_network.hpp"
 #include "engine/road/xml_findings.hpp"

@@ -1,6 +1,5 @@
 #pragma once
-/// The parts of the scenario reader and what they share while one scenario is read. Used by the
-/// reader only.
+/// Readers of the elements of a scenario, and what they share while one scenario is read. Used by the scenario reader only.
 
 #include <map>
 #include <memory>
