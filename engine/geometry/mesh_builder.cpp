@@ -54,7 +54,10 @@ void MeshBuilder::patch(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 
 void MeshBuilder::append(const PolygonMesh& part, const glm::mat4& to_builder, bool recolor) {
   const auto offset = static_cast<std::uint32_t>(mesh_.vertices_m.size());
-  if (!part.edge_creases.empty() || part.default_edge_crease != mesh_.default_edge_crease) give_edge_creases(mesh_);
+  // Of its own edges, or of what was there before; a builder without polygons shows neither by what it holds.
+  const bool creased = !mesh_.edge_creases.empty() || !part.edge_creases.empty() ||
+                       part.default_edge_crease != mesh_.default_edge_crease;
+  if (creased) give_edge_creases(mesh_);
   for (const glm::vec3& p : part.vertices_m) mesh_.vertices_m.push_back(glm::vec3(to_builder * glm::vec4(p, 1.0f)));
   for (std::size_t i = 0; i < part.polygons.size(); ++i) {
     PolygonCorners corners = part.polygons[i];
@@ -62,7 +65,7 @@ void MeshBuilder::append(const PolygonMesh& part, const glm::mat4& to_builder, b
     mesh_.polygons.push_back(corners);
     mesh_.corner_uvs.push_back(part.corner_uvs.empty() ? CornerUvs{} : part.corner_uvs[i]);
     mesh_.polygon_materials.push_back(recolor || part.polygon_materials.empty() ? material : part.polygon_materials[i]);
-    if (!mesh_.edge_creases.empty()) {
+    if (creased) {
       const std::uint32_t value = part.default_edge_crease;
       mesh_.edge_creases.push_back(part.edge_creases.empty() ? std::array{value, value, value, value}
                                                              : part.edge_creases[i]);

@@ -94,6 +94,17 @@ TEST_CASE("what is appended keeps its own coordinates and creases behind what wa
   for (std::uint32_t k = 0; k < 4; ++k) CHECK(mesh.polygons[3][k] >= 9);
 }
 
+TEST_CASE("what is appended to nothing keeps its creases too") {
+  MeshBuilder edges, all;
+  edges.append(kite());
+  CHECK(edges.mesh().edge_creases == kite().edge_creases);
+  all.append(box({0, 0, 0}, {1, 1, 1}));
+  all.patch({0, 0, 9}, {1, 0, 9}, {1, 1, 9}, {0, 1, 9});
+  REQUIRE(all.mesh().edge_creases.size() == 7);
+  CHECK(all.mesh().edge_creases[0][0] == crease_sharp);
+  CHECK(all.mesh().edge_creases[6][0] == crease_smooth);
+}
+
 TEST_CASE("texture coordinates of a box are metres on each of its sides") {
   PolygonMesh mesh = box({0, 0, 0}, {3, 2, 1});
   project_box_uvs(mesh, 0.5f);
