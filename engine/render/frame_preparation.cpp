@@ -47,8 +47,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   return prepared;
 }
 
-/// Vehicles cast the shadow of the form that they show at this distance: a texel of the cascade is no finer.
-constexpr std::array<float, cascade_count> caster_ranges_m{60.0f, 200.0f};
+/// Vehicles cast the shadow of the form that they show at this distance: a texel of the far cascade is no finer. Near by it is the form that
+/// is seen, or the two would shade each other wherever they part.
+constexpr std::array<float, cascade_count> caster_ranges_m{0.0f, 200.0f};
 
 /// What casts a shadow into a cascade that some view may see.
 SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, const Instant& instant,

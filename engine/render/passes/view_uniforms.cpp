@@ -57,15 +57,8 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, light.fog_per_m * std::numbers::log2e_v<float>);
   uniforms.ground_irradiance = glm::vec4(light.ground_irradiance, light.night);
   uniforms.sun_direction = glm::vec4(light.sun_direction, shadows.cascades[1].texel_m);
-  // Light at the horizon toward the sun, beside it and away from it: a parabola in the cosine of the azimuth.
-  const auto horizon = [&](const glm::vec2& level) { return sky_radiance(light, glm::vec3(level * 0.9998f, 0.02f)); };
   const glm::vec2 sun(light.sun_direction);
   const glm::vec2 sun_level = glm::length(sun) > 1e-6f ? glm::normalize(sun) : glm::vec2(1.0f, 0.0f);
-  const glm::vec3 toward = horizon(sun_level), beside = horizon({-sun_level.y, sun_level.x}),
-                  away = horizon(-sun_level);
-  uniforms.fog_middle = glm::vec4(beside, 0.0f);
-  uniforms.fog_slope = glm::vec4(0.5f * (toward - away), 0.0f);
-  uniforms.fog_bend = glm::vec4(0.5f * (toward + away) - beside, 0.0f);
   uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(instant.environment.cloud_cover));
 
   // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.

@@ -23,11 +23,10 @@ struct ViewUniforms {
   glm::vec4 ray_middle, ray_right, ray_down;
   glm::vec4 billboard_right, billboard_up;
   glm::vec4 weather, wind;
-  glm::vec4 fog_middle, fog_slope, fog_bend;
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 17 + 8 + 4) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 8 + 4) * 16);
 
 /// Of the headlights the nearest count.
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows);

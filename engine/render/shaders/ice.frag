@@ -123,7 +123,6 @@ void main() {
   }
 
   float fog = 1.0 - exp2(-length(relative) * view.sky_irradiance.w);
-  float azimuth = dot(eye.xy, view.sun_level.xy) * inversesqrt(dot(eye.xy, eye.xy) + 1e-6);
-  radiance = mix(radiance, view.fog_middle.rgb + azimuth * (view.fog_slope.rgb + azimuth * view.fog_bend.rgb), fog);
+  radiance = mix(radiance, fog_radiance(eye), fog);
   result = vec4(radiance, 1.0);
 }

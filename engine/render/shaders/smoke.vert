@@ -30,8 +30,7 @@ void main() {
   out_radiance_depth = puff.radiance_depth;
   // Seen from within it would be a wall before the eye: it thins out there.
   out_radiance_depth.w *= smoothstep(0.15, 1.2, distance_m / radius);
-  float azimuth = -dot(to_eye.xy, view.sun_level.xy) * inversesqrt(dot(to_eye.xy, to_eye.xy) + 1e-6);
-  out_fog = view.fog_middle.rgb + azimuth * (view.fog_slope.rgb + azimuth * view.fog_bend.rgb);
+  out_fog = fog_radiance(-to_eye);
   out_shift_fog = vec4(puff.turn.x * 7.31, puff.turn.x * 3.77, 1.0 - exp2(-distance_m * view.sky_irradiance.w), 0.0);
   gl_Position = view.clip_from_relative * vec4(middle + (side * at.x + up * at.y) * radius, 1.0);
 }

@@ -17,6 +17,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) flat in vec4 color;
 layout(location = 4) flat in vec4 emission;
+layout(location = 5) in vec3 fog_light;
 layout(location = 0) out vec4 result;
 
 layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
@@ -144,8 +145,7 @@ void main() {
   if (sooty != 0) radiance *= 1.0 - soot_cover();
 
   float fog = 1.0 - exp2(-distance_m * view.sky_irradiance.w);
-  float azimuth = -dot(to_eye.xy, view.sun_level.xy) * inversesqrt(dot(to_eye.xy, to_eye.xy) + 1e-6);
-  radiance = mix(radiance, view.fog_middle.rgb + azimuth * (view.fog_slope.rgb + azimuth * view.fog_bend.rgb), fog);
+  radiance = mix(radiance, fog_light, fog);
   result = vec4(radiance, alpha);
   if (blended != 0) result.rgb *= alpha;
 }

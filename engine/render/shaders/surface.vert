@@ -15,6 +15,7 @@ layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) flat out vec4 out_color;     // Base colour and opacity.
 layout(location = 4) flat out vec4 out_emission;  // rgb, w: share of the sky.
+layout(location = 5) out vec3 out_fog;
 
 void main() {
   out_relative = placed(position);
@@ -23,5 +24,6 @@ void main() {
   vec3 paint = material.surface.w > 0.5 ? tint.rgb : vec3(1.0);
   out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
   out_emission = vec4(material.emission.rgb * tint.a, material.light.x * light.x);
+  out_fog = fog_radiance(normalize(out_relative));
   gl_Position = view.clip_from_relative * vec4(out_relative, 1.0);
 }

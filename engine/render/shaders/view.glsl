@@ -16,7 +16,6 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
   vec4 wind;               // xy: drift of the clouds, m. z: number of headlights.
-  vec4 fog_middle, fog_slope, fog_bend;  // Horizon light: middle + slope·c + bend·c², c the cosine to the sun's azimuth.
   vec4 headlight_position[4];   // xyz relative. w: intensity.
   vec4 headlight_direction[4];  // xyz unit.
   vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
@@ -38,6 +37,14 @@ vec2 sky_coordinates(vec3 direction) {
 }
 
 vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
+
+// What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.
+vec3 fog_radiance(vec3 direction) {
+  float horizontal = length(direction.xy);
+  vec2 level = horizontal > 1e-6 ? direction.xy / horizontal : view.sun_level.xy;
+  float up = max(direction.z, 0.02);
+  return sky_radiance(vec3(level * sqrt(max(1.0 - up * up, 1e-8)), up));
+}
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }

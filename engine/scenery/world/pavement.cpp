@@ -47,11 +47,33 @@ Ground asphalt_of(const RoadTile& tile) {
   return laid[((stretch % 4) + 4) % 4];
 }
 
+/// What a lane is covered with. In a junction lanes of several roads lie on one another, all in asphalt.
+Ground ground_of(road::LaneType type, const RoadTile& tile, bool in_junction) {
+  using enum road::LaneType;
+  const bool on_earth = !tile.in_tunnel && !tile.on_bridge;
+  if (in_junction) return asphalt_of(tile);
+  switch (type) {
+    case none:
+    case median:
+      return on_earth ? Ground::verge : asphalt_of(tile);
+    case sidewalk:
+    case curb:
+      return tile.in_tunnel ? Ground::concrete_tunnel : Ground::concrete;
+    case rail:
+    case tram:
+      return on_earth ? Ground::gravel : asphalt_of(tile);
+    case biking:
+    case parking:
+      return tile.in_tunnel ? Ground::asphalt_tunnel : Ground::asphalt_old;
+    default:
+      return asphalt_of(tile);
+  }
+}
+
 geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& tile) {
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
   MeshBuilder builder;
-  builder.material = index_of(asphalt_of(tile));
   const std::vector<double> along = stations(tile, near_step_m);
   // Vertices are shared between neighbouring lanes; the centre line is border 0.
   std::vector<std::vector<std::uint32_t>> borders;
@@ -64,18 +86,22 @@ geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& t
       column.push_back(builder.vertex(world.roads.local(tile, s, column_t.back())));
     }
   }
-  for (std::size_t k = 0; k + 1 < borders.size(); ++k)
+  for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
+    const int outside = section.left_count - static_cast<int>(k);
+    const road::Lane& lane = section.lane(outside > 0 ? outside : outside - 1);
+    builder.material = index_of(ground_of(lane.type, tile, road.junction != road::no_index));
     for (std::size_t i = 0; i + 1 < along.size(); ++i) {
       const double width0 = border_t[k][i] - border_t[k + 1][i], width1 = border_t[k][i + 1] - border_t[k + 1][i + 1];
       if (width0 < 1e-3 && width1 < 1e-3) continue;
-      const bool lane = std::max(width0, width1) > 3.0;
-      const auto u0 = static_cast<float>(lane ? 1.0 : width0 / texture_width_m),
-                 u1 = static_cast<float>(lane ? 1.0 : width1 / texture_width_m);
+      const bool worn = std::max(width0, width1) > 3.0;  // The texture shows where wheels of a lane run.
+      const auto u0 = static_cast<float>(worn ? 1.0 : width0 / texture_width_m),
+                 u1 = static_cast<float>(worn ? 1.0 : width1 / texture_width_m);
       const auto v0 = static_cast<float>((along[i] - tile.s0_m) / texture_length_m),
                  v1 = static_cast<float>((along[i + 1] - tile.s0_m) / texture_length_m);
       builder.quad(borders[k][i], borders[k + 1][i], borders[k + 1][i + 1], borders[k][i + 1],
                    {{{0, v0}, {u0, v0}, {u1, v1}, {0, v1}}});
     }
+  }
   return builder.take();
 }
 

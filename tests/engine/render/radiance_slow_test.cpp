@@ -42,20 +42,33 @@ FrameInput forward(double elevation_rad) {
   return input;
 }
 
-/// Radiance in the middle of a wall that glows with `emission` and fills the view, seen from `away_m`.
-glm::vec3 wall_radiance(Renderer& renderer, float emission, double away_m = 4.0) {
+/// A wall, 800 m wide and high, of squares as large as those of distant land. It glows with `emission` and reflects nothing.
+void upload_wall(Renderer& renderer, float emission, double away_m) {
   static std::uint64_t revision = 1;
   scene::SurfaceMaterial material = glowing_material();
   material.emission = glm::vec3(emission);
   scene::SurfaceMesh wall;
-  for (const glm::vec3& corner :
-       {glm::vec3(0, 400, -400), glm::vec3(0, -400, -400), glm::vec3(0, -400, 400), glm::vec3(0, 400, 400)})
-    wall.vertices.push_back({corner, {-1, 0, 0}, {}});
-  wall.indices = {0, 1, 2, 0, 2, 3};
+  constexpr std::uint32_t squares = 8;
+  for (std::uint32_t row = 0; row <= squares; ++row)
+    for (std::uint32_t column = 0; column <= squares; ++column)
+      wall.vertices.push_back(
+          {{0.0f, 400.0f - 100.0f * static_cast<float>(column), -400.0f + 100.0f * static_cast<float>(row)},
+           {-1, 0, 0},
+           {}});
+  for (std::uint32_t row = 0; row < squares; ++row)
+    for (std::uint32_t column = 0; column < squares; ++column) {
+      const std::uint32_t low = row * (squares + 1) + column, high = low + squares + 1;
+      wall.indices.insert(wall.indices.end(), {low, low + 1, high + 1, low, high + 1, high});
+    }
   scene::ResolvedScene scene = lone_mesh(material, wall, {Vec3(away_m, 0, 0), {1, 0, 0, 0}});
   scene.revision = ++revision;
   for (scene::SurfaceMesh& mesh : scene.meshes) mesh.revision = revision;
   REQUIRE(renderer.upload(scene).has_value());
+}
+
+/// Radiance in the middle of that wall, which fills the view.
+glm::vec3 wall_radiance(Renderer& renderer, float emission, double away_m = 4.0) {
+  upload_wall(renderer, emission, away_m);
   return shown(renderer, forward(0.9)).light.at(radiance_width / 2, radiance_height / 2);
 }
 
@@ -133,6 +146,70 @@ TEST_CASE(
       }
     CHECK(furthest < 0.01);
   }
+}
+
+TEST_CASE("a hill in haze is as bright as the sky behind it with the sun at any height and on any side") {
+  Renderer renderer = renderer_of(Antialiasing::none);
+  upload_wall(renderer, 0.0f, 8000.0);
+  for (const double elevation_rad : {-0.05, 0.03, 0.12, 0.75})
+    for (double azimuth_rad = 0.26; azimuth_rad < 6.2; azimuth_rad += 0.52) {
+      FrameInput input = forward(elevation_rad);
+      input.environment.sun_azimuth_rad = azimuth_rad;
+      input.environment.cloud_cover = 0.0;
+      input.environment.visibility_m = 3000.0;
+      const Instant instant = describe(input, {});
+      REQUIRE(renderer.draw(instant).has_value());
+      const RadianceImage light = *renderer.read_radiance();
+      double darkest = 9.0, brightest = 0.0;
+      for (std::uint32_t y = 0; y < radiance_height; ++y)
+        for (std::uint32_t x = 0; x < radiance_width; ++x) {
+          const glm::vec3 ray(ray_through(instant.views[0], x + 0.5, y + 0.5));
+          if (ray.z < 0.02f || ray.z > 0.045f || std::abs(ray.y) > 0.045f) continue;
+          for (int c = 0; c < 3; ++c) {
+            const double share = light.at(x, y)[c] / sky_radiance(*instant.light, ray)[c];
+            darkest = std::min(darkest, share);
+            brightest = std::max(brightest, share);
+          }
+        }
+      CAPTURE(elevation_rad);
+      CAPTURE(azimuth_rad);
+      CHECK(darkest > 0.9);
+      CHECK(brightest < 1.1);
+      CHECK(brightest > 0.0);
+    }
+}
+
+TEST_CASE("what is near is not shaded by the coarser form that it has further off") {
+  scene::SurfaceMaterial grey = glowing_material();
+  grey.emission = glm::vec3(0.0f);
+  grey.base_color = glm::vec3(0.5f);
+  scene::SurfaceMesh board;
+  for (const glm::vec3& corner : {glm::vec3(0, 2, -2), glm::vec3(0, -2, -2), glm::vec3(0, -2, 2), glm::vec3(0, 2, 2)})
+    board.vertices.push_back({corner, {-1, 0, 0}, {}});
+  board.indices = {0, 1, 2, 0, 2, 3};
+  scene::ResolvedScene scene = lone_mesh(grey, board, {Vec3(8, 0, 1.2), {1, 0, 0, 0}});
+  scene.prototypes = {{"model/board", std::move(scene.instances)}};
+  scene.instances.clear();
+  std::vector<scene::Instance>& forms = scene.prototypes[0].parts;
+  forms[0].visible_to_m = 30.0f;
+  const auto lit = [&] {
+    Renderer renderer = renderer_of(Antialiasing::none);
+    REQUIRE(renderer.upload(scene).has_value());
+    FrameInput input = forward(0.4);
+    input.environment.sun_azimuth_rad = 4.712389;  // In the west, behind the eye.
+    input.environment.cloud_cover = 0.0;
+    input.participants.resize(1);
+    return shown(renderer, input).light.at(radiance_width / 2, radiance_height / 2).g;
+  };
+  const float alone = lit();
+  // Higher than the ray to the board's middle, and between it and the sun.
+  forms.push_back(forms[0]);
+  forms[1].world_from_object.position_m += Vec3(-2.0, 0.0, 2.5);
+  forms[1].visible_from_m = 30.0f;
+  forms[1].visible_to_m = 1e9f;
+  CHECK(lit() == alone);
+  forms[1].visible_from_m = 0.0f;  // If it is there, it shades.
+  CHECK(lit() < 0.6f * alone);
 }
 
 TEST_CASE("two screens of a rig and a mirror in one of them are exposed alike") {
