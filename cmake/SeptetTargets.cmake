@@ -125,7 +125,7 @@ endfunction()
 
 function(septet_test_program name label timeout_s sources)
   cmake_parse_arguments(arg "SERIAL;THREADS" "" "DEPENDS;PRIVATE" ${ARGN})
-  if(NOT sources OR (SEPTET_SANITIZE STREQUAL "thread" AND NOT (arg_THREADS AND label STREQUAL "fast")))
+  if(NOT sources)
     return()
   endif()
   add_executable(${name} ${sources})
@@ -135,6 +135,9 @@ function(septet_test_program name label timeout_s sources)
   list(TRANSFORM arg_DEPENDS PREPEND septet_)
   target_link_libraries(${name} PRIVATE septet_test_main ${arg_DEPENDS} ${arg_PRIVATE})
   septet_precompile(${name} septet_precompiled)
+  if(SEPTET_SANITIZE STREQUAL "thread" AND NOT (arg_THREADS AND label STREQUAL "fast"))
+    return()
+  endif()
   add_dependencies(${label}_tests ${name})  # So that a sanitizer build makes only what it runs.
   doctest_discover_tests(${name} TEST_PREFIX "${name}: " PROPERTIES LABELS ${label} TIMEOUT ${timeout_s}
                          RUN_SERIAL ${arg_SERIAL})

@@ -114,6 +114,7 @@ class StateReader {
       std::memset(to, 0, count);
       return;
     }
+    if (count == 0) return;
     std::memcpy(to, bytes_.data(), count);
     bytes_ = bytes_.subspan(count);
   }

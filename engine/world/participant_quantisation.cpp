@@ -21,8 +21,10 @@ constexpr double spin_rate_per_radps = 64.0;
 constexpr double spin_steps = 65536.0;                 // of one turn
 constexpr double orientation_steps = (1 << 19) - 1.0;  // of 1/√2, either sign
 
-/// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over.
+/// Half away from zero as llround, without the call: the largest number below one half does not carry an integer over. Nothing for what is no
+/// number, or more than any field of the wire tells.
 std::int64_t rounded(double value) {
+  if (!(std::abs(value) < 0x1p62)) return 0;
   return static_cast<std::int64_t>(value + std::copysign(0.49999999999999994, value));
 }
 

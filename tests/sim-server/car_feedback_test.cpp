@@ -49,14 +49,15 @@ TEST_CASE("the fan of the car at the server rises with the speed of the drive") 
     }
     // The writer has a thread and a clock of its own: give it until it has written this speed, which fades where nobody sets it.
     const double share = std::min(live->newest().driver_car.speed_mps / 70.0, 1.0);
+    const auto expected = doctest::Approx(0.2 + 0.8 * share).epsilon(1e-3).scale(0.0);
     double fan = -1.0;
-    for (int i = 0; i < 150'000 && std::abs(fan - (0.2 + 0.8 * share)) > 1e-3; ++i) {
+    for (int i = 0; i < 150'000 && fan != expected; ++i) {
       actuate_again();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       for (const Bytes& report : port.take_written())
         if (const auto actuators = car_io::decode_actuators(report)) fan = actuators->fan;
     }
-    CHECK(fan == doctest::Approx(0.2 + 0.8 * share).epsilon(1e-3).scale(0.0));
+    CHECK(fan == expected);
     return fan;
   };
   const double first = drive_for(120), second = drive_for(360);
