@@ -11,7 +11,7 @@
 ///
 /// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
-/// surfaces; fog of light->fog_per_m that gives off the horizon's radiance.
+/// surfaces; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
 
 #include <memory>
 #include <vector>
