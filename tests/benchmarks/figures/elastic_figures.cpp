@@ -1,4 +1,4 @@
-// septet-figures: figures 3, 8, 9, 10 and 11 of Servin, Lacoursière and Melin (2006) as SVG, drawn
+// septet-figures: figures 3, 8, 9, 10 and 11 of Servin, Lacoursière and Melin (2006) as SVG, all but the first drawn
 // from Septet's own stepper, each with the paper's claim and what came out here.
 
 #include <time.h>
@@ -14,8 +14,8 @@
 
 #include "engine/document/chart_page.hpp"
 #include "engine/document/text_file.hpp"
+#include "tests/benchmarks/figures/swinging_cube.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
-#include "tests/engine/physics/elastic/swinging_cube.hpp"
 
 namespace septet::figures {
 namespace {
