@@ -1,7 +1,7 @@
 #pragma once
 /// The swinging cube of Servin et al. (section 3): side 1 m, eight particles of 1 kg, 18 springs of
 /// U = ½k((l−L)/L)², one top corner fixed, g = 10 m/s². Two steppers in dense form, for comparison only: Septet's own
-/// has no springs. That a body swings in time with it is tests/engine/physics/elastic/pendulum_test.cpp's.
+/// has no springs. That a body swings in time with it is tests/engine/physics/elastic/pendulum_slow_test.cpp's.
 
 #include <array>
 #include <cmath>
