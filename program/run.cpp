@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "program/console.hpp"
@@ -26,7 +27,9 @@ int run(std::string_view name, const std::function<Expected<int>()>& work) {
 }
 
 int status_after_output(std::string_view name, int status) {
-  if (std::fflush(stdout) == 0 || errno == EPIPE || status != 0) return status;
+  // What ended with a line's end was written at once: the stream remembers that it failed.
+  const bool written = std::cout.good() && std::fflush(stdout) == 0;
+  if (written || errno == EPIPE || status != 0) return status;
   say(std::string(name) + ": standard output: " + std::strerror(errno) + ": make room, then run this again");
   return failed_status;
 }

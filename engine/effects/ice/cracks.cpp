@@ -30,6 +30,12 @@ Crack any_crack(Random& random, const glm::vec3& middle_m, float size_m) {
   return crack;
 }
 
+/// Of a coordinate in cells. What is no number, or lies further out than any cell, counts as in the last.
+int cell_of(float at) {
+  constexpr float furthest = 1 << 20;
+  return static_cast<int>(std::max(-furthest, std::min(furthest, std::floor(at))));
+}
+
 }  // namespace
 
 std::vector<Crack> generic_cracks(const Box& box, std::uint32_t count, std::uint64_t seed) {
@@ -45,14 +51,12 @@ std::vector<Crack> generic_cracks(const Box& box, std::uint32_t count, std::uint
 }
 
 std::vector<Crack> cracks_in(const Box& rest_box, float cell_m) {
-  constexpr float furthest = 1 << 20;
   constexpr int most_cells = 512;
-  const auto cell = [](float at) { return static_cast<int>(std::max(-furthest, std::min(furthest, std::floor(at)))); };
   std::array<int, 3> low{}, high{};
   for (int c = 0; c < 3; ++c) {
     // A crack reaches over its cell's border by less than a cell.
-    low[static_cast<std::size_t>(c)] = cell(rest_box.min_m[c] / cell_m - 0.8f);
-    high[static_cast<std::size_t>(c)] = cell(rest_box.max_m[c] / cell_m + 0.8f);
+    low[static_cast<std::size_t>(c)] = cell_of(rest_box.min_m[c] / cell_m - 0.8f);
+    high[static_cast<std::size_t>(c)] = cell_of(rest_box.max_m[c] / cell_m + 0.8f);
   }
   std::vector<Crack> cracks;
   int cells = 0;
