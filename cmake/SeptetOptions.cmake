@@ -17,6 +17,10 @@ endif()
 add_compile_options(-ffp-contract=off)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_compile_options(-mno-fma)
+  # For what only draws, where the instruction set has it.
+  if(SEPTET_ARCHITECTURE MATCHES "^x86-64-v[34]$")
+    set(SEPTET_FUSED_OPTION -mfma)
+  endif()
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # gcc 12 sees bounds broken within std::string's own operator+, and an empty std::optional read within its own destructor.

@@ -110,9 +110,10 @@ function(septet_program name)
 endfunction()
 
 # septet_test(NAME [SERIAL] [THREADS] [DEPENDS library…] [PRIVATE library…])
-# SERIAL: its slow tests run alone. THREADS: its fast tests start threads, so the thread sanitizer's build has them; it has no others. One doctest program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files
-# (a slow test starts processes, draws frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that
-# drive for hours; `./test --long`). Every test case is one CTest test. The limits are for a hang, however busy the machine.
+# SERIAL: its slow tests run alone. THREADS: its fast tests start threads; the thread sanitizer's build has these and no others. One doctest
+# program, label fast, of this folder's *_test.cpp files, one, label slow, of its *_slow_test.cpp files (a slow test starts processes, draws
+# frames or runs for more than a second), and one, label long, of its *_long_test.cpp files (proofs that drive for hours; `./test --long`).
+# Every test case is one CTest test. The limits are for a hang, however busy the machine.
 function(septet_test name)
   file(GLOB fast_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB slow_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_slow_test.cpp)

@@ -39,12 +39,7 @@ vec2 sky_coordinates(vec3 direction) {
 vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
 
 // What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.
-vec3 fog_radiance(vec3 direction) {
-  float horizontal = length(direction.xy);
-  vec2 level = horizontal > 1e-6 ? direction.xy / horizontal : view.sun_level.xy;
-  float up = max(direction.z, 0.02);
-  return sky_radiance(vec3(level * sqrt(max(1.0 - up * up, 1e-8)), up));
-}
+vec3 fog_radiance(vec3 direction) { return sky_radiance(vec3(direction.xy, max(direction.z, 0.02))); }
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }

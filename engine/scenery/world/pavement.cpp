@@ -47,7 +47,8 @@ Ground asphalt_of(const RoadTile& tile) {
   return laid[((stretch % 4) + 4) % 4];
 }
 
-/// What a lane is covered with; the strip before a median barrier is paved like the lanes. In a junction lanes of several roads lie on one another, all in asphalt.
+/// What a lane is covered with; the strip before a median barrier is paved like the lanes. In a junction lanes of several roads lie on one
+/// another, all in asphalt.
 Ground ground_of(road::LaneType type, const RoadTile& tile, bool in_junction) {
   using enum road::LaneType;
   const bool on_earth = !tile.in_tunnel && !tile.on_bridge;

@@ -26,6 +26,11 @@ double mass_of(const State& state) {
   return mass;
 }
 
+/// Of a body that moves as one: that of its kinetic energy.
+double speed_mps(const Piece& piece) {
+  return std::sqrt(2.0 * elastic::kinetic_energy_j(piece.body) / elastic::total_mass_kg(piece.body));
+}
+
 /// Two seconds of a windscreen that was thrown at a wall; the fractures, and what is left.
 int throw_windscreen_at_wall(State& state, int steps = 120) {
   Random random(3);
@@ -77,8 +82,7 @@ TEST_CASE("what has broken slides until friction stops it and sleeps a second af
   for (int k = 0; k < 600; ++k) {
     advance_debris(state, world, 1.0 / 60.0);
     for (const Piece& p : state.pieces) {
-      const double speed = std::sqrt(2.0 * elastic::kinetic_energy_j(p.body) / elastic::total_mass_kg(p.body));
-      if (speed > 0.03) last_moved[p.id] = k;
+      if (speed_mps(p) > 0.03) last_moved[p.id] = k;
       if (p.asleep) fell_asleep.try_emplace(p.id, k);
     }
   }
@@ -134,9 +138,7 @@ TEST_CASE("what two hulls squeeze leaves about as fast as they close and does no
       advance_debris(state, world, 1.0 / 60.0);
       world.boxes[0].world_from_box.position_m.x += world.boxes[0].velocity_mps.x / 60.0;
       world.boxes[0].velocity_mps.x *= 0.7;
-      for (const Piece& p : state.pieces)
-        fastest =
-            std::max(fastest, std::sqrt(2.0 * elastic::kinetic_energy_j(p.body) / elastic::total_mass_kg(p.body)));
+      for (const Piece& p : state.pieces) fastest = std::max(fastest, speed_mps(p));
       for (const Shard& s : state.shards) fastest = std::max(fastest, glm::length(s.velocity_mps));
       for (const Box& box : world.boxes) largest_ns = std::max(largest_ns, glm::length(box.impulse_ns));
     }
