@@ -3,7 +3,8 @@
 ///
 /// `describe` makes it from a frame's input (what a snapshot shows: sim-client/frame) and the scene; from there on it is const.
 /// Together with the scene's meshes, materials, images and placed instances (scene::ResolvedScene) it is all that a picture
-/// depends on: no renderer asks a snapshot, a clock or a file. The rasteriser (engine/render) draws it; a ray tracer may.
+/// depends on: no renderer asks a snapshot, a clock or a file. The rasteriser (engine/render) draws it, and so does the ray
+/// tracer (engine/raytrace).
 ///
 /// World frame: metres, double; x east, y north, z up. Colours: linear Rec. 709. Radiance in units of 8000 cd/m², irradiance in
 /// units of 8000 lx, lamps' intensity in units of 8000 cd (luminance_unit_cdpm2 in atmosphere.hpp), so that half floats

@@ -1,0 +1,200 @@
+#include "engine/raytrace/geometry.hpp"
+
+#include <vector>
+
+#include <embree3/rtcore.h>
+#include <fmt/core.h>
+
+#include "engine/core/check.hpp"
+
+namespace septet::raytrace {
+namespace {
+
+struct DeviceRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneRelease {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
+using Scene = std::unique_ptr<RTCSceneTy, SceneRelease>;
+
+struct Mesh {
+  std::span<const scene::SurfaceVertex> vertices;
+  std::span<const std::uint32_t> indices;
+  bool open = false;
+  Scene scene;  ///< Its hierarchy; null while nobody has placed it.
+};
+
+/// What a query's filter needs to know; begins as Embree's own context does.
+struct Query {
+  RTCIntersectContext context;
+  const Openings* openings = nullptr;
+  float let_through = 1.0f;
+};
+
+std::uint32_t place_of(const RTCFilterFunctionNArguments* args) {
+  // A mesh that stands as it is lies in the scene itself, under the number of its place.
+  const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
+  return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
+}
+
+void pass_holes(const RTCFilterFunctionNArguments* args) {
+  const auto* query = reinterpret_cast<const Query*>(args->context);
+  if (query->openings->is_hole(place_of(args), RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
+                               RTCHitN_v(args->hit, 1, 0)))
+    args->valid[0] = 0;
+}
+
+void weaken_light(const RTCFilterFunctionNArguments* args) {
+  auto* query = reinterpret_cast<Query*>(args->context);
+  const glm::vec3 direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
+                            RTCRayN_dir_z(args->ray, 1, 0));
+  query->let_through *=
+      query->openings->share_let_through(place_of(args), RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
+                                         RTCHitN_v(args->hit, 1, 0), direction);
+  if (query->let_through > 1e-3f) args->valid[0] = 0;
+}
+
+RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
+                             offsetof(scene::SurfaceVertex, position_m), sizeof(scene::SurfaceVertex),
+                             mesh.vertices.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                             3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
+  if (mesh.open) {
+    rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
+    rtcSetGeometryOccludedFilterFunction(geometry, weaken_light);
+  }
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+bool stands_as_it_is(const Place& place) { return place.origin_m == glm::vec3(0.0f) && place.turn == glm::mat3(1.0f); }
+
+}  // namespace
+
+struct Geometry::Parts {
+  Device device;
+  std::vector<Mesh> meshes;
+  Scene seen, shadows;  ///< Shadows are thrown by more than is seen.
+  const Openings* openings = nullptr;
+
+  void build(Mesh& mesh) {
+    mesh.scene.reset(rtcNewScene(device.get()));
+    RTCGeometry geometry = triangles_of(device.get(), mesh);
+    rtcAttachGeometry(mesh.scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(mesh.scene.get());
+  }
+
+  Scene build(std::span<const Place> places, bool with_unseen) {
+    Scene scene(rtcNewScene(device.get()));
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      if (!places[n].seen && !with_unseen) continue;
+      Mesh& mesh = meshes[places[n].mesh];
+      if (mesh.indices.empty()) continue;
+      RTCGeometry geometry = nullptr;
+      if (stands_as_it_is(places[n])) {
+        geometry = triangles_of(device.get(), mesh);
+      } else {
+        if (!mesh.scene) build(mesh);
+        geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, mesh.scene.get());
+        const glm::mat3& t = places[n].turn;
+        const glm::vec3& o = places[n].origin_m;
+        const float columns[12] = {t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z,
+                                   t[2].x, t[2].y, t[2].z, o.x,    o.y,    o.z};
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        rtcCommitGeometry(geometry);
+      }
+      rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(n));
+      rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene.get());
+    return scene;
+  }
+};
+
+Geometry::Geometry(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Geometry::Geometry(Geometry&&) noexcept = default;
+Geometry& Geometry::operator=(Geometry&&) noexcept = default;
+Geometry::~Geometry() = default;
+
+Expected<Geometry> Geometry::create() {
+  auto parts = std::make_unique<Parts>();
+  parts->device.reset(rtcNewDevice("threads=1"));
+  if (!parts->device)
+    return failure(fmt::format("Embree does not start (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
+                   "ray tracer", "use a processor with SSE2 or better, or --renderer raster");
+  return Geometry(std::move(parts));
+}
+
+void Geometry::add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
+                        bool open) {
+  SEPTET_CHECK(indices.size() % 3 == 0, "{} indices", indices.size());
+  parts_->meshes.push_back({vertices, indices, open, nullptr});
+}
+
+void Geometry::keep(std::size_t count) {
+  parts_->seen.reset();
+  parts_->shadows.reset();
+  parts_->meshes.resize(std::min(count, parts_->meshes.size()));
+}
+
+void Geometry::place(std::span<const Place> places, const Openings* openings) {
+  for (const Place& place : places)
+    SEPTET_CHECK(place.mesh < parts_->meshes.size(), "mesh {} of {}", place.mesh, parts_->meshes.size());
+  parts_->openings = openings;
+  parts_->seen = parts_->build(places, false);
+  parts_->shadows = parts_->build(places, true);
+}
+
+bool Geometry::intersect(const Ray& ray, Hit& hit) const {
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.openings = parts_->openings;
+  RTCRayHit found;
+  found.ray = {ray.origin_m.x,
+               ray.origin_m.y,
+               ray.origin_m.z,
+               ray.from_m,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0.0f,
+               ray.to_m,
+               0xffffffffu,
+               0,
+               0};
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(parts_->seen.get(), &query.context, &found);
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  const bool placed = found.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  hit = {found.ray.tfar, placed ? found.hit.instID[0] : found.hit.geomID, found.hit.primID, found.hit.u, found.hit.v};
+  return true;
+}
+
+float Geometry::unshadowed(const Ray& ray) const {
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.openings = parts_->openings;
+  RTCRay found{ray.origin_m.x,
+               ray.origin_m.y,
+               ray.origin_m.z,
+               ray.from_m,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0.0f,
+               ray.to_m,
+               0xffffffffu,
+               0,
+               0};
+  rtcOccluded1(parts_->shadows.get(), &query.context, &found);
+  return found.tfar < 0.0f ? 0.0f : query.let_through;
+}
+
+}  // namespace septet::raytrace

@@ -1,0 +1,80 @@
+#pragma once
+/// What rays meet: meshes, each held once however often it is placed, and the places of an instant. Embree 3 lies behind this
+/// file and is included by geometry.cpp alone.
+///
+/// Frame: metres from an origin that the caller chooses, single precision; near the eye that is finest where it is seen best.
+/// Hierarchies are built by one thread and so are the same each time: which of two surfaces in one place a ray meets does not
+/// change. All queries are const and may be made by any number of threads at once.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/expected.hpp"
+#include "engine/scene/resolved_scene.hpp"
+
+namespace septet::raytrace {
+
+struct Ray {
+  glm::vec3 origin_m{0.0f}, direction{0.0f, 0.0f, 1.0f};  ///< Unit.
+  float from_m = 0.0f, to_m = std::numeric_limits<float>::infinity();
+};
+
+struct Hit {
+  float distance_m = 0.0f;
+  std::uint32_t place = 0;     ///< As `place` was given it.
+  std::uint32_t triangle = 0;  ///< Of the mesh.
+  float u = 0.0f, v = 0.0f;    ///< Weights of its second and third corner.
+};
+
+/// Where a mesh stands: a vertex at origin_m + turn · position_m.
+struct Place {
+  std::uint32_t mesh = 0;
+  glm::vec3 origin_m{0.0f};
+  glm::mat3 turn{1.0f};
+  bool seen = true;  ///< False: it only throws a shadow.
+};
+
+/// What a surface lets through where it is not all there: asked for meshes with holes or glass.
+class Openings {
+ public:
+  virtual ~Openings() = default;
+  /// A ray to be traced passes here as if there were nothing.
+  virtual bool is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const = 0;
+  /// Of the light of a shadow ray in this (unit) direction.
+  virtual float share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,
+                                  const glm::vec3& direction) const = 0;
+};
+
+class Geometry {
+ public:
+  /// Error: Embree does not start on this machine.
+  static Expected<Geometry> create();
+  Geometry(Geometry&&) noexcept;
+  Geometry& operator=(Geometry&&) noexcept;
+  ~Geometry();
+
+  /// The next mesh, counted from 0. Vertices and indices are not copied; they outlive the geometry or the call of `keep`. `open`: it
+  /// has places that `Openings` is to be asked about. Triangles whose corners do not exist are the caller's bug.
+  void add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices, bool open);
+  /// Forgets all meshes but the first `count`.
+  void keep(std::size_t count);
+  /// What stands where from now on. `openings` outlives the queries.
+  void place(std::span<const Place> places, const Openings* openings);
+
+  /// The first surface that is seen along the ray.
+  bool intersect(const Ray& ray, Hit& hit) const;
+  /// Share of the light that comes along the ray from its far end, which is not before its beginning.
+  float unshadowed(const Ray& ray) const;
+
+ private:
+  struct Parts;
+  explicit Geometry(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace septet::raytrace

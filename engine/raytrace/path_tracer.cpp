@@ -1,0 +1,314 @@
+#include "engine/raytrace/path_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace septet::raytrace {
+namespace {
+
+constexpr int most_passed = 64;  ///< Sheets of glass on one edge.
+
+/// More than a place is uncertain by.
+float margin_m(const glm::vec3& position_m) {
+  return 1e-4f + 2e-6f * std::max({std::abs(position_m.x), std::abs(position_m.y), std::abs(position_m.z)});
+}
+
+/// Beside the surface by that.
+glm::vec3 beside(const glm::vec3& position_m, const glm::vec3& normal) {
+  return position_m + normal * margin_m(position_m);
+}
+
+/// One thread's walk along one path.
+class Path {
+ public:
+  Path(const World& world, const PathSettings& settings, PathRandom& random)
+      : world_(world), settings_(settings), random_(random) {}
+
+  glm::vec3 trace(Ray ray, FirstSeen* first);
+
+ private:
+  enum class Kind : std::uint8_t { sun, sky, lamp, headlight };
+
+  float chance(Kind kind) const { return chances_[static_cast<std::size_t>(kind)]; }
+  void choose_chances(const SurfacePoint& point);
+  void meet_sky(const glm::vec3& direction);
+  void meet_lamp(const Ray& ray, const SurfacePoint& point);
+  void look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer);
+  void add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
+                 float distance_m);
+  LightSample draw_lamp(const glm::vec3& from_m, float& distance_m);
+  LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
+  float headlight_weights(const glm::vec3& from_m) const;
+  /// Chance with which a lamp is drawn, from a place.
+  float weight_of(const Lamp& lamp, const glm::vec3& from_m) const {
+    const glm::vec3 way = lamp.middle_m - from_m;
+    return lamp.power / std::max(glm::dot(way, way), lamp.radius_m * lamp.radius_m);
+  }
+  float lamp_weights(const glm::vec3& from_m) const {
+    float sum = 0.0f;
+    for (const Lamp& lamp : world_.lamps()) sum += weight_of(lamp, from_m);
+    return sum;
+  }
+  Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
+
+  const World& world_;
+  const PathSettings& settings_;
+  PathRandom& random_;
+  glm::vec3 light_{0.0f}, throughput_{1.0f};
+  float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
+  glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
+  float lamp_weights_ = 0.0f;       ///< Of all lamps, from there.
+  std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
+  bool scattered_ = false;          ///< It has been at a surface that scatters.
+};
+
+void Path::meet_sky(const glm::vec3& direction) {
+  const Sky& sky = world_.sky();
+  const glm::vec3 sky_light = sky.radiance(direction), sun_light = sky.sun_radiance(direction);
+  if (pdf_ <= 0.0f) {
+    // The sun through a clear body onto a rough surface is met so seldom that it would be a spark, not a caustic.
+    light_ += throughput_ * (scattered_ ? sky_light : sky_light + sun_light);
+    return;
+  }
+  light_ += throughput_ * sky_light * mis_weight(pdf_, chance(Kind::sky) * sky.pdf(direction));
+  if (sun_light != glm::vec3(0.0f))
+    light_ += throughput_ * sun_light * mis_weight(pdf_, chance(Kind::sun) * sky.sun_pdf(direction));
+}
+
+void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
+  if (point.emission == glm::vec3(0.0f)) return;
+  float weight = 1.0f;
+  if (pdf_ > 0.0f && point.lamp != no_lamp) {
+    const Lamp& lamp = world_.lamps()[point.lamp];
+    const glm::vec3 way = point.position_m - from_m_;
+    const float cosine = std::max(1e-6f, -glm::dot(point.flat_normal, ray.direction));
+    const float per_sr = glm::dot(way, way) / (cosine * lamp.cumulative_area.back());
+    weight = mis_weight(pdf_, chance(Kind::lamp) * weight_of(lamp, from_m_) / lamp_weights_ * per_sr);
+  }
+  light_ += throughput_ * point.emission * (weight * (scattered_ ? point.lights_up : 1.0f));
+}
+
+LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
+  const std::vector<Lamp>& lamps = world_.lamps();
+  float rest = random_.uniform() * lamp_weights_;
+  std::size_t chosen = 0;
+  for (; chosen + 1 < lamps.size(); ++chosen) {
+    rest -= weight_of(lamps[chosen], from_m);
+    if (rest < 0.0f) break;
+  }
+  const Lamp& lamp = lamps[chosen];
+  const float area = lamp.cumulative_area.back();
+  const auto triangle = std::min<std::size_t>(
+      static_cast<std::size_t>(
+          std::upper_bound(lamp.cumulative_area.begin(), lamp.cumulative_area.end(), random_.uniform() * area) -
+          lamp.cumulative_area.begin()),
+      lamp.triangle_count - 1);
+  const glm::vec2 random = random_.pair();
+  const float root = std::sqrt(random.x);
+  const glm::vec3* c = &lamp.corners_m[3 * triangle];
+  const float u = root * (1.0f - random.y), v = root * random.y;
+  const glm::vec3 at = (1.0f - u - v) * c[0] + u * c[1] + v * c[2];
+  const glm::vec3 way = at - from_m;
+  distance_m = glm::length(way);
+  const glm::vec3 direction = way / distance_m, normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+  const float cosine = -glm::dot(normal, direction);
+  if (!(cosine > 1e-6f)) return {};
+  glm::vec3 emission = lamp.emission;
+  if (lamp.textured) {
+    Ray ray;
+    ray.origin_m = from_m;
+    ray.direction = direction;
+    const auto seen = lamp.first_triangle + static_cast<std::uint32_t>(triangle);
+    const SurfacePoint there = world_.point(ray, {distance_m, lamp.place, seen, u, v});
+    emission = there.emission * there.lights_up;
+  }
+  return {direction, emission, weight_of(lamp, from_m) / lamp_weights_ * distance_m * distance_m / (cosine * area)};
+}
+
+/// A dipped beam, wide to the sides and cut off above: the rasteriser's formula, so that both light the same pool.
+float reach(const instant::Headlight& light, const glm::vec3& way) {
+  const float square = glm::dot(way, way);
+  const glm::vec3 ray = way / std::sqrt(std::max(square, 1e-6f));
+  const auto step = [](float low, float high, float x) {
+    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+  };
+  const float beam =
+      step(0.72f, 0.99f, glm::dot(ray, light.direction)) * (1.0f - step(-0.01f, 0.02f, ray.z - light.direction.z));
+  return light.intensity * beam / (square + 90.0f);
+}
+
+float Path::headlight_weights(const glm::vec3& from_m) const {
+  float sum = 0.0f;
+  for (const instant::Headlight& light : world_.headlights())
+    sum += reach(light, from_m - glm::vec3(light.position_m - world_.origin_m()));
+  return sum;
+}
+
+LightSample Path::draw_headlight(const glm::vec3& from_m, float& distance_m) {
+  const float sum = headlight_weights(from_m);
+  if (!(sum > 0.0f)) return {};
+  float rest = random_.uniform() * sum, strength = 0.0f;
+  const instant::Headlight* chosen = nullptr;
+  for (const instant::Headlight& light : world_.headlights()) {
+    const float here = reach(light, from_m - glm::vec3(light.position_m - world_.origin_m()));
+    if (here <= 0.0f) continue;
+    chosen = &light, strength = here;
+    rest -= here;
+    if (rest < 0.0f) break;
+  }
+  const glm::vec3 way = glm::vec3(chosen->position_m - world_.origin_m()) - from_m;
+  distance_m = glm::length(way);
+  return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * strength, strength / sum};
+}
+
+void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
+                     float distance_m) {
+  if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
+  if (glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
+  const Scattering scattered = scattering(point.surface, to_viewer, light.direction);
+  if (scattered.value == glm::vec3(0.0f)) return;
+  const float pdf = light.pdf * chance(kind);
+  const bool also_by_chance = kind != Kind::headlight;
+  const glm::vec3 estimate =
+      throughput_ * scattered.value * light.radiance * ((also_by_chance ? mis_weight(pdf, scattered.pdf) : 1.0f) / pdf);
+  Ray shadow;
+  shadow.origin_m = beside(point.position_m, point.flat_normal);
+  shadow.direction = light.direction;
+  // Not as far as the lamp's own surface, though the ray begins nearer to it.
+  const float margin = margin_m(point.position_m + light.direction * std::min(distance_m, 1e4f));
+  shadow.to_m = std::max(0.0f, distance_m - 3.0f * margin);
+  light_ += estimate * world_.geometry().unshadowed(shadow);
+}
+
+/// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
+void Path::choose_chances(const SurfacePoint& point) {
+  const Sky& sky = world_.sky();
+  const instant::SkyLight& light = *world_.instant().light;
+  const float seen_sky = std::max(point.share_of_sky, 0.02f);
+  lamp_weights_ = world_.lamps().empty() ? 0.0f : lamp_weights(point.position_m);
+  chances_ = {sky.has_sun() ? luminance(light.light_irradiance) * seen_sky *
+                                  std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f)
+                            : 0.0f,
+              sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_,
+              headlight_weights(point.position_m)};
+  float sum = 0.0f;
+  for (const float weight : chances_) sum += weight;
+  if (!(sum > 0.0f)) return;
+  int count = 0;
+  for (float& weight : chances_) {
+    weight /= sum;
+    if (weight > 0.01f) ++count;
+  }
+  for (float& weight : chances_) weight = 0.5f * weight + (weight > 0.01f ? 0.5f / static_cast<float>(count) : 0.0f);
+}
+
+void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer) {
+  float rest = random_.uniform();
+  std::size_t n = 0;
+  while (n < chances_.size() && (rest -= chances_[n]) >= 0.0f) ++n;
+  if (n == chances_.size()) return;  // Nothing shines; or, once in millions, the chances' sum is rounded below 1.
+  const auto kind = static_cast<Kind>(n);
+  float distance_m = std::numeric_limits<float>::infinity();
+  LightSample light;
+  switch (kind) {
+    case Kind::sun:
+      light = world_.sky().sample_sun(random_.pair());
+      break;
+    case Kind::sky: {
+      const float cell = random_.uniform();
+      light = world_.sky().sample(random_.pair(), cell);
+      break;
+    }
+    case Kind::lamp:
+      light = draw_lamp(point.position_m, distance_m);
+      break;
+    case Kind::headlight:
+      light = draw_headlight(point.position_m, distance_m);
+      // It shines from before its lamp's glass, which would shade it.
+      distance_m = std::max(0.0f, distance_m - 0.3f);
+      break;
+  }
+  add_light(point, to_viewer, kind, light, distance_m);
+}
+
+/// Reflected or refracted, as Fresnel's share falls.
+Ray Path::enter_or_leave(const SurfacePoint& point, const Ray& ray) {
+  const glm::vec3& n = point.surface.normal;
+  const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
+  const float eta = point.from_front ? point.index : 1.0f / point.index;
+  Ray next;
+  if (random_.uniform() < fresnel(cosine, eta)) {
+    next.direction = glm::normalize(ray.direction + 2.0f * cosine * n);
+    next.origin_m = beside(point.position_m, point.flat_normal);
+  } else {
+    const float behind = std::sqrt(std::max(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
+    next.direction = glm::normalize(ray.direction / eta + (cosine / eta - behind) * n);
+    next.origin_m = beside(point.position_m, -point.flat_normal);
+  }
+  return next;
+}
+
+glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
+  for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
+    Hit hit;
+    SurfacePoint point;
+    bool met = false;
+    const glm::vec3 begin_m = ray.origin_m;
+    for (int passed = 0; passed < most_passed; ++passed) {
+      met = world_.geometry().intersect(ray, hit);
+      if (!met) break;
+      point = world_.point(ray, hit);
+      if (point.opacity >= 1.0f || random_.uniform() < point.opacity) break;
+      ray.origin_m = beside(point.position_m, -point.flat_normal);
+    }
+    const float edge_m = met ? glm::length(point.position_m - begin_m) : 0.0f;
+    if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
+      const float clear = std::exp(-fog * edge_m);
+      light_ += throughput_ * (1.0f - clear) * world_.fog_radiance(ray.direction);
+      throughput_ *= clear;
+    }
+    if (!met) {
+      meet_sky(ray.direction);
+      break;
+    }
+    if (first) {
+      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, point.place + 1};
+      first = nullptr;
+    }
+    if (point.dielectric && !point.from_front) throughput_ *= glm::exp(-point.absorption_per_m * edge_m);
+    meet_lamp(ray, point);
+    if (edge == settings_.longest) break;
+    if (point.dielectric) {
+      ray = enter_or_leave(point, ray);
+      pdf_ = 0.0f;
+      continue;
+    }
+    const glm::vec3 to_viewer = -ray.direction;
+    choose_chances(point);
+    look_at_a_light(point, to_viewer);
+    const Scattered scattered = scatter(point.surface, to_viewer, random_);
+    throughput_ *= scattered.weight;
+    if (throughput_ == glm::vec3(0.0f) || glm::dot(scattered.direction, point.flat_normal) <= 0.0f) break;
+    if (edge >= settings_.roulette_from) {
+      const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
+      if (random_.uniform() >= goes_on) break;
+      throughput_ /= goes_on;
+    }
+    pdf_ = scattered.pdf;
+    scattered_ = true;
+    from_m_ = point.position_m;
+    ray = Ray{};
+    ray.origin_m = beside(point.position_m, point.flat_normal);
+    ray.direction = scattered.direction;
+  }
+  return light_;
+}
+
+}  // namespace
+
+glm::vec3 trace_path(const World& world, const PathSettings& settings, Ray ray, PathRandom& random, FirstSeen* first) {
+  return Path(world, settings, random).trace(ray, first);
+}
+
+}  // namespace septet::raytrace

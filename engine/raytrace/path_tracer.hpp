@@ -1,0 +1,28 @@
+#pragma once
+/// The light that comes along a ray: Kajiya's integral by paths of chance, "The Rendering Equation" (1986).
+///
+/// At each point of a path one light is drawn and looked at directly (next-event estimation), and the path goes on as the
+/// surface scatters; where it meets a light by itself, both estimates share by Veach's power heuristic (multiple importance
+/// sampling). Sheets of glass and holes let it straight through. In clear bodies it follows Fresnel and Snell exactly.
+
+#include "engine/raytrace/world.hpp"
+
+namespace septet::raytrace {
+
+struct PathSettings {
+  std::uint32_t longest = 8;  ///< Edges of a path, from the eye to a light: 1 sees lights alone, 2 what they light.
+  std::uint32_t roulette_from = 4;  ///< From this edge on a path may end early, by how little light it still carries.
+};
+
+/// What the eye sees first, for the picture's other layers; what is seen through sheets of glass, not the glass.
+struct FirstSeen {
+  float distance_m = 0.0f;  ///< 0: the sky.
+  glm::vec3 normal{0.0f};   ///< World axes.
+  glm::vec3 albedo{0.0f};
+  std::uint32_t place = 0;  ///< From 1; 0: the sky.
+};
+
+/// Radiance, in the units of engine/instant. `first` may be null.
+glm::vec3 trace_path(const World& world, const PathSettings& settings, Ray ray, PathRandom& random, FirstSeen* first);
+
+}  // namespace septet::raytrace

@@ -1,0 +1,88 @@
+#pragma once
+/// The ray tracer: draws a ResolvedScene as the description of one instant says, pixel by pixel, without a graphics card.
+///
+/// Call `begin` for each instant and `trace` for each bucket of its picture, from any threads, in any order, on any machines: a
+/// pixel is a function of the scene, the instant, the settings and its place, bit for bit. `whole_picture` does it all on this
+/// machine's cores. A sample whose light is not a number counts as black and is counted.
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/instant/instant.hpp"
+#include "engine/raytrace/path_tracer.hpp"
+
+namespace septet::raytrace {
+
+/// The weight of light by its distance from a pixel's middle: B-splines of degree 0 (a box of one pixel) to 3 (four pixels across). A
+/// sample is drawn by that weight and belongs to one pixel alone, so that buckets need no padding: the sum of k + 1 uniform numbers
+/// is spread as the B-spline of degree k.
+enum class Filter : std::uint8_t { box, tent, quadratic, cubic };
+
+struct TraceSettings {
+  std::uint32_t samples = 64;  ///< Of a pixel.
+  PathSettings paths;
+  Filter filter = Filter::quadratic;
+  std::uint64_t seed = 0;
+  float lens_radius_m = 0.0f;  ///< 0: a pinhole, all is sharp.
+  float focus_m = 10.0f;       ///< Distance at which a lens is sharp.
+};
+
+/// A pixel as samples add to it.
+struct TracedPixel {
+  glm::vec3 radiance{0.0f};              ///< Mean of the samples, linear Rec. 709, the units of engine/instant.
+  float variance = 0.0f;                 ///< Of that mean's luminance.
+  glm::vec3 normal{0.0f}, albedo{0.0f};  ///< Means of what is seen first.
+  float depth_m = 0.0f;                  ///< Of the first sample; 0: the sky.
+  std::uint32_t object = 0;       ///< Of the first sample: from 1, alike within one instance of a frame; 0: the sky.
+  std::uint32_t bad_samples = 0;  ///< Not a number, or infinite.
+};
+
+/// A rectangle of a picture's pixels, rows from the top.
+struct Bucket {
+  instant::PixelRectangle rectangle;
+  std::vector<TracedPixel> pixels;
+};
+
+struct TracedPicture {
+  std::uint32_t width = 0, height = 0;
+  std::vector<TracedPixel> pixels;
+  std::uint64_t bad_samples = 0;
+
+  TracedPicture() = default;
+  TracedPicture(std::uint32_t width_px, std::uint32_t height_px)
+      : width(width_px), height(height_px), pixels(std::size_t{width_px} * height_px) {}
+  const TracedPixel& at(std::uint32_t x, std::uint32_t y) const { return pixels[std::size_t{y} * width + x]; }
+  void put(const Bucket& bucket);
+};
+
+/// Squares of `side_px`, in the order in which they are dealt: rows from the top. The last of a row or column may be smaller.
+std::vector<instant::PixelRectangle> buckets_of(std::uint32_t width, std::uint32_t height, std::uint32_t side_px);
+
+class RayTracer {
+ public:
+  /// `scene` outlives the ray tracer and does not change.
+  static Expected<RayTracer> create(const scene::ResolvedScene& scene);
+  RayTracer(RayTracer&&) noexcept;
+  RayTracer& operator=(RayTracer&&) noexcept;
+  ~RayTracer();
+
+  /// Builds what the pixels of this instant are traced through; `bodies` beside those of the instant's ice.
+  void begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies = {});
+  /// Pixels of the instant begun last; the rectangle lies within the picture that its views make.
+  Bucket trace(const instant::PixelRectangle& rectangle) const;
+  const instant::Instant& instant() const;
+
+ private:
+  struct Parts;
+  explicit RayTracer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// All buckets on this machine's cores. `done` hears each one as it comes, one at a time, from any thread; where it says no, no
+/// more are begun and the picture is not whole.
+TracedPicture whole_picture(const RayTracer& tracer, std::uint32_t width, std::uint32_t height,
+                            const std::function<bool(const Bucket&)>& done = {});
+
+}  // namespace septet::raytrace

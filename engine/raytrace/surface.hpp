@@ -1,0 +1,37 @@
+#pragma once
+/// How a point of a surface scatters light: a coloured diffuse base under a rough reflecting layer, with a clear coat over both.
+///
+/// Light that a layer reflects does not reach the one below: the base is weighed with (1 − F) of both directions, which is
+/// reciprocal and never gives back more than came. Radiance is reflected on the side of `normal` alone.
+
+#include "engine/raytrace/ggx.hpp"
+#include "engine/raytrace/path_random.hpp"
+
+namespace septet::raytrace {
+
+struct Surface {
+  glm::vec3 normal{0.0f, 0.0f, 1.0f};  ///< Unit, towards the viewer.
+  glm::vec3 diffuse{0.0f};             ///< Albedo of the base.
+  glm::vec3 f0{0.0f};                  ///< What the layer reflects head-on; black: there is no layer.
+  float alpha = 1.0f;                  ///< Roughness² of the layer.
+  float coat = 0.0f;                   ///< Share of the surface that a clear coat covers: lacquer, or water.
+  float coat_f0 = 0.04f;               ///< Index 1.5; water has 0.02.
+  float coat_alpha = 0.001f;
+};
+
+struct Scattering {
+  glm::vec3 value{0.0f};  ///< Bidirectional reflectance times the cosine, 1/sr.
+  float pdf = 0.0f;       ///< With which `scatter` would have drawn the direction, 1/sr.
+};
+
+struct Scattered {
+  glm::vec3 direction{0.0f};
+  glm::vec3 weight{0.0f};  ///< value / pdf; black: the path ends.
+  float pdf = 0.0f;
+};
+
+/// Unit directions away from the surface, to the viewer and to the light.
+Scattering scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light);
+Scattered scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random);
+
+}  // namespace septet::raytrace

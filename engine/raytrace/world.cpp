@@ -1,0 +1,350 @@
+#include "engine/raytrace/world.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace septet::raytrace {
+namespace {
+
+constexpr std::size_t most_lamps = 256;
+constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
+/// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
+/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag), measured on the road of scenarios/tunnel-fire.
+constexpr float roofed_lamps_light_up = 6.0f;
+constexpr float opaque_from = 0.999f;  // As the rasteriser has it.
+
+bool is_cut(const scene::SurfaceMaterial& material, const scene::ResolvedScene& scene) {
+  if (material.opacity < opaque_from || material.base_color_image < 0 ||
+      static_cast<std::size_t>(material.base_color_image) >= scene.images.size())
+    return false;
+  const auto& rgba = scene.images[static_cast<std::size_t>(material.base_color_image)].rgba;
+  for (std::size_t i = 3; i < rgba.size(); i += 4)
+    if (rgba[i] < 128) return true;
+  return false;
+}
+
+float linear(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
+
+/// Of 8-bit sRGB.
+const std::array<float, 256>& linear_codes() {
+  static const std::array<float, 256> codes = [] {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linear(static_cast<float>(i) / 255.0f);
+    return table;
+  }();
+  return codes;
+}
+
+float step_between(float low, float high, float x) {
+  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+  return t * t * (3.0f - 2.0f * t);
+}
+
+}  // namespace
+
+std::vector<bool> open_meshes(const scene::ResolvedScene& scene) {
+  std::vector<bool> open_materials;
+  for (const scene::SurfaceMaterial& material : scene.materials)
+    open_materials.push_back(material.opacity < opaque_from || is_cut(material, scene));
+  std::vector<bool> open;
+  for (const scene::SurfaceMesh& mesh : scene.meshes)
+    open.push_back(std::ranges::any_of(mesh.parts, [&](const scene::MeshPart& part) {
+      return part.material < open_materials.size() && open_materials[part.material];
+    }));
+  return open;
+}
+
+World::World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
+             Geometry& geometry)
+    : scene_(scene),
+      instant_(instant),
+      geometry_(geometry),
+      sky_(*instant.light),
+      origin_m_(instant::world_eye(instant.views.front())) {
+  geometry_.keep(scene.meshes.size());
+  std::vector<Place> places;
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.mesh >= scene.meshes.size()) continue;
+    const scene::SurfaceMesh& mesh = scene.meshes[instance.mesh];
+    add(places, instant::place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object), true);
+  }
+  for (const instant::PlacedMesh& part : instant.parts) add(places, part, false);
+  add_soups(places, bodies);
+  geometry_.place(places, this);
+  add_lamps(places);
+}
+
+void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands) {
+  if (placed.mesh >= scene_.meshes.size()) return;
+  const double distance_m = glm::length(placed.origin_m - origin_m_);
+  if (distance_m < placed.visible_from_m || distance_m >= placed.visible_to_m) return;
+  const scene::SurfaceMesh& mesh = scene_.meshes[placed.mesh];
+  const glm::vec3 origin(placed.origin_m - origin_m_);
+  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen});
+  placed_.push_back({mesh.vertices,
+                     mesh.indices,
+                     mesh.parts,
+                     placed.world_from_object,
+                     glm::inverseTranspose(placed.world_from_object),
+                     origin,
+                     placed.tint,
+                     placed.share_of_sky,
+                     stands,
+                     {}});
+}
+
+/// Triangles of this instant alone.
+void World::add_soups(std::vector<Place>& places, std::span<const ClearBody> bodies) {
+  std::size_t longest = 0;
+  for (const instant::LooseMesh& loose : instant_.loose) longest = std::max(longest, loose.mesh.vertices.size());
+  for (const ClearBody& body : bodies) longest = std::max(longest, body.vertices.size());
+  loose_indices_.resize(longest);
+  std::iota(loose_indices_.begin(), loose_indices_.end(), 0u);
+  loose_parts_.reserve(instant_.loose.size());
+  std::uint32_t mesh = static_cast<std::uint32_t>(scene_.meshes.size());
+  const auto add_soup = [&](const Vec3& origin_m, std::span<const scene::SurfaceVertex> vertices,
+                            bool seen) -> PlacedSurface& {
+    const glm::vec3 origin(origin_m - origin_m_);
+    const std::span indices(loose_indices_.data(), vertices.size() / 3 * 3);
+    geometry_.add_mesh(vertices, indices, false);
+    places.push_back({mesh++, origin, glm::mat3(1.0f), seen});
+    PlacedSurface soup;
+    soup.vertices = vertices;
+    soup.indices = indices;
+    soup.origin_m = origin;
+    return placed_.emplace_back(std::move(soup));
+  };
+  for (const instant::LooseMesh& loose : instant_.loose) {
+    PlacedSurface& soup = add_soup(loose.mesh.origin_m, loose.mesh.vertices, loose.mesh.seen);
+    loose_parts_.push_back({{0, static_cast<std::uint32_t>(soup.indices.size()), loose.material}});
+    soup.parts = loose_parts_.back();
+    soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
+    soup.share_of_sky = loose.share_of_sky;
+  }
+  for (const ClearBody& body : bodies) add_soup(body.origin_m, body.vertices, true).body = &body;
+}
+
+float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const {
+  return placed.stands ? glm::mix(roofed_lamps_light_up, 1.0f, material.share_of_sky * placed.share_of_sky) : 1.0f;
+}
+
+/// The triangles of a part that shines, those in a row that lie together as one lamp each.
+void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
+  const PlacedSurface& placed = placed_[place];
+  if (part.material >= scene_.materials.size() || part.index_count < 3) return;
+  const scene::SurfaceMaterial& material = scene_.materials[part.material];
+  const glm::vec3 emission =
+      material.emission * (placed.tint.w * instant_.emission_share * lights_up(placed, material));
+  if (!(luminance(emission) > 0.0f)) return;
+  Lamp lamp;
+  glm::vec3 low(0.0f), high(0.0f);
+  const auto finish = [&] {
+    lamp.middle_m = 0.5f * (low + high);
+    lamp.radius_m = 0.5f * glm::length(high - low);
+    if (lamp.triangle_count > 0) lamp.power = lamp.cumulative_area.back() * luminance(emission);
+    if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
+  };
+  for (std::uint32_t t = part.first_index / 3; t < (part.first_index + part.index_count) / 3; ++t) {
+    const Corners at = corners(placed, t);
+    std::array<glm::vec3, 3> c{at.a->position_m, at.b->position_m, at.c->position_m};
+    for (glm::vec3& corner : c) corner = placed.origin_m + placed.turn * corner;
+    const glm::vec3 lower = glm::min(c[0], glm::min(c[1], c[2])), upper = glm::max(c[0], glm::max(c[1], c[2]));
+    const bool apart =
+        glm::any(glm::greaterThan(lower, high + lamp_gap_m)) || glm::any(glm::lessThan(upper, low - lamp_gap_m));
+    if (lamp.triangle_count == 0 || apart) {
+      if (lamp.triangle_count > 0) finish();
+      lamp = {};
+      lamp.place = place, lamp.first_triangle = t, lamp.emission = emission;
+      lamp.textured = material.base_color_image >= 0;
+      low = lower, high = upper;
+    }
+    low = glm::min(low, lower), high = glm::max(high, upper);
+    const float before = lamp.triangle_count > 0 ? lamp.cumulative_area.back() : 0.0f;
+    lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
+    lamp.cumulative_area.push_back(before + 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])));
+    ++lamp.triangle_count;
+  }
+  finish();
+}
+
+void World::add_lamps(const std::vector<Place>& places) {
+  for (std::uint32_t n = 0; n < placed_.size(); ++n)
+    if (placed_[n].tint.w > 0.0f && places[n].seen)
+      for (const scene::MeshPart& part : placed_[n].parts) add_lamps(n, part);
+  // The others are met by chance alone; where there are so many they are far or weak.
+  const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
+  std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
+  if (lamps_.size() > most_lamps) lamps_.resize(most_lamps);
+  for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
+}
+
+World::Corners World::corners(const PlacedSurface& placed, std::uint32_t triangle) const {
+  const std::uint32_t* index = &placed.indices[std::size_t{3} * triangle];
+  return {&placed.vertices[index[0]], &placed.vertices[index[1]], &placed.vertices[index[2]]};
+}
+
+const scene::SurfaceMaterial& World::material_of(const PlacedSurface& placed, std::uint32_t triangle) const {
+  const std::uint32_t index = 3 * triangle;
+  for (const scene::MeshPart& part : placed.parts)
+    if (index >= part.first_index && index < part.first_index + part.index_count)
+      return part.material < scene_.materials.size() ? scene_.materials[part.material] : no_material_;
+  return no_material_;
+}
+
+/// Between four texels; the image repeats.
+glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const {
+  if (material.base_color_image < 0 || static_cast<std::size_t>(material.base_color_image) >= scene_.images.size())
+    return glm::vec4(1.0f);
+  const scene::TextureImage& image = scene_.images[static_cast<std::size_t>(material.base_color_image)];
+  if (image.width == 0 || image.height == 0) return glm::vec4(1.0f);
+  const glm::vec2 at = (uv - glm::floor(uv)) * glm::vec2(image.width, image.height) - 0.5f;
+  const glm::vec2 low = glm::floor(at), share = at - low;
+  const auto wrapped = [](float x, std::uint32_t size) {
+    const auto i = static_cast<std::int64_t>(x);
+    return static_cast<std::uint32_t>((i + size) % size);
+  };
+  const std::array<float, 256>& codes = linear_codes();
+  const auto read = [&](float x, float y) {
+    const std::uint8_t* p =
+        &image.rgba[4 * (std::size_t{wrapped(y, image.height)} * image.width + wrapped(x, image.width))];
+    if (!image.srgb) return glm::vec4(p[0], p[1], p[2], p[3]) / 255.0f;
+    return glm::vec4(codes[p[0]], codes[p[1]], codes[p[2]], static_cast<float>(p[3]) / 255.0f);
+  };
+  return glm::mix(glm::mix(read(low.x, low.y), read(low.x + 1, low.y), share.x),
+                  glm::mix(read(low.x, low.y + 1), read(low.x + 1, low.y + 1), share.x), share.y);
+}
+
+/// Share of a surface's light that the soot on it takes, between the eight cells around.
+float World::soot(const glm::vec3& position_m) const {
+  const instant::SootField& field = instant_.soot;
+  if (field.cover.empty()) return 0.0f;
+  const glm::vec3 at((inverse(field.world_from_field) * (origin_m_ + Vec3(position_m))) / field.cell_m - 0.5);
+  const glm::vec3 low = glm::floor(at), share = at - low;
+  const glm::vec3 end(field.nx - 1, field.ny - 1, field.nz - 1);
+  if (!glm::all(glm::greaterThanEqual(low, glm::vec3(0.0f))) || !glm::all(glm::lessThan(low, end))) return 0.0f;
+  const glm::ivec3 cell(low);
+  float sum = 0.0f;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+    const glm::vec3 weight = glm::mix(1.0f - share, share, glm::vec3(step));
+    const glm::ivec3 c = cell + step;
+    const auto index =
+        (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(field.ny) + static_cast<std::size_t>(c.y)) *
+            static_cast<std::size_t>(field.nx) +
+        static_cast<std::size_t>(c.x);
+    sum += weight.x * weight.y * weight.z * static_cast<float>(field.cover[index]) / 255.0f;
+  }
+  return sum;
+}
+
+SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
+  const PlacedSurface& placed = placed_[hit.place];
+  const scene::SurfaceMaterial& material = material_of(placed, hit.triangle);
+  const Corners at = corners(placed, hit.triangle);
+  const float w = 1.0f - hit.u - hit.v;
+  SurfacePoint point;
+  point.place = hit.place;
+  const glm::vec3 &a = at.a->position_m, &b = at.b->position_m, &c = at.c->position_m;
+  // From the corners, not along the ray: a far hit's distance has fewer digits.
+  point.position_m = placed.origin_m + placed.turn * (w * a + hit.u * b + hit.v * c);
+  point.flat_normal = placed.normal_turn * glm::cross(b - a, c - a);
+  const float area = glm::length(point.flat_normal);
+  point.flat_normal = area > 0.0f ? point.flat_normal / area : -ray.direction;
+  glm::vec3 normal = placed.normal_turn * (w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal);
+  const float length = glm::length(normal);
+  normal = length > 1e-12f ? normal / length : point.flat_normal;
+  point.from_front = glm::dot(point.flat_normal, ray.direction) < 0.0f;
+  if (!point.from_front) {
+    point.flat_normal = -point.flat_normal;
+    normal = -normal;
+  }
+  // A smoothed normal may turn away from the viewer where the triangle does not: it is brought back to the edge.
+  if (const float facing = -glm::dot(normal, ray.direction); facing < 1e-3f)
+    normal = glm::normalize(normal - (1e-3f - facing) * ray.direction * 1.01f);
+  if (placed.body) {
+    point.surface.normal = normal;
+    point.dielectric = true;
+    point.index = placed.body->index;
+    point.absorption_per_m = placed.body->absorption_per_m;
+    return point;
+  }
+
+  const glm::vec2 uv = w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
+  const bool textured = material.base_color_image >= 0;
+  glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
+  glm::vec3 image(1.0f);
+  point.opacity = material.opacity;
+  if (textured) {
+    const glm::vec4 read = texel(material, uv);
+    image = glm::vec3(read);
+    base *= image;
+    if (material.opacity < opaque_from) point.opacity *= read.a;
+  }
+  if (material.opacity >= opaque_from) point.opacity = 1.0f;
+
+  const glm::vec3 color = base;
+  const float share_of_sky = point.share_of_sky = material.share_of_sky * placed.share_of_sky;
+  const Environment& weather = instant_.environment;
+  if (weather.snow_cover > 0.0)
+    base = glm::mix(base, glm::vec3(0.85f, 0.88f, 0.92f),
+                    static_cast<float>(weather.snow_cover) * share_of_sky * step_between(0.35f, 0.8f, normal.z));
+  const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
+  base *= 1.0f - 0.55f * wet;
+  base *= 1.0f - soot(point.position_m);
+
+  Surface& surface = point.surface;
+  surface.normal = normal;
+  surface.diffuse = base * (1.0f - material.metallic);
+  const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
+  if (material.wettable) {
+    // Water covers a share of a wet road, as in the rasteriser; the dry road between is rough.
+    surface.coat = 0.36f * wet;
+    surface.coat_f0 = 0.02f;
+    surface.coat_alpha = 0.0144f;
+  } else if (material.roughness < 0.6f || material.metallic > 0.2f || point.opacity < 1.0f) {
+    surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
+    surface.f0 = glm::mix(glm::vec3(index * index), base, material.metallic);
+  }
+  if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
+    point.opacity = std::clamp(
+        point.opacity + luminance(schlick(surface.f0, std::min(1.0f, -glm::dot(normal, ray.direction)))), 0.0f, 1.0f);
+  if (point.from_front && placed.tint.w > 0.0f) {
+    point.emission =
+        material.emission * (placed.tint.w * instant_.emission_share) * (textured ? color : glm::vec3(1.0f));
+    point.lights_up = lights_up(placed, material);
+    for (const std::uint32_t lamp : placed.lamps)
+      if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
+  }
+  return point;
+}
+
+glm::vec3 World::fog_radiance(const glm::vec3& direction) const {
+  const float level = std::sqrt(direction.x * direction.x + direction.y * direction.y);
+  const float up = std::max(direction.z, 0.02f), across = std::sqrt(std::max(0.0f, 1.0f - up * up));
+  if (level < 1e-4f) return sky_.radiance({across, 0.0f, up});
+  return sky_.radiance({across * direction.x / level, across * direction.y / level, up});
+}
+
+bool World::is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const {
+  const PlacedSurface& placed = placed_[place];
+  const scene::SurfaceMaterial& material = material_of(placed, triangle);
+  if (material.base_color_image < 0 || material.opacity < opaque_from) return false;
+  const Corners at = corners(placed, triangle);
+  return texel(material, (1.0f - u - v) * at.a->uv + u * at.b->uv + v * at.c->uv).a < 0.5f;
+}
+
+float World::share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,
+                               const glm::vec3& direction) const {
+  const PlacedSurface& placed = placed_[place];
+  const scene::SurfaceMaterial& material = material_of(placed, triangle);
+  if (material.opacity >= opaque_from) return is_hole(place, triangle, u, v) ? 1.0f : 0.0f;
+  Hit hit{0.0f, place, triangle, u, v};
+  Ray ray;
+  ray.direction = direction;
+  return 1.0f - point(ray, hit).opacity;
+}
+
+}  // namespace septet::raytrace

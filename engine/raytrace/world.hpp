@@ -1,0 +1,125 @@
+#pragma once
+/// The world of one instant as a path meets it: where a ray ends, of what the surface there is made, and what shines.
+///
+/// Made from a scene and the description of an instant (engine/instant), the same that the rasteriser draws, by the same rules: level
+/// of detail by the eye's distance, paint, wetness, snow, soot, lamps that are lit, the light of sky and sun. What the rasteriser
+/// must pretend is left out, since light finds its own way here: the share of the sky under a roof, and the light of its lamps.
+/// Frame: metres from the first view's eye, along the world's axes. Const once made; any number of threads.
+
+#include <optional>
+
+#include "engine/instant/instant.hpp"
+#include "engine/raytrace/geometry.hpp"
+#include "engine/raytrace/sky.hpp"
+#include "engine/raytrace/surface.hpp"
+
+namespace septet::raytrace {
+
+inline constexpr std::uint32_t no_lamp = 0xffffffffu;
+
+/// Where a ray met a surface.
+struct SurfacePoint {
+  Surface surface;
+  glm::vec3 position_m{0.0f};
+  glm::vec3 flat_normal{0.0f};  ///< Of the triangle, towards the viewer.
+  bool from_front = true;       ///< It was met on the side that its triangle faces.
+  glm::vec3 emission{0.0f};     ///< Towards the viewer.
+  float lights_up = 1.0f;       ///< How many times as bright it is for what it lights.
+  float opacity = 1.0f;         ///< Share of the rays that it stops; the others go straight on.
+  bool dielectric = false;      ///< A body to see into: `index` and `absorption_per_m` are its inside's.
+  float index = 1.5f;
+  glm::vec3 absorption_per_m{0.0f};
+  float share_of_sky = 1.0f;  ///< As the rasteriser guesses it; here only a guess at which lights matter.
+  std::uint32_t place = 0;
+  std::uint32_t lamp = no_lamp;  ///< Which lamp's light it gives.
+};
+
+/// Triangles that shine alike and lie together, such as one tube under a tunnel's roof.
+struct Lamp {
+  std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
+  std::vector<glm::vec3> corners_m;    ///< Three a triangle.
+  std::vector<float> cumulative_area;  ///< m².
+  glm::vec3 middle_m{0.0f};
+  float radius_m = 0.0f;
+  float power = 0.0f;        ///< Area times luminance.
+  glm::vec3 emission{0.0f};  ///< With which it lights.
+  bool textured = false;     ///< Its image colours the emission.
+};
+
+/// A closed body of clear matter, such as ice, of which light takes two interfaces and what lies between.
+struct ClearBody {
+  Vec3 origin_m{0.0};  ///< World.
+  std::vector<scene::SurfaceVertex>
+      vertices;  ///< From the origin along the world's axes; three a triangle, ccw outside.
+  float index = 1.31f;
+  glm::vec3 absorption_per_m{0.0f};
+};
+
+class World : public Openings {
+ public:
+  /// `geometry` holds the scene's meshes; those of this instant alone are added behind them. All of these outlive the world.
+  World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
+        Geometry& geometry);
+  ~World() override = default;
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Geometry& geometry() const { return geometry_; }
+  const Sky& sky() const { return sky_; }
+  const instant::Instant& instant() const { return instant_; }
+  const std::vector<Lamp>& lamps() const { return lamps_; }
+  const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
+  const Vec3& origin_m() const { return origin_m_; }  ///< World.
+
+  SurfacePoint point(const Ray& ray, const Hit& hit) const;
+  /// What fog gives off in this direction: as bright as the sky behind it, below the horizon as the sky just above.
+  glm::vec3 fog_radiance(const glm::vec3& direction) const;
+  float fog_per_m() const { return instant_.light->fog_per_m; }
+
+  bool is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const override;
+  float share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,
+                          const glm::vec3& direction) const override;
+
+ private:
+  struct PlacedSurface {
+    std::span<const scene::SurfaceVertex> vertices;
+    std::span<const std::uint32_t> indices;
+    std::span<const scene::MeshPart> parts;
+    glm::mat3 turn{1.0f}, normal_turn{1.0f};
+    glm::vec3 origin_m{0.0f};
+    glm::vec4 tint{1.0f};
+    float share_of_sky = 1.0f;
+    bool stands = false;               ///< An instance of the scene: not a part of a participant, nor loose.
+    std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
+    const ClearBody* body = nullptr;
+  };
+  struct Corners {
+    const scene::SurfaceVertex *a, *b, *c;
+  };
+
+  void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands);
+  float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const;
+  void add_soups(std::vector<Place>& places, std::span<const ClearBody> bodies);
+  void add_lamps(const std::vector<Place>& places);
+  void add_lamps(std::uint32_t place, const scene::MeshPart& part);
+  Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
+  const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
+  glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const;
+  float soot(const glm::vec3& position_m) const;
+
+  const scene::ResolvedScene& scene_;
+  const instant::Instant& instant_;
+  Geometry& geometry_;
+  Sky sky_;
+  Vec3 origin_m_;
+  std::vector<PlacedSurface> placed_;
+  std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
+  std::vector<std::vector<scene::MeshPart>> loose_parts_;
+  std::vector<Lamp> lamps_;
+  scene::SurfaceMaterial no_material_;
+};
+
+/// For each mesh, whether it has places that a ray may pass: holes cut by an image, or glass.
+std::vector<bool> open_meshes(const scene::ResolvedScene& scene);
+
+}  // namespace septet::raytrace

@@ -1,0 +1,109 @@
+#include "engine/raytrace/ray_tracer.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/raytrace/traced_scenes.hpp"
+
+namespace septet::raytrace {
+TEST_CASE("the Cornell box has the light that other renderers find in it") {
+  const TracedPicture picture = traced(cornell_box(), before_cornell_box(128), cornell_settings(64));
+  const PictureMean mean = mean_of(picture);
+  const glm::dvec3 known(0.2339, 0.1402, 0.0599);
+  MESSAGE("means ", mean.radiance.x, " ", mean.radiance.y, " ", mean.radiance.z, ", sigma ", mean.sigma);
+  CHECK(picture.bad_samples == 0);
+  // Sigma is that of the luminance; a channel's is about as large for its size. The known figures end with their fourth digit.
+  const double luminance_mean = glm::dot(known, glm::dvec3(0.2126, 0.7152, 0.0722));
+  for (int c = 0; c < 3; ++c) {
+    CAPTURE(c);
+    CHECK(std::abs(mean.radiance[c] - known[c]) < 3.0 * mean.sigma * known[c] / luminance_mean + 5e-5);
+  }
+}
+
+TEST_CASE("the error falls with the root of the number of samples") {
+  const auto error = [&](std::uint32_t samples) {
+    const TracedPicture a = traced(cornell_box(), before_cornell_box(64), cornell_settings(samples, 1)),
+                        b = traced(cornell_box(), before_cornell_box(64), cornell_settings(samples, 2));
+    double squares = 0.0;
+    // Below the lamp, whose few pixels at the edge would outweigh all others.
+    for (std::size_t n = a.pixels.size() / 4; n < a.pixels.size(); ++n) {
+      const glm::dvec3 off = glm::dvec3(a.pixels[n].radiance) - glm::dvec3(b.pixels[n].radiance);
+      squares += glm::dot(off, off);
+    }
+    return std::sqrt(squares / static_cast<double>(a.pixels.size()));
+  };
+  const double few = error(8), many = error(128);
+  MESSAGE("from 8 to 128 samples the error falls ", few / many, " times");
+  CHECK(few / many == doctest::Approx(4.0).epsilon(0.1));
+}
+
+TEST_CASE("a white ball under an even sky cannot be told from the sky") {
+  scene::SurfaceMaterial white;
+  white.base_color = glm::vec3(1.0f);
+  white.roughness = 1.0f;
+  const instant::Instant instant = instant_from({-4.0, 0.0, 0.0}, 0.7, 64, even_sky(2.0f));
+  const TracedPicture picture = traced(ball_scene(white), instant, {.samples = 256});
+  const glm::dvec3 mean = mean_of(picture).radiance;
+  MESSAGE("the furnace is off by ", mean.x / 2.0 - 1.0);
+  CHECK(std::abs(mean.x / 2.0 - 1.0) < 1e-3);
+  // Under a layer that reflects, light is only ever lost.
+  white.roughness = 0.3f;
+  const double layered = mean_of(traced(ball_scene(white), instant, {.samples = 64})).radiance.x;
+  CHECK(layered < 2.001);
+  CHECK(layered > 1.7);
+}
+
+TEST_CASE("within a ball that shines and reflects the light is the sum of a geometric series") {
+  scene::SurfaceMaterial material;
+  material.base_color = glm::vec3(0.5f);
+  material.roughness = 1.0f;
+  material.emission = glm::vec3(0.3f);
+  scene::ResolvedScene scene = ball_scene(material, 2);
+  scene::SurfaceMesh& mesh = scene.meshes[0];
+  for (std::size_t n = 0; n < mesh.indices.size(); n += 3) std::swap(mesh.indices[n], mesh.indices[n + 1]);
+  for (scene::SurfaceVertex& vertex : mesh.vertices) vertex.normal = -vertex.normal;
+  for (const std::uint32_t longest : {1u, 2u, 5u}) {
+    const instant::Instant instant = instant_from(Vec3(0.1, 0.0, 0.0), 1.2, 32, even_sky(0.0f));
+    const double mean =
+        mean_of(traced(scene, instant, {.samples = 256, .paths = {.longest = longest, .roulette_from = 2}})).radiance.x;
+    const double series = 0.3 * (1.0 - std::pow(0.5, longest)) / 0.5;
+    CAPTURE(longest);
+    CHECK(std::abs(mean / series - 1.0) < 3e-3);
+  }
+}
+
+TEST_CASE("through a ball of ice under an even sky goes what Fresnel and Beer and Lambert let through") {
+  // Along a chord: R + T² a (1 + R a + …), a = exp(−σ c), where each inner reflection meets the surface at the same angle.
+  const float index = 1.31f, absorption_per_m = 0.4f;
+  ClearBody ice{.index = index, .absorption_per_m = glm::vec3(absorption_per_m)};
+  const scene::SurfaceMesh shape = ball(6);
+  for (const std::uint32_t n : shape.indices) ice.vertices.push_back(shape.vertices[n]);
+  // So far away that the rays of the picture are parallel.
+  const double away_m = 2000.0, off_m = 1.2;
+  const instant::Instant instant =
+      instant_from({-away_m, 0.0, 0.0}, 2.0 * std::atan(off_m / away_m), 64, even_sky(1.0f));
+  const TracedPicture picture = traced(
+      {}, instant, {.samples = 64, .paths = {.longest = 64, .roulette_from = 100}, .filter = Filter::box}, {ice});
+  double traced_sum = 0.0, known_sum = 0.0;
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      traced_sum += picture.at(x, y).radiance.x;
+      constexpr int fine = 8;
+      for (int k = 0; k < fine * fine; ++k) {
+        const double across = ((x + (k % fine + 0.5) / fine) / 32.0 - 1.0) * off_m,
+                     down = ((y + (k / fine + 0.5) / fine) / 32.0 - 1.0) * off_m;
+        const double square = across * across + down * down;
+        double light = 1.0;
+        if (square < 1.0) {
+          const double reflected = fresnel(static_cast<float>(std::sqrt(1.0 - square)), index);
+          const double clear = std::exp(-absorption_per_m * 2.0 * std::sqrt(1.0 - square / (index * index)));
+          light = reflected + (1.0 - reflected) * (1.0 - reflected) * clear / (1.0 - reflected * clear);
+        }
+        known_sum += light / (fine * fine);
+      }
+    }
+  MESSAGE("the ball of ice is off by ", traced_sum / known_sum - 1.0);
+  CHECK(std::abs(traced_sum / known_sum - 1.0) < 2e-3);
+  CHECK(picture.bad_samples == 0);
+}
+
+}  // namespace septet::raytrace
