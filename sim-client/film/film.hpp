@@ -1,5 +1,5 @@
 #pragma once
-/// A recorded session to the pictures of a film, drawn off-screen by the rasteriser.
+/// A recorded session to the pictures of a film, drawn off-screen by the rasteriser or the ray tracer.
 ///
 /// A frame depends on the session, the shot and its number in it (film_frames.hpp), and on no other frame, so that any share of a
 /// film can be drawn anywhere.
@@ -12,6 +12,11 @@
 
 namespace septet::film {
 
+enum class FilmRenderer : std::uint8_t {
+  raster,  ///< engine/render, by a graphics card where there is one.
+  traced,  ///< engine/raytrace, by the processor's cores.
+};
+
 struct FilmOptions {
   std::filesystem::path session;
   std::filesystem::path shots;  ///< Script; empty: the default one.
@@ -20,6 +25,8 @@ struct FilmOptions {
   std::uint32_t width_px = 1280, height_px = 720;
   bool software =
       false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
+  FilmRenderer renderer = FilmRenderer::raster;
+  std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer.
   std::optional<double> from_s,
       to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
 };
@@ -44,9 +51,12 @@ Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<
 
 struct FilmMade {
   std::size_t frames = 0, planned = 0;
+  double share_of_next = 0.0;     ///< Of the frame that is being drawn, 0 to 1.
+  std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.
 };
 
-/// Draws the film. Before each frame `go_on` hears how far it is; where it says no, the film ends there.
+/// Draws the film. `go_on` hears how far it is before each frame and while one is traced, from any thread, one call at a time; where it
+/// says no, the film ends there. While a frame is traced, preview.png in the folder shows what there is of it.
 Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on);
 
 }  // namespace septet::film

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   using namespace septet;
   using program::number_between;
   film::FilmOptions options;
+  std::string renderer = "raster";
   CLI::App app{
       "Turn a recorded session into a folder of numbered pictures, seen by the cameras of a script.\n"
       "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
@@ -38,10 +39,20 @@ int main(int argc, char** argv) {
       ->each([&](const std::string& text) {
         if (const auto problem = film::read_size(text, options); !problem.empty()) throw CLI::ValidationError(problem);
       });
+  app.add_option("--renderer", renderer,
+                 "raster, or traced: light follows paths, on all cores; slow; no smoke, flames, clouds or stars yet")
+      ->check(CLI::IsMember({"raster", "traced"}))
+      ->capture_default_str();
+  app.add_option("--samples", options.samples, "Of a pixel that is traced: four times as many halve the noise")
+      ->check(CLI::Range(1u, 1u << 20))
+      ->capture_default_str();
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
       ->check(number_between(0.0, 1e6));
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
-  return program::run("septet", app, argc, argv, [&] { return film::run_film(options); });
+  return program::run("septet", app, argc, argv, [&] {
+    options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
+    return film::run_film(options);
+  });
 }

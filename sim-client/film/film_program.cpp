@@ -22,13 +22,23 @@ std::string read_size(const std::string& text, FilmOptions& options) {
   return "\"" + text + "\" is no size; write WIDTHxHEIGHT in pixels, 16 to 16384 each";
 }
 
+std::string progress_text(const FilmMade& so_far, double elapsed_s) {
+  const double done = static_cast<double>(so_far.frames) + so_far.share_of_next;
+  std::string text = fmt::format("{} of {} frames", so_far.frames, so_far.planned);
+  if (so_far.share_of_next > 0.0) text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
+  if (!(done > 0.0)) return text;
+  const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / done;
+  return text +
+         (left_s < 90.0 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60.0));
+}
+
 Expected<int> run_film(FilmOptions options) {
   if (options.out.empty()) options.out = options.session.parent_path() / "film";
   program::catch_stop_signals();
   program::ProgressLine progress;
+  const double begun_s = program::monotonic_s();
   const auto made = make_film(options, [&](const FilmMade& so_far) {
-    if (progress.is_due(program::monotonic_s()))
-      progress.show(fmt::format("{} of {} frames", so_far.frames, so_far.planned));
+    if (progress.is_due(program::monotonic_s())) progress.show(progress_text(so_far, program::monotonic_s() - begun_s));
     return !program::should_stop();
   });
   progress.close();
@@ -38,6 +48,8 @@ Expected<int> run_film(FilmOptions options) {
                              options.out.string()));
     return program::failed_status;
   }
+  if (made->bad_samples > 0)
+    program::say(fmt::format("septet: {} samples had no light that is a number; they are black", made->bad_samples));
   const std::string pictures = (options.out / "%06d.png").string();
   program::announce(fmt::format(
       "{}: {} pictures, {} a second; to see them move: ffmpeg -framerate {} -i {} -pix_fmt yuv420p film.mp4",

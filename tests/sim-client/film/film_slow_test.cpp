@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <doctest/doctest.h>
 
@@ -19,10 +21,8 @@ Bytes bytes_of(const fs::path& file) {
   return Bytes(begin, begin + text.size());
 }
 
-}  // namespace
-
-TEST_CASE("a film begun in the middle shows frame by frame what the whole film shows though somebody has vanished") {
-  const TemporaryFolder folder;
+/// A second's drive on a circle, from which participant 2 vanishes between two frames of a film, and a shot through their eyes.
+void write_session_and_shots(const TemporaryFolder& folder) {
   {
     auto writer = logging::must_create(folder / "session.sqlite");
     for (Tick tick = 0; tick <= 120; ++tick) {
@@ -37,26 +37,59 @@ TEST_CASE("a film begun in the middle shows frame by frame what the whole film s
   }
   // Seen from a place to the side of the two, which turn with the sky behind them.
   std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\n";
-  FilmOptions options{.session = folder / "session.sqlite",
-                      .shots = folder / "shots.toml",
-                      .out = folder / "whole",
-                      .width_px = 64,
-                      .height_px = 48,
-                      .software = true};
-  const auto goes_on = [](const FilmMade&) { return true; };
-  const auto whole = make_film(options, goes_on);
-  REQUIRE_MESSAGE(whole.has_value(), (whole ? "" : describe(whole.error())));
-  REQUIRE(whole->frames == 25);
-  options.out = folder / "end";
-  options.from_s = 0.6;
-  const auto end = make_film(options, goes_on);
-  REQUIRE_MESSAGE(end.has_value(), (end ? "" : describe(end.error())));
-  CHECK(end->frames == 10);
-  for (const fs::directory_entry& picture : fs::directory_iterator(folder / "end")) {
-    const fs::path name = picture.path().filename();
+}
+
+}  // namespace
+
+TEST_CASE("a film begun in the middle shows frame by frame what the whole film shows though somebody has vanished") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  const FilmRenderer renderers[] = {FilmRenderer::raster, FilmRenderer::traced};
+  for (const FilmRenderer renderer : renderers) {
+    const std::string name = renderer == FilmRenderer::raster ? "raster" : "traced";
     CAPTURE(name);
-    CHECK(bytes_of(picture.path()) == bytes_of(folder / "whole" / name));
+    FilmOptions options{.session = folder / "session.sqlite",
+                        .shots = folder / "shots.toml",
+                        .out = folder / (name + "-whole"),
+                        .width_px = 64,
+                        .height_px = 48,
+                        .software = true,
+                        .renderer = renderer,
+                        .samples = 2};
+    const auto goes_on = [](const FilmMade&) { return true; };
+    const auto whole = make_film(options, goes_on);
+    REQUIRE_MESSAGE(whole.has_value(), (whole ? "" : describe(whole.error())));
+    REQUIRE(whole->frames == 25);
+    options.out = folder / (name + "-end");
+    options.from_s = 0.6;
+    const auto end = make_film(options, goes_on);
+    REQUIRE_MESSAGE(end.has_value(), (end ? "" : describe(end.error())));
+    CHECK(end->frames == 10);
+    CHECK(end->bad_samples == 0);
+    CHECK(std::distance(fs::directory_iterator(options.out), {}) == 10);  // The preview is gone.
+    for (const fs::directory_entry& picture : fs::directory_iterator(options.out)) {
+      const fs::path file = picture.path().filename();
+      CAPTURE(file);
+      CHECK(bytes_of(picture.path()) == bytes_of(folder / (name + "-whole") / file));
+    }
   }
+}
+
+TEST_CASE("a film that is stopped while a frame is traced ends there") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  const FilmOptions options{.session = folder / "session.sqlite",
+                            .shots = folder / "shots.toml",
+                            .out = folder / "film",
+                            .width_px = 64,
+                            .height_px = 48,
+                            .renderer = FilmRenderer::traced,
+                            .samples = 2};
+  const auto made =
+      make_film(options, [](const FilmMade& so_far) { return so_far.frames < 2 || so_far.share_of_next < 0.4; });
+  REQUIRE(made.has_value());
+  CHECK(made->frames == 2);
+  CHECK(std::distance(fs::directory_iterator(options.out), {}) == 2);
 }
 
 }  // namespace septet::film

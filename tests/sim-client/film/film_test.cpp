@@ -7,6 +7,7 @@
 #include "engine/film_script/film_script.hpp"
 #include "engine/math/spherical_interpolation.hpp"
 #include "sim-client/film/camera.hpp"
+#include "sim-client/film/film_program.hpp"
 #include "tests/shipped_files.hpp"
 
 namespace septet::film {
@@ -188,6 +189,13 @@ TEST_CASE("a script is read with its turns and its places") {
   CHECK(first.turns[1].until_s == 5.5);
   CHECK(*script->shots[1].place_m == Vec3(1.0, -2.0, 3.0));
   CHECK(script->shots[1].bearings == Bearings::world);
+}
+
+TEST_CASE("a film says how far it is and how long the rest will take") {
+  CHECK(progress_text({.frames = 0, .planned = 4}, 1.0) == "0 of 4 frames");
+  CHECK(progress_text({.frames = 1, .planned = 4}, 20.0) == "1 of 4 frames, 60 s left");
+  CHECK(progress_text({.frames = 1, .planned = 4, .share_of_next = 0.5}, 360.0) ==
+        "1 of 4 frames and 50 % of the next, 10 min left");
 }
 
 TEST_CASE("the example in the description of the format is a script whose cameras have a way") {

@@ -1,0 +1,18 @@
+#include "engine/raytrace/displayed.hpp"
+
+#include "engine/instant/tone_curve.hpp"
+
+namespace septet::raytrace {
+
+image::Image displayed(const TracedPicture& picture, const instant::Exposure& exposure) {
+  image::Image image(picture.width, picture.height);
+  const float scale = exposure.scale();
+  for (std::size_t n = 0; n < picture.pixels.size(); ++n) {
+    const glm::vec3 code = glm::clamp(instant::display_code(picture.pixels[n].radiance * scale), 0.0f, 1.0f);
+    for (int c = 0; c < 3; ++c)
+      image.rgba[4 * n + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(255.0f * code[c] + 0.5f);
+  }
+  return image;
+}
+
+}  // namespace septet::raytrace
