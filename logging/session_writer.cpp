@@ -241,7 +241,7 @@ SessionWriter::~SessionWriter() = default;
 void SessionWriter::record(std::shared_ptr<const TakenSnapshot> snapshot) { state_->push(std::move(snapshot)); }
 void SessionWriter::record(InputRecord input) { state_->push(std::move(input)); }
 void SessionWriter::record(SceneEdit edit) { state_->push(std::move(edit)); }
-void SessionWriter::record(Sample sample) { state_->push(std::move(sample)); }
+void SessionWriter::record(Sample sample) { state_->push(sample); }
 void SessionWriter::record(Event event) { state_->push(std::move(event)); }
 void SessionWriter::record(QuestionnaireRecord answer) { state_->push(std::move(answer)); }
 void SessionWriter::record(StateRecord state) { state_->push(std::move(state)); }

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace septet::program {
 
 namespace {
@@ -35,6 +37,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
   std::vector<std::string> arguments{options.program};
   arguments.insert(arguments.end(), options.arguments.begin(), options.arguments.end());
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (auto& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   std::vector<std::string> variables;
@@ -42,8 +45,9 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
     const std::string text = *entry;
     if (!options.environment.contains(text.substr(0, text.find('=')))) variables.push_back(text);
   }
-  for (const auto& [name, value] : options.environment) variables.push_back(name + "=" + value);
+  for (const auto& [name, value] : options.environment) variables.push_back(fmt::format("{}={}", name, value));
   std::vector<char*> envp;
+  envp.reserve(variables.size() + 1);
   for (auto& variable : variables) envp.push_back(variable.data());
   envp.push_back(nullptr);
   const std::string log = options.log.string();

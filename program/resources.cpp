@@ -53,7 +53,7 @@ Expected<fs::path> data_folder() {
   if (const fs::path installed = own_folder().parent_path() / "share/septet"; is_data_folder(installed))
     return installed;
   std::error_code ignored;
-  for (fs::path start : {own_folder(), fs::current_path(ignored)})
+  for (const fs::path& start : {own_folder(), fs::current_path(ignored)})
     for (fs::path folder = start; !folder.empty(); folder = folder.parent_path()) {
       if (is_data_folder(folder)) return folder;
       if (folder == folder.root_path()) break;

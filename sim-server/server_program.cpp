@@ -111,7 +111,7 @@ Expected<Endpoint> open_endpoint(const ServerOptions& options, const rig::Rig& r
   if (!allowed) return tl::unexpected(allowed.error());
   auto sockets = open_sockets(options, rig.network, is_one_machine(rig));
   if (!sockets) return tl::unexpected(sockets.error());
-  return Endpoint{std::move(*identity), std::move(*allowed), std::move(*sockets)};
+  return Endpoint{*identity, std::move(*allowed), std::move(*sockets)};
 }
 
 /// The source of ticks with what it stands on.
@@ -202,7 +202,8 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
 
 /// 0 for a drive that lasts until it is ended; one that is to last, however short, has a tick.
 std::uint64_t ticks_of(double seconds, double tick_rate_hz) {
-  return seconds > 0.0 ? std::max<std::uint64_t>(static_cast<std::uint64_t>(seconds * tick_rate_hz + 0.5), 1) : 0;
+  return seconds > 0.0 ? std::max<std::uint64_t>(static_cast<std::uint64_t>(std::llround(seconds * tick_rate_hz)), 1)
+                       : 0;
 }
 
 /// A picture is kept once a second, and of a drive that is shorter one: at a tick that is drawn in lockstep.

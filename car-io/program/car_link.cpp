@@ -14,7 +14,7 @@ std::string as_text(const Bytes& bytes) { return {reinterpret_cast<const char*>(
 
 }  // namespace
 
-CarLink::CarLink(net::DatagramSocket& socket, net::SecureClientOptions lane, FindDevice find_device)
+CarLink::CarLink(net::DatagramSocket& socket, const net::SecureClientOptions& lane, FindDevice find_device)
     : lane_(socket, lane),
       connection_report_(lane.server, lane.identity.public_key(), "car"),
       find_device_(std::move(find_device)) {}

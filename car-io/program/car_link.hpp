@@ -28,7 +28,7 @@ using FindDevice = std::function<OpenHidDevice(const rig::Car&)>;
 class CarLink {
  public:
   /// The socket outlives the link.
-  CarLink(net::DatagramSocket& socket, net::SecureClientOptions lane, FindDevice find_device);
+  CarLink(net::DatagramSocket& socket, const net::SecureClientOptions& lane, FindDevice find_device);
 
   void pump(double now_s);
 

@@ -111,8 +111,9 @@ std::string legend(const LineChart& chart, const Frame& frame) {
   std::string svg;
   if (legend_rows(chart) == 0) return svg;
   for (std::size_t n = 0; n < chart.series.size(); ++n) {
-    const double x = frame.left + (frame.right - frame.left) / 2 * static_cast<double>(n % 2),
-                 y = frame.bottom + 52 + legend_row * static_cast<double>(n / 2);
+    const std::size_t column = n % 2, row = n / 2;
+    const double x = frame.left + (frame.right - frame.left) / 2 * static_cast<double>(column),
+                 y = frame.bottom + 52 + legend_row * static_cast<double>(row);
     const std::string its_class = css_class(chart.series[n], n);
     svg += chart.series[n].stroke == Stroke::dots
                ? fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>", its_class, x + 12, y - 4)

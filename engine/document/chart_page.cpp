@@ -30,7 +30,8 @@ std::string to_svg(const ChartPage& page) {
   const double head = 44.0 + row * static_cast<double>(page.lines.size()), columns = alone ? 1.0 : 2.0;
   const double notes_at = margin + columns * chart_width + margin;
   const double width = page.notes.empty() ? notes_at : notes_at + notes_width;
-  const double height = head + static_cast<double>((page.charts.size() + 1) / 2) * chart_height + margin;
+  const std::size_t chart_rows = (page.charts.size() + 1) / 2;
+  const double height = head + static_cast<double>(chart_rows) * chart_height + margin;
   const auto text = [](std::string_view css_class, double x, double y, std::string_view words) {
     return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", css_class, x, y, escaped(words));
   };
@@ -42,9 +43,11 @@ std::string to_svg(const ChartPage& page) {
   svg += text("page-title", 2 * margin, 30.0, page.title);
   for (std::size_t n = 0; n < page.lines.size(); ++n)
     svg += text("words", 2 * margin, 51.0 + row * static_cast<double>(n), page.lines[n]);
-  for (std::size_t n = 0; n < page.charts.size(); ++n)
-    svg += drawn(page.charts[n], {margin + chart_width * static_cast<double>(n % 2),
-                                  head + chart_height * static_cast<double>(n / 2), chart_width, chart_height});
+  for (std::size_t n = 0; n < page.charts.size(); ++n) {
+    const std::size_t chart_column = n % 2, chart_row = n / 2;
+    svg += drawn(page.charts[n], {margin + chart_width * static_cast<double>(chart_column),
+                                  head + chart_height * static_cast<double>(chart_row), chart_width, chart_height});
+  }
   for (std::size_t n = 0; n < page.notes.size(); ++n)
     svg += text("words", notes_at, head + 24.0 + 24.0 * static_cast<double>(n), page.notes[n]);
   return svg + "</svg>\n";

@@ -103,8 +103,9 @@ void polygon(Image& image, const std::vector<Point>& corners, Color color) {
   for (auto y = std::max<std::int64_t>(std::llround(std::floor(top->y)), 0); y < y_end; ++y)
     for (auto x = std::max<std::int64_t>(std::llround(std::floor(left->x)), 0); x < x_end; ++x) {
       int inside = 0;
-      for (int sample = 0; sample < 16; ++sample)
-        if (winding_number(corners, x + (sample % 4 + 0.5) / 4, y + (sample / 4 + 0.5) / 4) != 0) ++inside;
+      for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+          if (winding_number(corners, x + (column + 0.5) / 4, y + (row + 0.5) / 4) != 0) ++inside;
       blend_pixel(image, x, y, color, inside / 16.0);
     }
 }

@@ -44,8 +44,9 @@ void draw_pictures(Image& target, const PanoramaView& view, const PanoramaLayout
     for (int x = 0; x < static_cast<int>(row.width_px); ++x) {
       int sum[3] = {}, hits = 0;
       for (int s = 0; s < 4; ++s) {
-        const double azimuth = row.left_azimuth_rad - (x + 0.25 + 0.5 * (s % 2)) / layout.pixels_per_rad;
-        const double elevation = row.top_elevation_rad - (y + 0.25 + 0.5 * (s / 2)) / layout.pixels_per_rad;
+        const int right = s % 2, down = s / 2;
+        const double azimuth = row.left_azimuth_rad - (x + 0.25 + 0.5 * right) / layout.pixels_per_rad;
+        const double elevation = row.top_elevation_rad - (y + 0.25 + 0.5 * down) / layout.pixels_per_rad;
         const Vec3 direction = direction_of(azimuth, elevation);
         for (const std::size_t index : row.screens) {
           const PanoramaScreen& screen = view.screens[index];

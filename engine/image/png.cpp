@@ -17,7 +17,7 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-tl::unexpected<Error> file_failure(std::string what, const std::filesystem::path& path) {
+tl::unexpected<Error> file_failure(const std::string& what, const std::filesystem::path& path) {
   const int reason = errno;
   std::string remedy = "check that the folder exists and can be written";
   if (reason == ENOSPC) remedy = "free some space on the disk";

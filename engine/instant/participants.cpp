@@ -65,7 +65,6 @@ bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y
     case PartRole::lamp_indicator_right:
       return lamps.has(Lamp::indicator_right);
     case PartRole::lamp_head:
-      return beams;
     case PartRole::lamp_tail:
       return beams;
     case PartRole::beacon: {

@@ -23,6 +23,7 @@ struct Transfer {
     }
   }
   std::uint8_t encode(float value) const {
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and in a loop over pixels.
     return encoded[static_cast<std::size_t>(std::clamp(value, 0.0f, 1.0f) * 4096.0f + 0.5f)];
   }
 };

@@ -211,7 +211,7 @@ Expected<void> ReplicationClient::receive(std::span<const std::byte> message) {
 }
 
 void ReplicationClient::pump(const Send& send) { state_->pump(send); }
-void ReplicationClient::request(Command command) { state_->queue(command); }
+void ReplicationClient::request(const Command& command) { state_->queue(command); }
 const Store& ReplicationClient::store() const { return *state_->shown; }
 std::uint64_t ReplicationClient::generation() const { return state_->generation; }
 bool ReplicationClient::complete() const { return state_->complete(); }

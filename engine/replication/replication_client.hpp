@@ -42,7 +42,7 @@ class ReplicationClient {
 
   /// Asks the server for a change (its answer is the same command, or nothing) or for a
   /// subscription beyond the policy's. Requests of a session that is not resumed are lost.
-  void request(scene::Command command);
+  void request(const scene::Command& command);
   /// What is to be shown: the mirror, or, while a new connection fills a new one, the last complete
   /// one.
   const scene::Store& store() const;

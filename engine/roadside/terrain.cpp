@@ -42,6 +42,7 @@ std::vector<glm::i64vec2> squares_near(const std::vector<Vec2>& places, double s
         found.emplace(y, x);
   }
   std::vector<glm::i64vec2> squares;
+  squares.reserve(found.size());
   for (const auto& [y, x] : found) squares.emplace_back(x, y);
   return squares;
 }

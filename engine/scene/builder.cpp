@@ -143,7 +143,8 @@ NodeId SceneBuilder::add_bitmap(std::string_view name, std::uint32_t width, std:
   for (std::size_t i = 3; i < rgba.size(); i += 4) opaque = opaque && rgba[i] == 255;
   const std::size_t columns = tile_columns(width);
   const std::size_t tiles = tile_count(width, height, 1);
-  for (PartId channel = 0; channel < (opaque ? 3 : 4); ++channel) {
+  const PartId channels = opaque ? 3 : 4;
+  for (PartId channel = 0; channel < channels; ++channel) {
     constexpr std::array<const char*, 4> names = {"color_r", "color_g", "color_b", "alpha"};
     apply(BitmapLayerSet{id, channel, names[channel], PixelType::byte});
     std::vector<std::uint8_t> bytes(tiles * tile_bytes(PixelType::byte), 0);

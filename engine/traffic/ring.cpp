@@ -43,8 +43,8 @@ TrafficState dense_ring(const road::RoadNetwork& network, int lanes, std::uint32
     const bool heavy = lane + 2 > lanes && random.below(3) == 0;
     const VehicleClass& kind = parameters.classes[heavy ? 5 : random.below(5)];
     const double spacing = length * lanes / count;
-    const double x = std::fmod(
-        (k / static_cast<std::uint32_t>(lanes)) * spacing + random.uniform(0.0, 0.1) * spacing + lane * 3.0, length);
+    const std::uint32_t place = k / static_cast<std::uint32_t>(lanes);
+    const double x = std::fmod(place * spacing + random.uniform(0.0, 0.1) * spacing + lane * 3.0, length);
     const double bell = (random.uniform() + random.uniform() + random.uniform()) / 3.0;
     const Driver driver = with_temperament(kind.middle, bell);
     add_vehicle(traffic, 1000 + k, kind.model, driver, lane, x,

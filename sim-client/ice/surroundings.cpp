@@ -65,7 +65,7 @@ void add_mesh(scene::ResolvedScene& scene, scene::SurfaceMesh mesh, std::vector<
   for (std::uint32_t i = 0; i < materials.size(); ++i) {
     mesh.parts.push_back({i * count, count, static_cast<std::uint32_t>(scene.materials.size())});
     materials[i].revision = 1;
-    scene.materials.push_back(std::move(materials[i]));
+    scene.materials.push_back(materials[i]);
   }
   mesh.bounds_min_m = mesh.bounds_max_m = mesh.vertices.front().position_m;
   for (const scene::SurfaceVertex& vertex : mesh.vertices) {
@@ -93,7 +93,7 @@ void add_room(scene::ResolvedScene& scene) {
     material.share_of_sky = 0.0f;
     material.emission = glm::vec3(room_radiance) - glm::vec3(1.5f, 1.3f, 1.0f) * (0.35f / std::numbers::pi_v<float>);
     scene.images.push_back(wall_picture(wall));
-    materials.push_back(std::move(material));
+    materials.push_back(material);
   }
   add_mesh(scene, std::move(mesh), std::move(materials));
 }

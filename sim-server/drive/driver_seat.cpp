@@ -7,7 +7,7 @@
 namespace septet::server {
 
 Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
-                                      std::shared_ptr<const simulation::Model> model) {
+                                      const std::shared_ptr<const simulation::Model>& model) {
   DriverSeat seat;
   if (car.source == rig::CarSource::simulated_driver) {
     auto parameters = car_io::find_driver(car.driver);

@@ -60,7 +60,7 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
 }
 
 void SessionLog::record_scene(const scene::Store& store) {
-  scene::describe_store(store, [&](scene::Command command) {
+  scene::describe_store(store, [&](const scene::Command& command) {
     Bytes bytes;
     scene::encode(command, bytes);
     writer_.record(logging::SceneEdit{0, std::move(bytes)});
@@ -79,7 +79,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
       logging::is_sample_due(tick_, simulation::tick_rate_hz) ? find_leader(snapshot, model_->roads) : std::nullopt;
   auto observation = logging::observe(observer_, snapshot, leader);
   for (auto& event : observation.events) writer_.record(std::move(event));
-  if (observation.sample) writer_.record(std::move(*observation.sample));
+  if (observation.sample) writer_.record(*observation.sample);
   writer_.record(std::move(taken));
 }
 

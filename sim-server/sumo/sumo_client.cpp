@@ -22,7 +22,7 @@ Expected<ConnectSumo> load_sumo_module() {
     return failure(reason ? reason : "not a module of this Septet", file.string(),
                    "install the package sumo, or drive with --traffic own");
   }
-  return reinterpret_cast<ConnectSumo>(connect);
+  return *static_cast<const ConnectSumo*>(connect);
 }
 
 }  // namespace septet::server

@@ -150,10 +150,16 @@ class TraciClient final : public SumoClient {
   std::map<ParticipantId, int> entries_;
 };
 
+Expected<std::unique_ptr<SumoClient>> connect(int port) {
+  return asked([&]() -> std::unique_ptr<SumoClient> { return std::make_unique<TraciClient>(port); });
+}
+
 }  // namespace
 
-extern "C" Expected<std::unique_ptr<SumoClient>> septet_connect_sumo(int port) {
-  return asked([&]() -> std::unique_ptr<SumoClient> { return std::make_unique<TraciClient>(port); });
+// Looked up by this name (load_sumo_module), by C++ of the same build.
+extern "C" {
+extern const ConnectSumo septet_connect_sumo;
+const ConnectSumo septet_connect_sumo = connect;
 }
 
 }  // namespace septet::server

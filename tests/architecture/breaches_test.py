@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Each breach of the tree's rules is found by the test that is there for it, and a tree without one passes.
 
-    breaches_test.py FOLDER of layers_test.py and named_paths_test.py
+    breaches_test.py FOLDER of the tests, such as layers_test.py
 """
 import pathlib
 import subprocess
@@ -13,6 +13,7 @@ GOOD = {
     "engine/high/a.hpp": '#include "engine/low/above.hpp"\n',
     "engine/beside/b.hpp": "",
     "engine/low/above.hpp": '#include "engine/low/below_it.hpp"\n',
+    "engine/low/above.cpp": '#include "engine/low/above.hpp"\n',
     "engine/low/below_it.hpp": '#include "engine/low/below_too.hpp"\n',
     "engine/low/below_too.hpp": "",
     "NOTES.md": "engine/low holds `low/above` and engine/low/below_it.hpp; whose file is engine/low/NAME.hpp?\n",
@@ -30,6 +31,7 @@ BREACHES = {
     "a document that names what is gone": ("NOTES.md", "see engine/low/gone\n", "named_paths", "NOTES.md:1: there is no engine/low/gone"),
     "one from within a folder": ("NOTES.md", "see `low/gone`\n", "named_paths", "there is no low/gone"),
     "a comment": ("engine/low/above.cpp", "/// As low/gone.hpp.\n", "named_paths", "above.cpp:1: there is no low/gone.hpp"),
+    "a header that is not the first": ("engine/low/above.cpp", '#include <map>\n#include "engine/low/above.hpp"\n', "own_header", "does not include engine/low/above.hpp first"),
     "a folder's name with a slash": ("NOTES.md", "(`engine/gone/`.)\n", "named_paths", "there is no engine/gone"),
 }
 
@@ -48,7 +50,7 @@ def check(what, files, test, expected):
             failures.append(f"{what}: exit {result.returncode}, {result.stdout!r} {result.stderr!r}")
 
 
-for test in ("layers", "named_paths"):
+for test in ("layers", "named_paths", "own_header"):
     check(f"no breach, {test}", GOOD, test, "")
 for what, (name, text, test, expected) in BREACHES.items():
     check(what, GOOD | {name: text}, test, expected)

@@ -172,6 +172,7 @@ Blow elastic_substep(Piece& piece, ContactWorld& world, double ahead_s, double s
   const Frame frame = frame_of(piece, found, step_s);
   const auto closing_mps = add_restitution(piece, found, step_s);
   std::vector<elastic::NodeContact> contacts;
+  contacts.reserve(found.size());
   for (const FoundContact& f : found) contacts.push_back(f.contact);
   elastic::StepSettings settings;
   settings.step_s = step_s;

@@ -195,6 +195,7 @@ bool box_near(const Piece& piece, const ContactWorld& world, double step_s) {
 
 void exchange_impulses(std::vector<Piece>& pieces, double step_s) {
   std::vector<Bounds> bounds;
+  bounds.reserve(pieces.size());
   for (const Piece& piece : pieces) bounds.push_back(bounds_of(piece.body));
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (std::size_t j = i + 1; j < pieces.size(); ++j) {

@@ -37,6 +37,7 @@ double attraction(double density, const Parameters& parameters) {
 std::vector<float> attraction_table(const Parameters& parameters) {
   std::vector<float> table;
   const int full = std::max(1, static_cast<int>(std::ceil(2.0 * parameters.crowd)));
+  table.reserve(static_cast<std::size_t>(full) + 1);
   for (int density = 0; density < full; ++density) table.push_back(static_cast<float>(attraction(density, parameters)));
   table.push_back(-1.0f);
   return table;

@@ -21,6 +21,7 @@ void BlockMatrix::set_zero(const BlockPattern& pattern) {
 void multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const BlockVector& vector, BlockVector& result) {
   result.resize(vector.size());
   for (int i = 0; i < pattern.node_count; ++i) {
+    // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): stays in a register while `result` is written.
     const Eigen::Array4d x = vector[i];
     const Block& d = matrix.diagonal[i];
     Eigen::Array4d sum = d.column[0] * x[0] + d.column[1] * x[1] + d.column[2] * x[2];

@@ -10,7 +10,7 @@ ManoeuvreCar::ManoeuvreCar(const VehicleParameters& parameters, const ManoeuvreO
   parameters_.brakes.stability_control &= options.stability_control.value_or(false);
   ground_ = level_ground(0.0, options.friction > 0.0 ? options.friction : parameters.tyre.reference_friction);
   if (speed_mps <= 0.0) return;
-  const int settling = static_cast<int>(options.settle_s / manoeuvre_step_s + 0.5);
+  const int settling = static_cast<int>(std::lround(options.settle_s / manoeuvre_step_s));
   for (int i = 0; i < settling; ++i) {
     hold_speed(speed_mps);
     advance(0.0);
@@ -71,7 +71,7 @@ void ManoeuvreCar::begin() {
 }
 
 void ManoeuvreCar::record() {
-  constexpr long every = static_cast<long>(sample_interval_s / manoeuvre_step_s + 0.5);
+  const long every = std::lround(sample_interval_s / manoeuvre_step_s);
   if (steps_ % every == 0) series_.push_back(sample());
 }
 

@@ -148,8 +148,9 @@ void to_palette(geometry::PolygonMesh& mesh) {
     std::uint32_t& material = mesh.polygon_materials[i];
     if (material < first_color) continue;
     const std::uint32_t block = material - first_color;
-    const glm::vec2 uv((static_cast<float>(block % palette_side) + 0.5f) / palette_side,
-                       (static_cast<float>(block / palette_side) + 0.5f) / palette_side);
+    const std::uint32_t column = block % palette_side, row = block / palette_side;
+    const glm::vec2 uv((static_cast<float>(column) + 0.5f) / palette_side,
+                       (static_cast<float>(row) + 0.5f) / palette_side);
     mesh.corner_uvs[i].fill(uv);
     material = index_of(Ground::palette);
   }

@@ -106,6 +106,7 @@ std::vector<debris::Box> standing_boxes(const roadside::Obstacles* obstacles, co
   const auto is_same = [&](const auto& a, const auto& b) { return key(a) == key(b); };
   standing.erase(std::unique(standing.begin(), standing.end(), is_same), standing.end());
   std::vector<debris::Box> boxes;
+  boxes.reserve(standing.size());
   for (const auto& [obstacle, z] : standing) boxes.push_back(box_of(obstacle, z));
   return boxes;
 }
