@@ -18,6 +18,8 @@ void fit(GeometryLayer& layer, const GeometryData& geometry) {
     layer.integers.resize(values, layer.default_integer);
 }
 
+constexpr std::uint32_t largest_byte = 255;
+
 }  // namespace
 
 Expected<void> Store::Application::operator()(const GeometrySizeSet& c) const {
@@ -45,6 +47,8 @@ Expected<void> Store::Application::operator()(const GeometryLayerSet& c) const {
   const auto found = node_with<GeometryData>(c.node);
   if (!found) return tl::unexpected(found.error());
   if (c.layer >= base_polygon_layer) return no("the id is that of a base layer", "use an id below 65534");
+  if (c.type == LayerType::face_byte && c.default_integer > largest_byte)
+    return no("the default of a face_byte layer is over 255", "use a face_integer layer");
   GeometryData& geometry = *found->second;
   const auto existing = geometry.layers.find(c.layer);
   const bool keeps_values = existing != geometry.layers.end() && existing->second.type == c.type;
@@ -89,7 +93,7 @@ Expected<void> Store::Application::operator()(const LayerIntegersSet& c) const {
   const Node* owner = store.find(c.node);
   const auto* geometry = owner ? std::get_if<GeometryData>(&owner->data) : nullptr;
   if (geometry && geometry->layers.contains(c.layer) && geometry->layers.at(c.layer).type == LayerType::face_byte &&
-      std::any_of(c.values.begin(), c.values.end(), [](std::uint32_t value) { return value > 255; }))
+      std::any_of(c.values.begin(), c.values.end(), [](std::uint32_t value) { return value > largest_byte; }))
     return no("a face_byte value is over 255", "use a face_integer layer");
   return set_layer_run(c, &GeometryLayer::integers, false);
 }

@@ -60,6 +60,7 @@ TEST_CASE("a refused command changes nothing") {
       LayerIntegersSet{2, 0, 0, {1, 2, 3, 4}},  // a real layer
       LayerIntegersSet{2, 1, 0, {1, 2, 3}},     // three corners
       LayerIntegersSet{2, 2, 0, {256}},         // a byte layer
+      GeometryLayerSet{2, 9, "bytes", LayerType::face_byte, 256, 0.0f},
       LayerRealsSet{2, 77, 0, {1.0f}},
       BitmapSizeSet{4, 100000, 1, 1},
       BitmapSizeSet{4, 8192, 8192, 8192},
