@@ -189,15 +189,26 @@ TEST_CASE("rain darkens the near road and makes the far road mirror the sky") {
 }
 
 TEST_CASE("a tunnel keeps the sky out and dims the car in it") {
-  ReferenceOptions options{{}, true, 0};
-  Studio studio(options);
-  studio.input.participants = {reference_car(studio.reference, {60.0, -1.875, 0.02})};
-  studio.input.participants[0].world_from_vehicle.position_m.x = 190.0;
-  studio.input.views = {forward_view({180.0, -1.875, 0.0}, width, height)};
-  const image::Image inside = studio.draw();
-  const glm::dvec3 ceiling = mean(inside, 100, 0, 120, 10);
-  CHECK(ceiling.r >= ceiling.b);
-  CHECK(level(ceiling) < 150.0);
+  Studio studio({{}, true, 0});
+  // The same car, seen from as far behind it.
+  const auto draw_at = [&](double x_m) {
+    studio.input.participants = {reference_car(studio.reference, {x_m + 12.0, -1.875, 0.02})};
+    studio.input.views = {forward_view({x_m, -1.875, 0.0}, width, height)};
+    return studio.draw();
+  };
+  const image::Image outside = draw_at(0.0), inside = draw_at(180.0);
+  const glm::dvec2 rear = pixel_of(studio.input.views[0], {192.0, -1.875, 0.7});
+  const auto x = static_cast<std::uint32_t>(rear.x), y = static_cast<std::uint32_t>(rear.y);
+  const auto car = [&](const image::Image& picture) { return mean(picture, x - 10, y - 4, 20, 8); };
+  const auto above = [&](const image::Image& picture) { return mean(picture, 100, 0, 120, 10); };
+  MESSAGE("car ", level(car(outside)), " and ", level(car(inside)), ", above ", level(above(outside)), " and ",
+          level(above(inside)), ", of its blue ", above(outside).b - above(outside).r, " and ",
+          above(inside).b - above(inside).r);
+  CHECK(level(car(inside)) < 0.7 * level(car(outside)));
+  CHECK(level(car(inside)) > 5.0);  // It is dim, not gone.
+  CHECK(above(outside).b > above(outside).r + 20.0);
+  CHECK(above(inside).b <= above(inside).r);
+  CHECK(level(above(inside)) < 0.7 * level(above(outside)));
 }
 
 TEST_CASE("a mirror shows the view with left and right exchanged") {
