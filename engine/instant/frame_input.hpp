@@ -35,6 +35,7 @@ struct DrawnParticipant {
   std::array<double, 4> wheel_lift_m{};  ///< Front left, front right, rear left, rear right.
   double steering_wheel_rad = 0.0;       ///< Turns the part about its object's x axis, positive to the left.
   Shown shown = Shown::whole;
+  std::uint32_t number = 0;  ///< Tells it from others: its number plate.
 };
 
 /// Triangles of this instant alone, such as debris between two keyframes. They cast shadows and are culled as a whole.

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "engine/core/check.hpp"
 
 namespace septet::instant {
@@ -17,6 +20,22 @@ float adapted_scale(const SceneSummary& scene, const SkyLight& light, const Rigi
   for (int i = 0; i < samples; ++i)
     roofed += (1.0f - share_of_sky(scene, world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2))) / samples;
   return light.exposure * std::pow(roofed_scale / light.exposure, roofed);
+}
+
+/// Headlights among the light of their place. Nights and tunnels are shown as if all of the light in them but the lamps' were so many times brighter,
+/// so that a display need not show starlight: headlights keep pace. What adds less than a fiftieth to the road ten metres ahead is left out.
+std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSummary& scene, const SkyLight& light) {
+  constexpr float at_night = 110.0f, under_roof = 15.0f, tunnel_lamps = 0.45f;
+  constexpr float on_road_at_ten_metres = 0.37f * 0.35f / 100.0f;
+  const auto luminance = [](const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); };
+  const float open =
+      luminance(light.sky_irradiance) + luminance(light.light_irradiance) * std::max(light.light_direction.z, 0.0f);
+  std::erase_if(all, [&](Headlight& headlight) {
+    const float sky = share_of_sky(scene, headlight.position_m);
+    headlight.intensity *= glm::mix(under_roof, glm::mix(1.0f, at_night, light.night), sky);
+    return headlight.intensity * on_road_at_ten_metres < 0.02f * glm::mix(tunnel_lamps, open, sky);
+  });
+  return all;
 }
 
 /// The material of a prototype's first part that has one.
@@ -38,6 +57,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.light = light ? std::move(light) : std::make_shared<const SkyLight>(sky_light(input.environment));
   const float scale = adapted_scale(scene, *instant.light, input.views.front().world_from_car);
   instant.exposure = exposure_of_scale(scale);
+  instant.share_of_sky = share_of_sky(scene, world_eye(input.views.front()));
   instant.emission_share = 1.0f / std::max(1.0f, 0.35f * scale);
 
   PlacedParticipants placed = place_participants(input.participants, scene.prototypes, scene.meshes,
@@ -45,7 +65,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
                                                  [&](const Vec3& place_m) { return share_of_sky(scene, place_m); });
   instant.parts = std::move(placed.meshes);
   instant.lamps = std::move(placed.glows);
-  if (scale > 1.0f) instant.headlights = std::move(placed.headlights);
+  instant.headlights = seen_headlights(std::move(placed.headlights), scene, *instant.light);
   for (DynamicMesh& mesh : input.meshes) {
     const std::uint32_t material = material_of(scene, mesh.prototype);
     if (material == no_material || mesh.vertices.empty()) continue;

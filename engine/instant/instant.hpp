@@ -12,7 +12,7 @@
 ///
 /// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
-/// surfaces; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
+/// surfaces; what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
 
 #include <memory>
 #include <vector>
@@ -39,13 +39,16 @@ struct Instant {
   Exposure exposure;
   /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
   float emission_share = 1.0f;
+  float share_of_sky = 1.0f;      ///< Where the first view's eye is: no rain falls under a roof.
   std::vector<FrameView> views;   ///< At least one.
   std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
   std::vector<ice::IceBody> ice;  ///< None without vertices.
   std::uint32_t ice_surroundings_px = 64;
-  std::vector<LampGlow> lamps;        ///< That shine and are seen, for the glow around them.
-  std::vector<Headlight> headlights;  ///< Empty where it is too light to see their pool.
+  std::vector<LampGlow> lamps;  ///< That shine and are seen, for the glow around them.
+  /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
+  /// exposure there is less than a camera's. None whose pool cannot be seen.
+  std::vector<Headlight> headlights;
   std::vector<SmokePuff> smoke;
   SootField soot;
   std::vector<OverlayText> overlay;  ///< Over the finished picture.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/instant/headlight_beam.hpp"
 #include "engine/world/paint.hpp"
 
 namespace septet::instant {
@@ -114,6 +115,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       const bool lit = shines(part.role, participant.lamps, simulated_time_s, middle_m.y);
       placed.seen = whole;
       placed.share_of_sky = sky;
+      placed.snowed_on = false;  // What drives has blown it off.
+      placed.number = participant.number;
       placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
@@ -122,16 +125,15 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       }
       const bool in_range = distance_m >= part.visible_from_m && distance_m < part.visible_to_m;
       if (is_lamp(part.role) && lit && whole && in_range)
-        result.glows.push_back({participant.world_from_vehicle * middle_m,
+        result.glows.push_back({participant.world_from_vehicle * middle_m, part.role == PartRole::lamp_head,
                                 glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
-                                mesh.emission, glow_radius_m(part.role)});
+                                mesh.emission, glow_radius_m(part.role), participant.world_from_vehicle.position_m.z});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
-      constexpr double dip_rad = 0.021;  // 1.2° below the level.
       const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
-      result.headlights.push_back(
-          {participant.world_from_vehicle * lamp_m,
-           glm::vec3(participant.world_from_vehicle.orientation * Vec3(std::cos(dip_rad), 0, -std::sin(dip_rad)))});
+      result.headlights.push_back({participant.world_from_vehicle * lamp_m,
+                                   glm::vec3(participant.world_from_vehicle.orientation * Vec3(1, 0, 0)),
+                                   beam::pair_intensity});
     }
   }
   std::stable_sort(result.meshes.begin(), result.meshes.end(),
@@ -148,6 +150,7 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.front_steer_rad = participant.front_steer_rad;
   drawn.wheel_spin_rad = participant.wheel_spin_rad;
   drawn.wheel_lift_m = participant.wheel_lift_m;
+  drawn.number = participant.id;
   return drawn;
 }
 

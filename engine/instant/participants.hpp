@@ -13,17 +13,18 @@ namespace septet::instant {
 /// A lamp that shines now.
 struct LampGlow {
   Vec3 position_m{0.0};    ///< World.
+  bool beam = false;       ///< A headlamp, far brighter ahead than to its sides.
   glm::vec3 facing{0.0f};  ///< Unit, world axes; zero: all around.
   glm::vec3 color{1.0f};   ///< Emission of its material, radiance.
   float radius_m = 0.3f;
+  double road_z_m = 0.0;  ///< World; of the road below it, which mirrors it when it is wet.
 };
 
-/// Where the headlights of one vehicle stand and point. They light what they reach where it is dark: at night, under roofs by day.
+/// Where the headlights of one vehicle stand and point: a pair of dipped beams (headlight_beam.hpp).
 struct Headlight {
-  Vec3 position_m{0.0};                   ///< World.
-  glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes.
-  /// Along the axis, in units of 8000 cd. A hundred times a real dipped beam's, for nights are exposed as bright rooms are.
-  float intensity = 240.0f;
+  Vec3 position_m{0.0};                   ///< World; the middle between them.
+  glm::vec3 direction{1.0f, 0.0f, 0.0f};  ///< Unit, world axes; the level from which the beam's angles count.
+  float intensity = 0.0f;                 ///< Where the beam is brightest, both together, in units of 8000 cd.
 };
 
 struct PlacedParticipants {

@@ -20,6 +20,7 @@ struct PixelRectangle {
 struct FrameView {
   OffAxisView projection;
   RigidTransform world_from_car;
+  Vec3 velocity_mps{0.0};  ///< Of the eye, world frame: rain falls past it.
   PixelRectangle viewport;
   bool mirrored = false;  ///< Left and right are exchanged, as a mirror does.
 };

@@ -8,6 +8,7 @@
 
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
 
@@ -39,10 +40,17 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
   const std::vector<GlowRecord> glows =
-      glow_records(instant.lamps, eye_m, instant.exposure.scale(),
+      glow_records(instant.lamps, eye_m, instant.exposure.scale(), static_cast<float>(pixel_slope),
                    [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
+  const std::vector<WetLampRecord> wet_lamps = wet_lamp_records(
+      instant.lamps, eye_m, static_cast<float>(instant.environment.road_wetness), instant.emission_share);
+  prepared.wet_lamps = store(context, std::span<const WetLampRecord>(wet_lamps));
+  prepared.wet_lamp_count = static_cast<std::uint32_t>(wet_lamps.size());
+  const std::vector<StreakRecord> streaks = streak_records(instant, view, eye_m);
+  prepared.streaks = store(context, std::span<const StreakRecord>(streaks));
+  prepared.streak_count = static_cast<std::uint32_t>(streaks.size());
   context.statistics.instances += prepared.draws.instances;
   return prepared;
 }

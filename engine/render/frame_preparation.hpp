@@ -17,6 +17,10 @@ struct PreparedView {
   FrameData uniforms;
   FrameData glows;
   std::uint32_t glow_count = 0;
+  FrameData wet_lamps;
+  std::uint32_t wet_lamp_count = 0;
+  FrameData streaks;
+  std::uint32_t streak_count = 0;
   FrameData smoke;
   std::uint32_t puff_count = 0;
   bool lit_by_headlights = false;

@@ -18,6 +18,7 @@
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/overlay_pass.hpp"
+#include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
 #include "engine/render/passes/sky_pass.hpp"
 #include "engine/render/passes/smoke_pass.hpp"
@@ -62,6 +63,7 @@ struct Renderer::State {
   ShadowPass shadow_pass;
   SkyPass sky_pass;
   GlowPass glow_pass;
+  PrecipitationPass precipitation_pass;
   SmokePass smoke_pass;
   IcePass ice_pass;
   ToneMappingPass tone_mapping_pass;
@@ -121,6 +123,7 @@ void Renderer::State::create(const RendererOptions& wanted) {
   upload.finish();
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);
+  create_precipitation_pass(precipitation_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);
   create_tone_mapping_pass(tone_mapping_pass, device, layout, formats);
   create_smoothing_pass(smoothing_pass, device, layout, formats.picture);
@@ -141,6 +144,7 @@ void Renderer::State::destroy() {
   destroy_tone_mapping_pass(tone_mapping_pass, device);
   destroy_ice_pass(ice_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
+  destroy_precipitation_pass(precipitation_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
   destroy_shadow_pass(shadow_pass, device);
@@ -170,11 +174,14 @@ void Renderer::State::draw_view(PassContext& context, const PreparedView& prepar
   push_records(context, soot);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
+  draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::stripe, surface_light);
   draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
   draw_seen_through();
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
+  draw_wet_lamps(glow_pass, context, prepared.wet_lamps, prepared.wet_lamp_count);
   draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
   draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
+  draw_precipitation(precipitation_pass, context, prepared.streaks, prepared.streak_count);
 }
 
 void Renderer::State::draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant) {

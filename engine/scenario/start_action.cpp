@@ -21,6 +21,7 @@ void change_environment(const EnvironmentAction& action, ScenarioState& state) {
   take(action.visibility_m, environment.visibility_m);
   take(action.cloud_cover, environment.cloud_cover);
   take(action.rain_mm_per_h, environment.rain_mm_per_h);
+  if (action.snow_mm_per_h.value_or(0.0) > 0.0) environment.rain_mm_per_h = *action.snow_mm_per_h;
   take(action.road_wetness, environment.road_wetness);
   take(action.snow_cover, environment.snow_cover);
   take(action.friction_scale, state.friction_scale);

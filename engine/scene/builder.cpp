@@ -198,6 +198,12 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   apply(TagSet{id, surface_group, tag++, {"metallic", double{parameters.metallic}}});
   if (parameters.takes_paint) apply(TagSet{id, surface_group, tag++, {"takes_paint", true}});
   if (parameters.wettable) apply(TagSet{id, surface_group, tag++, {"wettable", true}});
+  if (parameters.stripe) apply(TagSet{id, surface_group, tag++, {"stripe", true}});
+  if (parameters.retroreflection != 0.0f)
+    apply(TagSet{id, surface_group, tag++, {"retroreflection", double{parameters.retroreflection}}});
+  if (parameters.picture_columns != 1)
+    apply(TagSet{id, surface_group, tag++, {"picture_columns", parameters.picture_columns}});
+  if (parameters.picture_rows != 1) apply(TagSet{id, surface_group, tag++, {"picture_rows", parameters.picture_rows}});
   if (parameters.share_of_sky != 1.0f)
     apply(TagSet{id, surface_group, tag++, {"share_of_sky", double{parameters.share_of_sky}}});
   return id;

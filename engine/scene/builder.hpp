@@ -38,6 +38,9 @@ struct MaterialParameters {
   glm::vec3 emission{0.0f};
   bool takes_paint = false;
   bool wettable = false;
+  bool stripe = false;  ///< See SurfaceMaterial, here and below.
+  float retroreflection = 0.0f;
+  std::uint32_t picture_columns = 1, picture_rows = 1;
   float share_of_sky = 1.0f;  ///< 0 in a tunnel: see SurfaceMaterial.
 };
 

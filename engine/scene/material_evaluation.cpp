@@ -210,6 +210,10 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   material.roughness = static_cast<float>(std::clamp(tag_or(node, "roughness", roughness), 0.0, 1.0));
   material.takes_paint = tag_or(node, "takes_paint", false);
   material.wettable = tag_or(node, "wettable", false);
+  material.stripe = tag_or(node, "stripe", false);
+  material.retroreflection = static_cast<float>(std::clamp(tag_or(node, "retroreflection", 0.0), 0.0, 1e4));
+  material.picture_columns = std::clamp(tag_or(node, "picture_columns", 1u), 1u, 64u);
+  material.picture_rows = std::clamp(tag_or(node, "picture_rows", 1u), 1u, 64u);
   material.share_of_sky = static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
   return material;
 }

@@ -293,7 +293,8 @@ struct Resolver::State {
     return a.base_color == b.base_color && a.base_color_image == b.base_color_image && a.roughness == b.roughness &&
            a.metallic == b.metallic && a.opacity == b.opacity && a.refraction_index == b.refraction_index &&
            a.emission == b.emission && a.takes_paint == b.takes_paint && a.wettable == b.wettable &&
-           a.share_of_sky == b.share_of_sky;
+           a.stripe == b.stripe && a.retroreflection == b.retroreflection && a.picture_columns == b.picture_columns &&
+           a.picture_rows == b.picture_rows && a.share_of_sky == b.share_of_sky;
   }
 
   void make_images(const Store& store) {

@@ -59,6 +59,13 @@ struct SurfaceMaterial {
       0.0f};  ///< Relative to the sky's luminance; a lamp's part shines with it only while the lamp is on.
   bool takes_paint = false;  ///< base_color is multiplied by the participant's paint.
   bool wettable = false;     ///< Darkens and mirrors with the road's wetness.
+  /// A thin stripe, whose uv.x runs from 0 at one edge to 1 at the other. A rasteriser draws it no thinner than it can sample, and as much fainter.
+  bool stripe = false;
+  /// What retroreflective sheeting or beads send back to where light came from, white, cd per lx and m² at 0.33° (EN 12899-1);
+  /// multiplied by the base colour.
+  float retroreflection = 0.0f;
+  /// The image holds so many pictures side by side and below each other, and a participant shows that of its number.
+  std::uint32_t picture_columns = 1, picture_rows = 1;
   /// Of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it. The
   /// bounds of an instance with a material below ½ dim what drives through them.
   float share_of_sky = 1.0f;

@@ -62,9 +62,9 @@ struct Environment {
   double sun_illuminance_lux = 80000.0;
   double visibility_m = 20000.0;  ///< Meteorological range of the fog.
   double cloud_cover = 0.2;       ///< 0 to 1.
-  double rain_mm_per_h = 0.0;
-  double road_wetness = 0.0;  ///< 0 dry to 1 standing water.
-  double snow_cover = 0.0;    ///< 0 to 1.
+  double rain_mm_per_h = 0.0;     ///< As water; below 274.65 K it falls as snow.
+  double road_wetness = 0.0;      ///< 0 dry to 1 standing water.
+  double snow_cover = 0.0;        ///< 0 to 1.
   double temperature_k = 288.15;
   double wind_speed_mps = 0.0;
   double wind_direction_rad = 0.0;  ///< Towards, counter-clockwise from x.

@@ -66,6 +66,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
     auto drawn = instant::drawn_participant(participant, *prototype);
     drawn.paint = body_color(participant.paint);
     if (participant.id == viewpoint.inside) {
+      for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = instant::Shown::shadow_and_light;
       if (const auto inside =

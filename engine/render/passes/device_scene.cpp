@@ -8,6 +8,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/core/parallel_for.hpp"
+#include "engine/render/passes/stripes.hpp"
 
 namespace septet::render {
 namespace {
@@ -42,7 +43,8 @@ bool indices_hold(const SurfaceMesh& mesh) {
                      [&](std::uint32_t index) { return index < mesh.vertices.size(); });
 }
 
-void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, vulkan::Upload& upload) {
+void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, std::span<const DeviceMaterial> materials,
+                 vulkan::Upload& upload) {
   destroy_buffer(upload.memory(), target.buffer);
   target = {mesh.revision, true, {}, 0, {}};
   if (mesh.indices.empty() || !indices_hold(mesh)) return;
@@ -50,7 +52,13 @@ void upload_mesh(DeviceMesh& target, const SurfaceMesh& mesh, vulkan::Upload& up
     if (part.index_count > 0 && part.first_index <= mesh.indices.size() &&
         part.index_count <= mesh.indices.size() - part.first_index)
       target.parts.push_back(part);
-  const auto vertices = std::as_bytes(std::span(mesh.vertices));
+  std::vector<scene::SurfaceVertex> with_edges;
+  for (const scene::MeshPart& part : target.parts) {
+    if (part.material >= materials.size() || !materials[part.material].stripe) continue;
+    if (with_edges.empty()) with_edges = mesh.vertices;
+    find_stripe_edges(with_edges, std::span(mesh.indices).subspan(part.first_index, part.index_count));
+  }
+  const auto vertices = std::as_bytes(std::span(with_edges.empty() ? mesh.vertices : with_edges));
   target.indices_at = vertices.size();
   target.buffer = create_filled_buffer(upload, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
                                        {vertices, std::as_bytes(std::span(mesh.indices))});
@@ -66,12 +74,14 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   result.cut = textured && !result.blended && textures[static_cast<std::size_t>(material.base_color_image)].holes;
   result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended);
   result.wettable = material.wettable && !result.cut;
+  result.stripe = material.stripe;
   // Fresnel at normal incidence, ((n − 1)/(n + 1))².
   const float ratio = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   result.constants.base_color = glm::vec4(material.base_color, material.opacity);
   result.constants.emission = glm::vec4(material.emission, std::clamp(material.roughness, 0.05f, 1.0f));
   result.constants.surface = glm::vec4(material.metallic, ratio * ratio, result.wettable, material.takes_paint);
-  result.constants.light = glm::vec4(material.share_of_sky, 0.0f, 0.0f, 0.0f);
+  result.constants.light = glm::vec4(material.share_of_sky, material.retroreflection,
+                                     textured ? material.picture_columns : 1u, textured ? material.picture_rows : 1u);
   return result;
 }
 
@@ -219,7 +229,7 @@ void upload_scene(DeviceScene& scene, const ResolvedScene& source, const vulkan:
       destroy_buffer(memory, scene.meshes[i].buffer);
       scene.meshes[i] = {};
     } else if (!scene.meshes[i].present || scene.meshes[i].revision != mesh.revision) {
-      upload_mesh(scene.meshes[i], mesh, upload);
+      upload_mesh(scene.meshes[i], mesh, scene.materials, upload);
     }
   }
   scene.summary = summarise(source);

@@ -23,7 +23,7 @@ namespace septet::render {
 struct InstanceRecord {
   glm::vec4 row0{0.0f}, row1{0.0f}, row2{0.0f};
   glm::vec4 tint{1.0f};   ///< Paint; how much of the material's emission shines.
-  glm::vec4 light{1.0f};  ///< x: share of the sky.
+  glm::vec4 light{1.0f};  ///< x: share of the sky. y: snow lies on it. z: number of its participant.
 };
 static_assert(sizeof(InstanceRecord) == 80);
 

@@ -33,6 +33,18 @@ constexpr std::uint32_t smoke_vert_code[] = {
 constexpr std::uint32_t smoke_frag_code[] = {
 #include "engine/render/shaders/smoke.frag.inc"
 };
+constexpr std::uint32_t precipitation_vert_code[] = {
+#include "engine/render/shaders/precipitation.vert.inc"
+};
+constexpr std::uint32_t precipitation_frag_code[] = {
+#include "engine/render/shaders/precipitation.frag.inc"
+};
+constexpr std::uint32_t wet_lamp_vert_code[] = {
+#include "engine/render/shaders/wet_lamp.vert.inc"
+};
+constexpr std::uint32_t wet_lamp_frag_code[] = {
+#include "engine/render/shaders/wet_lamp.frag.inc"
+};
 constexpr std::uint32_t whole_target_vert_code[] = {
 #include "engine/render/shaders/whole_target.vert.inc"
 };
@@ -82,6 +94,10 @@ std::span<const std::uint32_t> glow_vert() { return glow_vert_code; }
 std::span<const std::uint32_t> glow_frag() { return glow_frag_code; }
 std::span<const std::uint32_t> smoke_vert() { return smoke_vert_code; }
 std::span<const std::uint32_t> smoke_frag() { return smoke_frag_code; }
+std::span<const std::uint32_t> precipitation_vert() { return precipitation_vert_code; }
+std::span<const std::uint32_t> precipitation_frag() { return precipitation_frag_code; }
+std::span<const std::uint32_t> wet_lamp_vert() { return wet_lamp_vert_code; }
+std::span<const std::uint32_t> wet_lamp_frag() { return wet_lamp_frag_code; }
 std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
 std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_code; }

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/parallel_for.hpp"
+#include "engine/render/passes/stripes.hpp"
 
 namespace septet::render {
 namespace {
@@ -105,6 +106,12 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
     const StaticPiece& piece = geometry.pieces[i];
     fill_vertices(geometry.blocks[piece.block], first_vertex, instance->world_from_object.position_m,
                   piece.placed.world_from_object, scene.meshes[instance->mesh]);
+    for (std::uint32_t at = piece.first_part; at < piece.first_part + piece.part_count; ++at) {
+      const StaticPart& part = geometry.parts[at];
+      if (part.material < scene.materials.size() && scene.materials[part.material].stripe)
+        find_stripe_edges(geometry.blocks[piece.block].vertices,
+                          std::span(geometry.indices).subspan(part.first_index, part.index_count));
+    }
   });
   return geometry;
 }

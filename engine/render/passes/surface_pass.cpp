@@ -19,6 +19,7 @@ struct Variant {
 };
 
 SurfaceKind kind_of(const DeviceMaterial& material) {
+  if (material.stripe) return SurfaceKind::stripe;
   return material.blended ? SurfaceKind::blended : material.cut ? SurfaceKind::cut : SurfaceKind::opaque;
 }
 
@@ -26,7 +27,8 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   VkPipeline& pipeline = pass.pipelines[variant.key()];
   if (pipeline) return pipeline;
   const bool multisampled = context.formats.samples != VK_SAMPLE_COUNT_1_BIT;
-  const bool cut = variant.kind == SurfaceKind::cut, blended = variant.kind == SurfaceKind::blended;
+  const bool cut = variant.kind == SurfaceKind::cut, stripe = variant.kind == SurfaceKind::stripe,
+             blended = stripe || variant.kind == SurfaceKind::blended;
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::surface_vert();
   description.fragment_code = shaders::surface_frag();
@@ -36,9 +38,10 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
   description.depth_write = !blended;
   description.alpha_to_coverage = cut && multisampled;
-  description.constants = {
-      variant.textured, cut ? (multisampled ? 1u : 2u) : 0u, variant.glossy, blended, variant.dark, variant.snowy,
-      variant.sooty};
+  description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u,
+                           variant.glossy,   blended,
+                           variant.dark,     variant.snowy,
+                           variant.sooty,    stripe};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Draws meshes with their materials: opaque ones, ones with holes, and ones to see through.
+/// Draws meshes with their materials: opaque ones, ones with holes, ones to see through, and thin stripes.
 
 #include <map>
 
@@ -7,7 +7,8 @@
 
 namespace septet::render {
 
-enum class SurfaceKind : std::uint8_t { opaque, cut, blended };
+/// Stripes lie on opaque surfaces and cover shares of pixels.
+enum class SurfaceKind : std::uint8_t { opaque, cut, blended, stripe };
 
 struct SurfacePass {
   std::map<std::uint32_t, VkPipeline> pipelines;  ///< By variant; made when first drawn.

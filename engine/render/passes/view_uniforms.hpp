@@ -13,7 +13,7 @@
 
 namespace septet::render {
 
-inline constexpr std::size_t most_headlights = 4;
+inline constexpr std::size_t most_headlights = 8;
 
 struct ViewUniforms {
   glm::mat4 clip_from_relative;
@@ -26,7 +26,7 @@ struct ViewUniforms {
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 8 + 4) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 4) * 16);
 
 /// Of the headlights the nearest count.
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows);

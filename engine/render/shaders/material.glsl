@@ -4,5 +4,5 @@ layout(push_constant) uniform Material {
   vec4 base_color;  // rgb, opacity.
   vec4 emission;    // rgb, roughness.
   vec4 surface;     // Metallic, reflectance at normal incidence, wettable, takes paint.
-  vec4 light;       // x: share of the sky that the surface sees.
+  vec4 light;       // Share of the sky that the surface sees, retroreflection cd/(lx m²), columns and rows of pictures.
 } material;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 #include "material.glsl"
+#include "headlights.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
@@ -11,6 +12,7 @@ layout(constant_id = 3) const uint blended = 0;
 layout(constant_id = 4) const uint dark = 0;      // Headlights light it.
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
+layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -18,6 +20,7 @@ layout(location = 2) in vec2 uv;
 layout(location = 3) flat in vec4 color;
 layout(location = 4) flat in vec4 emission;
 layout(location = 5) in vec3 fog_light;
+layout(location = 6) flat in float snowed;
 layout(location = 0) out vec4 result;
 
 layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
@@ -67,17 +70,25 @@ vec4 along_footprint(vec2 at) {
   return (texture(image, at - step, bias) + texture(image, at, bias) + texture(image, at + step, bias)) / 3.0;
 }
 
-// A dipped beam: wide to the sides, cut off above, falling with the square of the distance.
-vec3 headlights(vec3 n) {
-  vec3 sum = vec3(0.0);
+// Share of a pixel's breadth that lies on a stripe, `at` metres from the middle of its `half_width`: what a box filter leaves.
+float on_stripe(float at, float half_width) {
+  float breadth = max(length(vec2(dFdx(at), dFdy(at))), 1e-5);
+  vec2 ends = clamp(at + vec2(0.5, -0.5) * breadth, -half_width, half_width);
+  return (ends.x - ends.y) / breadth;
+}
+
+// Irradiance from headlights, and in w what of the lamps beside the eye comes back to it from retroreflectors, per unit of retroreflection: as lx.
+vec4 headlights(vec3 n) {
+  vec4 sum = vec4(0.0);
   for (int i = 0; i < int(view.wind.z); ++i) {
     vec3 to_surface = relative - view.headlight_position[i].xyz;
     float square = dot(to_surface, to_surface);
     vec3 ray = to_surface * inversesqrt(square);
-    vec3 axis = view.headlight_direction[i].xyz;
-    float beam = smoothstep(0.72, 0.99, dot(ray, axis)) * (1.0 - smoothstep(-0.01, 0.02, ray.z - axis.z));
-    float facing = max(0.0, -dot(n, ray)) * 0.9 + 0.1;
-    sum += vec3(1.0, 0.93, 0.80) * (view.headlight_position[i].w * beam * facing / (square + 90.0));
+    float light = view.headlight_position[i].w * beam_share(view.headlight_direction[i].xyz, ray) / (square + 1.0);
+    // Rough asphalt sends more light back than a matt surface would at so low an angle.
+    float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
+    float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
+    sum += light * vec4(vec3(1.0, 0.93, 0.80) * facing, 1.0 / (1.0 + back * 26000.0));
   }
   return sum;
 }
@@ -87,6 +98,7 @@ void main() {
   if (textured == 1) base *= decoded(texture(image, uv));
   if (textured == 2) base *= decoded(along_footprint(uv));
   float alpha = base.a;
+  if (stripe != 0) alpha *= on_stripe(uv.x, uv.y);
   if (cut == 2 && alpha < 0.5) discard;
   if (cut == 1) {
     // Sharpened so that the edge is a pixel wide whatever the mip level; coverage of the samples takes it from here.
@@ -101,8 +113,16 @@ void main() {
   float roughness = material.emission.w;
   float share_of_sky = emission.w;
 
-  if (snowy != 0)
-    albedo = mix(albedo, vec3(0.85, 0.88, 0.92), view.weather.y * share_of_sky * smoothstep(0.35, 0.8, n.z));
+  if (snowy != 0) {
+    float snow = smoothstep(0.35, 0.8, n.z);
+    // Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a lane bare.
+    if (cut != 0) {
+      albedo = mix(albedo, vec3(0.11, 0.09, 0.07) * (0.4 + 2.0 * albedo.g), 0.9 * view.weather.y);
+      snow = max(snow, 0.35);
+    }
+    if (textured == 2) snow *= 1.0 - 0.7 * smoothstep(0.13, 0.07, abs(abs(uv.x - 0.5) - 0.23));
+    albedo = mix(albedo, vec3(0.85, 0.88, 0.92), view.weather.y * share_of_sky * snow * snowed);
+  }
   float wet = 0.0;
   if (glossy != 0 && material.surface.z > 0.5) {
     wet = view.weather.x * share_of_sky;
@@ -119,8 +139,16 @@ void main() {
   vec3 ambient = mix(view.ground_irradiance.rgb, view.sky_irradiance.rgb, 0.5 + 0.5 * n.z) * share_of_sky;
   ambient += vec3(1.5, 1.3, 1.0) * (0.35 * (1.0 - share_of_sky));  // The lamps of a roofed place.
   vec3 irradiance = sunlight * diffuse + ambient;
-  if (dark != 0) irradiance += headlights(n);
-  vec3 radiance = albedo * (1.0 - material.surface.x) * irradiance / pi;
+  vec3 radiance = albedo * (1.0 - material.surface.x) / pi;
+  if (dark != 0) {
+    vec4 lamps = headlights(n);
+    irradiance += lamps.rgb;
+    radiance *= irradiance;
+    // Water over beads mirrors the light away.
+    radiance += base.rgb * min(material.light.y * lamps.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
+  } else {
+    radiance *= irradiance;
+  }
 
   if (glossy != 0) {
     // Microfacets (GGX, with Kelemen's visibility 1/(4·vh²)) for the light, the sky's table for the mirror image.
@@ -139,7 +167,7 @@ void main() {
     float d = nh * nh * (a2 - 1.0) + 1.0;
     vec3 shine = (f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh));
     radiance += min(shine, vec3(40.0)) * sunlight * (max(facing, 0.0) * (road ? wet : 1.0));
-    if (blended != 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
+    if (blended != 0 && stripe == 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
   }
   radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();

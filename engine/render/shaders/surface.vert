@@ -4,11 +4,13 @@
 #include "instances.glsl"
 #include "material.glsl"
 
+layout(constant_id = 7) const uint stripe = 0;
+
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
 layout(location = 6) in vec4 tint;   // rgb: paint. a: how much of the material's emission shines.
-layout(location = 7) in vec4 light;  // x: share of the sky that reaches it.
+layout(location = 7) in vec4 light;  // Share of the sky that reaches it, whether snow lies on it, number of its participant.
 
 layout(location = 0) out vec3 out_relative;
 layout(location = 1) out vec3 out_normal;
@@ -16,14 +18,37 @@ layout(location = 2) out vec2 out_uv;
 layout(location = 3) flat out vec4 out_color;     // Base colour and opacity.
 layout(location = 4) flat out vec4 out_emission;  // rgb, w: share of the sky.
 layout(location = 5) out vec3 out_fog;
+layout(location = 6) flat out float out_snowed;
+
+// A stripe's edge (see passes/stripes.hpp) moves outwards until the stripe reaches half a pixel beyond what it covers, so that none is without a
+// sample. Returns how much nearer it is drawn, for it may sink into a road that is not as flat as it.
+float widen_stripe() {
+  vec3 outwards = turned(normal);
+  float half_width = length(outwards), side = 2.0 * uv.x - 1.0, distance_m = length(out_relative);
+  outwards /= half_width;
+  vec3 along = vec3(-outwards.y * side, outwards.x * side, uv.y);
+  // A metre outwards shifts the edge on the screen by its share across the plane through the eye and the stripe.
+  float share = abs(dot(outwards, normalize(cross(out_relative, along))));
+  float pixel_m = min(view.billboard_right.w * distance_m / max(share, 1e-4), 3.0);
+  float more_m = 0.75 * pixel_m;
+  out_relative += outwards * more_m;
+  out_normal = cross(outwards * side, along);
+  out_uv = vec2(side * (half_width + more_m), half_width);
+  return min(0.01, 0.03 * more_m / max(abs(out_relative.z), 0.3));
+}
 
 void main() {
   out_relative = placed(position);
   out_normal = turned_normal(normal);
-  out_uv = uv;
+  // Of several pictures in one image that of this participant.
+  float picture = mod(light.z, material.light.z * material.light.w);
+  out_uv = (uv + vec2(mod(picture, material.light.z), floor(picture / material.light.z))) / material.light.zw;
+  out_snowed = material.base_color.a < 0.999 ? 0.0 : light.y;
+  float nearer = 0.0;
+  if (stripe != 0) nearer = widen_stripe();
   vec3 paint = material.surface.w > 0.5 ? tint.rgb : vec3(1.0);
   out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
   out_emission = vec4(material.emission.rgb * tint.a, material.light.x * light.x);
   out_fog = fog_radiance(out_relative / max(length(out_relative), 1e-3));
-  gl_Position = view.clip_from_relative * vec4(out_relative, 1.0);
+  gl_Position = view.clip_from_relative * vec4(out_relative * (1.0 - nearer), 1.0);
 }

@@ -55,7 +55,7 @@ struct PipelineDescription {
   bool alpha_to_coverage = false;
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 7> constants{};  ///< Specialization constants 0 to 6 of both stages.
+  std::array<std::uint32_t, 8> constants{};  ///< Specialization constants 0 to 7 of both stages.
 };
 
 /// Viewport, scissor, cull mode and front face are dynamic.

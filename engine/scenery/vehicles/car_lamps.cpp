@@ -127,7 +127,7 @@ VehiclePart ambulance_beacons(const CarSurface& car) {
     const auto roof = surface_point(car.body, Face::top, {x, (from_y + to_y) / 2});
     const float low = roof ? roof->z - 0.05f : high - 0.3f;
     const auto lamp = [&](float y0, float y1) {
-      builder.append(geometry::box({x - 0.11f, y0, low}, {x + 0.11f, y1, std::max(high, low + 0.18f)},
+      builder.append(geometry::box({x - 0.11f, y0, low}, {x + 0.11f, y1, low + 0.2f},
                                    car.level == DetailLevel::near ? 0.03f : 0.0f),
                      glm::mat4(1.0f), true);
     };

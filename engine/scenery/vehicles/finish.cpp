@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "engine/image/draw.hpp"
 #include "engine/scenery/lettering.hpp"
@@ -50,13 +51,33 @@ constexpr std::array<Look, 26> looks{{
     {"tarpaulin", {0.60f, 0.61f, 0.62f}, 0.6f},
 }};
 
+constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
+
+/// Three letters and three digits, other ones for each number.
+std::string plate_text(std::uint32_t number) {
+  constexpr std::string_view letters = "ABCDEFGHJKLMNOPRSTUWXYZ";  // Those of Swedish plates.
+  const auto letter = [&](std::uint32_t step) { return letters[(number * step + step / 2) % letters.size()]; };
+  return {letter(5),
+          letter(7),
+          letter(11),
+          ' ',
+          static_cast<char>('0' + number * 7 % 10),
+          static_cast<char>('0' + number * 3 / 10 % 10),
+          static_cast<char>('0' + (number * 9 + 4) % 10)};
+}
+
+/// All plates, with a border that is seen on white paint.
 Image plate_image() {
-  Image plate(256, 56, {236, 238, 236});
-  image::fill(plate, 0, 0, 26, 56, {18, 60, 150});
+  Image plates(plate_columns * plate_width_px, plate_rows * plate_height_px, {20, 20, 22});
   const Lettering bold(image::FontStyle::bold);
-  bold.centred(plate, 13, 46, "S", 16, {240, 240, 240});
-  bold.centred(plate, 141, 46, "SPT 070", 46, {16, 16, 18});
-  return plate;
+  for (std::uint32_t number = 0; number < plate_columns * plate_rows; ++number) {
+    const std::uint32_t x = number % plate_columns * plate_width_px, y = number / plate_columns * plate_height_px;
+    image::fill(plates, x + 2, y + 2, plate_width_px - 4, plate_height_px - 4, {236, 238, 236});
+    image::fill(plates, x + 2, y + 2, 12, plate_height_px - 4, {18, 60, 150});
+    bold.centred(plates, x + 8, y + 22, "S", 9, {240, 240, 240});
+    bold.centred(plates, x + 70, y + 22, plate_text(number), 22, {16, 16, 18});
+  }
+  return plates;
 }
 
 /// Two rows of chequers, as on Swedish ambulances: blue and yellow in turn.
@@ -95,7 +116,12 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     const auto with_image = [&](const Image& picture) {
       material.base_color_bitmap = builder.add_bitmap(name, picture.width, picture.height, picture.rgba);
     };
-    if (i == index_of(Finish::plate)) with_image(plate_image());
+    if (i == index_of(Finish::plate)) {
+      with_image(plate_image());
+      material.picture_columns = plate_columns;
+      material.picture_rows = plate_rows;
+      material.retroreflection = 50.0f;  // ISO 7591: 70 to 50 cd per lx and m².
+    }
     if (i == index_of(Finish::chequers)) with_image(chequer_image());
     if (i == index_of(Finish::lettering)) with_image(lettering_image(false));
     if (i == index_of(Finish::lettering_mirrored)) with_image(lettering_image(true));

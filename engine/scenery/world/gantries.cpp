@@ -79,7 +79,10 @@ class SignMaker {
       material.base_color = shines ? glm::vec3(0.08f) : glm::vec3(0.85f);
       material.base_color_bitmap = world_.builder.add_bitmap("sign/" + name, face.width, face.height, face.rgba);
       material.roughness = 0.7f;
-      if (shines) material.emission = glm::vec3(1.6f);
+      if (shines)
+        material.emission = glm::vec3(1.6f);
+      else
+        material.retroreflection = 180.0f;  // Sheeting of class RA2 (EN 12899-1), cd per lx and m².
       const scene::NodeId painted = world_.builder.add_material("sign/" + name, material);
       shape = add_shape(world_.builder, "sign/" + name, board_mesh(width, height),
                         {painted, world_.palette[index_of(Ground::metal_dark)]});

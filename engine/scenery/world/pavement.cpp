@@ -15,7 +15,6 @@ using geometry::MeshBuilder;
 
 constexpr double texture_length_m = 7.5, texture_width_m = 3.75;
 constexpr double near_step_m = 10.0;
-constexpr float marks_near_m = 190.0f;
 constexpr double mark_lift_m = 0.010, repair_lift_m = 0.005, far_mark_lift_m = 0.04;
 
 /// Points between a tile's stations lie on the chords that the pavement is made of, so that what is
@@ -105,10 +104,13 @@ geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& t
   return builder.take();
 }
 
+/// Texture coordinates of a stripe: across it as far as the asphalt's texture reaches, or from one edge to the other.
+enum class StripeUv { none, texture, edges };
+
 /// A stripe `width_m` wide around t(s) from s0 to s1, broken at the pavement's stations.
 template <class T>
 void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, double s1, double width_m, double lift_m,
-                 const T& t_of, bool textured = false) {
+                 const T& t_of, StripeUv uv) {
   std::vector<double> cuts{s0};
   for (const double s : surface.at())
     if (s > s0 + 0.05 && s < s1 - 0.05) cuts.push_back(s);
@@ -119,27 +121,27 @@ void draw_stripe(MeshBuilder& builder, const TileSurface& surface, double s0, do
     const std::uint32_t new_left = builder.vertex(surface.point(cuts[i], t + width_m / 2, lift_m));
     const std::uint32_t new_right = builder.vertex(surface.point(cuts[i], t - width_m / 2, lift_m));
     if (i > 0) {
-      const auto u = static_cast<float>(width_m / texture_width_m),
+      const auto u = uv == StripeUv::edges ? 1.0f : static_cast<float>(width_m / texture_width_m),
                  v0 = static_cast<float>((cuts[i - 1] - s0) / texture_length_m),
                  v1 = static_cast<float>((cuts[i] - s0) / texture_length_m);
-      builder.quad(left, right, new_right, new_left,
-                   textured ? geometry::CornerUvs{{{0, v0}, {u, v0}, {u, v1}, {0, v1}}} : geometry::CornerUvs{});
+      builder.quad(
+          left, right, new_right, new_left,
+          uv == StripeUv::none ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, v0}, {u, v0}, {u, v1}, {0, v1}}});
     }
     left = new_left;
     right = new_right;
   }
 }
 
-/// Lines that are seen as less than a pixel are drawn wider and as much darker.
-Ground mark_of(const RoadTile& tile, bool broken, bool near, double widening) {
-  if (near) return tile.in_tunnel ? Ground::mark_tunnel : widening > 1.0 ? Ground::mark_far : Ground::mark;
+Ground mark_of(const RoadTile& tile, bool broken, bool near) {
+  if (near) return tile.in_tunnel ? Ground::mark_tunnel : Ground::mark;
   return broken ? Ground::far_mark_broken : Ground::far_mark;
 }
 
-/// All lines of a tile; far away broken ones become continuous in their mean grey, which keeps
-/// still.
-void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near, double step_m,
-                double widening) {
+/// All lines of a tile; far away they are three times as wide and darker, and broken ones become continuous in their mean
+/// grey, which keeps still.
+void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, bool near, double step_m) {
+  const double widening = near ? 1.0 : 3.0;
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
   const TileSurface surface(world.roads, tile, step_m);
@@ -153,17 +155,17 @@ void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile&
         const auto t_of = [&](double s) { return border(s) + line.t_offset_m; };
         const bool broken = line.space_m > 0.0;
         if (broken && step_m > 60.0) continue;  // Too far to be told from the asphalt.
-        builder.material = index_of(mark_of(tile, broken, near, widening));
+        builder.material = index_of(mark_of(tile, broken, near));
         if (!broken || !near) {
-          draw_stripe(builder, surface, begin, end, line.width_m * widening, near ? mark_lift_m : far_mark_lift_m,
-                      t_of);
+          draw_stripe(builder, surface, begin, end, line.width_m * widening, near ? mark_lift_m : far_mark_lift_m, t_of,
+                      near ? StripeUv::edges : StripeUv::none);
           continue;
         }
         const double period = line.length_m + line.space_m;
         const double origin = mark.s_m + line.s_offset_m;
         for (double s = origin + std::floor((begin - origin) / period) * period; s < end; s += period) {
           const double s0 = std::max(s, begin), s1 = std::min(s + line.length_m, end);
-          if (s1 - s0 > 0.05) draw_stripe(builder, surface, s0, s1, line.width_m * widening, mark_lift_m, t_of);
+          if (s1 - s0 > 0.05) draw_stripe(builder, surface, s0, s1, line.width_m, mark_lift_m, t_of, StripeUv::edges);
         }
       }
   }
@@ -190,7 +192,7 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
                  shift = random.uniform(-0.5, 0.5) * (borders.width_m() - width - 0.3);
     draw_stripe(
         builder, surface, s0, s1, width, repair_lift_m,
-        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; }, true);
+        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; }, StripeUv::texture);
   }
   for (int crack = 0; crack < 2; ++crack) {
     const int lane = any_lane();
@@ -206,7 +208,7 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
             return road::lane_borders(road, section, lane, at).centre_t_m() +
                    std::lerp(t, next_t, (at - s) / (stop - s));
           },
-          true);
+          StripeUv::texture);
       s = stop;
       t = next_t;
     }
@@ -232,18 +234,16 @@ void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const Ro
 }
 
 void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
-  draw_marks(builder, world, tile, false, step_m, 3.0);
+  draw_marks(builder, world, tile, false, step_m);
 }
 
 void build_pavement(const WorldContext& world) {
   Random random(world.seed, 1);
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
-    MeshBuilder marks, wide_marks;
-    draw_marks(marks, world, tile, true, near_step_m, 1.0);
-    draw_marks(wide_marks, world, tile, true, near_step_m, 1.7);
+    MeshBuilder marks;
+    draw_marks(marks, world, tile, true, near_step_m);
     add_tile_mesh(world, tile, "pavement", near_pavement(world, tile), 0.0f, road_near_m);
-    add_tile_mesh(world, tile, "marks", marks.mesh(), 0.0f, marks_near_m);
-    add_tile_mesh(world, tile, "marks", wide_marks.mesh(), marks_near_m, road_near_m);
+    add_tile_mesh(world, tile, "marks", marks.mesh(), 0.0f, road_near_m);
     add_tile_mesh(world, tile, "repairs", repairs(world, tile, random), 0.0f, 200.0f);
   }
 }

@@ -1,5 +1,6 @@
 #include "engine/scenery/world/sign_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -32,9 +33,13 @@ Image direction_sign(std::string_view route, const std::vector<SignLine>& lines)
   const double size = lines.size() > 2 ? 46.0 : 56.0, step = (height - 30.0) / static_cast<double>(lines.size());
   double baseline = 15.0 + step / 2 + size * 0.36;
   for (const SignLine& line : lines) {
-    bold.left(board, 106, baseline, line.place, size, white);
+    // A long name is set smaller, so that it keeps apart from its distance.
+    constexpr double from = 106.0, to = width - 28.0;
     const std::string distance = std::to_string(line.distance_km);
-    bold.left(board, width - 28.0 - bold.width_px(distance, size), baseline, distance, size, white);
+    const double needed = bold.width_px(line.place + "n" + distance, size);
+    const double fitting = size * std::min(1.0, (to - from) / std::max(needed, 1.0));
+    bold.left(board, from, baseline, line.place, fitting, white);
+    bold.left(board, to - bold.width_px(distance, fitting), baseline, distance, fitting, white);
     baseline += step;
   }
   image::rounded_rectangle(board, 20, 24, 70, 46, 8, white);

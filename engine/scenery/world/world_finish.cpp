@@ -20,18 +20,21 @@ struct WorldLook {
   float roughness = 0.9f;
   float metallic = 0.0f;
   glm::vec3 emission{0.0f};
+  float retroreflection = 0.0f;
 };
 
+/// cd per lx and m²: glass beads in white paint (EN 1436, about class R4) and sheeting (EN 12899-1, class RA2).
+constexpr float beads = 0.25f, sheeting = 180.0f;
+
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 57> ground_looks{{
+constexpr std::array<WorldLook, 56> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
     {"asphalt tunnel", {0.95f, 0.95f, 0.95f}, Texture::asphalt},
     {"repair", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
-    {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f},
-    {"mark far", {0.46f, 0.46f, 0.45f}, Texture::none, 0.75f},
-    {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f},
+    {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
+    {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"concrete", {0.56f, 0.55f, 0.53f}, Texture::concrete},
     {"concrete dark", {0.34f, 0.34f, 0.33f}, Texture::concrete},
     {"concrete tunnel", {0.42f, 0.42f, 0.42f}, Texture::concrete},
@@ -40,7 +43,7 @@ constexpr std::array<WorldLook, 57> ground_looks{{
     {"exit sign", {0.9f, 0.9f, 0.9f}, Texture::exit, 0.7f, 0.0f, {1.3f, 1.3f, 1.3f}},
     {"metal", {0.46f, 0.47f, 0.48f}, Texture::none, 0.62f},
     {"metal dark", {0.20f, 0.21f, 0.22f}, Texture::none, 0.65f},
-    {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f},
+    {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f, 0.0f, {}, sheeting},
     {"post", {0.68f, 0.68f, 0.66f}, Texture::none, 0.7f},
     {"verge", {0.27f, 0.30f, 0.105f}, Texture::ground},
     {"gravel", {0.34f, 0.32f, 0.28f}, Texture::ground},
@@ -185,7 +188,9 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
     material.roughness = look.roughness;
     material.metallic = look.metallic;
     material.emission = look.emission;
-    material.wettable = i <= index_of(Ground::mark_far) || i == index_of(Ground::far_asphalt);
+    material.retroreflection = look.retroreflection;
+    material.wettable = i <= index_of(Ground::mark) || i == index_of(Ground::far_asphalt);
+    material.stripe = i == index_of(Ground::mark) || i == index_of(Ground::mark_tunnel);
     material.share_of_sky = is_in_tunnel(static_cast<Ground>(i)) ? 0.0f : 1.0f;
     palette.push_back(builder.add_material(std::string("world/") + look.name, material));
   }

@@ -14,7 +14,6 @@ enum class Ground : std::uint32_t {
   asphalt_tunnel,
   repair,
   mark,
-  mark_far,
   mark_tunnel,
   concrete,
   concrete_dark,

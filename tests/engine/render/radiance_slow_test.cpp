@@ -212,6 +212,63 @@ TEST_CASE("what is near is not shaded by the coarser form that it has further of
   CHECK(lit() < 0.6f * alone);
 }
 
+TEST_CASE("of several pictures in one image a participant shows that of its number") {
+  scene::SurfaceMesh board;
+  constexpr glm::vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const glm::vec2& at : corners) board.vertices.push_back({{0, 2 - 4 * at.x, 2 - 4 * at.y}, {-1, 0, 0}, at});
+  board.indices = {0, 2, 1, 0, 3, 2};
+  scene::SurfaceMaterial material = glowing_material();
+  material.base_color = glm::vec3(1.0f);
+  material.emission = glm::vec3(1.0f);
+  material.base_color_image = 0;
+  material.picture_columns = 2;
+  material.picture_rows = 2;
+  scene::ResolvedScene scene = lone_mesh(material, board, {Vec3(8, 0, 1.2), {1, 0, 0, 0}});
+  scene::TextureImage& image = scene.images.emplace_back();
+  image.revision = 1;
+  image.width = image.height = 64;
+  for (std::uint32_t y = 0; y < 64; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x)
+      for (const int channel : {0, 1, 2, 3})
+        image.rgba.push_back(channel == 3 || channel == static_cast<int>(x / 32 + 2 * (y / 32)) ? 255 : 0);
+  scene.prototypes = {{"model/board", std::move(scene.instances)}};
+  scene.instances.clear();
+  Renderer renderer = renderer_of(Antialiasing::none);
+  REQUIRE(renderer.upload(scene).has_value());
+  FrameInput input = forward(0.4);
+  input.participants.resize(1);
+  for (std::uint32_t number = 0; number < 7; ++number) {
+    input.participants[0].number = number;
+    const glm::vec3 light = shown(renderer, input).light.at(radiance_width / 2, radiance_height / 2);
+    CAPTURE(number);
+    for (int c = 0; c < 3; ++c) CHECK((light[c] > 0.5f) == (c == static_cast<int>(number % 4)));
+  }
+}
+
+TEST_CASE("a retroreflecting board shines back to the eye beside the lamp and not to one that stands aside") {
+  scene::SurfaceMaterial sheeting = glowing_material();
+  sheeting.emission = glm::vec3(0.0f);
+  sheeting.base_color = glm::vec3(0.8f);
+  scene::SurfaceMesh board;
+  for (const glm::vec3& corner : {glm::vec3(0, 9, -2), glm::vec3(0, -9, -2), glm::vec3(0, -9, 5), glm::vec3(0, 9, 5)})
+    board.vertices.push_back({corner, {-1, 0, 0}, {}});
+  board.indices = {0, 1, 2, 0, 2, 3};
+  const auto seen = [&](float retroreflection, double lamp_aside_m) {
+    sheeting.retroreflection = retroreflection;
+    Renderer renderer = renderer_of(Antialiasing::none);
+    REQUIRE(renderer.upload(lone_mesh(sheeting, board, {Vec3(100, 0, 1.2), {1, 0, 0, 0}})).has_value());
+    FrameInput input = forward(-0.3);
+    Instant instant = describe(input, {});
+    const Vec3 eye = world_eye(input.views[0]);
+    instant.headlights = {{eye + Vec3(2.0, lamp_aside_m, -0.5), {1, 0, 0}, 100.0f}};
+    REQUIRE(renderer.draw(instant).has_value());
+    return renderer.read_radiance()->at(radiance_width / 2, radiance_height / 2).g;
+  };
+  const float matt = seen(0.0f, 0.0), beside = seen(180.0f, 0.0), aside = seen(180.0f, 8.0);
+  CHECK(beside > 20.0f * matt);
+  CHECK(aside < 0.1f * beside);
+}
+
 TEST_CASE("two screens of a rig and a mirror in one of them are exposed alike") {
   const ReferenceScene reference = reference_scene({{}, true, 0});
   Renderer renderer = renderer_of(Antialiasing::automatic);

@@ -72,6 +72,27 @@ TEST_CASE("a smoke keyframe names the tick from whose instant on it is shown") {
   }
 }
 
+TEST_CASE("flames stand on the vehicle that burns within a second and in a tunnel as in the open") {
+  for (const double s_m : {800.0, 3330.0})
+    for (const int steps : {60, 180, 600}) {
+      const FireState state = burn(s_m, steps, 3);
+      const Vec3 fire = van_at(s_m).world_from_vehicle.position_m;
+      double flames_m2 = 0.0, on_van_m2 = 0.0;
+      for (const smoke::Puff& puff : smoke::puffs_of(state.keyframes, steps / 60.0)) {
+        if (puff.glow < 0.2f) continue;
+        flames_m2 += puff.extinction_area_m2;
+        if (puff.position_m.z < fire.z + 4.5 && glm::length(glm::dvec2(puff.position_m - fire)) < 5.0)
+          on_van_m2 += puff.extinction_area_m2;
+      }
+      CAPTURE(s_m);
+      CAPTURE(steps);
+      CAPTURE(flames_m2);
+      // Two metres wide and two high, they hide a third of what is behind them.
+      CHECK(on_van_m2 > (steps < 100 ? 0.6 : 1.6));
+      CHECK(on_van_m2 > 0.5 * flames_m2);
+    }
+}
+
 TEST_CASE("soot of a fire in a tunnel is sent and lies over the fire") {
   const FireState state = burn(3330.0, 1500, 1);
   REQUIRE(!state.keyframes.empty());

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+// A drop's streak, turned to the eye about its length. The host's twin is StreakRecord in passes/precipitation_pass.hpp.
+struct Streak {
+  vec4 from_width;
+  vec4 along_opacity;
+  vec4 radiance;
+};
+layout(set = 0, binding = 1, std430) readonly buffer Streaks { Streak streaks[]; };
+
+layout(location = 0) out float out_across;
+layout(location = 1) flat out vec4 out_color;
+
+void main() {
+  Streak streak = streaks[gl_InstanceIndex];
+  const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
+  vec2 at = corners[gl_VertexIndex];
+  vec3 place = streak.from_width.xyz + streak.along_opacity.xyz * at.y;
+  // Never thinner than a pixel, and as much fainter.
+  float pixel_m = view.billboard_right.w * length(streak.from_width.xyz), width = max(streak.from_width.w, pixel_m);
+  vec3 side = normalize(cross(streak.along_opacity.xyz, place)) * (0.5 * width);
+  // As long as it is wide at least: a flake that stands still is a disc.
+  place += normalize(streak.along_opacity.xyz) * ((at.y - 0.5) * width);
+  out_across = at.x;
+  out_color = vec4(streak.radiance.rgb, streak.along_opacity.w * min(1.0, streak.from_width.w / pixel_m));
+  gl_Position = view.clip_from_relative * vec4(place + side * at.x, 1.0);
+}

@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+// A lamp that a wet road mirrors: a strip of the road between the lamp's foot and the eye's. The host's twin is WetLampRecord in passes/glow_pass.hpp.
+struct WetLamp {
+  vec4 position_size;  // Relative to the eye; radius of the lens, m.
+  vec4 color_road;     // Radiance of the lens; height of the road relative to the eye, m.
+};
+layout(set = 0, binding = 1, std430) readonly buffer WetLamps { WetLamp lamps[]; };
+
+layout(location = 0) out vec2 out_at;  // Metres to the side of its middle and on the way to the lamp.
+layout(location = 1) flat out vec3 out_color;
+layout(location = 2) flat out vec4 out_heights;  // Eye over the road, lamp over the road, way to the lamp, radius; m.
+
+void main() {
+  WetLamp lamp = lamps[gl_InstanceIndex];
+  const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
+  vec2 at = corners[gl_VertexIndex];
+  float road = lamp.color_road.w, distance_m = length(lamp.position_size.xy);
+  vec2 ahead = lamp.position_size.xy / distance_m, aside = vec2(-ahead.y, ahead.x);
+  float along = mix(0.12 * distance_m, 0.98 * distance_m, at.y);
+  // As wide as the lens looks there, and what the road's tilt to the sides adds.
+  float half_width = 2.5 * (lamp.position_size.w * along / distance_m + 0.012 * along);
+  out_at = vec2(at.x * half_width, along);
+  out_color = lamp.color_road.rgb * exp2(-distance_m * view.sky_irradiance.w);
+  out_heights = vec4(-road, lamp.position_size.z - road, distance_m, lamp.position_size.w);
+  vec3 place = vec3(ahead * along + aside * out_at.x, road);
+  gl_Position = view.clip_from_relative * vec4(place * (1.0 - 0.02), 1.0);
+}

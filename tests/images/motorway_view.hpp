@@ -1,0 +1,98 @@
+#pragma once
+/// The scenario's motorway with traffic at fixed instants, for tests of pictures.
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+
+#include <doctest/doctest.h>
+
+#include "engine/instant/instant.hpp"
+#include "engine/road/road_position.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/scenery/vehicles/vehicles.hpp"
+#include "engine/scenery/world/road_world.hpp"
+#include "engine/world/paint.hpp"
+#include "engine/world/vehicle_model.hpp"
+#include "tests/engine/road/road_files.hpp"
+
+namespace septet {
+
+inline constexpr std::uint32_t motorway_width_px = 320, motorway_height_px = 210;
+
+struct MotorwayInstant {
+  const char* name;
+  double s_m;
+  double heading_deg;
+  bool night, rain;
+};
+
+class Motorway {
+ public:
+  Motorway() {
+    scene::Store store;
+    scene::SceneBuilder builder(store);
+    scenery::build_vehicles(builder);
+    scenery::build_road_world(builder, road::motorway(), 1);
+    scene_ = scene::resolve(store);
+  }
+  const scene::ResolvedScene& scene() const { return scene_; }
+
+  instant::FrameInput frame(const MotorwayInstant& instant) const {
+    instant::FrameInput input;
+    input.simulated_time_s = 12.0;
+    if (instant.rain) {
+      input.environment.rain_mm_per_h = 6.0;
+      input.environment.road_wetness = 0.8;
+      input.environment.cloud_cover = 1.0;
+      input.environment.visibility_m = 3000.0;
+    }
+    if (instant.night) {
+      input.environment.sun_elevation_rad = -0.4;
+      input.environment.sun_illuminance_lux = 0.0;
+    }
+    instant::FrameView view;
+    view.projection = instant::symmetric_view(Vec3(1.35, 0.37, 1.17), instant.heading_deg * std::numbers::pi / 180.0,
+                                              0.0, 0.77, 0.52);
+    view.world_from_car = in_lane(-3, instant.s_m);
+    view.viewport = {0, 0, motorway_width_px, motorway_height_px};
+    input.views.push_back(view);
+    for (std::size_t i = 0; i < 14; ++i) {
+      // Some ahead of the eye and some behind it, in all lanes but its own nearby.
+      const double ahead_m = (i % 2 == 0 ? 14.0 : -16.0) + (i % 2 == 0 ? 9.0 : -9.0) * static_cast<double>(i);
+      const auto& models = vehicle_models();
+      Participant participant;
+      participant.model = static_cast<ModelIndex>(i % models.size());
+      if (models[participant.model].kind == ParticipantKind::pedestrian) continue;
+      participant.paint = static_cast<std::uint8_t>(i);
+      participant.world_from_vehicle = in_lane(-2 - static_cast<int>((i * 2 + 2) % 5), instant.s_m + ahead_m);
+      participant.wheel_spin_rad = 0.4;
+      participant.lamps.set(Lamp::low_beam, instant.night || instant.rain);
+      participant.lamps.set(Lamp::brake, i % 4 == 0);
+      participant.lamps.set(Lamp::beacon, models[participant.model].kind == ParticipantKind::ambulance);
+      input.participants.push_back(instant::drawn_participant(participant, prototype(models[participant.model].name)));
+    }
+    instant::DrawnParticipant own;  // The driver's car gives its light and its shadow.
+    own.prototype = prototype("volvo-s80");
+    own.world_from_vehicle = view.world_from_car;
+    own.lamps.set(Lamp::low_beam, instant.night);
+    own.shown = instant::Shown::shadow_and_light;
+    input.participants.push_back(own);
+    return input;
+  }
+
+ private:
+  RigidTransform in_lane(int lane, double s_m) const {
+    return road::world_from_lane(road::evaluate_lane(road::motorway(), {0, lane, s_m, 0.0}));
+  }
+  std::uint32_t prototype(std::string_view name) const {
+    const auto found = std::ranges::find(scene_.prototypes, name, &scene::Prototype::name);
+    REQUIRE(found != scene_.prototypes.end());
+    return static_cast<std::uint32_t>(found - scene_.prototypes.begin());
+  }
+
+  scene::ResolvedScene scene_;
+};
+
+}  // namespace septet
