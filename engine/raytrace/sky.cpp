@@ -49,7 +49,8 @@ LightSample Sky::sample(const glm::vec2& random, float random_cell) const {
   if (cumulative_.empty()) return {};
   const auto cell = static_cast<std::uint32_t>(
       std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, random_cell) - cumulative_.begin());
-  const auto row = static_cast<float>(cell / columns), column = static_cast<float>(cell % columns);
+  const std::uint32_t row_index = cell / columns, column_index = cell % columns;
+  const auto row = static_cast<float>(row_index), column = static_cast<float>(column_index);
   const float low = height_of(row, rows), high = height_of(row + 1.0f, rows);
   const float z = std::clamp(low + (high - low) * random.x, -1.0f, 1.0f);
   // Both sides of the sun's azimuth share a cell.
