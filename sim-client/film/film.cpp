@@ -1,31 +1,16 @@
 #include "sim-client/film/film.hpp"
 
-#include <fmt/core.h>
-
 #include "engine/image/png.hpp"
 #include "engine/raytrace/displayed.hpp"
 #include "engine/render/renderer.hpp"
+#include "sim-client/film/film_file.hpp"
+#include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_frames.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
-
-/// Nothing that is in the folder for the pictures is touched.
-Expected<void> check_is_free(const fs::path& out) {
-  std::error_code error;
-  if (fs::exists(out, error) && !(fs::is_directory(out, error) && fs::is_empty(out, error)))
-    return failure("it is there already and not an empty folder", out.string(), "choose a new folder with --out");
-  return {};
-}
-
-Expected<void> make_folder(const fs::path& out) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) return failure(error.message(), out.string(), "choose a folder that can be written with --out");
-  return {};
-}
 
 Expected<render::Renderer> make_rasteriser(const FilmOptions& options, const scene::ResolvedScene& scene) {
   render::RendererOptions target;
@@ -41,8 +26,10 @@ Expected<render::Renderer> make_rasteriser(const FilmOptions& options, const sce
 /// One frame after the other, by one of the renderers.
 class FilmPainter {
  public:
-  static Expected<FilmPainter> create(const FilmOptions& options, const scene::ResolvedScene& scene) {
-    FilmPainter painter(options);
+  /// The preview lies in `folder`.
+  static Expected<FilmPainter> create(const FilmOptions& options, const fs::path& folder,
+                                      const scene::ResolvedScene& scene) {
+    FilmPainter painter(options, folder);
     if (options.renderer == FilmRenderer::raster) {
       auto rasteriser = make_rasteriser(options, scene);
       if (!rasteriser) return tl::unexpected(rasteriser.error());
@@ -65,7 +52,7 @@ class FilmPainter {
   }
 
  private:
-  explicit FilmPainter(const FilmOptions& options) : options_(&options) {}
+  FilmPainter(const FilmOptions& options, fs::path folder) : options_(&options), folder_(std::move(folder)) {}
 
   Expected<std::optional<image::Image>> trace(instant::FrameInput input, std::uint64_t number, FilmMade& made,
                                               const std::function<bool(const FilmMade&)>& go_on) {
@@ -93,49 +80,86 @@ class FilmPainter {
     made.share_of_next = 0.0;
     made.bad_samples += picture.bad_samples;
     std::error_code ignored;
-    fs::remove(options_->out / "preview.png", ignored);
+    fs::remove(folder_ / "preview.png", ignored);
     if (!goes_on) return std::nullopt;
     return raytrace::displayed(picture, exposure);
   }
 
   /// Whoever looks sees a whole file. Without one the film is made none the less.
   void show_preview(const image::Image& picture) const {
-    const fs::path part = options_->out / "preview.part";
+    const fs::path part = folder_ / "preview.part";
     std::error_code ignored;
-    if (image::write_png(part, picture, image::PngEffort::fast))
-      fs::rename(part, options_->out / "preview.png", ignored);
+    if (image::write_png(part, picture, image::PngEffort::fast)) fs::rename(part, folder_ / "preview.png", ignored);
     fs::remove(part, ignored);
   }
 
   const FilmOptions* options_;
+  fs::path folder_;
   std::optional<render::Renderer> rasteriser_;
   std::optional<raytrace::RayTracer> tracer_;
   instant::SceneSummary summary_;
 };
 
+/// Those that are not there yet, until all are or `go_on` says no.
+Expected<void> draw_pictures(const FilmOptions& options, FilmFrames& frames, FilmPainter& painter,
+                             const FilmFolder& folder, FilmMade& made,
+                             const std::function<bool(const FilmMade&)>& go_on) {
+  frame::PictureWriter pictures;
+  for (const FilmFrame& frame : frames.plan().frames) {
+    if (!go_on(made)) break;
+    if (options.resume && folder.has(frame.number, options.width_px, options.height_px)) {
+      ++made.frames, ++made.kept;
+      continue;
+    }
+    auto input = frames.input_of(frame);
+    if (!input) return tl::unexpected(input.error());
+    auto picture = painter.draw(std::move(*input), frame.number, made, go_on);
+    if (!picture) return tl::unexpected(picture.error());
+    if (!*picture) break;
+    if (auto queued = pictures.write(folder.picture(frame.number), std::move(**picture)); !queued) return queued;
+    ++made.frames;
+  }
+  return pictures.finish();
+}
+
 }  // namespace
 
 Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on) {
-  if (auto is_free = check_is_free(options.out); !is_free) return tl::unexpected(is_free.error());
+  const auto is_file = is_film_file(options.out);
+  if (!is_file) return tl::unexpected(is_file.error());
+  fs::path ffmpeg, pictures_in = options.out;
+  if (*is_file) {
+    std::error_code error;
+    if (fs::exists(options.out, error))
+      return failure("it is there already", options.out.string(), "choose another name with --out");
+    const auto found = find_ffmpeg();
+    if (!found) return tl::unexpected(found.error());
+    ffmpeg = *found;
+    pictures_in += ".pictures";
+  }
+  if (auto is_free = FilmFolder::check_is_free(pictures_in, options.resume); !is_free)
+    return tl::unexpected(is_free.error());
   auto frames = FilmFrames::open(options);
   if (!frames) return tl::unexpected(frames.error());
-  auto painter = FilmPainter::create(options, frames->scene());
+  const auto record = film_record(options, frames->session());
+  if (!record) return tl::unexpected(record.error());
+  auto painter = FilmPainter::create(options, pictures_in, frames->scene());
   if (!painter) return tl::unexpected(painter.error());
-  if (auto folder = make_folder(options.out); !folder) return tl::unexpected(folder.error());
-  frame::PictureWriter pictures;
-  const std::vector<FilmFrame>& due = frames->plan().frames;
-  FilmMade made{.planned = due.size()};
-  while (made.frames < made.planned && go_on(made)) {
-    auto input = frames->input_of(due[made.frames]);
-    if (!input) return tl::unexpected(input.error());
-    auto picture = painter->draw(std::move(*input), due[made.frames].number, made, go_on);
-    if (!picture) return tl::unexpected(picture.error());
-    if (!*picture) break;
-    const fs::path file = options.out / fmt::format("{:06}.png", due[made.frames].number);
-    if (auto queued = pictures.write(file, std::move(**picture)); !queued) return tl::unexpected(queued.error());
-    ++made.frames;
-  }
-  if (auto written = pictures.finish(); !written) return tl::unexpected(written.error());
+  const auto folder = FilmFolder::open(pictures_in, *record, options.resume);
+  if (!folder) return tl::unexpected(folder.error());
+  FilmMade made{.planned = frames->plan().frames.size()};
+  if (auto drawn = draw_pictures(options, *frames, *painter, *folder, made, go_on); !drawn)
+    return tl::unexpected(drawn.error());
+  made.stopped = made.frames < made.planned;
+  if (!*is_file || made.stopped) return made;
+  std::vector<fs::path> pictures;
+  for (const FilmFrame& frame : frames->plan().frames) pictures.push_back(folder->picture(frame.number));
+  made.encoding = true;
+  const auto whole = encode_film(ffmpeg, pictures, options.frames_per_second, options.out, [&] { return go_on(made); });
+  if (!whole) return tl::unexpected(whole.error());
+  made.stopped = !*whole;
+  std::error_code ignored;
+  if (*whole) fs::remove_all(pictures_in, ignored);
   return made;
 }
 

@@ -20,7 +20,10 @@ enum class FilmRenderer : std::uint8_t {
 struct FilmOptions {
   std::filesystem::path session;
   std::filesystem::path shots;  ///< Script; empty: the default one.
-  std::filesystem::path out;    ///< Folder for the pictures; made, or empty already.
+  /// Folder for the pictures, made, or empty already; or a film (film_file.hpp), whose pictures lie in a folder beside it until it is
+  /// made of them.
+  std::filesystem::path out;
+  bool resume = false;  ///< Goes on with the same film that was begun there: finished pictures stay (film_folder.hpp).
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;
   bool software =
@@ -51,12 +54,16 @@ Expected<FilmPlan> plan_film(Script script, double frames_per_second, std::pair<
 
 struct FilmMade {
   std::size_t frames = 0, planned = 0;
+  std::size_t kept = 0;           ///< Of the frames: they were there already.
+  bool encoding = false;          ///< All pictures are there, and a film is made of them.
+  bool stopped = false;           ///< `go_on` has said no.
   double share_of_next = 0.0;     ///< Of the frame that is being drawn, 0 to 1.
   std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.
 };
 
 /// Draws the film. `go_on` hears how far it is before each frame and while one is traced, from any thread, one call at a time; where it
-/// says no, the film ends there. While a frame is traced, preview.png in the folder shows what there is of it.
+/// says no, the film ends there. While a frame is traced, preview.png in the folder shows what there is of it. What is finished stays
+/// whatever happens.
 Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on);
 
 }  // namespace septet::film

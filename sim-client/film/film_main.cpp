@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   film::FilmOptions options;
   std::string renderer = "raster";
   CLI::App app{
-      "Turn a recorded session into a folder of numbered pictures, seen by the cameras of a script.\n"
+      "Turn a recorded session into a folder of numbered pictures, or a film, seen by the cameras of a script.\n"
       "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
       "FILM.md in sim-client/film describes the script; this is one:\n\n"
       "  [[shot]]\n  from_s = 2.0\n  to_s = 6.0\n  participant = \"ambulance\"  # or \"driver\", \"nearest\", an id\n"
@@ -29,7 +29,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", version_text());
   app.add_option("session", options.session, "Session file of a drive")->required();
   app.add_option("--shots", options.shots, "Script with the film's shots")->default_str("");
-  app.add_option("--out", options.out, "New or empty folder for the pictures")->default_str("film, beside the session");
+  app.add_option(
+         "--out", options.out,
+         "New or empty folder for the pictures, or a film: .mp4 (H.264), .mkv (FFV1, without loss); ffmpeg makes it")
+      ->default_str("film, beside the session");
   app.add_option("--fps", options.frames_per_second, "Frames a second")
       ->check(number_between(1.0, 1000.0))
       ->capture_default_str();
@@ -46,6 +49,7 @@ int main(int argc, char** argv) {
   app.add_option("--samples", options.samples, "Of a pixel that is traced: four times as many halve the noise")
       ->check(CLI::Range(1u, 1u << 20))
       ->capture_default_str();
+  app.add_flag("--resume", options.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")

@@ -23,11 +23,13 @@ std::string read_size(const std::string& text, FilmOptions& options) {
 }
 
 std::string progress_text(const FilmMade& so_far, double elapsed_s) {
+  if (so_far.encoding) return fmt::format("all {} pictures are drawn; ffmpeg makes the film of them", so_far.frames);
   const double done = static_cast<double>(so_far.frames) + so_far.share_of_next;
   std::string text = fmt::format("{} of {} frames", so_far.frames, so_far.planned);
   if (so_far.share_of_next > 0.0) text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
-  if (!(done > 0.0)) return text;
-  const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / done;
+  const double drawn = done - static_cast<double>(so_far.kept);
+  if (!(drawn > 0.0)) return text;
+  const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / drawn;
   return text +
          (left_s < 90.0 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60.0));
 }
@@ -43,17 +45,18 @@ Expected<int> run_film(FilmOptions options) {
   });
   progress.close();
   if (!made) return tl::unexpected(made.error());
-  if (made->frames < made->planned) {
-    program::say(fmt::format("septet: stopped; the first {} of {} pictures are in {}", made->frames, made->planned,
-                             options.out.string()));
+  if (made->stopped) {
+    program::say(fmt::format("septet: stopped; {} of {} pictures are drawn; add --resume to go on with {}",
+                             made->frames, made->planned, options.out.string()));
     return program::failed_status;
   }
   if (made->bad_samples > 0)
     program::say(fmt::format("septet: {} samples had no light that is a number; they are black", made->bad_samples));
-  const std::string pictures = (options.out / "%06d.png").string();
-  program::announce(fmt::format(
-      "{}: {} pictures, {} a second; to see them move: ffmpeg -framerate {} -i {} -pix_fmt yuv420p film.mp4",
-      options.out.string(), made->frames, options.frames_per_second, options.frames_per_second, pictures));
+  std::string text =
+      fmt::format("{}: {} pictures, {} a second", options.out.string(), made->frames, options.frames_per_second);
+  if (made->kept > 0) text += fmt::format(", {} of them drawn before", made->kept);
+  if (!made->encoding) text += "; as one film: --out film.mp4";
+  program::announce(text);
   return 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Writes pictures to disk on a thread of its own, so that the frame after the one that is kept does not wait for it.
+/// Writes pictures to disk on a thread of its own, so that the frame after the one that is kept does not wait for it. A picture has its name
+/// only when it is whole: until then it is NAME.part.
 
 #include <condition_variable>
 #include <deque>

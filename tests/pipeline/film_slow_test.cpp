@@ -60,7 +60,7 @@ TEST_CASE(
       "[[shot]]\nfrom_s = 1\nto_s = 1.08\ndistance_m = 7\npitch_deg = -10\n[[shot.turn]]\nheading_deg = 120\n");
   INFO(made.error);
   REQUIRE(made.code == 0);
-  CHECK(std::distance(fs::directory_iterator(out), {}) == 4);
+  CHECK(std::distance(fs::directory_iterator(out), {}) == 5);  // And film.json.
   const double from_screen =
       difference(picture(out / "000001.png"), picture(folder / "drive" / "screens" / "a" / "120.png"));
   MESSAGE("the screen's picture and the film's differ by ", from_screen, " steps of 255");
@@ -69,7 +69,7 @@ TEST_CASE(
   CHECK(difference(picture(out / "000003.png"), picture(out / "000004.png")) > 5.0);
   const Ended again = film("[[shot]]\nfrom_s = 1\nto_s = 1.08\n");
   CHECK(again.code == 1);
-  CHECK(again.error.find("not an empty folder") != std::string::npos);
+  CHECK(again.error.find("add --resume") != std::string::npos);
 }
 
 }  // namespace septet::pipeline

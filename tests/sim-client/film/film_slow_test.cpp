@@ -1,9 +1,13 @@
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
+#include "engine/image/png.hpp"
 #include "sim-client/film/film.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/temporary_folder.hpp"
@@ -39,6 +43,23 @@ void write_session_and_shots(const TemporaryFolder& folder) {
   std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\n";
 }
 
+/// What a program prints.
+std::string printed_by(const std::string& command) {
+  std::string text;
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  REQUIRE(::pclose(pipe) == 0);
+  return text;
+}
+
+std::string refusal_of(const FilmOptions& options) {
+  const auto made = make_film(options, [](const FilmMade&) { return true; });
+  return made ? "" : describe(made.error());
+}
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
 }  // namespace
 
 TEST_CASE("a film begun in the middle shows frame by frame what the whole film shows though somebody has vanished") {
@@ -66,7 +87,7 @@ TEST_CASE("a film begun in the middle shows frame by frame what the whole film s
     REQUIRE_MESSAGE(end.has_value(), (end ? "" : describe(end.error())));
     CHECK(end->frames == 10);
     CHECK(end->bad_samples == 0);
-    CHECK(std::distance(fs::directory_iterator(options.out), {}) == 10);  // The preview is gone.
+    CHECK(std::distance(fs::directory_iterator(options.out), {}) == 11);  // And film.json; the preview is gone.
     for (const fs::directory_entry& picture : fs::directory_iterator(options.out)) {
       const fs::path file = picture.path().filename();
       CAPTURE(file);
@@ -89,7 +110,93 @@ TEST_CASE("a film that is stopped while a frame is traced ends there") {
       make_film(options, [](const FilmMade& so_far) { return so_far.frames < 2 || so_far.share_of_next < 0.4; });
   REQUIRE(made.has_value());
   CHECK(made->frames == 2);
-  CHECK(std::distance(fs::directory_iterator(options.out), {}) == 2);
+  CHECK(made->stopped);
+  CHECK(std::distance(fs::directory_iterator(options.out), {}) == 3);
+}
+
+TEST_CASE("a film that was stopped goes on where it was and is the film that was not") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  FilmOptions options{.session = folder / "session.sqlite",
+                      .shots = folder / "shots.toml",
+                      .out = folder / "whole",
+                      .width_px = 64,
+                      .height_px = 48,
+                      .renderer = FilmRenderer::traced,
+                      .samples = 2,
+                      .to_s = 0.4};
+  REQUIRE(refusal_of(options) == "");
+  options.out = folder / "stopped";
+  const auto stopped = make_film(options, [](const FilmMade& so_far) { return so_far.frames < 5; });
+  REQUIRE(stopped.has_value());
+  CHECK(stopped->stopped);
+  CHECK(has(refusal_of(options), "add --resume"));
+  options.resume = true;
+  options.samples = 3;
+  CHECK(has(refusal_of(options), "another samples: 2, not 3"));
+  options.samples = 2;
+  // As after a power cut, and after a kill.
+  fs::resize_file(options.out / "000002.png", fs::file_size(options.out / "000002.png") / 2);
+  std::ofstream(options.out / "000006.png.part") << "half";
+  std::string beside;
+  const auto resumed = make_film(options, [&](const FilmMade& so_far) {
+    if (so_far.frames == 7 && beside.empty()) beside = refusal_of(options);
+    return true;
+  });
+  REQUIRE_MESSAGE(resumed.has_value(), (resumed ? "" : describe(resumed.error())));
+  CHECK(has(beside, "another program draws"));
+  CHECK(resumed->frames == 11);
+  CHECK(resumed->kept == 4);
+  int files = 0;
+  for (const fs::directory_entry& file : fs::directory_iterator(options.out)) {
+    CAPTURE(file.path());
+    CHECK(bytes_of(file.path()) == bytes_of(folder / "whole" / file.path().filename()));
+    ++files;
+  }
+  CHECK(files == 12);
+}
+
+TEST_CASE("ffmpeg makes a film of the pictures, small or without loss, and the pictures go") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  FilmOptions options{.session = folder / "session.sqlite",
+                      .shots = folder / "shots.toml",
+                      .out = folder / "it's 100 %.mkv",
+                      .width_px = 63,
+                      .height_px = 47,
+                      .renderer = FilmRenderer::traced,
+                      .samples = 1,
+                      .to_s = 0.2};
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  CHECK(has(refusal_of(options), "install the package ffmpeg"));
+  ::setenv("PATH", path.c_str(), 1);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 2);
+  const auto file = [](const fs::path& film) { return "\"file:" + film.string() + "\""; };
+  for (const char* name : {"it's 100 %.mkv", "small.mp4"}) {
+    options.out = folder / name;
+    REQUIRE(refusal_of(options) == "");
+    CHECK_FALSE(fs::exists(options.out.string() + ".pictures"));
+    CHECK_FALSE(fs::exists(options.out.string() + ".part"));
+    CHECK(has(refusal_of(options), "it is there already"));
+    CHECK(printed_by("ffprobe -v error -count_frames -show_entries stream=width,height,r_frame_rate,nb_read_frames -of "
+                     "csv=p=0 " +
+                     file(options.out)) == (options.out.extension() == ".mkv" ? "63,47,25/1,6\n" : "64,48,25/1,6\n"));
+  }
+  // Without loss means bit by bit.
+  printed_by("ffmpeg -v error -i " + file(folder / "it's 100 %.mkv") + " \"" + (folder / "again%d.png").string() +
+             "\"");
+  options.out = folder / "pictures";
+  REQUIRE(refusal_of(options) == "");
+  for (const int n : {1, 6}) {
+    const auto kept = image::read_png(folder / fmt::format("again{}.png", n)),
+               drawn = image::read_png(options.out / fmt::format("{:06}.png", n));
+    REQUIRE(kept.has_value());
+    REQUIRE(drawn.has_value());
+    CHECK(*kept == *drawn);
+  }
+  options.out = folder / "film.webm";
+  CHECK(has(refusal_of(options), "write .mp4"));
 }
 
 }  // namespace septet::film

@@ -196,6 +196,10 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
   CHECK(progress_text({.frames = 1, .planned = 4}, 20.0) == "1 of 4 frames, 60 s left");
   CHECK(progress_text({.frames = 1, .planned = 4, .share_of_next = 0.5}, 360.0) ==
         "1 of 4 frames and 50 % of the next, 10 min left");
+  CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2}, 1.0) == "2 of 4 frames");
+  CHECK(progress_text({.frames = 3, .planned = 4, .kept = 2}, 20.0) == "3 of 4 frames, 20 s left");
+  CHECK(progress_text({.frames = 4, .planned = 4, .encoding = true}, 20.0) ==
+        "all 4 pictures are drawn; ffmpeg makes the film of them");
 }
 
 TEST_CASE("the example in the description of the format is a script whose cameras have a way") {
