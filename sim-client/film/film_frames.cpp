@@ -109,7 +109,7 @@ class LastSeen {
 
 }  // namespace
 
-struct FilmFrames::Parts {
+struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
   std::vector<Pivot> pivots;  ///< By shot.
@@ -122,14 +122,14 @@ struct FilmFrames::Parts {
   frame::EffectsDrawing effects{};
 };
 
-FilmFrames::FilmFrames(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+FilmFrames::FilmFrames(std::unique_ptr<State> state) : state_(std::move(state)) {}
 FilmFrames::FilmFrames(FilmFrames&&) noexcept = default;
 FilmFrames& FilmFrames::operator=(FilmFrames&&) noexcept = default;
 FilmFrames::~FilmFrames() = default;
 
-const FilmPlan& FilmFrames::plan() const { return parts_->plan; }
-const scene::ResolvedScene& FilmFrames::scene() const { return parts_->scene; }
-const logging::SessionInfo& FilmFrames::session() const { return parts_->session.info(); }
+const FilmPlan& FilmFrames::plan() const { return state_->plan; }
+const scene::ResolvedScene& FilmFrames::scene() const { return state_->scene; }
+const logging::SessionInfo& FilmFrames::session() const { return state_->session.info(); }
 
 Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   auto session = logging::SessionReader::open(options.session);
@@ -150,41 +150,41 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   if (!pivots) return tl::unexpected(pivots.error());
   scene::Store store;
   if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
-  return FilmFrames(std::unique_ptr<Parts>(new Parts{std::move(*session), std::move(*plan), std::move(*pivots),
+  return FilmFrames(std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots),
                                                      scene::resolve(store), options.width_px, options.height_px}));
 }
 
 Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
-  Parts& p = *parts_;
-  const Shot& shot = p.plan.script.shots[film_frame.shot];
-  const Pivot& pivot = p.pivots[film_frame.shot];
-  const bool follows = p.last && p.last->shot == film_frame.shot && p.last->number <= film_frame.number;
-  p.last.reset();  // Where reading fails, the next frame begins anew.
+  State& state = *state_;
+  const Shot& shot = state.plan.script.shots[film_frame.shot];
+  const Pivot& pivot = state.pivots[film_frame.shot];
+  const bool follows = state.last && state.last->shot == film_frame.shot && state.last->number <= film_frame.number;
+  state.last.reset();  // Where reading fails, the next frame begins anew.
   if (!follows) {
-    auto instants = SessionInstants::start(p.session, film_frame.instant_s);
+    auto instants = SessionInstants::start(state.session, film_frame.instant_s);
     if (!instants) return tl::unexpected(instants.error());
-    p.instants.emplace(std::move(*instants));
-    p.last_seen.reset();
+    state.instants.emplace(std::move(*instants));
+    state.last_seen.reset();
   }
-  const auto world = p.instants->at(film_frame.instant_s);
+  const auto world = state.instants->at(film_frame.instant_s);
   if (!world) return tl::unexpected(world.error());
   frame::Viewpoint waiting;
   if (pivot.participant && !find_participant(*world, *pivot.participant)) {
-    if (!p.last_seen) {
-      auto last_seen = LastSeen::start(p.session, shot, pivot);
+    if (!state.last_seen) {
+      auto last_seen = LastSeen::start(state.session, shot, pivot);
       if (!last_seen) return tl::unexpected(last_seen.error());
-      p.last_seen.emplace(std::move(*last_seen));
+      state.last_seen.emplace(std::move(*last_seen));
     }
-    const auto seen = p.last_seen->at(film_frame.instant_s);
+    const auto seen = state.last_seen->at(film_frame.instant_s);
     if (!seen) return tl::unexpected(seen.error());
     waiting = *seen;
   }
-  const Look& look = p.plan.paths[film_frame.shot][film_frame.number_in_shot];
-  auto input = frame::client_frame(*world, views_at(shot, pivot, look, p.width_px, p.height_px),
-                                   viewpoint_at(shot, pivot, *world, waiting), p.scene);
-  p.effects.show(*world, p.instants->history(), p.instants->tick_s(), p.scene);
-  p.effects.add_to(input);
-  p.last = film_frame;
+  const Look& look = state.plan.paths[film_frame.shot][film_frame.number_in_shot];
+  auto input = frame::client_frame(*world, views_at(shot, pivot, look, state.width_px, state.height_px),
+                                   viewpoint_at(shot, pivot, *world, waiting), state.scene);
+  state.effects.show(*world, state.instants->history(), state.instants->tick_s(), state.scene);
+  state.effects.add_to(input);
+  state.last = film_frame;
   return input;
 }
 

@@ -28,9 +28,9 @@ class FilmFrames {
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
 
  private:
-  struct Parts;
-  explicit FilmFrames(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+  struct State;
+  explicit FilmFrames(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace septet::film
