@@ -61,9 +61,11 @@ Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view wh
   return image;
 }
 
-Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {
-  const Bytes bytes = encode_png(image, effort);
-  File file(std::fopen(path.c_str(), "wb"));
+namespace {
+
+/// Into that place; a failure names the picture's own path.
+Expected<void> write_bytes(const std::filesystem::path& place, const std::filesystem::path& path, const Bytes& bytes) {
+  File file(std::fopen(place.c_str(), "wb"));
   if (!file) return file_failure("cannot create the image", path);
   const bool written =
       std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
@@ -71,6 +73,25 @@ Expected<void> write_png(const std::filesystem::path& path, const Image& image, 
   // The last error of a full disk or a network file system may come only here.
   if (std::fclose(file.release()) != 0) return file_failure("cannot write the image", path);
   return {};
+}
+
+}  // namespace
+
+Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {
+  namespace fs = std::filesystem;
+  const Bytes bytes = encode_png(image, effort);
+  std::error_code error, ignored;
+  // A device or a pipe is written to; a file's place is taken by one that is whole.
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) return write_bytes(path, path, bytes);
+  const fs::path part = path.string() + ".part";
+  auto written = write_bytes(part, path, bytes);
+  if (written) {
+    fs::rename(part, path, error);
+    if (!error) return {};
+    written = failure(error.message(), path.string(), "check the folder and its permissions");
+  }
+  fs::remove(part, ignored);
+  return written;
 }
 
 Expected<Image> read_png(const std::filesystem::path& path) {

@@ -20,8 +20,8 @@ Bytes encode_png(const Image& image, PngEffort effort = PngEffort::small);
 /// in errors.
 Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view where);
 
-/// Fails with the system's reason: no such folder, no permission, disk full. A partial file may
-/// remain.
+/// Whole or not at all: it is written beside its place (`.part`) and renamed. Fails with the system's reason: no such folder, no
+/// permission, disk full; what stood there before stays.
 Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort = PngEffort::small);
 
 Expected<Image> read_png(const std::filesystem::path& path);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/instant/headlight_beam.hpp"
+
 namespace septet::raytrace {
 namespace {
 
@@ -125,17 +127,11 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
   return {direction, emission, weight_of(lamp, from_m) / lamp_weights_ * distance_m * distance_m / (cosine * area)};
 }
 
-/// A dipped beam, wide to the sides and cut off above: the rasteriser's formula, so that both light the same pool.
+/// A headlight's light on a surface that looks at it; as in the rasteriser near the lamp, where it is no point, it does not grow without limit.
 float reach(const instant::Headlight& light, const glm::vec3& way) {
   const float square = glm::dot(way, way);
   const glm::vec3 ray = way / std::sqrt(std::max(square, 1e-6f));
-  const auto step = [](float low, float high, float x) {
-    const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-  };
-  const float beam =
-      step(0.72f, 0.99f, glm::dot(ray, light.direction)) * (1.0f - step(-0.01f, 0.02f, ray.z - light.direction.z));
-  return light.intensity * beam / (square + 90.0f);
+  return light.intensity * instant::beam::share(light.direction, ray) / (square + 1.0f);
 }
 
 float Path::headlight_weights(const glm::vec3& from_m) const {

@@ -3,23 +3,6 @@
 #include "engine/image/png.hpp"
 
 namespace septet::frame {
-namespace {
-namespace fs = std::filesystem;
-
-Expected<void> write_whole(const fs::path& file, const image::Image& picture) {
-  const fs::path part = file.string() + ".part";
-  std::error_code error, ignored;
-  if (auto written = image::write_png(part, picture, image::PngEffort::fast); !written) {
-    fs::remove(part, ignored);
-    return written;
-  }
-  fs::rename(part, file, error);
-  if (error) return failure(error.message(), file.string(), "check the folder and its permissions");
-  return {};
-}
-
-}  // namespace
-
 PictureWriter::PictureWriter() : thread_([this] { run(); }) {}
 
 PictureWriter::~PictureWriter() {
@@ -56,7 +39,7 @@ void PictureWriter::run() {
     jobs_.pop_front();
     writing_ = true;
     lock.unlock();
-    const auto written = write_whole(job.file, job.picture);
+    const auto written = image::write_png(job.file, job.picture, image::PngEffort::fast);
     lock.lock();
     writing_ = false;
     if (!written && !error_) error_ = written.error();

@@ -56,6 +56,18 @@ TEST_CASE("a missing folder and a missing file are reported with their path") {
   CHECK_FALSE(read_png("/nonexistent/picture.png").has_value());
 }
 
+TEST_CASE("a picture that cannot be written whole leaves the one that stood there") {
+  const TemporaryFolder folder;
+  const auto path = folder / "kept.png";
+  const Image first = noise(16, 9);
+  REQUIRE(write_png(path, first).has_value());
+  std::filesystem::create_directory(path.string() + ".part");
+  const auto written = write_png(path, noise(8, 8));
+  REQUIRE_FALSE(written.has_value());
+  CHECK(written.error().where == path.string());
+  CHECK(*read_png(path) == first);
+}
+
 TEST_CASE("a damaged PNG is refused") {
   Bytes bytes = encode_png(noise(32, 32));
   for (const std::size_t length : {std::size_t{0}, std::size_t{7}, bytes.size() / 2}) {

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/instant/headlight_beam.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 
 namespace septet::raytrace {
@@ -63,6 +64,43 @@ TEST_CASE("what the sun gives and what the sky gives add up whichever is looked 
   const PictureMean dark = mean(0.0f, 0), dim = mean(0.1f, 1);
   // The whole view is filled by the ball, which gives back half of the sky wherever it is convex.
   CHECK(std::abs(dim.radiance.x - dark.radiance.x - 0.05) < 4.0 * std::hypot(dark.sigma, dim.sigma) + 1e-4);
+}
+
+TEST_CASE("a dipped beam lights a wall as its table says in every direction") {
+  scene::SurfaceMaterial grey;
+  grey.base_color = glm::vec3(0.5f);
+  grey.roughness = 1.0f;
+  scene::ResolvedScene scene;
+  scene.materials.push_back(grey);
+  scene::SurfaceMesh wall;
+  const glm::vec3 a{20, -40, -40}, b{20, 40, -40}, c{20, 40, 40}, d{20, -40, 40};
+  add_triangle(wall, {a, c, b});
+  add_triangle(wall, {a, d, c});
+  wall.parts.push_back({0, 6, 0});
+  wall.bounds_min_m = a, wall.bounds_max_m = c;
+  scene.meshes.push_back(std::move(wall));
+  scene.instances.push_back({});
+  const float intensity = 1000.0f;
+  const auto seen = [&](double down_rad, double aside_rad) {
+    // The eye and the lamp are one point; the view is half a degree wide.
+    instant::Instant instant = instant_from({0.0, 0.0, 0.0}, 0.004, 8, even_sky(0.0f));
+    instant.views.front().projection = instant::symmetric_view({0.0, 0.0, 0.0}, aside_rad, -down_rad, 0.004, 0.004);
+    instant.headlights.push_back({{0.0, 0.0, 0.0}, {1.0f, 0.0f, 0.0f}, intensity});
+    return mean_of(traced(scene, instant, {.samples = 16, .filter = Filter::box})).radiance.x;
+  };
+  const auto expected = [&](double down_rad, double aside_rad) {
+    const glm::vec3 ray(glm::dvec3(std::cos(down_rad) * std::cos(aside_rad), std::cos(down_rad) * std::sin(aside_rad),
+                                   -std::sin(down_rad)));
+    const double square = 400.0 / (ray.x * ray.x);
+    return 0.5 / std::numbers::pi * intensity * instant::beam::share({1.0f, 0.0f, 0.0f}, ray) * ray.x / (square + 1.0);
+  };
+  const double degree = std::numbers::pi / 180.0;
+  for (const auto& way : {std::pair{1.7, 0.0}, {4.0, 0.0}, {-4.0, 0.0}, {1.7, 9.0}, {1.7, 20.0}}) {
+    const double down = way.first, aside = way.second;
+    const double radiance = seen(down * degree, aside * degree), table = expected(down * degree, aside * degree);
+    INFO(down << " degrees down, " << aside << " aside");
+    CHECK(radiance == doctest::Approx(table).epsilon(0.08).scale(0));
+  }
 }
 
 }  // namespace septet::raytrace
