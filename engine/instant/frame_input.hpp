@@ -50,6 +50,9 @@ struct DynamicMesh {
       vertices;  ///< From the origin along the world's axes; three a triangle, ccw in front.
 };
 
+/// Of what burns with full glow, where nothing is seen through it; a glow of g has g² of it.
+inline constexpr glm::vec3 flame_radiance{9.0f, 3.4f, 0.7f};
+
 /// A ball of smoke whose density falls off as a Gaussian.
 struct SmokePuff {
   Vec3 position_m{0.0};             ///< World.

@@ -20,6 +20,15 @@ glm::vec3 beside(const glm::vec3& position_m, const glm::vec3& normal) {
   return position_m + normal * margin_m(position_m);
 }
 
+constexpr float evenly_per_sr = 0.25f / pi;
+
+/// In smoke, to all sides alike.
+Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
+  const glm::vec2 u = random.pair();
+  const float up = 1.0f - 2.0f * u.x, across = std::sqrt(std::max(0.0f, 1.0f - up * up)), azimuth_rad = 2.0f * pi * u.y;
+  return {glm::vec3(across * std::cos(azimuth_rad), across * std::sin(azimuth_rad), up), albedo, evenly_per_sr};
+}
+
 /// One thread's walk along one path.
 class Path {
  public:
@@ -52,6 +61,7 @@ class Path {
     return sum;
   }
   Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
+  bool meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point);
 
   const World& world_;
   const PathSettings& settings_;
@@ -161,8 +171,9 @@ LightSample Path::draw_headlight(const glm::vec3& from_m, float& distance_m) {
 void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
                      float distance_m) {
   if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
-  if (glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
-  const Scattering scattered = scattering(point.surface, to_viewer, light.direction);
+  if (!point.in_smoke && glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
+  const Scattering scattered = point.in_smoke ? Scattering{point.surface.diffuse * evenly_per_sr, evenly_per_sr}
+                                              : scattering(point.surface, to_viewer, light.direction);
   if (scattered.value == glm::vec3(0.0f)) return;
   const float pdf = light.pdf * chance(kind);
   const bool also_by_chance = kind != Kind::headlight;
@@ -174,7 +185,9 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   // Not as far as the lamp's own surface, though the ray begins nearer to it.
   const float margin = margin_m(point.position_m + light.direction * std::min(distance_m, 1e4f));
   shadow.to_m = std::max(0.0f, distance_m - 3.0f * margin);
-  light_ += estimate * world_.geometry().unshadowed(shadow);
+  const float let_through = world_.geometry().unshadowed(shadow);
+  if (let_through <= 0.0f) return;
+  light_ += estimate * (let_through * std::exp(-world_.smoke().optical_depth(shadow)));
 }
 
 /// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
@@ -183,11 +196,13 @@ void Path::choose_chances(const SurfacePoint& point) {
   const instant::SkyLight& light = *world_.instant().light;
   const float seen_sky = std::max(point.share_of_sky, 0.02f);
   lamp_weights_ = world_.lamps().empty() ? 0.0f : lamp_weights(point.position_m);
-  chances_ = {sky.has_sun() ? luminance(light.light_irradiance) * seen_sky *
-                                  std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f)
-                            : 0.0f,
-              sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_,
-              headlight_weights(point.position_m)};
+  chances_ = {
+      sky.has_sun()
+          ? luminance(light.light_irradiance) * seen_sky *
+                (point.in_smoke ? 1.0f : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
+          : 0.0f,
+      sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_,
+      headlight_weights(point.position_m)};
   float sum = 0.0f;
   for (const float weight : chances_) sum += weight;
   if (!(sum > 0.0f)) return;
@@ -245,12 +260,27 @@ Ray Path::enter_or_leave(const SurfacePoint& point, const Ray& ray) {
   return next;
 }
 
+/// Takes what flames on the edge give. True where the path turns before the edge's end: `point` is there then.
+bool Path::meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point) {
+  if (world_.smoke().empty()) return false;
+  Ray edge = ray;
+  edge.to_m = edge_m;
+  const SmokeWalk walk = world_.smoke().walk(edge, -std::log(1.0f - random_.uniform()));
+  light_ += throughput_ * walk.emitted;
+  if (!walk.scatters) return false;
+  point = {};
+  point.in_smoke = true;
+  point.surface.diffuse = walk.albedo;
+  point.position_m = ray.origin_m + ray.direction * walk.distance_m;
+  return true;
+}
+
 glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
   for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
     Hit hit;
     SurfacePoint point;
     bool met = false;
-    const glm::vec3 begin_m = ray.origin_m;
+    const Ray edge_ray = ray;
     for (int passed = 0; passed < most_passed; ++passed) {
       met = world_.geometry().intersect(ray, hit);
       if (!met) break;
@@ -258,7 +288,14 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
       if (point.opacity >= 1.0f || random_.uniform() < point.opacity) break;
       ray.origin_m = beside(point.position_m, -point.flat_normal);
     }
-    const float edge_m = met ? glm::length(point.position_m - begin_m) : 0.0f;
+    float edge_m = met ? glm::length(point.position_m - edge_ray.origin_m) : std::numeric_limits<float>::infinity();
+    if (first && met)
+      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, point.place + 1};
+    first = nullptr;
+    if (meet_smoke(edge_ray, edge_m, point)) {
+      met = true;
+      edge_m = glm::length(point.position_m - edge_ray.origin_m);
+    }
     if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
       const float clear = std::exp(-fog * edge_m);
       light_ += throughput_ * (1.0f - clear) * world_.fog_radiance(ray.direction);
@@ -267,10 +304,6 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     if (!met) {
       meet_sky(ray.direction);
       break;
-    }
-    if (first) {
-      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, point.place + 1};
-      first = nullptr;
     }
     if (point.dielectric && !point.from_front) throughput_ *= glm::exp(-point.absorption_per_m * edge_m);
     meet_lamp(ray, point);
@@ -283,9 +316,11 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     const glm::vec3 to_viewer = -ray.direction;
     choose_chances(point);
     look_at_a_light(point, to_viewer);
-    const Scattered scattered = scatter(point.surface, to_viewer, random_);
+    const Scattered scattered =
+        point.in_smoke ? scatter_evenly(point.surface.diffuse, random_) : scatter(point.surface, to_viewer, random_);
     throughput_ *= scattered.weight;
-    if (throughput_ == glm::vec3(0.0f) || glm::dot(scattered.direction, point.flat_normal) <= 0.0f) break;
+    if (throughput_ == glm::vec3(0.0f)) break;
+    if (!point.in_smoke && glm::dot(scattered.direction, point.flat_normal) <= 0.0f) break;
     if (edge >= settings_.roulette_from) {
       const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
       if (random_.uniform() >= goes_on) break;

@@ -64,7 +64,8 @@ World::World(const scene::ResolvedScene& scene, const instant::Instant& instant,
       instant_(instant),
       geometry_(geometry),
       sky_(*instant.light),
-      origin_m_(instant::world_eye(instant.views.front())) {
+      origin_m_(instant::world_eye(instant.views.front())),
+      smoke_(instant.smoke, origin_m_) {
   geometry_.keep(scene.meshes.size());
   std::vector<Place> places;
   for (const scene::Instance& instance : scene.instances) {

@@ -11,6 +11,7 @@
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
 #include "engine/raytrace/sky.hpp"
+#include "engine/raytrace/smoke.hpp"
 #include "engine/raytrace/surface.hpp"
 
 namespace septet::raytrace {
@@ -26,7 +27,8 @@ struct SurfacePoint {
   glm::vec3 emission{0.0f};     ///< Towards the viewer.
   float lights_up = 1.0f;       ///< How many times as bright it is for what it lights.
   float opacity = 1.0f;         ///< Share of the rays that it stops; the others go straight on.
-  bool dielectric = false;      ///< A body to see into: `index` and `absorption_per_m` are its inside's.
+  bool in_smoke = false;  ///< No surface: a place in the air that scatters evenly to all sides, surface.diffuse of it.
+  bool dielectric = false;  ///< A body to see into: `index` and `absorption_per_m` are its inside's.
   float index = 1.5f;
   glm::vec3 absorption_per_m{0.0f};
   float share_of_sky = 1.0f;  ///< As the rasteriser guesses it; here only a guess at which lights matter.
@@ -69,6 +71,7 @@ class World : public Openings {
   const instant::Instant& instant() const { return instant_; }
   const std::vector<Lamp>& lamps() const { return lamps_; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
+  const Smoke& smoke() const { return smoke_; }
   const Vec3& origin_m() const { return origin_m_; }  ///< World.
 
   SurfacePoint point(const Ray& ray, const Hit& hit) const;
@@ -112,6 +115,7 @@ class World : public Openings {
   Geometry& geometry_;
   Sky sky_;
   Vec3 origin_m_;
+  Smoke smoke_;
   std::vector<PlacedSurface> placed_;
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;

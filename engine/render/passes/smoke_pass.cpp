@@ -58,8 +58,7 @@ glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& l
   constexpr glm::vec3 tunnel_lamps(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
   const glm::vec3 around = 0.5f * (light.sky_irradiance + light.ground_irradiance) + 0.35f * light.light_irradiance;
   const glm::vec3 irradiance = around * share_of_sky + tunnel_lamps * (1.0f - share_of_sky);
-  constexpr glm::vec3 flame(9.0f, 3.4f, 0.7f);
-  return puff.albedo * irradiance / std::numbers::pi_v<float> + flame * (puff.glow * puff.glow);
+  return puff.albedo * irradiance / std::numbers::pi_v<float> + instant::flame_radiance * (puff.glow * puff.glow);
 }
 
 }  // namespace
