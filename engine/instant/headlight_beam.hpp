@@ -30,4 +30,11 @@ inline float share(const glm::vec3& level, const glm::vec3& direction) {
   return std::max(below, above) / (1.0f + aside * 59.0f);
 }
 
+/// Cosine between a surface's normal and the way to the lamp, as it lights rough asphalt: that sends more light back than a matt
+/// surface would at so low an angle.
+inline float facing(float cosine) { return 0.7f * cosine + 0.3f; }
+
+/// Of what retroreflectors send back, the share that arrives beside the way to the lamp: `away` is 1 − the cosine of the angle between.
+inline float returned(float away) { return 1.0f / (1.0f + away * 26000.0f); }
+
 }  // namespace septet::instant::beam

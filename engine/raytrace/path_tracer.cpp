@@ -172,8 +172,15 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
                      float distance_m) {
   if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
   if (!point.in_smoke && glm::dot(light.direction, point.flat_normal) <= 0.0f) return;
-  const Scattering scattered = point.in_smoke ? Scattering{point.surface.diffuse * evenly_per_sr, evenly_per_sr}
-                                              : scattering(point.surface, to_viewer, light.direction);
+  Scattering scattered = point.in_smoke ? Scattering{point.surface.diffuse * evenly_per_sr, evenly_per_sr}
+                                        : scattering(point.surface, to_viewer, light.direction);
+  if (kind == Kind::headlight && !point.in_smoke) {
+    const float cosine = std::max(glm::dot(light.direction, point.surface.normal), 1e-3f);
+    scattered.value *= instant::beam::facing(cosine) / cosine;
+    // Beads and prisms send it back to the lamp, beside which the eye is; what they light elsewhere does not count.
+    if (!scattered_)
+      scattered.value += point.retroreflection * instant::beam::returned(1.0f - glm::dot(light.direction, to_viewer));
+  }
   if (scattered.value == glm::vec3(0.0f)) return;
   const float pdf = light.pdf * chance(kind);
   const bool also_by_chance = kind != Kind::headlight;

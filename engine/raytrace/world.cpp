@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t most_lamps = 256;
 constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
 /// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
-/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Estimated: at 3.5 the road of scenarios/tunnel-fire had 66 codes of the
-/// rasteriser's 92.
+/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Measured in scenarios/tunnel-fire 7.8 s after its
+/// beginning: the road has the rasteriser's radiance within 1 %, the walls have half of it.
 constexpr float roofed_lamps_light_up = 6.0f;
 constexpr float opaque_from = 0.999f;  // As the rasteriser has it.
 
@@ -66,6 +66,7 @@ World::World(const scene::ResolvedScene& scene, const instant::Instant& instant,
       sky_(*instant.light),
       origin_m_(instant::world_eye(instant.views.front())),
       smoke_(instant.smoke, origin_m_) {
+  for (const scene::SurfaceMaterial& material : scene.materials) cut_.push_back(is_cut(material, scene));
   geometry_.keep(scene.meshes.size());
   std::vector<Place> places;
   for (const scene::Instance& instance : scene.instances) {
@@ -94,6 +95,8 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      origin,
                      placed.tint,
                      placed.share_of_sky,
+                     placed.snowed_on,
+                     placed.number,
                      stands,
                      {}});
 }
@@ -197,6 +200,12 @@ const scene::SurfaceMaterial& World::material_of(const PlacedSurface& placed, st
 }
 
 /// Between four texels; the image repeats.
+glm::vec2 World::in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv) {
+  const std::uint32_t columns = std::max(1u, material.picture_columns), rows = std::max(1u, material.picture_rows);
+  const std::uint32_t picture = placed.number % (columns * rows);
+  return (uv + glm::vec2(picture % columns, picture / columns)) / glm::vec2(columns, rows);
+}
+
 glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const {
   if (material.base_color_image < 0 || static_cast<std::size_t>(material.base_color_image) >= scene_.images.size())
     return glm::vec4(1.0f);
@@ -274,7 +283,7 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
     return point;
   }
 
-  const glm::vec2 uv = w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
+  const glm::vec2 uv = in_image(placed, material, w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv);
   const bool textured = material.base_color_image >= 0;
   glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
   glm::vec3 image(1.0f);
@@ -290,13 +299,12 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   const glm::vec3 color = base;
   const float share_of_sky = point.share_of_sky = material.share_of_sky * placed.share_of_sky;
   const Environment& weather = instant_.environment;
-  if (weather.snow_cover > 0.0)
-    base = glm::mix(base, glm::vec3(0.85f, 0.88f, 0.92f),
-                    static_cast<float>(weather.snow_cover) * share_of_sky * step_between(0.35f, 0.8f, normal.z));
+  lay_snow(placed, material, uv, normal.z, share_of_sky, base);
   const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
   base *= 1.0f - 0.55f * wet;
   base *= 1.0f - soot(point.position_m);
 
+  point.retroreflection = color * (material.retroreflection * (material.stripe ? 1.0f - 0.8f * wet : 1.0f));
   Surface& surface = point.surface;
   surface.normal = normal;
   surface.diffuse = base * (1.0f - material.metallic);
@@ -330,12 +338,29 @@ glm::vec3 World::fog_radiance(const glm::vec3& direction) const {
   return sky_.radiance({across * direction.x / level, across * direction.y / level, up});
 }
 
+/// As in shaders/surface.frag. Leaves wither, and snow lies on twigs whichever way their picture looks. Wheels keep two tracks of a
+/// lane bare; what drives has blown it off, and one sees through what is clear.
+void World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
+                     float share_of_sky, glm::vec3& albedo) const {
+  const auto cover = static_cast<float>(instant_.environment.snow_cover);
+  if (!(cover > 0.0f)) return;
+  float snow = step_between(0.35f, 0.8f, up);
+  if (&material != &no_material_ && cut_[static_cast<std::size_t>(&material - scene_.materials.data())]) {
+    albedo = glm::mix(albedo, glm::vec3(0.11f, 0.09f, 0.07f) * (0.4f + 2.0f * albedo.g), 0.9f * cover);
+    snow = std::max(snow, 0.35f);
+  }
+  if (!placed.snowed_on || material.opacity < opaque_from) return;
+  if (material.wettable && material.base_color_image >= 0)
+    snow *= 0.3f + 0.7f * step_between(0.07f, 0.13f, std::abs(std::abs(uv.x - 0.5f) - 0.23f));
+  albedo = glm::mix(albedo, glm::vec3(0.85f, 0.88f, 0.92f), cover * share_of_sky * snow);
+}
+
 bool World::is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const {
   const PlacedSurface& placed = placed_[place];
   const scene::SurfaceMaterial& material = material_of(placed, triangle);
   if (material.base_color_image < 0 || material.opacity < opaque_from) return false;
   const Corners at = corners(placed, triangle);
-  return texel(material, (1.0f - u - v) * at.a->uv + u * at.b->uv + v * at.c->uv).a < 0.5f;
+  return texel(material, in_image(placed, material, (1.0f - u - v) * at.a->uv + u * at.b->uv + v * at.c->uv)).a < 0.5f;
 }
 
 float World::share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,

@@ -22,11 +22,12 @@ inline constexpr std::uint32_t no_lamp = 0xffffffffu;
 struct SurfacePoint {
   Surface surface;
   glm::vec3 position_m{0.0f};
-  glm::vec3 flat_normal{0.0f};  ///< Of the triangle, towards the viewer.
-  bool from_front = true;       ///< It was met on the side that its triangle faces.
-  glm::vec3 emission{0.0f};     ///< Towards the viewer.
-  float lights_up = 1.0f;       ///< How many times as bright it is for what it lights.
-  float opacity = 1.0f;         ///< Share of the rays that it stops; the others go straight on.
+  glm::vec3 flat_normal{0.0f};      ///< Of the triangle, towards the viewer.
+  bool from_front = true;           ///< It was met on the side that its triangle faces.
+  glm::vec3 emission{0.0f};         ///< Towards the viewer.
+  float lights_up = 1.0f;           ///< How many times as bright it is for what it lights.
+  glm::vec3 retroreflection{0.0f};  ///< cd/(lx m²), to where light comes from.
+  float opacity = 1.0f;             ///< Share of the rays that it stops; the others go straight on.
   bool in_smoke = false;  ///< No surface: a place in the air that scatters evenly to all sides, surface.diffuse of it.
   bool dielectric = false;  ///< A body to see into: `index` and `absorption_per_m` are its inside's.
   float index = 1.5f;
@@ -92,6 +93,8 @@ class World : public Openings {
     glm::vec3 origin_m{0.0f};
     glm::vec4 tint{1.0f};
     float share_of_sky = 1.0f;
+    bool snowed_on = true;
+    std::uint32_t number = 0;          ///< Of its participant.
     bool stands = false;               ///< An instance of the scene: not a part of a participant, nor loose.
     std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
     const ClearBody* body = nullptr;
@@ -107,7 +110,11 @@ class World : public Openings {
   void add_lamps(std::uint32_t place, const scene::MeshPart& part);
   Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
   const scene::SurfaceMaterial& material_of(const PlacedSurface& placed, std::uint32_t triangle) const;
-  glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& uv) const;
+  /// Place in the material's image: of several pictures in it, that of the participant.
+  static glm::vec2 in_image(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv);
+  glm::vec4 texel(const scene::SurfaceMaterial& material, const glm::vec2& at) const;
+  void lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
+                float share_of_sky, glm::vec3& albedo) const;
   float soot(const glm::vec3& position_m) const;
 
   const scene::ResolvedScene& scene_;
@@ -120,6 +127,7 @@ class World : public Openings {
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<Lamp> lamps_;
+  std::vector<bool> cut_;  ///< For each material, whether its image has holes.
   scene::SurfaceMaterial no_material_;
 };
 

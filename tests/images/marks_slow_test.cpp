@@ -10,6 +10,7 @@
 
 #include "engine/render/renderer.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "tests/engine/road/road_files.hpp"
 #include "tests/images/motorway_view.hpp"
 
 namespace septet {

@@ -6,16 +6,16 @@
 #include <numbers>
 #include <string_view>
 
-#include <doctest/doctest.h>
-
+#include "engine/core/check.hpp"
 #include "engine/instant/instant.hpp"
+#include "engine/road/opendrive_reader.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/vehicles.hpp"
 #include "engine/scenery/world/road_world.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/vehicle_model.hpp"
-#include "tests/engine/road/road_files.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet {
 
@@ -34,7 +34,7 @@ class Motorway {
     scene::Store store;
     scene::SceneBuilder builder(store);
     scenery::build_vehicles(builder);
-    scenery::build_road_world(builder, road::motorway(), 1);
+    scenery::build_road_world(builder, network_, 1);
     scene_ = scene::resolve(store);
   }
   const scene::ResolvedScene& scene() const { return scene_; }
@@ -84,14 +84,22 @@ class Motorway {
 
  private:
   RigidTransform in_lane(int lane, double s_m) const {
-    return road::world_from_lane(road::evaluate_lane(road::motorway(), {0, lane, s_m, 0.0}));
+    return road::world_from_lane(road::evaluate_lane(network_, {0, lane, s_m, 0.0}));
   }
   std::uint32_t prototype(std::string_view name) const {
     const auto found = std::ranges::find(scene_.prototypes, name, &scene::Prototype::name);
-    REQUIRE(found != scene_.prototypes.end());
+    SEPTET_CHECK(found != scene_.prototypes.end(), "no vehicle {}", name);
     return static_cast<std::uint32_t>(found - scene_.prototypes.begin());
   }
 
+  static road::RoadNetwork read() {
+    const auto network =
+        road::read_opendrive(shipped_text("scenarios/motorway-ambulance/motorway.xodr"), "motorway.xodr");
+    SEPTET_CHECK(network, "{}", describe(network.error()));
+    return *network;
+  }
+
+  road::RoadNetwork network_ = read();
   scene::ResolvedScene scene_;
 };
 

@@ -1,4 +1,6 @@
-// The twin of engine/instant/headlight_beam.hpp: share of a dipped beam's peak in a direction, for a lamp that points along `level`.
+// The twin of engine/instant/headlight_beam.hpp.
+
+// Share of a dipped beam's peak in a direction, for a lamp that points along `level`.
 float beam_share(vec3 level, vec3 direction) {
   float ahead = dot(direction, level);
   float down = level.z * ahead - direction.z;

@@ -1,0 +1,40 @@
+"""How near the rasteriser is to the ray tracer, which draws the same description of an instant: mean FLIP a weather.
+
+    renderers_flip_test.py BOTH_RENDERERS [--samples N] [--keep FOLDER]
+
+The bounds are what was measured with 32 samples a pixel, rounded up; whoever brings the two nearer lowers them. Noise is a part of
+each figure, most in the tunnel; so are the clouds and the glare that only the rasteriser draws.
+"""
+
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import flip
+
+MOST = {"noon": 0.083, "dusk": 0.033, "night": 0.073, "rain": 0.120, "snow": 0.076, "tunnel": 0.375}
+
+
+def main():
+    options = argparse.ArgumentParser()
+    options.add_argument("program")
+    options.add_argument("--samples", default="32")
+    options.add_argument("--keep", type=pathlib.Path)
+    options = options.parse_args()
+    failed = False
+    for weather, most in MOST.items():
+        with tempfile.TemporaryDirectory() as made:
+            folder = options.keep / weather if options.keep else pathlib.Path(made)
+            folder.mkdir(parents=True, exist_ok=True)
+            subprocess.run([options.program, weather, str(folder), options.samples], check=True)
+            figure = flip.mean_flip(flip.read_png(folder / "traced.png"), flip.read_png(folder / "raster.png"))
+        print(f"{weather} {figure:.4f}, at most {most}")
+        failed = failed or not figure <= most
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
