@@ -79,7 +79,13 @@ void Path::meet_sky(const glm::vec3& direction) {
   const glm::vec3 sky_light = sky.radiance(direction), sun_light = sky.sun_radiance(direction);
   if (pdf_ <= 0.0f) {
     // The sun through a clear body onto a rough surface is met so seldom that it would be a spark, not a caustic.
-    light_ += throughput_ * (scattered_ ? sky_light : sky_light + sun_light);
+    if (scattered_) {
+      light_ += throughput_ * sky_light;
+      return;
+    }
+    const instant::CloudSeen cloud = world_.cloud(direction);
+    light_ +=
+        throughput_ * (glm::mix(sky_light, cloud.radiance, cloud.cover) + sun_light * (1.0f - 0.97f * cloud.cover));
     return;
   }
   light_ += throughput_ * sky_light * mis_weight(pdf_, chance(Kind::sky) * sky.pdf(direction));

@@ -128,6 +128,7 @@ struct RayTracer::Parts {
   std::vector<ClearBody> bodies{};
   std::unique_ptr<World> world{};
   std::vector<Camera> cameras{};
+  std::vector<std::uint8_t> cloud_noise = instant::cloud_noise();
 };
 
 RayTracer::RayTracer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -151,7 +152,7 @@ void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, s
   p.instant = std::move(instant);
   p.bodies = std::move(bodies);
   for (const ice::IceBody& ice : p.instant.ice) p.bodies.push_back(clear_body(ice));
-  p.world = std::make_unique<World>(p.scene, p.instant, p.bodies, p.geometry);
+  p.world = std::make_unique<World>(p.scene, p.instant, p.bodies, p.cloud_noise, p.geometry);
   p.cameras.clear();
   for (const instant::FrameView& view : p.instant.views) p.cameras.emplace_back(view, p.world->origin_m());
 }

@@ -59,11 +59,13 @@ std::vector<bool> open_meshes(const scene::ResolvedScene& scene) {
 }
 
 World::World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
-             Geometry& geometry)
+             std::span<const std::uint8_t> cloud_noise, Geometry& geometry)
     : scene_(scene),
       instant_(instant),
       geometry_(geometry),
       sky_(*instant.light),
+      cloud_noise_(cloud_noise),
+      cloud_drift_m_(instant::cloud_drift_m(instant.environment, instant.simulated_time_s)),
       origin_m_(instant::world_eye(instant.views.front())),
       smoke_(instant.smoke, origin_m_) {
   for (const scene::SurfaceMaterial& material : scene.materials) cut_.push_back(is_cut(material, scene));

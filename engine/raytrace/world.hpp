@@ -8,6 +8,7 @@
 
 #include <optional>
 
+#include "engine/instant/clouds.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
 #include "engine/raytrace/sky.hpp"
@@ -60,15 +61,21 @@ struct ClearBody {
 
 class World : public Openings {
  public:
-  /// `geometry` holds the scene's meshes; those of this instant alone are added behind them. All of these outlive the world.
+  /// `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
+  /// these outlive the world.
   World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
-        Geometry& geometry);
+        std::span<const std::uint8_t> cloud_noise, Geometry& geometry);
   ~World() override = default;
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   const Geometry& geometry() const { return geometry_; }
   const Sky& sky() const { return sky_; }
+  /// What is seen of clouds, which the light of the sky's table holds already.
+  instant::CloudSeen cloud(const glm::vec3& direction) const {
+    return instant::cloud_seen(cloud_noise_, *instant_.light, instant_.environment.cloud_cover, cloud_drift_m_,
+                               direction);
+  }
   const instant::Instant& instant() const { return instant_; }
   const std::vector<Lamp>& lamps() const { return lamps_; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
@@ -121,6 +128,8 @@ class World : public Openings {
   const instant::Instant& instant_;
   Geometry& geometry_;
   Sky sky_;
+  std::span<const std::uint8_t> cloud_noise_;
+  glm::vec2 cloud_drift_m_;
   Vec3 origin_m_;
   Smoke smoke_;
   std::vector<PlacedSurface> placed_;

@@ -11,6 +11,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/instant/clouds.hpp"
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/passes/device_scene.hpp"
@@ -119,7 +120,10 @@ void Renderer::State::create(const RendererOptions& wanted) {
   table.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   sky_table = create_image(memory, table);
   vulkan::Upload upload(device, memory);
-  noise = create_texture(upload, texture_levels(noise_side, noise_side, cloud_noise(), false));
+  constexpr std::uint32_t side = instant::cloud_noise_side;
+  std::vector<std::uint8_t> grey;
+  for (const std::uint8_t rank : instant::cloud_noise()) grey.insert(grey.end(), 4, rank);
+  noise = create_texture(upload, texture_levels(side, side, grey, false));
   upload.finish();
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);

@@ -19,8 +19,4 @@ void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry);
 /// The table as half floats, RGBA, for a texture of SkyTable's size.
 std::vector<std::uint64_t> packed(const SkyTable& table);
 
-/// A tile of noise for clouds: six octaves of value noise, as ranks of 8 bits, RGBA alike; it repeats at its edges.
-inline constexpr std::uint32_t noise_side = 512;
-std::vector<std::uint8_t> cloud_noise();
-
 }  // namespace septet::render

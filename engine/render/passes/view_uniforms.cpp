@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/instant/clouds.hpp"
+
 namespace septet::render {
 namespace {
 
@@ -77,10 +79,7 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const Environment& environment = instant.environment;
   uniforms.weather = glm::vec4(environment.road_wetness, environment.snow_cover,
                                std::fmod(instant.simulated_time_s, 3600.0), environment.rain_mm_per_h);
-  // Clouds drift with the wind, which blows twice as fast up there; the noise repeats after 9 km.
-  const double drift_m = std::fmod(instant.simulated_time_s * 2.0 * environment.wind_speed_mps, 9000.0);
-  uniforms.wind = glm::vec4(-drift_m * std::cos(environment.wind_direction_rad),
-                            -drift_m * std::sin(environment.wind_direction_rad), 0.0, 0.0);
+  uniforms.wind = glm::vec4(instant::cloud_drift_m(environment, instant.simulated_time_s), 0.0f, 0.0f);
   set_headlights(uniforms, eye_m, instant.headlights);
   if (!instant.soot.cover.empty()) set_soot(uniforms, eye_m, instant.soot);
   return uniforms;

@@ -1,0 +1,37 @@
+#pragma once
+/// Clouds: a sheet of noise over the land, the twin of shaders/sky.frag.
+///
+/// They lie on a plane 1.6 km up, drift with the wind, twice as fast as it blows below, and repeat after 9 km. The noise holds ranks, so that a
+/// share of the sky as large as the weather's cloud cover lies above its limit.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/instant/atmosphere.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::instant {
+
+/// Side of the tile of noise, which repeats at its edges.
+inline constexpr std::uint32_t cloud_noise_side = 512;
+
+/// Six octaves of value noise as ranks of 8 bits, row after row. Takes milliseconds: made once and kept.
+std::vector<std::uint8_t> cloud_noise();
+
+/// How far the clouds have been blown at an instant, m along x and y, within a tile.
+glm::vec2 cloud_drift_m(const Environment& environment, double simulated_time_s);
+
+struct CloudSeen {
+  glm::vec3 radiance{0.0f};
+  float cover = 0.0f;  ///< Share of what lies behind that it hides.
+};
+
+/// The cloud in a unit direction.
+CloudSeen cloud_seen(std::span<const std::uint8_t> noise, const SkyLight& light, double cloud_cover,
+                     const glm::vec2& drift_m, const glm::vec3& direction);
+
+}  // namespace septet::instant
