@@ -1,0 +1,130 @@
+#pragma once
+/// Who traces which pixels of a film: a master deals buckets to workers of any speed, first come first served. Knows no network, no
+/// clock and no picture: time is passed in.
+///
+/// A frame's pixels are tiles in a fixed order, and a bucket is a run of them. In `Dealing::split` a worker gets a whole frame
+/// while there are more of them than workers, then as many tiles as its measured speed deserves of half of what is left; when
+/// nothing is left, the run that would end last is split, the worker that is free taking over its end, again and again, until the
+/// last tiles are traced twice rather than waited for. So a worker that is slow holds nobody up, and one that is lost costs what
+/// it had begun. The others are what Johansson et al., "Distributed Ray Tracing in an Open Source Environment", describe:
+/// equal buckets, and equal buckets that are shared out beforehand.
+///
+/// Which worker traces a tile changes no bit of it, nor how often it is traced: the first result counts.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace septet::raytrace {
+
+enum class Dealing : std::uint8_t {
+  split,        ///< Frames, then guided by speed, then what is late is split.
+  equal,        ///< The paper's: equal buckets to whoever is free.
+  round_robin,  ///< Equal buckets, the n-th to worker n modulo their number.
+};
+
+/// Tiles first, first + 1, … below end of one frame.
+struct TileRun {
+  std::size_t frame = 0;
+  std::uint32_t first = 0, end = 0;
+  bool operator==(const TileRun&) const = default;
+};
+
+/// What one worker is to do now, and whose run is shorter for it.
+struct Deal {
+  struct Shortened {
+    std::size_t worker = 0;
+    TileRun run;  ///< All that is left to it.
+  };
+  TileRun run;
+  std::optional<Shortened> shortened;
+};
+
+struct BucketScheduleOptions {
+  Dealing dealing = Dealing::split;
+  std::uint32_t equal_buckets = 81;  ///< Of a frame, where they are equal.
+};
+
+/// One thread. A worker holds at most one run; it is free when its last tile has come, or was taken over.
+class BucketSchedule {
+ public:
+  BucketSchedule(std::size_t frames, std::uint32_t tiles_per_frame, const BucketScheduleOptions& options = {});
+
+  /// Before anything is dealt: it is there already.
+  void skip_frame(std::size_t frame);
+  void skip_tile(std::size_t frame, std::uint32_t tile);
+
+  /// At any time. `threads` tiles at once are in its hands. Its number: 0, 1, …
+  std::size_t add_worker(std::uint32_t threads);
+  /// It is gone: what it holds is dealt anew.
+  void remove_worker(std::size_t worker);
+
+  /// What this worker, which has nothing to do, is to do; nothing: to ask again later.
+  std::optional<Deal> deal(std::size_t worker, double now_s);
+  /// A tile has come. False: it was there already.
+  bool finish(std::size_t worker, std::size_t frame, std::uint32_t tile, double now_s);
+  /// How long this worker took to make ready for its run's frame.
+  void was_ready_after(std::size_t worker, double duration_s) { workers_[worker].ready_s = duration_s; }
+
+  bool is_free(std::size_t worker) const { return !workers_[worker].run && !workers_[worker].gone; }
+  bool has_frame(std::size_t frame) const { return done_frames_.contains(frame); }
+  bool has_all() const { return done_frames_.size() == frames_; }
+  /// Tiles of the frames that are begun and not whole.
+  std::uint64_t tiles_of_begun_frames() const;
+  std::uint64_t splits() const { return splits_; }
+  std::uint64_t traced_twice() const { return traced_twice_; }
+
+ private:
+  struct Worker {
+    std::uint32_t threads = 1;
+    bool gone = false;
+    std::optional<TileRun> run;
+    double began_s = 0.0, last_came_s = 0.0;  ///< Of this run.
+    std::uint32_t came = 0;                   ///< Tiles of this run.
+    double busy_s = 0.0, tiles = 0.0;         ///< Of all its runs.
+    double ready_s = 0.0;
+    std::optional<std::size_t> frame;  ///< Which it is ready for.
+  };
+  struct Frame {
+    std::vector<bool> dealt, done;
+    std::uint32_t undealt = 0, left = 0;  ///< Not dealt; not done.
+  };
+  /// What a worker still has to do: tiles in its hands, and behind them those that it has not begun.
+  struct Left {
+    std::uint32_t first = 0, in_hands = 0, first_unbegun = 0, unbegun = 0;
+    double per_s = 0.0;  ///< Tiles a second, as its run has gone so far.
+  };
+
+  Frame& begin(std::size_t frame);
+  TileRun take(std::size_t frame, std::uint32_t from, std::uint32_t end, std::uint64_t most);
+  std::optional<TileRun> undealt_for(std::size_t worker);
+  std::optional<TileRun> equal_bucket_for(std::size_t worker);
+  std::optional<Deal> split_for(std::size_t worker, double now_s) const;
+  std::optional<TileRun> repeat_for(std::size_t worker, double now_s) const;
+  void hold(Worker& worker, const TileRun& run, double now_s);
+  double speed_of(const Worker& worker) const;
+  double speed_of_all() const;
+  double time_to_ready_s(const Worker& worker, std::size_t frame) const;
+  Left left_of(const Worker& worker, double now_s) const;
+  bool is_over(const Worker& worker) const;
+
+  std::size_t frames_;
+  std::uint32_t tiles_per_frame_;
+  BucketScheduleOptions options_;
+  std::vector<Worker> workers_;
+  std::map<std::size_t, Frame> begun_;  ///< Not whole.
+  std::set<std::size_t> done_frames_;
+  std::size_t next_frame_ = 0;  ///< All below are begun or whole.
+  std::size_t unbegun_;
+  std::uint64_t splits_ = 0, traced_twice_ = 0;
+};
+
+/// How many pixels a bucket of side × side is traced too many where a filter reaches over its edge and samples are not shared: the
+/// paper's 4·r·l + 4·r². Ours has none: a sample belongs to one pixel (Filter).
+constexpr std::uint64_t padding_pixels(std::uint64_t side_px, std::uint64_t radius_px) {
+  return 4 * radius_px * side_px + 4 * radius_px * radius_px;
+}
+
+}  // namespace septet::raytrace
