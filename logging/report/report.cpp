@@ -226,22 +226,18 @@ std::string answer_table(const std::vector<QuestionnaireRecord>& answers) {
 }  // namespace
 
 Expected<ReportData> read_report_data(const SessionReader& reader) {
-  auto samples = reader.samples();
-  if (!samples) return tl::unexpected(samples.error());
-  auto events = reader.events();
-  if (!events) return tl::unexpected(events.error());
+  auto records = read_drive_records(reader);
+  if (!records) return tl::unexpected(records.error());
   auto answers = reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
   const auto missing = reader.missing_ticks();
   if (!missing) return tl::unexpected(missing.error());
-  ReportData data{.info = reader.info(),
-                  .ended_cleanly = reader.ended_cleanly(),
-                  .outcome = {},
-                  .missing_ticks = *missing,
-                  .samples = std::move(*samples),
-                  .events = std::move(*events),
-                  .answers = std::move(*answers),
-                  .settings = {}};
+  ReportData data;
+  static_cast<DriveRecords&>(data) = std::move(*records);
+  data.info = reader.info();
+  data.ended_cleanly = reader.ended_cleanly();
+  data.missing_ticks = *missing;
+  data.answers = std::move(*answers);
   if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
     auto outcome = read_outcome(row->second);
     if (!outcome) return tl::unexpected(outcome.error());
@@ -251,7 +247,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
 }
 
 std::string to_html(const ReportData& data) {
-  const DriveMeasures measures = compute_drive_measures(data.samples, data.settings);
+  const DriveMeasures measures = compute_drive_measures(data, data.settings);
   std::string body = head(data, measures);
   if (data.samples.empty())
     body += "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";
