@@ -11,6 +11,7 @@
 #include "engine/document/text_file.hpp"
 #include "logging/report/measure_table.hpp"
 #include "logging/report/report_style.hpp"
+#include "logging/subject.hpp"
 
 namespace septet::logging {
 namespace {
@@ -97,6 +98,8 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">", escaped(scenario ? stem(*scenario) : "A drive"));
   if (rig) html += fmt::format("Rig {} · ", escaped(stem(*rig)));
   if (!info.participant.empty()) html += fmt::format("driver {} · ", escaped(info.participant));
+  for (const auto& [name, value] : meta_of(subject_of(info)))
+    html += fmt::format("{} {} · ", escaped(name.starts_with("column.") ? name.substr(7) : name), escaped(value));
   if (!info.started_utc.empty()) html += fmt::format("started {} · ", escaped(info.started_utc));
   for (const auto& [name, value] : info.parameters) html += fmt::format("{} = {} · ", escaped(name), escaped(value));
   for (const auto& [name, seed] : info.seeds) html += fmt::format("seed {} {} · ", escaped(name), seed);

@@ -56,6 +56,7 @@ std::string to_json(const DriveSummary& s) {
                {"rig", s.rig},
                {"vehicle", s.vehicle},
                {"participant", s.participant},
+               {"subject", meta_of(s.subject)},
                {"seed", s.seed},
                {"parameters", Json(s.parameters)}};
   json.update(json_of(s.outcome));
