@@ -35,6 +35,13 @@ int main(int argc, char** argv) {
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
   app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
+  app.add_option("--about", options.about,
+                 "What else is known of the driver: group=, condition=, order=, part=, note=, column.NAME=")
+      ->type_name("KEY=VALUE")
+      ->default_str("")
+      ->allow_extra_args(false);
+  app.add_flag("--log-samples-only", options.log_samples_only,
+               "Log no snapshots: to be measured, not to be shown again");
   app.add_option("--traffic", options.traffic, "Who moves the traffic: own or sumo");
   app.add_option("--wait-for-screens", options.wait_for_screens_s,
                  "Seconds to wait for the rig's screens and car, then drive without those that are missing")

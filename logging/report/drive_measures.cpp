@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace septet::logging {
 namespace {
-
-constexpr double sample_interval_s = 0.1;
 
 void measure_speed(std::span<const Sample> samples, DriveMeasures& measures) {
   double sum = 0.0;
@@ -24,26 +23,13 @@ void measure_speed(std::span<const Sample> samples, DriveMeasures& measures) {
                            (samples[i].speed_mps + samples[i - 1].speed_mps) / 2.0;
 }
 
-void measure_headway(std::span<const Sample> samples, double longest_s, DriveMeasures& measures) {
-  std::vector<double> headways_s;
-  for (const Sample& sample : samples) {
-    if (!sample.leader || sample.speed_mps <= 1.0) continue;
-    const double headway_s = sample.leader->distance_headway_m / sample.speed_mps;
-    if (headway_s <= longest_s) headways_s.push_back(headway_s);
-  }
-  measures.following_s = sample_interval_s * static_cast<double>(headways_s.size());
-  if (headways_s.empty()) return;
-  std::ranges::sort(headways_s);
-  const std::size_t half = headways_s.size() / 2;
-  measures.time_headway_smallest_s = headways_s.front();
-  measures.time_headway_median_s =
-      headways_s.size() % 2 == 1 ? headways_s[half] : (headways_s[half - 1] + headways_s[half]) / 2.0;
-}
-
 }  // namespace
 
-DriveMeasures compute_drive_measures(std::span<const Sample> samples, const MeasureSettings& settings) {
+DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureSettings& settings) {
   DriveMeasures measures;
+  const std::span<const Sample> samples = records.samples;
+  measures.samples = samples.size();
+  measures.collisions = find_collisions(records.events);
   if (samples.empty()) return measures;
   measures.duration_s = samples.back().simulated_time_s - samples.front().simulated_time_s;
   measure_speed(samples, measures);
@@ -55,7 +41,20 @@ DriveMeasures compute_drive_measures(std::span<const Sample> samples, const Meas
   measures.glances = find_glances(samples, settings.glances);
   if (!measures.glances.empty())
     measures.between_glances_s = measures.duration_s / static_cast<double>(measures.glances.size());
-  measure_headway(samples, settings.longest_following_headway_s, measures);
+  measures.following = compute_following(samples, settings.following);
+  measures.ttc = compute_time_to_collision(samples, settings.ttc);
+  measures.tlc = compute_tlc(samples, measures.lane_changes, settings.tlc);
+  auto limits_mps = records.speed_limits_mps;
+  limits_mps.resize(samples.size());
+  measures.speeding = compute_speeding(samples, limits_mps, settings.speeding);
+  measures.accelerations = compute_accelerations(samples, settings.accelerations);
+  measures.reversals_visual = compute_reversal_rate(samples, settings.reversals_visual);
+  measures.reversals_cognitive = compute_reversal_rate(samples, settings.reversals_cognitive);
+  measures.steering_entropy =
+      compute_steering_entropy(records.inputs, records.ticks_per_second, settings.steering_entropy);
+  if (settings.braking_event)
+    measures.brake_reactions = find_brake_reactions(records.events, records.inputs, records.ticks_per_second,
+                                                    *settings.braking_event, settings.brake_reaction);
   return measures;
 }
 

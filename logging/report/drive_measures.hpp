@@ -1,15 +1,24 @@
 #pragma once
-/// All measures of one drive, out of its samples and events: what the report prints and the summary
+/// All measures of one drive, out of its samples, inputs and events: what the report prints and the summary
 /// takes from.
 
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "logging/measures/accelerations.hpp"
+#include "logging/measures/brake_reaction.hpp"
+#include "logging/measures/collisions.hpp"
+#include "logging/measures/following.hpp"
 #include "logging/measures/glances.hpp"
 #include "logging/measures/lane_changes.hpp"
 #include "logging/measures/lateral_position.hpp"
+#include "logging/measures/speeding.hpp"
+#include "logging/measures/steering_entropy.hpp"
+#include "logging/measures/steering_reversals.hpp"
+#include "logging/measures/time_to_collision.hpp"
+#include "logging/measures/time_to_line_crossing.hpp"
 #include "logging/records.hpp"
+#include "logging/report/drive_records.hpp"
 
 namespace septet::logging {
 
@@ -20,12 +29,19 @@ struct MeasureSettings {
   LaneChangeSettings lane_changes;
   LateralPositionSettings lateral_position;
   GlanceSettings glances;
-  /// A driver follows while the time headway is at most this (SAE J2944 8.1.4 asks for the
-  /// cut-off).
-  double longest_following_headway_s = 6.0;
+  FollowingSettings following;
+  TtcSettings ttc;
+  TlcSettings tlc;
+  SpeedingSettings speeding;
+  AccelerationSettings accelerations;
+  ReversalSettings reversals_visual = visual_load_reversals, reversals_cognitive = cognitive_load_reversals;
+  SteeringEntropySettings steering_entropy;
+  std::optional<NamedEvent> braking_event;  ///< What is to be braked for; without it nothing is.
+  BrakeReactionSettings brake_reaction;
 };
 
 struct DriveMeasures {
+  std::size_t samples = 0;
   double duration_s = 0.0;
   double distance_m = 0.0;                                                   ///< Speed summed over time (trapezoidal).
   double speed_mean_mps = 0.0, speed_sd_mps = 0.0, speed_largest_mps = 0.0;  ///< SD divides by N.
@@ -35,10 +51,17 @@ struct DriveMeasures {
   std::optional<double> between_lane_changes_s;
   std::vector<Glance> glances;
   std::optional<double> between_glances_s;  ///< Duration over their number.
-  std::optional<double> time_headway_median_s, time_headway_smallest_s;
-  double following_s = 0.0;  ///< Time behind a leader within the cut-off, 0.1 s per sample.
+  FollowingMeasures following;
+  TtcMeasures ttc;
+  TlcMeasures tlc;
+  SpeedingMeasures speeding;
+  AccelerationMeasures accelerations;
+  ReversalRate reversals_visual, reversals_cognitive;
+  SteeringEntropy steering_entropy;
+  std::vector<BrakeReaction> brake_reactions;
+  std::vector<Collision> collisions;
 };
 
-DriveMeasures compute_drive_measures(std::span<const Sample> samples, const MeasureSettings& settings = {});
+DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureSettings& settings = {});
 
 }  // namespace septet::logging

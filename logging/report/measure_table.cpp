@@ -1,10 +1,13 @@
 #include "logging/report/measure_table.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 #include <fmt/core.h>
 
 #include "engine/document/markup.hpp"
+#include "logging/report/measure_list.hpp"
 
 namespace septet::logging {
 namespace {
@@ -67,12 +70,26 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
   rows.add("Time between glances", seconds(measures.between_glances_s),
            "Simulated time over the number of mirror glances.");
 
-  const auto headway = fmt::format(
-      "Front bumper to front bumper over own speed (SAE J2944 time headway), above 1 m/s, while at "
-      "most {:g} s: {:.1f} s of driving.",
-      settings.longest_following_headway_s, measures.following_s);
-  rows.add("Time headway, median", seconds(measures.time_headway_median_s, 2), headway);
-  rows.add("Time headway, smallest", seconds(measures.time_headway_smallest_s, 2), "Of the same samples.");
+  // Those above are said in people's units and at more length.
+  static const std::set<std::string, std::less<>> told{"duration_s",
+                                                       "distance_m",
+                                                       "speed_mean_mps",
+                                                       "speed_sd_mps",
+                                                       "speed_largest_mps",
+                                                       "lateral_position_mean_m",
+                                                       "lateral_position_sd_m",
+                                                       "lane_changes",
+                                                       "between_lane_changes_s",
+                                                       "mirror_glances",
+                                                       "between_glances_s"};
+  for (const ListedMeasure& measure : list_measures(measures, settings)) {
+    if (told.contains(measure.key)) continue;
+    const std::string value = measure.value ? fmt::format("{:.4g}", *measure.value) : "–";
+    const bool is_of_samples = measure.samples + measure.missing > 0;
+    rows.add(measure.title, measure.value && !measure.unit.empty() ? value + ' ' + measure.unit : value,
+             measure.definition +
+                 (is_of_samples ? fmt::format(" N = {}, missing {}.", measure.samples, measure.missing) : ""));
+  }
   return "<h2>Measures and what they "
          "mean</h2>\n<table><tr><th>Measure</th><th>Value</th><th>Definition</th></tr>\n" +
          rows.html() + "</table>\n";

@@ -11,6 +11,7 @@
 #include "engine/document/text_file.hpp"
 #include "logging/report/measure_table.hpp"
 #include "logging/report/report_style.hpp"
+#include "logging/subject.hpp"
 
 namespace septet::logging {
 namespace {
@@ -97,6 +98,8 @@ std::string head(const ReportData& data, const DriveMeasures& measures) {
   std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">", escaped(scenario ? stem(*scenario) : "A drive"));
   if (rig) html += fmt::format("Rig {} · ", escaped(stem(*rig)));
   if (!info.participant.empty()) html += fmt::format("driver {} · ", escaped(info.participant));
+  for (const auto& [name, value] : meta_of(subject_of(info)))
+    html += fmt::format("{} {} · ", escaped(name.starts_with("column.") ? name.substr(7) : name), escaped(value));
   if (!info.started_utc.empty()) html += fmt::format("started {} · ", escaped(info.started_utc));
   for (const auto& [name, value] : info.parameters) html += fmt::format("{} = {} · ", escaped(name), escaped(value));
   for (const auto& [name, seed] : info.seeds) html += fmt::format("seed {} {} · ", escaped(name), seed);
@@ -226,22 +229,18 @@ std::string answer_table(const std::vector<QuestionnaireRecord>& answers) {
 }  // namespace
 
 Expected<ReportData> read_report_data(const SessionReader& reader) {
-  auto samples = reader.samples();
-  if (!samples) return tl::unexpected(samples.error());
-  auto events = reader.events();
-  if (!events) return tl::unexpected(events.error());
+  auto records = read_drive_records(reader);
+  if (!records) return tl::unexpected(records.error());
   auto answers = reader.questionnaire();
   if (!answers) return tl::unexpected(answers.error());
   const auto missing = reader.missing_ticks();
   if (!missing) return tl::unexpected(missing.error());
-  ReportData data{.info = reader.info(),
-                  .ended_cleanly = reader.ended_cleanly(),
-                  .outcome = {},
-                  .missing_ticks = *missing,
-                  .samples = std::move(*samples),
-                  .events = std::move(*events),
-                  .answers = std::move(*answers),
-                  .settings = {}};
+  ReportData data;
+  static_cast<DriveRecords&>(data) = std::move(*records);
+  data.info = reader.info();
+  data.ended_cleanly = reader.ended_cleanly();
+  data.missing_ticks = *missing;
+  data.answers = std::move(*answers);
   if (const auto row = data.info.other.find("outcome"); row != data.info.other.end()) {
     auto outcome = read_outcome(row->second);
     if (!outcome) return tl::unexpected(outcome.error());
@@ -251,7 +250,7 @@ Expected<ReportData> read_report_data(const SessionReader& reader) {
 }
 
 std::string to_html(const ReportData& data) {
-  const DriveMeasures measures = compute_drive_measures(data.samples, data.settings);
+  const DriveMeasures measures = compute_drive_measures(data, data.settings);
   std::string body = head(data, measures);
   if (data.samples.empty())
     body += "<p class=\"warning\">The session holds no samples: nothing was driven.</p>\n";

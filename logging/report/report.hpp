@@ -14,13 +14,11 @@
 
 namespace septet::logging {
 
-struct ReportData {
+struct ReportData : DriveRecords {
   SessionInfo info;
   bool ended_cleanly = true;
   std::optional<DriveOutcome> outcome;  ///< Nothing where the file does not say.
   std::uint64_t missing_ticks = 0;
-  std::vector<Sample> samples;
-  std::vector<Event> events;
   std::vector<QuestionnaireRecord> answers;
   MeasureSettings settings;
 };

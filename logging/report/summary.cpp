@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/document/text_file.hpp"
+#include "logging/measures/sample_steps.hpp"
 #include "logging/outcome_json.hpp"
+#include "logging/report/measure_json.hpp"
 
 namespace septet::logging {
 namespace {
@@ -28,11 +30,12 @@ void add_measures(const DriveMeasures& m, Json& json) {
                                         {"right_of_lane", m.histogram.underflow},
                                         {"left_of_lane", m.histogram.overflow},
                                         {"off_every_lane", m.histogram.off_lane}};
-  json["time_headway_s"] = {{"median", optional_number(m.time_headway_median_s)},
-                            {"smallest", optional_number(m.time_headway_smallest_s)},
-                            {"following_s", number(m.following_s)}};
+  json["time_headway_s"] = {{"median", optional_number(m.following.headway.median_s)},
+                            {"smallest", optional_number(m.following.headway.smallest_s)},
+                            {"following_s", number(sample_interval_s * static_cast<double>(m.following.samples))}};
   json["lane_changes"] = m.lane_changes.size();
   json["mirror_glances"] = m.glances.size();
+  json["measures"] = measures_json(m, {});
 }
 
 }  // namespace
@@ -40,12 +43,10 @@ void add_measures(const DriveMeasures& m, Json& json) {
 Expected<DriveSummary::FromLog> summarise_log(const SessionReader& reader) {
   const auto missing = reader.missing_ticks();
   if (!missing) return tl::unexpected(missing.error());
-  const auto samples = reader.samples();
-  if (!samples) return tl::unexpected(samples.error());
-  const auto events = reader.events();
-  if (!events) return tl::unexpected(events.error());
-  DriveSummary::FromLog log{*missing, compute_drive_measures(*samples), {}};
-  for (const Event& event : *events) ++log.events[event.kind];
+  const auto records = read_drive_records(reader);
+  if (!records) return tl::unexpected(records.error());
+  DriveSummary::FromLog log{*missing, compute_drive_measures(*records), {}};
+  for (const Event& event : records->events) ++log.events[event.kind];
   return log;
 }
 
@@ -55,6 +56,7 @@ std::string to_json(const DriveSummary& s) {
                {"rig", s.rig},
                {"vehicle", s.vehicle},
                {"participant", s.participant},
+               {"subject", meta_of(s.subject)},
                {"seed", s.seed},
                {"parameters", Json(s.parameters)}};
   json.update(json_of(s.outcome));

@@ -11,6 +11,7 @@
 #include "logging/outcome.hpp"
 #include "logging/report/drive_measures.hpp"
 #include "logging/session_reader.hpp"
+#include "logging/subject.hpp"
 
 namespace septet::logging {
 
@@ -18,6 +19,7 @@ inline constexpr int summary_version = 1;
 
 struct DriveSummary {
   std::string scenario, rig, vehicle, participant;
+  Subject subject;                                ///< Beside the participant.
   std::map<std::string, std::string> parameters;  ///< Of the scenario, where they were given from outside.
   std::uint64_t seed = 0;
   DriveOutcome outcome;

@@ -138,6 +138,8 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   add_chosen("--driver", options.driver);
   add_chosen("--vehicle", options.vehicle);
   add_chosen("--participant", options.participant);
+  for (const auto& about : options.about) add_chosen("--about", about);
+  if (options.log == "samples") add({"--log-samples-only"});
   for (const auto& parameter : options.parameters) add_chosen("--parameter", parameter);
   if (options.start_now) add({"--start-now"});
   if (options.virtual_screens) add({"--lockstep"});
@@ -277,9 +279,9 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   if (fs::exists(options.out / "report.html", ignored))
     tell(options.out / "report.html", "speed, lateral position and its histogram");
   if (fs::exists(session, ignored))
-    tell(session,
-         fmt::format("{}; show it again with: septet replay {}",
-                     status == logging::failed_status ? "what was logged" : "the whole drive", session.string()));
+    tell(session, fmt::format("{}{}", status == logging::failed_status ? "what was logged" : "the whole drive",
+                              options.log == "samples" ? std::string(", to be measured")
+                                                       : "; show it again with: septet replay " + session.string()));
   return done;
 }
 

@@ -21,6 +21,8 @@ struct DriveOptions {
   std::string driver;                   ///< Which simulated driver; empty: the rig's.
   std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
   std::string participant;              ///< The driver's code, for log, summary and report.
+  std::vector<std::string> about;       ///< Of whoever drives, each "KEY=VALUE" (logging/subject.hpp).
+  std::string log = "whole";            ///< Or samples: no snapshots.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
   std::filesystem::path replay;         ///< A session to show again, instead of a scenario to drive.

@@ -4,6 +4,7 @@
 
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "engine/core/printable.hpp"
+#include "logging/subject.hpp"
 #include "program/resources.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 
@@ -19,6 +20,9 @@ Expected<void> check_names(const ServerOptions& options) {
     return failure(
         fmt::format("\"{}\" is no participant's code", printable(options.participant)), "--participant",
         fmt::format("use at most {} characters, none of them a control character", most_participant_characters));
+  logging::Subject subject;
+  for (const auto& text : options.about)
+    if (auto added = add_to_subject(subject, text); !added) return added;
   return {};
 }
 

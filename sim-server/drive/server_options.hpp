@@ -19,9 +19,11 @@ struct ServerOptions {
   double replay_from_s = 0.0;
   double seconds = 0.0;  ///< Simulated; 0: until stopped.
   std::uint64_t seed = 1;
-  std::string driver;       ///< A simulated driver, who then drives whatever the rig says; empty: the rig's.
-  std::string vehicle;      ///< A file or a name; empty: the rig's.
-  std::string participant;  ///< The driver's code.
+  std::string driver;              ///< A simulated driver, who then drives whatever the rig says; empty: the rig's.
+  std::string vehicle;             ///< A file or a name; empty: the rig's.
+  std::string participant;         ///< The driver's code.
+  std::vector<std::string> about;  ///< Of whoever drives, each "KEY=VALUE" (logging/subject.hpp).
+  bool log_samples_only = false;   ///< The log keeps no snapshots: it can be measured, and not be shown again.
   std::vector<std::string> parameters;  ///< Of the scenario, each "NAME=VALUE".
   std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
   double wait_for_screens_s =

@@ -16,6 +16,7 @@
 #include "logging/report/report.hpp"
 #include "logging/report/summary.hpp"
 #include "logging/session_reader.hpp"
+#include "logging/subject.hpp"
 
 namespace septet::server {
 namespace {
@@ -50,16 +51,22 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
   info.other["driver"] = drive.rig.car.source == rig::CarSource::simulated_driver ? drive.rig.car.driver : "";
   info.other["traffic"] = drive_options.traffic;
   info.other["compiler"] = __VERSION__;
+  if (drive_options.log_samples_only) info.other["log"] = "samples";
+  logging::Subject subject;
+  for (const auto& text : drive_options.about)
+    if (auto added = add_to_subject(subject, text); !added) return tl::unexpected(added.error());
+  info.other.merge(logging::meta_of(subject));
   logging::WriterOptions options;
   const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
   // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
   auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
   if (!writer) return tl::unexpected(writer.error());
-  return SessionLog(std::move(*writer), drive.model, real_time);
+  return SessionLog(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
 }
 
 void SessionLog::record_scene(const scene::Store& store) {
+  if (samples_only_) return;
   scene::describe_store(store, [&](const scene::Command& command) {
     Bytes bytes;
     scene::encode(command, bytes);
@@ -80,7 +87,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   auto observation = logging::observe(observer_, snapshot, leader);
   for (auto& event : observation.events) writer_.record(std::move(event));
   if (observation.sample) writer_.record(*observation.sample);
-  writer_.record(std::move(taken));
+  if (!samples_only_) writer_.record(std::move(taken));
 }
 
 std::optional<std::string> SessionLog::take_warning() {
@@ -191,10 +198,13 @@ Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& opti
                                 .rig = drive.rig.name,
                                 .vehicle = drive.vehicle_name(),
                                 .participant = options.participant,
+                                .subject = {},
                                 .parameters = parameters_of(drive),
                                 .seed = options.seed,
                                 .outcome = outcome,
                                 .log = {}};
+  for (const auto& text : options.about)
+    if (auto added = add_to_subject(summary.subject, text); !added) return added;
   if (log) summary.log = *log;
   if (auto written = logging::write_summary(options.out / "summary.json", summary); !written) return written;
   if (!log) return tl::unexpected(log.error());

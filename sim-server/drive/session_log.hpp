@@ -28,7 +28,9 @@ class SessionLog {
   void record_input(logging::InputRecord input);
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
-  void record_state(logging::StateRecord state) { writer_.record(std::move(state)); }
+  void record_state(logging::StateRecord state) {
+    if (!samples_only_) writer_.record(std::move(state));
+  }
   void record_message(const std::string& kind, const std::string& text);
   std::optional<Error> take_error() { return writer_.take_error(); }
   /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
@@ -43,12 +45,14 @@ class SessionLog {
   std::string ending(const ServeResult& result) const;
 
  private:
-  SessionLog(logging::SessionWriter writer, std::shared_ptr<const simulation::Model> model, bool real_time)
-      : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time) {}
+  SessionLog(logging::SessionWriter writer, std::shared_ptr<const simulation::Model> model, bool real_time,
+             bool samples_only)
+      : writer_(std::move(writer)), model_(std::move(model)), real_time_(real_time), samples_only_(samples_only) {}
 
   logging::SessionWriter writer_;
   std::shared_ptr<const simulation::Model> model_;
   bool real_time_;
+  bool samples_only_;  ///< No snapshots, states or scene.
   double told_waited_s_ = 0.0;
   logging::DriveObserver observer_;
   StateHash inputs_hash_;

@@ -47,6 +47,30 @@ void add_drive_commands(CLI::App& app, Options& options) {
   drive_command
       ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
+  const auto add_about = [&](const std::string& option, const std::string& key, const std::string& what) {
+    drive_command
+        ->add_option_function<std::string>(
+            option, [&options, key](const std::string& value) { options.drive.about.push_back(key + '=' + value); },
+            what)
+        ->type_name("TEXT")
+        ->default_str("");
+  };
+  add_about("--group", "group", "The driver's group, for log and pooled reports");
+  add_about("--condition", "condition", "The condition of this drive, likewise");
+  add_about("--order", "order", "Which of the driver's drives it is, likewise");
+  add_about("--note", "note", "The experimenter's note");
+  drive_command
+      ->add_option_function<std::vector<std::string>>(
+          "--column",
+          [&options](const std::vector<std::string>& columns) {
+            for (const auto& column : columns) options.drive.about.push_back("column." + column);
+          },
+          "Anything else of the driver, for columns of pooled reports; as often as needed")
+      ->type_name("NAME=VALUE")
+      ->default_str("")
+      ->allow_extra_args(false);
+  drive_command->add_option("--log", options.drive.log, "whole, or samples: without what a replay needs")
+      ->check(CLI::IsMember({"whole", "samples"}));
   drive_command->add_option("--seed", options.drive.seed, "Seed of everything random")->check(seed_number());
   drive_command->add_option("--driver", options.drive.driver, "A simulated driver of septet list drivers drives")
       ->default_str("whom the rig names");

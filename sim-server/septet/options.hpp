@@ -9,6 +9,7 @@
 #include "engine/core/expected.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
+#include "sim-server/command/session_command.hpp"
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
 
@@ -31,11 +32,15 @@ struct Options {
   std::string road_file, rig_name, kind;
   std::filesystem::path keys_out = "keys";
   CheckOptions check;
+  AnswerOptions answer;
+  StopOptions stop;
+  ForgetOptions forget;
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
-void add_drive_commands(CLI::App& app, Options& options);  ///< drive, replay, film, ice, report.
-void add_track_commands(CLI::App& app, Options& options);  ///< vehicle, traffic.
-void add_file_commands(CLI::App& app, Options& options);   ///< road, rig, list, check.
+void add_drive_commands(CLI::App& app, Options& options);    ///< drive, replay, film, ice, report.
+void add_track_commands(CLI::App& app, Options& options);    ///< vehicle, traffic.
+void add_session_commands(CLI::App& app, Options& options);  ///< session.
+void add_file_commands(CLI::App& app, Options& options);     ///< road, rig, list, check.
 
 }  // namespace septet::server

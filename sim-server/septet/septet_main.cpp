@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   if (argc > 2) options.passed_on = {argv + 2, argv + argc};
   server::add_drive_commands(app, options);
   server::add_track_commands(app, options);
+  server::add_session_commands(app, options);
   server::add_file_commands(app, options);
   if (const auto known = program::commands_instead_of(app, argc, argv)) {
     program::say(fmt::format("septet: there is no command \"{}\"; use one of: {}", argv[1], *known));

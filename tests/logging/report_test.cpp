@@ -80,7 +80,7 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   DriveSummary summary{
       .scenario = "motorway \"ambulance\"", .rig = "seven-screens", .seed = 7, .outcome = example_outcome(), .log = {}};
   const ReportData drive = example_drive();
-  summary.log = DriveSummary::FromLog{2, compute_drive_measures(drive.samples), {{"collision", 1}}};
+  summary.log = DriveSummary::FromLog{2, compute_drive_measures(drive), {{"collision", 1}}};
   const auto json = nlohmann::json::parse(to_json(summary));
   CHECK(json["version"] == 1);
   CHECK(json["scenario"] == "motorway \"ambulance\"");
@@ -103,7 +103,7 @@ TEST_CASE("the summary says how the drive ended and what its screens saw and its
   CHECK(counted == 6000);
   CHECK(json["speed_mps"]["mean"].get<double>() == doctest::Approx(summary.log->measures.speed_mean_mps));
   CHECK(json["time_headway_s"]["median"].get<double>() ==
-        doctest::Approx(*summary.log->measures.time_headway_median_s));
+        doctest::Approx(*summary.log->measures.following.headway.median_s));
   CHECK(json["lateral_position_m"]["few_samples"] == false);
   CHECK(json["events"]["collision"] == 1);
   // Every key is explained.
@@ -153,7 +153,7 @@ TEST_CASE(
 
 TEST_CASE("the report shows the charts and one mark per lane change and needs no other file") {
   const ReportData data = example_drive();
-  const auto measures = compute_drive_measures(data.samples);
+  const auto measures = compute_drive_measures(data);
   const std::string html = to_html(data);
   if (const char* keep = std::getenv("SEPTET_KEEP_REPORT")) CHECK(document::write_text_file(keep, html));
   CHECK(count_of(html, "<svg") == 3);
@@ -173,12 +173,14 @@ TEST_CASE("distance speed and headway of a drive equal those computed by hand") 
   samples[2].speed_mps = 30;
   samples[1].leader = Leader{2, 45, 50, 20};  // 2.5 s
   samples[2].leader = Leader{2, 25, 30, 20};  // 1.0 s
-  const auto measures = compute_drive_measures(samples);
+  DriveRecords records;
+  records.samples = samples;
+  const auto measures = compute_drive_measures(records);
   CHECK(measures.distance_m == doctest::Approx(0.1 * 15 + 0.1 * 25));
   CHECK(measures.speed_mean_mps == doctest::Approx(20));
   CHECK(measures.speed_sd_mps == doctest::Approx(std::sqrt(200.0 / 3)));
-  CHECK(measures.time_headway_median_s.value() == doctest::Approx(1.75));
-  CHECK(measures.time_headway_smallest_s.value() == doctest::Approx(1.0));
+  CHECK(measures.following.headway.median_s.value() == doctest::Approx(1.75));
+  CHECK(measures.following.headway.smallest_s.value() == doctest::Approx(1.0));
 }
 
 TEST_CASE("an empty session makes a report that says so") {

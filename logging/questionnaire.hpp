@@ -1,0 +1,52 @@
+#pragma once
+/// Questionnaires as TOML (docs/experiments.md): items with a scale, scores made of them, answers and what they score.
+///
+/// A score is weight · sum of its items, or weight · sum of the unweighted sums of other scores. Where an item of it has no answer
+/// there is no score: nothing is filled in.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "logging/records.hpp"
+
+namespace septet::logging {
+
+struct QuestionnaireItem {
+  std::string id, text;
+  int least = 1, most = 5;
+  std::vector<std::string> labels;  ///< From least to most; empty, or one for each.
+};
+
+struct QuestionnaireScore {
+  std::string id, title;
+  std::vector<std::string> items;   ///< Ids; one may be in several scores.
+  std::vector<std::string> scores;  ///< Ids of earlier scores, whose sums are added before any weight.
+  double weight = 1.0;
+};
+
+struct Questionnaire {
+  std::string id, title, source;
+  std::vector<QuestionnaireItem> items;
+  std::vector<QuestionnaireScore> scores;
+};
+
+Expected<Questionnaire> read_questionnaire(std::string_view toml, std::string_view name);
+
+using Answers = std::map<std::string, int>;  ///< By item; without those that were not answered.
+/// A table ITEM = NUMBER. Error: no such item, a number beyond its scale.
+Expected<Answers> read_answers(const Questionnaire& questionnaire, std::string_view toml, std::string_view name);
+/// Whether the item can be answered so.
+Expected<int> read_answer_text(const QuestionnaireItem& item, std::string_view text);
+
+/// Nothing where an answer is missing.
+std::map<std::string, std::optional<double>> scores_of(const Questionnaire& questionnaire, const Answers& answers);
+
+/// Rows for the session: one for each item, named PREFIX.ITEM, unanswered ones too, and one for each score.
+std::vector<QuestionnaireRecord> records_of(const Questionnaire& questionnaire, const Answers& answers,
+                                            const std::string& prefix, double observed_s);
+
+}  // namespace septet::logging

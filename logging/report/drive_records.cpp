@@ -1,0 +1,38 @@
+#include "logging/report/drive_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/opendrive_reader.hpp"
+
+namespace septet::logging {
+
+std::vector<std::optional<double>> speed_limits_of(const SessionInfo& info, const std::vector<Sample>& samples) {
+  std::vector<std::optional<double>> limits_mps(samples.size());
+  const auto file = std::ranges::find(info.files, "road", &SourceFile::role);
+  if (file == info.files.end()) return limits_mps;
+  const auto roads = road::read_opendrive(file->content, file->name);
+  if (!roads) return limits_mps;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample& sample = samples[i];
+    if (sample.lane == 0 || sample.road >= roads->roads.size() || !std::isfinite(sample.road_s_m)) continue;
+    const double limit_mps = road::speed_limit_mps(*roads, {sample.road, sample.lane, sample.road_s_m, 0.0});
+    if (limit_mps > 0.0) limits_mps[i] = limit_mps;
+  }
+  return limits_mps;
+}
+
+Expected<DriveRecords> read_drive_records(const SessionReader& reader) {
+  auto samples = reader.samples();
+  if (!samples) return tl::unexpected(samples.error());
+  auto inputs = reader.inputs();
+  if (!inputs) return tl::unexpected(inputs.error());
+  auto events = reader.events();
+  if (!events) return tl::unexpected(events.error());
+  DriveRecords records{std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second};
+  records.speed_limits_mps = speed_limits_of(reader.info(), records.samples);
+  return records;
+}
+
+}  // namespace septet::logging

@@ -1,0 +1,230 @@
+#include "sim-server/command/session_command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/printable.hpp"
+#include "engine/core/regular_file.hpp"
+#include "engine/document/json.hpp"
+#include "engine/document/text_file.hpp"
+#include "logging/questionnaire.hpp"
+#include "logging/report/report.hpp"
+#include "logging/session_editor.hpp"
+#include "logging/session_reader.hpp"
+#include "program/console.hpp"
+#include "program/resources.hpp"
+
+namespace septet::server {
+namespace fs = std::filesystem;
+namespace {
+
+/// Simulated time until which the driver of a session was observed.
+Expected<double> observed_s(const logging::SessionReader& reader) {
+  const auto samples = reader.samples();
+  if (!samples) return tl::unexpected(samples.error());
+  return samples->empty() ? 0.0 : samples->back().simulated_time_s;
+}
+
+Expected<logging::Answers> ask(const logging::Questionnaire& questionnaire, std::istream& in, std::ostream& out) {
+  logging::Answers answers;
+  out << questionnaire.title << '\n';
+  for (const auto& item : questionnaire.items) {
+    out << '\n' << item.text << '\n';
+    for (int value = item.least; !item.labels.empty() && value <= item.most; ++value)
+      out << "  " << value << "  " << item.labels[static_cast<std::size_t>(value - item.least)] << '\n';
+    for (std::string line;;) {
+      out << fmt::format("{} to {}, or nothing: ", item.least, item.most) << std::flush;
+      if (!std::getline(in, line) || line.find_first_not_of(" \t\r") == std::string::npos) break;
+      const auto answer = logging::read_answer_text(item, line);
+      if (answer) {
+        answers[item.id] = *answer;
+        break;
+      }
+      out << answer.error().remedy << '\n';
+    }
+  }
+  out << '\n';
+  return answers;
+}
+
+/// What lies beside a session names who drove too: made anew from its anonymous draft.
+Expected<void> renew_results(const fs::path& session, const fs::path& draft) {
+  std::error_code ignored;
+  const fs::path folder = session.parent_path();
+  if (const fs::path file = folder / "summary.json"; fs::exists(file, ignored)) {
+    const auto text = read_regular_file(file);
+    auto json = text ? document::Json::parse(*text, nullptr, false) : document::Json();
+    if (!json.is_object()) return failure("it is no summary", file.string(), "remove it");
+    json["participant"] = "";
+    if (json.contains("subject") && json["subject"].is_object()) {
+      json["subject"].erase("note");
+      std::vector<std::string> own;
+      for (const auto& item : json["subject"].items())
+        if (item.key().starts_with("column.")) own.push_back(item.key());
+      for (const auto& key : own) json["subject"].erase(key);
+    }
+    if (auto written = document::write_text_file(file, document::text_of(json)); !written) return written;
+  }
+  if (const fs::path file = folder / "report.html"; fs::exists(file, ignored)) {
+    const auto reader = logging::SessionReader::open(draft);
+    if (!reader) return tl::unexpected(reader.error());
+    return logging::write_report(*reader, file);
+  }
+  return {};
+}
+
+/// A folder that is called by the participant, as those of an experiment are, gets a name that tells nothing.
+void rename_folders(const std::vector<fs::path>& sessions, const std::string& participant) {
+  std::error_code ignored;
+  for (const fs::path& session : sessions)
+    for (fs::path folder = session.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+      if (folder.filename() != participant || !fs::exists(folder, ignored)) continue;
+      fs::path other;
+      for (int number = 1; other.empty() || fs::exists(other, ignored); ++number)
+        other = folder.parent_path() / fmt::format("forgotten-{}", number);
+      fs::rename(folder, other, ignored);
+      program::announce(fmt::format("{}: renamed, for it was called by the participant", other.string()));
+    }
+}
+
+Expected<void> delete_drives(const std::vector<fs::path>& sessions) {
+  // First out of sight, all of them or none; then away.
+  const auto hidden = [](const fs::path& session) { return fs::path(session.string() + ".forgotten"); };
+  std::error_code error;
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    fs::rename(sessions[i], hidden(sessions[i]), error);
+    if (!error) continue;
+    const auto reason = error.message();
+    for (std::size_t j = 0; j < i; ++j) fs::rename(hidden(sessions[j]), sessions[j], error);
+    return failure(reason, sessions[i].string(), "make its folder one that can be written; nothing was deleted");
+  }
+  for (const fs::path& session : sessions) {
+    fs::remove(hidden(session), error);
+    for (const char* beside : {"summary.json", "report.html", "panorama.png"})
+      fs::remove(session.parent_path() / beside, error);
+    fs::remove_all(session.parent_path() / "screens", error);
+    fs::remove(session.parent_path(), error);  // Only where nothing else is in it.
+  }
+  return {};
+}
+
+Expected<void> make_anonymous(const std::vector<fs::path>& sessions) {
+  std::vector<fs::path> drafts;
+  std::error_code error;
+  for (const fs::path& session : sessions) {
+    auto draft = logging::write_anonymous_copy(session);
+    if (!draft) {
+      for (const fs::path& written : drafts) fs::remove(written, error);
+      return tl::unexpected(draft.error());
+    }
+    drafts.push_back(std::move(*draft));
+  }
+  // The sessions come last: as long as one tells who drove, the whole can be done again.
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    if (auto renewed = renew_results(sessions[i], drafts[i]); !renewed) return renewed;
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    fs::rename(drafts[i], sessions[i], error);
+    if (error)
+      return failure(error.message(), sessions[i].string(), "make its folder one that can be written, and do it again");
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<fs::path>> find_sessions(const std::vector<fs::path>& places) {
+  std::vector<fs::path> sessions;
+  for (const fs::path& place : places) {
+    std::error_code error;
+    if (!fs::is_directory(place, error)) {
+      sessions.push_back(place);
+      continue;
+    }
+    for (auto it = fs::recursive_directory_iterator(place, fs::directory_options::skip_permission_denied, error);
+         !error && it != fs::recursive_directory_iterator(); it.increment(error))
+      if (it->path().filename() == "session.sqlite") sessions.push_back(it->path());
+    if (error) return failure(error.message(), place.string(), "check the path");
+  }
+  std::ranges::sort(sessions);
+  const auto twice = std::ranges::unique(sessions);
+  sessions.erase(twice.begin(), twice.end());
+  return sessions;
+}
+
+Expected<int> run_session_answer(const AnswerOptions& options, std::istream& in, std::ostream& out) {
+  const auto file = program::find_resource(options.questionnaire, "scenarios/questionnaires", ".toml");
+  if (!file) return tl::unexpected(file.error());
+  const auto text = read_regular_file(*file);
+  if (!text) return tl::unexpected(text.error());
+  const auto questionnaire = logging::read_questionnaire(*text, file->string());
+  if (!questionnaire) return tl::unexpected(questionnaire.error());
+  const auto seen_s = logging::SessionReader::open(options.session).and_then(observed_s);
+  if (!seen_s) return tl::unexpected(seen_s.error());
+  Expected<logging::Answers> answers;
+  if (options.answers.empty()) {
+    answers = ask(*questionnaire, in, out);
+  } else {
+    const auto given = read_regular_file(options.answers);
+    if (!given) return tl::unexpected(given.error());
+    answers = logging::read_answers(*questionnaire, *given, options.answers.string());
+  }
+  if (!answers) return tl::unexpected(answers.error());
+  const std::string prefix = options.as.empty() ? questionnaire->id : options.as;
+  if (!printable_characters(prefix) || prefix.size() > 60 || prefix.find('.') != std::string::npos)
+    return failure(fmt::format("\"{}\" is no name for its answers", printable(prefix, 60)), "--as",
+                   "use a word without a point");
+  const auto added = logging::add_answers(options.session,
+                                          logging::records_of(*questionnaire, *answers, prefix, *seen_s), prefix + '.');
+  if (!added) return tl::unexpected(added.error());
+  for (const auto& [id, score] : logging::scores_of(*questionnaire, *answers))
+    out << fmt::format("{}.{}: {}\n", prefix, id,
+                       score ? fmt::format("{:.2f}", *score) : "no score, an answer is missing");
+  out << fmt::format("{} of {} items answered\n", answers->size(), questionnaire->items.size());
+  return 0;
+}
+
+Expected<int> run_session_stop(const StopOptions& options) {
+  if (!printable_characters(options.reason))
+    return failure("the reason cannot be printed on one line", "--reason", "leave control characters away");
+  const auto seen_s = logging::SessionReader::open(options.session).and_then(observed_s);
+  if (!seen_s) return tl::unexpected(seen_s.error());
+  if (options.at_s && *options.at_s > *seen_s)
+    return failure(fmt::format("the session ends after {:.1f} s", *seen_s), "--at", "give a time within it");
+  const auto added = logging::add_answers(
+      options.session,
+      {{"drive_completed", "", std::nullopt, std::nullopt, options.at_s.value_or(*seen_s), true, options.reason}},
+      "drive_completed");
+  if (!added) return tl::unexpected(added.error());
+  program::announce(
+      fmt::format("{}: dropped out after {:.1f} s", options.session.string(), options.at_s.value_or(*seen_s)));
+  return 0;
+}
+
+Expected<int> run_session_forget(const ForgetOptions& options) {
+  if (options.participant.empty())
+    return failure("it names nobody", "the participant's code", "give the code that their drives were recorded with");
+  const auto found = find_sessions(options.places);
+  if (!found) return tl::unexpected(found.error());
+  std::vector<fs::path> theirs;
+  for (const fs::path& session : *found) {
+    const auto reader = logging::SessionReader::open(session);
+    if (!reader) return tl::unexpected(reader.error());
+    if (reader->info().participant == options.participant) theirs.push_back(session);
+  }
+  if (theirs.empty())
+    return failure(fmt::format("none of {} sessions is of {}", found->size(), printable(options.participant, 60)),
+                   options.places.front().string(), "check the code and the folders");
+  const auto done = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
+  if (!done) return tl::unexpected(done.error());
+  rename_folders(theirs, options.participant);
+  program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", theirs.size(),
+                                found->size(),
+                                options.delete_data ? "deleted" : "tell no longer who drove, their data are kept"));
+  return 0;
+}
+
+}  // namespace septet::server
