@@ -59,6 +59,19 @@ function(septet_sourced_entries target)
   endforeach()
 endfunction()
 
+# Each of these text files of the target's folder becomes build/…/generated/FOLDER/FILE.inc, string literals of C++.
+function(septet_embedded_texts target)
+  foreach(name IN LISTS ARGN)
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    set(literals ${CMAKE_BINARY_DIR}/generated/${folder}/${name}.inc)
+    set(script ${CMAKE_SOURCE_DIR}/cmake/embedded_text.py)
+    add_custom_command(OUTPUT ${literals} COMMAND Python3::Interpreter ${script} ${CMAKE_CURRENT_SOURCE_DIR}/${name} ${literals}
+                       DEPENDS ${script} ${CMAKE_CURRENT_SOURCE_DIR}/${name} VERBATIM)
+    target_sources(${target} PRIVATE ${literals})
+    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+  endforeach()
+endfunction()
+
 # Each header includes what it needs: a file of the same name includes it first (tests/architecture), and without precompiled headers those that
 # have no such file are compiled alone (target lone_headers).
 add_custom_target(lone_headers)

@@ -14,6 +14,7 @@ enum class DriveEnd : std::uint8_t {
   session_end,    ///< Of a replay: the session holds no more.
   window_closed,  ///< By the person at a screen.
   escape,         ///< Pressed at a screen.
+  by_operator,    ///< On the operator's page.
   interrupted,    ///< SIGINT: Ctrl-C.
   terminated,     ///< SIGTERM.
   hung_up,        ///< SIGHUP: the terminal or the connection to it has gone.

@@ -50,6 +50,14 @@ int main(int argc, char** argv) {
   app.add_flag("--start-now", options.start_now, "Do not wait until the driver presses a key or a pedal");
   app.add_flag("--lockstep", options.lockstep, "Wait for every screen; simulated time only");
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
+  app.add_option("--page", options.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
+      ->default_str("no page")
+      ->check(number_between(0, 65535));
+  app.add_option("--page-host", options.page_hosts,
+                 "Name by which a proxy in front of the page is asked for; as often as needed")
+      ->type_name("NAME")
+      ->default_str("")
+      ->allow_extra_args(false);
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");
   return program::run("septet-server", app, argc, argv,
                       [&] { return server::run_server(options).map(logging::exit_status); });

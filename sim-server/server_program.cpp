@@ -1,10 +1,12 @@
 #include "sim-server/server_program.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <limits>
+#include <thread>
 
 #include <fmt/core.h>
 
@@ -23,6 +25,7 @@
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/operator_desk.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/host/go_word.hpp"
 #include "sim-server/host/remote_car.hpp"
@@ -290,17 +293,42 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
         !chosen)
       return tl::unexpected(chosen.error());
   }
+  std::unique_ptr<OperatorDesk> desk;
+  if (options.page_port) {
+    if (!drive.live) return failure("a session that is shown again has no operator", "--page", "leave --page away");
+    auto opened = OperatorDesk::open(options, drive.loaded, *drive.live);
+    if (!opened) return tl::unexpected(opened.error());
+    desk = std::move(*opened);
+    progress.message("operator's page: " + desk->url());
+  }
   // From here on there is something to be ended in order.
   program::catch_stop_signals();
   if (options.replay.empty())
     if (auto begun = begin_drive(options, drive); !begun) return tl::unexpected(begun.error());
   ServeEnvironment environment;
   environment.now_s = program::monotonic_s;
-  environment.end_requested = end_by_signal;
+  environment.wait = [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); };
+  environment.end_requested = [&] {
+    const auto by_signal = end_by_signal();
+    return by_signal || !desk ? by_signal : desk->end_requested();
+  };
+  const ScreenHost* watched = nullptr;
+  const auto hosted = [&]() -> const std::vector<HostedScreen>& {
+    static const std::vector<HostedScreen> none;
+    return watched ? watched->screens() : none;
+  };
+  if (desk) {
+    desk->log_to(*drive.log);
+    environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
+      desk->attend(newest, what, hosted(), program::monotonic_s());
+    };
+    environment.is_paused = [&] { return desk->is_paused(); };
+  }
   environment.report = [&](const Progress& now) { show(now, progress); };
   environment.message = [&](const std::string& text) {
     progress.message(text);
     if (drive.log) drive.log->record_message("screen", text);
+    if (desk) desk->tell(text);
   };
   environment.show = [&](const std::string& text) { progress.message(text); };
   ServeResult result;
@@ -311,13 +339,14 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   } else {
     Sockets& sockets = endpoint->sockets;
     ScreenHost host(sockets.lane, sockets.tick, drive.store, std::move(*for_screens));
+    watched = &host;
     program::announce(fmt::format("ready {}", sockets.lane.local_address().port));
     environment.wait = [&](double seconds) {
       const net::UdpSocket* waiting[] = {&sockets.lane};
       net::wait_readable(waiting, seconds);
     };
     GoWord go;
-    environment.told_to_go = [&] { return go.said(); };
+    environment.told_to_go = [&] { return go.said() || (desk && desk->told_to_go()); };
     net::AllowedClientsWatch watch(options.keys / "allowed-clients");
     environment.changed_list = [&]() -> std::optional<std::vector<net::AllowedClient>> {
       auto list = watch.changed(program::monotonic_s());
@@ -338,7 +367,9 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     serve_options.wait_for_screens_s = wait_s;
     result = serve(*drive.source, host, serve_options, environment);
     screens = host.screens();
+    watched = nullptr;
   }
+  if (desk) desk->show_end(fmt::format("ended: {}", text_of(result.end)), screens, program::monotonic_s());
   progress.close();
   if (result.error) progress.message(fmt::format("septet-server: {}", describe(*result.error)));
   if (drive.log) finish_log(options, drive, result, screens, progress);

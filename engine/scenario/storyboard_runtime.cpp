@@ -49,6 +49,26 @@ class Step {
     settle();
   }
 
+  /// Nothing where it has been started, else why not.
+  std::optional<std::string> trigger(ElementIndex wanted) {
+    if (state_.finished) return "the storyboard is over";
+    for (const Story& story : scenario_.stories)
+      for (const Act& act : story.acts) {
+        if (act.element == wanted) {
+          if (const auto no = why_not_to_start(wanted)) return no;
+          start_act(story, act);
+          start_pending();
+          settle();
+          return std::nullopt;
+        }
+        for (const ManeuverGroup& group : act.groups)
+          for (const Maneuver& maneuver : group.maneuvers)
+            for (const Event& event : maneuver.events)
+              if (event.element == wanted) return trigger_event(story, act, group, maneuver, event);
+      }
+    return "it is neither an act nor an event";
+  }
+
   void move_entities(double dt_s) {
     std::vector<ElementIndex> ended;
     for (EntityIndex i = 0; i < state_.entities.size(); ++i) {
@@ -86,14 +106,49 @@ class Step {
       transit(index, transition, to);
   }
 
+  std::optional<std::string> why_not_to_start(ElementIndex index) {
+    switch (element(index).status) {
+      case ElementStatus::running:
+        return "it is running";
+      case ElementStatus::complete:
+        return "it is over";
+      case ElementStatus::standby:
+        break;
+    }
+    return std::nullopt;
+  }
+  void start_act(const Story& story, const Act& act) {
+    begin(scenario_.storyboard_element);
+    begin(story.element);
+    begin_act(act);
+  }
+  void begin_act(const Act& act) {
+    begin(act.element);
+    for (const ManeuverGroup& group : act.groups) begin_group(group);
+  }
+
+  std::optional<std::string> trigger_event(const Story& story, const Act& act, const ManeuverGroup& group,
+                                           const Maneuver& maneuver, const Event& event) {
+    if (const auto no = why_not_to_start(event.element)) return no;
+    const ElementStatus status = element(act.element).status;
+    if (status == ElementStatus::complete || group.maximum_executions == 0 || event.maximum_executions == 0 ||
+        (status == ElementStatus::running && element(group.element).status != ElementStatus::running))
+      return "what it belongs to is over";
+    if (status == ElementStatus::standby) start_act(story, act);
+    if (event.priority == EventPriority::overwrite) stop_others(maneuver, event);
+    start_event(group, event);
+    start_pending();
+    settle();
+    return std::nullopt;
+  }
+
   void run_act(const Act& act) {
     ElementState& at = element(act.element);
     at.initialised = true;
     if (at.status == ElementStatus::complete) return;
     if (at.status == ElementStatus::standby) {
       if (!may_start(act.start)) return;
-      begin(act.element);
-      for (const ManeuverGroup& group : act.groups) begin_group(group);
+      begin_act(act);
     } else if (evaluate(act.stop)) {
       for (const ManeuverGroup& group : act.groups) stop_group(group);
       finish(act.element, ElementTransition::stop, ElementStatus::complete);
@@ -135,13 +190,14 @@ class Step {
         transit(event.element, ElementTransition::skip, ElementStatus::standby);
         continue;
       }
-      if (event.priority == EventPriority::overwrite) {
-        for (const Event& other : maneuver.events) {
-          if (runs(other)) stop_event(other);
-        }
-      }
+      if (event.priority == EventPriority::overwrite) stop_others(maneuver, event);
       start_event(group, event);
     }
+  }
+
+  void stop_others(const Maneuver& maneuver, const Event& event) {
+    for (const Event& other : maneuver.events)
+      if (&other != &event && element(other.element).status == ElementStatus::running) stop_event(other);
   }
 
   void start_event(const ManeuverGroup& group, const Event& event) {
@@ -353,6 +409,15 @@ StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& n
   }
   state.time_s += dt_s;
   return result;
+}
+
+Expected<void> trigger_element(const Scenario& scenario, const road::RoadNetwork& network, ElementIndex element,
+                               ScenarioState& state, StepResult& result) {
+  if (element >= state.elements.size())
+    return failure("there is no such element", "storyboard", "name an act or an event of the scenario");
+  if (const auto no = Step(scenario, network, state, result).trigger(element))
+    return failure(*no, scenario.element_names[element], "choose an act or an event that has not begun");
+  return {};
 }
 
 }  // namespace septet::scenario

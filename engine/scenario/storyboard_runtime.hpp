@@ -66,6 +66,12 @@ bool has_yet_to_move_aside(const EntityState& entity);
 StepResult advance_scenario(const Scenario& scenario, const road::RoadNetwork& network, double dt_s,
                             ScenarioState& state);
 
+/// Between two steps: somebody outside, an operator, starts an act or an event whose trigger has not held yet; an event's act with it. Whatever
+/// it asks of others is added to `result`. Error: there is no such element, it is neither act nor event, or it runs or is over; then nothing
+/// has changed.
+Expected<void> trigger_element(const Scenario& scenario, const road::RoadNetwork& network, ElementIndex element,
+                               ScenarioState& state, StepResult& result);
+
 /// The scripted entities as participants, entity i with id first_id + i; external and inactive ones,
 /// misc objects and who has come to the end of the road are left out.
 void append_participants(const Scenario& scenario, const ScenarioState& state, ParticipantId first_id,

@@ -33,18 +33,20 @@ std::vector<traffic::ForeignVehicle> foreign_vehicles(const Model& model, const 
   return foreign;
 }
 
+traffic::TrafficParameters swarm_parameters(const scenario::TrafficSwarmAction& swarm) {
+  traffic::TrafficParameters parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
+  parameters.first_id = first_traffic_participant;
+  if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
+    parameters.opposite_share = swarm.opposite_direction_weight / both;
+  std::vector<traffic::KindShare> mix;
+  for (const auto& entry : swarm.categories) mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
+  traffic::set_mix(parameters, mix);
+  return parameters;
+}
+
 void apply_swarms(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
-  for (const auto& swarm : step.swarms) {
-    traffic::TrafficParameters parameters = traffic::motorway_traffic(swarm.vehicle_count, swarm.semi_major_axis_m);
-    parameters.first_id = first_traffic_participant;
-    if (const double both = swarm.same_direction_weight + swarm.opposite_direction_weight; both > 0.0)
-      parameters.opposite_share = swarm.opposite_direction_weight / both;
-    std::vector<traffic::KindShare> mix;
-    for (const auto& entry : swarm.categories)
-      mix.push_back({scenario::kind_of_category(entry.category), entry.weight});
-    traffic::set_mix(parameters, mix);
-    state.traffic->start(parameters, foreign_vehicles(model, state, car));
-  }
+  for (const auto& swarm : step.swarms)
+    state.traffic->start(swarm_parameters(swarm), foreign_vehicles(model, state, car));
   if (!step.stopped_traffic.empty()) state.traffic->stop();
 }
 
@@ -69,7 +71,12 @@ void apply_effects(const Model& model, const scenario::StepResult& step, const P
 void advance_storyboard(const Model& model, const DrivenCar& car, State& state, std::vector<Event>& events) {
   scenario::place_external(model.roads, model.driver_entity, car.outputs.world_from_vehicle, car.outputs.velocity_mps,
                            car.outputs.acceleration_mps2, state.scenario);
-  const auto step = scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario);
+  carry_out(model, scenario::advance_scenario(model.scenario, model.roads, tick_s, state.scenario), car.participant,
+            state, events);
+}
+
+void carry_out(const Model& model, const scenario::StepResult& step, const Participant& car, State& state,
+               std::vector<Event>& events) {
   for (const auto& event : step.events)
     events.push_back(
         {"scenario", std::nullopt,
@@ -79,8 +86,8 @@ void advance_storyboard(const Model& model, const DrivenCar& car, State& state, 
                       fmt::format("entity={} state=left_at_road_end", model.scenario.entities[entity].name)});
   for (const scenario::EntityIndex entity : step.reset)
     note_bad_numbers(1, first_scripted_participant + entity, "entity", state, events);
-  apply_swarms(model, step, car.participant, state);
-  apply_effects(model, step, car.participant, state);
+  apply_swarms(model, step, car, state);
+  apply_effects(model, step, car, state);
 }
 
 }  // namespace septet::simulation

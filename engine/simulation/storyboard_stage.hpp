@@ -11,6 +11,13 @@ namespace septet::simulation {
 /// One tick of the storyboard, with the driver's car where it is now. Events are appended.
 void advance_storyboard(const Model& model, const DrivenCar& car, State& state, std::vector<Event>& events);
 
+/// What the storyboard, or who triggers a part of it, has asked of others. Events are appended.
+void carry_out(const Model& model, const scenario::StepResult& step, const Participant& car, State& state,
+               std::vector<Event>& events);
+
+/// A swarm's traffic as an engine is asked for it.
+traffic::TrafficParameters swarm_parameters(const scenario::TrafficSwarmAction& swarm);
+
 /// Starts and ends the swarms that the storyboard asked for.
 void apply_swarms(const Model& model, const scenario::StepResult& step, const Participant& car, State& state);
 

@@ -141,6 +141,8 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   for (const auto& about : options.about) add_chosen("--about", about);
   if (options.log == "samples") add({"--log-samples-only"});
   for (const auto& parameter : options.parameters) add_chosen("--parameter", parameter);
+  if (options.page_port) add({"--page", std::to_string(*options.page_port)});
+  for (const auto& host : options.page_hosts) add_chosen("--page-host", host);
   if (options.start_now) add({"--start-now"});
   if (options.virtual_screens) add({"--lockstep"});
   if (options.no_screens) add({"--no-screens"});

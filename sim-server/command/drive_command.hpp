@@ -27,9 +27,11 @@ struct DriveOptions {
   std::string traffic = "own";          ///< Who moves the traffic: own or sumo.
   std::filesystem::path replay;         ///< A session to show again, instead of a scenario to drive.
   double replay_from_s = 0.0;
-  bool full_screen = false;  ///< Also where the rig does not say so.
-  bool start_now = false;    ///< Do not wait for a person to take the controls.
-  bool no_screens = false;   ///< Server and car only.
+  bool full_screen = false;             ///< Also where the rig does not say so.
+  bool start_now = false;               ///< Do not wait for a person to take the controls.
+  std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; none: there is no page.
+  std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
+  bool no_screens = false;              ///< Server and car only.
 };
 
 /// Of a drive that is not told how long to last, off-screen. One in a window, and a replay, last as for `--seconds 0`.

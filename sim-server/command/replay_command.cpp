@@ -1,16 +1,20 @@
 #include "sim-server/command/replay_command.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "engine/core/version.hpp"
+#include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "logging/input_hash.hpp"
 #include "logging/outcome.hpp"
 #include "logging/session_reader.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/session_log.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 
 namespace septet::server {
@@ -69,6 +73,30 @@ Expected<simulation::State> state_at(const std::filesystem::path& file, const lo
   return state;
 }
 
+struct LoggedCommand {
+  Tick before = 0;
+  simulation::OperatorCommand command;
+};
+
+/// What an operator changed while it was driven, in order.
+Expected<std::vector<LoggedCommand>> commands_of(const std::filesystem::path& file,
+                                                 const logging::SessionReader& session) {
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  std::vector<LoggedCommand> commands;
+  for (const auto& event : *events) {
+    if (event.kind != operator_command_event) continue;
+    auto command = simulation::parse_operator_command(event.detail);
+    if (!command)
+      return refused(
+          file,
+          fmt::format("an operator's command before tick {} cannot be read: {}", event.tick, describe(command.error())),
+          "use an unaltered copy");
+    commands.push_back({event.tick, std::move(*command)});
+  }
+  return commands;
+}
+
 struct Verified {
   Tick first = 0;           ///< Where it began.
   std::uint64_t ticks = 0;  ///< Run again.
@@ -92,6 +120,8 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   const auto engine = other.find("traffic");
   auto traffic = open_traffic(engine == other.end() ? "own" : engine->second, *drive->model);
   if (!traffic) return tl::unexpected(traffic.error());
+  const auto commands = commands_of(file, *session);
+  if (!commands) return tl::unexpected(commands.error());
   auto state = state_at(file, *session, *drive->model, from_s, std::move(*traffic));
   if (!state) return tl::unexpected(state.error());
   Verified verified{.first = state->tick};
@@ -123,10 +153,17 @@ Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
     return refused(file, "the session holds no snapshots: there is nothing to compare with",
                    "give a session that was driven");
   std::vector<simulation::Event> events;
+  auto command = std::ranges::upper_bound(*commands, verified.first, {}, &LoggedCommand::before);
   for (const auto& next : *inputs) {
     if (next.tick <= verified.first) continue;
     input = next.input;
     events.clear();
+    for (; command != commands->end() && command->before <= state->tick + 1; ++command)
+      if (auto done = simulation::apply_operator_command(*drive->model, command->command, *state, events); !done)
+        return refused(file,
+                       fmt::format("the operator's command before tick {} cannot be done again: {}", command->before,
+                                   describe(done.error())),
+                       "use an unaltered copy");
     const Snapshot snapshot = simulation::server_step(*drive->model, input, *state, events);
     if (auto error = state->traffic->take_error()) return tl::unexpected(std::move(*error));
     if (next.tick != state->tick) return gap("driver input");

@@ -113,13 +113,26 @@ std::optional<Error> LiveDrive::take_error() {
   return error;
 }
 
+Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
+  auto done = simulation::apply_operator_command(*model_, command, state_, events_);
+  if (done && log_) log_->record_command(state_.tick + 1, command);
+  return done;
+}
+
+void LiveDrive::stand_still() {
+  if (!seat_.actuate) return;
+  if (const auto error = seat_.actuate(state_.tick, {})) tell(describe(*error));
+}
+
 Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::optional<DriverInput>& controls) {
   if (end_) return std::shared_ptr<const TakenSnapshot>();
   if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
-  std::vector<simulation::Event> events;
+  std::vector<simulation::Event> events = std::exchange(events_, {});
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
   move_actuators();
+  if (told_)
+    for (const auto& event : events) told_(event, state_.time_s());
   if (auto error = state_.traffic->take_error()) {
     if (log_) log_->record_message("traffic", describe(*error));
     end_ = logging::DriveEnd::traffic_lost;

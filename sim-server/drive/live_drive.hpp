@@ -12,6 +12,7 @@
 #include "car-io/car_connection.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
+#include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/server_step.hpp"
 #include "sim-server/drive/session_log.hpp"
 #include "sim-server/host/remote_car.hpp"
@@ -38,12 +39,19 @@ class LiveDrive final : public TickSource {
   /// From here on everything is logged, tick 0 first. `log` outlives the drive.
   void log_to(SessionLog& log);
 
+  /// Between two ticks: done now and logged, so that the drive run again has it too. Error: this drive cannot do that, or not now.
+  Expected<void> command(const simulation::OperatorCommand& command);
+  const simulation::State& state() const { return state_; }
+  /// Whom to tell of what happens, beside the log, with the simulated time.
+  void watch_events(std::function<void(const simulation::Event&, double)> told) { told_ = std::move(told); }
+
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>& controls) override;
   std::optional<Error> take_error() override;
   logging::DriveEnd end() const override { return end_.value_or(logging::DriveEnd::failed); }
   std::shared_ptr<const TakenSnapshot> first() const override { return newest_; }
   /// A person is ready when a screen sends controls, or those of the device are no longer as they were found.
   bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
+  void stand_still() override;
   double tick_rate_hz() const override { return simulation::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_->snapshot(); }
@@ -59,8 +67,10 @@ class LiveDrive final : public TickSource {
   DriverSeat seat_;
   SessionLog* log_ = nullptr;
   simulation::State state_;
-  DriverInput held_;                ///< The last controls from a screen: they come less often than ticks.
-  std::optional<Tick> heard_tick_;  ///< When they came.
+  DriverInput held_;                       ///< The last controls from a screen: they come less often than ticks.
+  std::optional<Tick> heard_tick_;         ///< When they came.
+  std::vector<simulation::Event> events_;  ///< Of commands since the last tick, to be logged with the next one.
+  std::function<void(const simulation::Event&, double)> told_;
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct ServerOptions {
   bool start_now = false;  ///< Do not wait for a person to take the controls.
   bool lockstep = false;
   bool no_screens = false;
-  bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.
+  std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; none: there is no page.
+  std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
+  bool any_port = false;                ///< Any free port instead of the rig's: several drives on one machine.
 };
 
 inline constexpr std::size_t most_participant_characters = 100;

@@ -159,6 +159,11 @@ void SessionLog::record_message(const std::string& kind, const std::string& text
   writer_.record(logging::Event{tick_, simulated_time_s_, kind, std::nullopt, text});
 }
 
+void SessionLog::record_command(Tick before, const simulation::OperatorCommand& command) {
+  writer_.record(logging::Event{before, simulated_time_s_, std::string(operator_command_event), std::nullopt,
+                                simulation::text_of(command)});
+}
+
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads) {
   const DriverCar& car = snapshot.driver_car;
   const Participant* self = find_participant(snapshot, car.participant);

@@ -9,6 +9,7 @@
 #include "engine/core/hash.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/scene/store.hpp"
+#include "engine/simulation/operator_command.hpp"
 #include "engine/simulation/state.hpp"
 #include "logging/drive_observer.hpp"
 #include "logging/outcome.hpp"
@@ -19,6 +20,9 @@
 
 namespace septet::server {
 
+/// The kind of the events that are operator's commands, and input like the driver's: their tick is that which they came before.
+inline constexpr std::string_view operator_command_event = "operator_command";
+
 class SessionLog {
  public:
   /// session.sqlite in the drive's folder.
@@ -28,6 +32,8 @@ class SessionLog {
   void record_input(logging::InputRecord input);
   /// The tick's snapshot and events, and at 10 Hz a sample with whatever it completes (lane changes, glances).
   void record_tick(std::shared_ptr<const TakenSnapshot> taken, const std::vector<simulation::Event>& events);
+  /// Of an operator, applied before this tick.
+  void record_command(Tick before, const simulation::OperatorCommand& command);
   void record_state(logging::StateRecord state) {
     if (!samples_only_) writer_.record(std::move(state));
   }

@@ -165,7 +165,10 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
   if (!screen) return;
   if (const auto* arrived = std::get_if<TickArrived>(&message)) {
     screen->unanswered_since_s.reset();
-    if (arrived->lost_baseline) return baselines_.join(client, now_s);
+    if (arrived->lost_baseline) {
+      ++screen->lost_baselines;
+      return baselines_.join(client, now_s);
+    }
     baselines_.acknowledge(client, arrived->tick, now_s);
     planner_.observe(arrived->lateness_s, now_s);
   } else if (std::holds_alternative<SceneArrived>(message)) {
@@ -182,6 +185,7 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     screen->has_presented = true;
     screen->left_behind = false;
     ++screen->frames;
+    screen->frame_ms = presented->frame_ms;
   } else if (const auto* controls = std::get_if<Controls>(&message)) {
     if (options_.drivers.contains(screen->name)) controls_ = controls->input;
   } else if (const auto* quit = std::get_if<Quit>(&message)) {

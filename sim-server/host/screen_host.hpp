@@ -55,8 +55,10 @@ struct HostedScreen {
   Tick presented = 0;
   bool has_presented = false;
   std::uint64_t frames = 0;
-  std::uint32_t joined = 0;       ///< How often it has connected.
-  double joined_s = 0.0;          ///< When it last did.
+  double frame_ms = 0.0;             ///< From picture to picture, of the newest.
+  std::uint64_t lost_baselines = 0;  ///< Ticks that it could not read, for what they differ from was lost on the way.
+  std::uint32_t joined = 0;          ///< How often it has connected.
+  double joined_s = 0.0;             ///< When it last did.
   std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;

@@ -17,8 +17,12 @@ struct Loop {
   std::uint64_t ticks;
   double started_s;
   ServeResult result = {};
+  std::shared_ptr<const TakenSnapshot> newest = nullptr;
+  std::string doing = "starting";  ///< For whoever looks on.
 
+  bool is_paused() const { return environment.is_paused && environment.is_paused(); }
   void report(std::string what) {
+    doing = what;
     environment.report({result.simulated_s, static_cast<double>(ticks) / source.tick_rate_hz(),
                         environment.now_s() - started_s, std::move(what)});
   }
@@ -38,10 +42,12 @@ struct Loop {
     ++result.ticks;
     result.simulated_s = (*snapshot)->snapshot().simulated_time_s;
     result.state_hash = (*snapshot)->snapshot().state_hash;
+    newest = *snapshot;
     return std::move(*snapshot);
   }
   /// Whether somebody wants the drive to end or its log is lost; the result says so.
   bool is_stopped(const std::optional<DriveEnd>& by_a_screen) {
+    if (environment.attend) environment.attend(newest, doing);
     if (auto error = source.take_error()) {
       result.error = std::move(*error);
       result.end = source.end();
@@ -124,9 +130,32 @@ bool awaits_first_frame(const ScreenHost& host) {
   });
 }
 
+/// The world stands still, seen on all screens, for as long as the operator wants. What moves in the driver's seat rests.
+void stand_still(ScreenLoop& loop) {
+  const control::Notice before = loop.host.notice();
+  loop.host.give_notice({"Paused", before.keys});
+  loop.source.stand_still();
+  const double begun_s = loop.environment.now_s();
+  loop.report("paused");
+  loop.pump_until([&] { return !loop.is_paused(); }, std::numeric_limits<double>::infinity(), 0.1,
+                  [&] {
+                    loop.show_messages();
+                    if (loop.newest) loop.host.repeat_newest();
+                    loop.report("paused");
+                  });
+  loop.host.give_notice(before);
+  loop.host.restart_shown_time();
+  loop.started_s += loop.environment.now_s() - begun_s;
+  loop.report("driving");
+}
+
 void run_lockstep(ScreenLoop& loop) {
   if (!wait_for_screens(loop)) return;
   while (!loop.is_over()) {
+    if (loop.is_paused()) {
+      stand_still(loop);
+      continue;
+    }
     const auto snapshot = loop.take_tick(loop.host.take_controls());
     if (!snapshot) return;
     const Tick tick = snapshot->snapshot().tick;
@@ -174,6 +203,11 @@ void run_real_time(ScreenLoop& loop) {
   double reported_s = due_s;
   while (!loop.is_over()) {
     loop.pump();
+    if (loop.is_paused()) {
+      stand_still(loop);
+      due_s = loop.environment.now_s();
+      continue;
+    }
     const double now_s = loop.environment.now_s();
     if (now_s < due_s) {
       loop.environment.wait(loop.host.has_backlog() ? 0.0 : due_s - now_s);
@@ -215,6 +249,15 @@ ServeResult serve(TickSource& source, ScreenHost& host, const ServeOptions& opti
 ServeResult run_headless(TickSource& source, std::uint64_t ticks, const ServeEnvironment& environment) {
   Loop loop{source, environment, ticks, environment.now_s()};
   while (!loop.is_stopped(std::nullopt) && !loop.is_time_over()) {
+    if (loop.is_paused()) {
+      const double begun_s = loop.environment.now_s();
+      loop.source.stand_still();
+      loop.report("paused");
+      while (loop.is_paused() && !loop.is_stopped(std::nullopt)) loop.environment.wait(0.01);
+      loop.started_s += loop.environment.now_s() - begun_s;
+      loop.report("driving");
+      continue;
+    }
     if (!loop.take_tick(std::nullopt)) break;
     if (loop.result.ticks % 120 == 0) loop.report("driving");
   }

@@ -49,6 +49,11 @@ struct ServeEnvironment {
   std::function<void(const std::string&)> show;
   /// Whether the operator wants to drive without those who are missing.
   std::function<bool()> told_to_go;
+  /// Called again and again, also while the world stands still, with the newest tick (null before the first) and what is going on: for
+  /// whoever looks on. It never waits.
+  std::function<void(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what)> attend;
+  /// Whether the operator wants the world to stand still; asked after `attend`.
+  std::function<bool()> is_paused;
   /// The list of allowed clients, where it has changed.
   std::function<std::optional<std::vector<net::AllowedClient>>()> changed_list;
 };
@@ -58,7 +63,7 @@ struct ServeResult {
   std::optional<Error> error;  ///< Where the end is one.
   std::uint64_t ticks = 0;
   double simulated_s = 0.0;
-  double wall_s = 0.0;
+  double wall_s = 0.0;           ///< Without what it stood still.
   std::uint64_t late_ticks = 0;  ///< Real time: ticks that began more than a tick late.
   std::uint64_t state_hash = 0;
 };

@@ -26,6 +26,8 @@ class TickSource {
   virtual std::shared_ptr<const TakenSnapshot> first() const { return nullptr; }
   /// Whether the driver has taken the controls, `waited_s` after the world began to wait for that.
   virtual bool driver_is_ready(const std::optional<DriverInput>& /*controls*/, double /*waited_s*/) { return true; }
+  /// The world stands still from here to the next tick: whatever moves in the driver's seat is to rest.
+  virtual void stand_still() {}
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }

@@ -78,6 +78,16 @@ void add_drive_commands(CLI::App& app, Options& options) {
                           "Do not wait until the driver presses a key or a pedal");
   drive_command->add_option("--traffic", options.drive.traffic,
                             "Who moves the traffic: own, or sumo where the package sumo is installed");
+  drive_command
+      ->add_option("--page", options.drive.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
+      ->default_str("no page")
+      ->check(number_between(0, 65535));
+  drive_command
+      ->add_option("--page-host", options.drive.page_hosts,
+                   "Name by which a proxy in front of the page is asked for; as often as needed")
+      ->type_name("NAME")
+      ->default_str("")
+      ->allow_extra_args(false);
   drive_command->add_flag("--no-screens", options.drive.no_screens, "Server and car only, as fast as it goes");
   drive_command->footer(car_io::driving_keys_text());
   drive_command->callback([&] { options.work = [&] { return run_drive(options.drive); }; });

@@ -1,5 +1,7 @@
 /// The world waits for its driver: server loop, screens and network on simulated clocks.
 
+#include <set>
+
 #include <doctest/doctest.h>
 
 #include "sim-server/host/serve.hpp"
@@ -18,10 +20,12 @@ class DrivenCircles final : public server::TickSource {
   Expected<std::shared_ptr<const TakenSnapshot>> next(const std::optional<DriverInput>&) override {
     return std::make_shared<const TakenSnapshot>(circling_vehicles(++tick, 20));
   }
+  void stand_still() override { ++rests; }
   double tick_rate_hz() const override { return 120.0; }
   logging::DriveEnd end() const override { return logging::DriveEnd::failed; }
 
   Tick tick = 0;
+  int rests = 0;  ///< How often whatever moves in the driver's seat was told to rest.
 };
 
 }  // namespace
@@ -104,6 +108,70 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   CHECK(served.end == logging::DriveEnd::time_over);
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
+}
+
+TEST_CASE(
+    "a drive that the operator pauses stands still on all screens, also on one that comes then, and goes on where it "
+    "was") {
+  SimulatedRig rig({.screens = 2, .real_time = false});
+  rig.run_for(0.5);
+  DrivenCircles circles;
+  Tick stood_at = 0;
+  bool is_paused = false, has_joined = false;
+  std::set<std::string> doings;
+  server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
+                                       [&](double) {
+                                         rig.advance_1ms();
+                                         if (rig.screen(0).link->finished())
+                                           for (std::size_t i = 0; i < rig.size(); ++i) rig.screen(i).link->report({});
+                                       },
+                                       [] { return std::optional<logging::DriveEnd>(); },
+                                       [](const server::Progress&) {}, [](const std::string&) {}};
+  environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
+    doings.insert(what);
+    if (stood_at == 0 && newest && newest->snapshot().tick == 120) {
+      stood_at = 120;
+      is_paused = true;
+    }
+    if (!is_paused) return;
+    CHECK(circles.tick == 120);
+    if (!has_joined && rig.now_s() > 4.0) {
+      CHECK(rig.screen(0).link->notice().text == "Paused");
+      REQUIRE(rig.shown(0));
+      CHECK(rig.shown(0)->tick >= 116);
+      rig.stop_screen(1);
+      rig.start_screen(1);
+      has_joined = true;
+    }
+    if (rig.now_s() < 8.0) return;
+    CHECK(rig.screen(1).link->notice().text == "Paused");
+    is_paused = false;
+  };
+  environment.is_paused = [&] { return is_paused; };
+  const auto served = server::serve(circles, rig.host(), {.ticks = 240}, environment);
+  CHECK(served.end == logging::DriveEnd::time_over);
+  CHECK(served.ticks == 240);
+  CHECK(served.wall_s < 2.5);  // Of the simulated clock: standing still is not driving.
+  CHECK(served.late_ticks <= 1);
+  CHECK(circles.rests == 1);
+  CHECK(doings.contains("paused"));
+  CHECK(rig.now_s() > 9.0);
+  CHECK(rig.screen(0).link->notice().text.empty());
+  for (std::size_t i = 0; i < rig.size(); ++i) CHECK(rig.shown(i)->tick >= 236);
+}
+
+TEST_CASE("a paused drive can be ended") {
+  DrivenCircles circles;
+  int asked = 0;
+  server::ServeEnvironment environment{
+      [] { return 0.0; }, [](double) {},
+      [&] { return ++asked > 50 ? std::optional(logging::DriveEnd::by_operator) : std::nullopt; },
+      [](const server::Progress&) {}, [](const std::string&) {}};
+  environment.is_paused = [&] { return circles.tick >= 10; };
+  const auto served = server::run_headless(circles, 0, environment);
+  CHECK(served.end == logging::DriveEnd::by_operator);
+  CHECK(served.ticks == 10);
+  CHECK(circles.rests == 1);
 }
 
 TEST_CASE("a drive that waits for nobody begins at once") {

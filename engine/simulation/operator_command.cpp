@@ -1,0 +1,169 @@
+#include "engine/simulation/operator_command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/simulation/driver_car.hpp"
+#include "engine/simulation/storyboard_stage.hpp"
+
+namespace septet::simulation {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Within what the models and pictures are made for.
+constexpr std::array condition_table{
+    Condition{"rain_mm_per_h", 0.0, 100.0, &Environment::rain_mm_per_h},
+    Condition{"road_wetness", 0.0, 1.0, &Environment::road_wetness},
+    Condition{"snow_cover", 0.0, 1.0, &Environment::snow_cover},
+    Condition{"visibility_m", 20.0, 100000.0, &Environment::visibility_m},
+    Condition{"cloud_cover", 0.0, 1.0, &Environment::cloud_cover},
+    Condition{"temperature_k", 233.15, 323.15, &Environment::temperature_k},
+    Condition{"wind_speed_mps", 0.0, 40.0, &Environment::wind_speed_mps},
+    Condition{"wind_direction_rad", -2.0 * pi, 2.0 * pi, &Environment::wind_direction_rad},
+    Condition{"sun_elevation_rad", -0.5 * pi, 0.5 * pi, &Environment::sun_elevation_rad},
+    Condition{"sun_azimuth_rad", 0.0, 2.0 * pi, &Environment::sun_azimuth_rad},
+    Condition{"sun_illuminance_lux", 0.0, 150000.0, &Environment::sun_illuminance_lux},
+    Condition{"friction_scale", 0.05, 1.5, nullptr},
+};
+
+tl::unexpected<Error> no_command(std::string what) {
+  return failure(std::move(what), "operator's command",
+                 "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\" or \"trigger element=NAME\"");
+}
+
+/// All of the text is this number.
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+Expected<OperatorCommand> parse_conditions(std::string_view text) {
+  SetConditions set;
+  while (!text.empty()) {
+    const auto word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const auto equals = word.find('=');
+    if (equals == std::string_view::npos) return no_command("a condition has no value");
+    const auto found = std::ranges::find(condition_table, word.substr(0, equals), &Condition::name);
+    if (found == condition_table.end()) return no_command("there is no such condition");
+    double value = 0.0;
+    if (!read_number(word.substr(equals + 1), value) || !(value >= found->least && value <= found->most))
+      return no_command(fmt::format("{} is to be from {:g} to {:g}", found->name, found->least, found->most));
+    if (std::ranges::find(set.values, &*found, &std::pair<const Condition*, double>::first) != set.values.end())
+      return no_command(fmt::format("{} is given twice", found->name));
+    set.values.emplace_back(&*found, value);
+  }
+  if (set.values.empty()) return no_command("no condition is given");
+  return set;
+}
+
+/// Uses each act and each event of the storyboard, as whole elements.
+template <class Use>
+void each_trigger(const scenario::Scenario& scenario, const Use& use) {
+  for (const auto& story : scenario.stories)
+    for (const auto& act : story.acts) {
+      use(act);
+      for (const auto& group : act.groups)
+        for (const auto& maneuver : group.maneuvers)
+          for (const auto& event : maneuver.events) use(event);
+    }
+}
+
+Expected<void> apply(const Model&, const SetConditions& set, State& state, std::vector<Event>&) {
+  for (const auto& [condition, value] : set.values)
+    (condition->environment ? state.scenario.environment.*(condition->environment) : state.scenario.friction_scale) =
+        value;
+  return {};
+}
+
+Expected<void> apply(const Model& model, const SetTraffic& set, State& state, std::vector<Event>&) {
+  const auto* swarm = first_swarm(model.scenario);
+  if (!swarm)
+    return failure("the scenario has no traffic of which there could be more or less", "traffic",
+                   "give it a TrafficSwarmAction");
+  auto wanted = *swarm;
+  wanted.vehicle_count = set.vehicles;
+  const Participant car = driven_car(model, state).participant;
+  state.traffic->start(swarm_parameters(wanted), foreign_vehicles(model, state, car));
+  return {};
+}
+
+Expected<void> apply(const Model& model, const TriggerElement& trigger, State& state, std::vector<Event>& events) {
+  const auto& names = model.scenario.element_names;
+  const auto found = std::ranges::find(names, trigger.name);
+  if (found == names.end())
+    return failure("the storyboard has no such element", trigger.name.substr(0, 200),
+                   "name an act or an event of the scenario");
+  scenario::StepResult result;
+  const auto element = static_cast<scenario::ElementIndex>(found - names.begin());
+  auto done = scenario::trigger_element(model.scenario, model.roads, element, state.scenario, result);
+  if (done) carry_out(model, result, driven_car(model, state).participant, state, events);
+  return done;
+}
+
+}  // namespace
+
+std::span<const Condition> conditions() { return condition_table; }
+
+double value_of(const Condition& condition, const scenario::ScenarioState& state) {
+  return condition.environment ? state.environment.*(condition.environment) : state.friction_scale;
+}
+
+std::string text_of(const OperatorCommand& command) {
+  if (const auto* traffic = std::get_if<SetTraffic>(&command))
+    return fmt::format("traffic vehicles={}", traffic->vehicles);
+  if (const auto* trigger = std::get_if<TriggerElement>(&command)) return "trigger element=" + trigger->name;
+  std::string text = "conditions";
+  for (const auto& [condition, value] : std::get<SetConditions>(command).values)
+    text += fmt::format(" {}={}", condition->name, value);
+  return text;
+}
+
+Expected<OperatorCommand> parse_operator_command(std::string_view text) {
+  if (constexpr std::string_view begin = "conditions "; text.starts_with(begin))
+    return parse_conditions(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "trigger element="; text.starts_with(begin) && text.size() > begin.size())
+    return TriggerElement{std::string(text.substr(begin.size()))};
+  if (constexpr std::string_view begin = "traffic vehicles="; text.starts_with(begin)) {
+    std::uint32_t vehicles = 0;
+    if (!read_number(text.substr(begin.size()), vehicles) || vehicles > scenario::most_swarm_vehicles)
+      return no_command(fmt::format("vehicles are to be from 0 to {}", scenario::most_swarm_vehicles));
+    return SetTraffic{vehicles};
+  }
+  return no_command("there is no such command");
+}
+
+Expected<void> apply_operator_command(const Model& model, const OperatorCommand& command, State& state,
+                                      std::vector<Event>& events) {
+  return std::visit([&](const auto& what) { return apply(model, what, state, events); }, command);
+}
+
+const scenario::TrafficSwarmAction* first_swarm(const scenario::Scenario& scenario) {
+  for (const auto& action : scenario.init)
+    if (const auto* swarm = std::get_if<scenario::TrafficSwarmAction>(&action.what)) return swarm;
+  for (const auto& story : scenario.stories)
+    for (const auto& act : story.acts)
+      for (const auto& group : act.groups)
+        for (const auto& maneuver : group.maneuvers)
+          for (const auto& event : maneuver.events)
+            for (const auto& action : event.actions)
+              if (const auto* swarm = std::get_if<scenario::TrafficSwarmAction>(&action.what)) return swarm;
+  return nullptr;
+}
+
+std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state) {
+  std::vector<std::string> names;
+  each_trigger(scenario, [&](const auto& what) {
+    if (state.elements[what.element].status == scenario::ElementStatus::standby)
+      names.push_back(scenario.element_names[what.element]);
+  });
+  return names;
+}
+
+}  // namespace septet::simulation

@@ -1,0 +1,63 @@
+#pragma once
+/// What somebody beside the drive, an operator, changes of it: weather, light, grip, traffic, the storyboard's next event.
+///
+/// A command is applied between two ticks, and is input like the driver's: it is logged as its text, with the tick that it came before, and
+/// running the drive again applies it there. The text comes back as the same command to the last bit:
+///
+///     conditions rain_mm_per_h=20 road_wetness=0.6
+///     traffic vehicles=120
+///     trigger element=Story::Act::Group::Maneuver::Event
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "engine/simulation/state.hpp"
+
+namespace septet::simulation {
+
+/// A condition of weather, light or road that may be set while driving.
+struct Condition {
+  std::string_view name;                       ///< As the environment calls it, unit in the name.
+  double least = 0.0, most = 1.0;              ///< What may be asked for.
+  double Environment::*environment = nullptr;  ///< Null: the scenario's friction scale.
+};
+std::span<const Condition> conditions();
+double value_of(const Condition& condition, const scenario::ScenarioState& state);
+
+struct SetConditions {
+  std::vector<std::pair<const Condition*, double>> values;  ///< Each condition once.
+  bool operator==(const SetConditions&) const = default;
+};
+/// The scenario's traffic is laid out anew around the driver's car, with this many vehicles.
+struct SetTraffic {
+  std::uint32_t vehicles = 0;
+  bool operator==(const SetTraffic&) const = default;
+};
+/// An act or an event of the storyboard begins now.
+struct TriggerElement {
+  std::string name;  ///< As Scenario::element_names has it.
+  bool operator==(const TriggerElement&) const = default;
+};
+using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement>;
+
+std::string text_of(const OperatorCommand& command);
+/// Error: it is no command, or asks for a value out of its range.
+Expected<OperatorCommand> parse_operator_command(std::string_view text);
+
+/// Between two ticks. Events are appended. Error: this drive cannot do that, or not now; then nothing has changed.
+Expected<void> apply_operator_command(const Model& model, const OperatorCommand& command, State& state,
+                                      std::vector<Event>& events);
+
+/// The swarm that `SetTraffic` takes its mix and its reach from: the scenario's first; null where it has none.
+const scenario::TrafficSwarmAction* first_swarm(const scenario::Scenario& scenario);
+
+/// What may be triggered now: acts and events that have not begun.
+std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state);
+
+}  // namespace septet::simulation

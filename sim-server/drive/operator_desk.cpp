@@ -1,0 +1,134 @@
+#include "sim-server/drive/operator_desk.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/simulation/operator_command.hpp"
+#include "sim-server/page/request_checks.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr double show_every_s = 0.1;
+
+page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loaded) {
+  page::DriveFacts facts{.scenario = std::filesystem::path(options.scenario).stem().string(),
+                         .rig = loaded.rig.name,
+                         .vehicle = loaded.vehicle_name(),
+                         .participant = options.participant,
+                         .seed = options.seed,
+                         .tick_rate_hz = simulation::tick_rate_hz,
+                         .planned_s = options.seconds,
+                         .has_traffic = simulation::first_swarm(loaded.model->scenario) != nullptr,
+                         .driver = simulation::driver_participant};
+  for (const auto& condition : simulation::conditions())
+    facts.conditions.push_back({std::string(condition.name), condition.least, condition.most});
+  return facts;
+}
+
+std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) {
+  std::vector<page::ScreenView> views;
+  for (const HostedScreen& screen : screens)
+    views.push_back({.name = screen.name,
+                     .live = screen.live(),
+                     .frames = screen.frames,
+                     .frame_ms = screen.frame_ms,
+                     .presented = screen.has_presented ? std::optional(screen.presented) : std::nullopt,
+                     .lost_baselines = screen.lost_baselines,
+                     .drop_outs = screen.left_s.size()});
+  return views;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& options, const LoadedDrive& loaded,
+                                                           LiveDrive& drive) {
+  auto page = page::OperatorPage::open({.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
+                                        .allowed_hosts = options.page_hosts,
+                                        .token = page::random_token()},
+                                       facts_of(options, loaded), loaded.model->roads);
+  if (!page) return tl::unexpected(page.error());
+  auto desk = std::unique_ptr<OperatorDesk>(new OperatorDesk(std::move(*page), loaded, drive));
+  drive.watch_events([desk = desk.get()](const simulation::Event& event, double at_s) {
+    desk->page_->tell(at_s, event.kind + ": " + event.detail);
+  });
+  return desk;
+}
+
+void OperatorDesk::attend(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what,
+                          const std::vector<HostedScreen>& screens, double now_s) {
+  newest_ = newest ? newest : drive_.first();
+  for (const auto& wish : page_->take_wishes()) page_->answer(wish, fulfil(wish));
+  if (shown_s_ && now_s - *shown_s_ < show_every_s) return;
+  if (!shown_s_ || now_s - since_s_ >= 1.0) {
+    const double time_s = drive_.state().time_s();
+    if (shown_s_) real_time_factor_ = (time_s - since_time_s_) / (now_s - since_s_);
+    since_s_ = now_s;
+    since_time_s_ = time_s;
+  }
+  shown_s_ = now_s;
+  show(what, screens, now_s);
+}
+
+void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>& screens, double now_s) {
+  page::DriveView view{.newest = newest_,
+                       .phase = what,
+                       .is_paused = is_paused_,
+                       .wall_s = now_s,
+                       .real_time_factor = real_time_factor_,
+                       .screens = view_of(screens)};
+  if (const auto leader = find_leader(newest_->snapshot(), loaded_.model->roads))
+    view.leader = {leader->participant, leader->distance_gap_m, leader->speed_mps};
+  const auto& scenario = drive_.state().scenario;
+  for (const auto& condition : simulation::conditions())
+    view.conditions.push_back(simulation::value_of(condition, scenario));
+  view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
+  page_->show(std::move(view));
+}
+
+void OperatorDesk::show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s) {
+  if (!newest_) newest_ = drive_.first();
+  show(text, screens, now_s);
+}
+
+std::optional<logging::DriveEnd> OperatorDesk::end_requested() const {
+  return is_ended_ ? std::optional(logging::DriveEnd::by_operator) : std::nullopt;
+}
+
+/// Nothing where it was done, else why not.
+std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) {
+  if (const auto* mark = std::get_if<page::Mark>(&wish.wish)) {
+    note(wish, "mark", mark->note);
+  } else if (std::holds_alternative<page::Pause>(wish.wish)) {
+    if (is_paused_) return "it stands still already";
+    is_paused_ = true;
+    note(wish, "operator", "pause");
+  } else if (std::holds_alternative<page::GoOn>(wish.wish)) {
+    told_to_go_ = true;
+    if (std::exchange(is_paused_, false)) note(wish, "operator", "go_on");
+  } else if (const auto* end = std::get_if<page::End>(&wish.wish)) {
+    is_ended_ = true;
+    note(wish, "operator", "end reason=" + end->reason);
+  } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {
+    return change(wish, changed->command);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> OperatorDesk::change(const page::OperatorWish& wish, const std::string& text) {
+  const auto command = simulation::parse_operator_command(text);
+  if (!command) return command.error().what;
+  if (auto done = drive_.command(*command); !done) return done.error().what;
+  note(wish, "operator", simulation::text_of(*command));
+  return std::nullopt;
+}
+
+void OperatorDesk::note(const page::OperatorWish& wish, const std::string& kind, const std::string& what) {
+  const std::string by = wish.name.empty() ? "operator" : wish.name;
+  if (log_) log_->record_message(kind, fmt::format("by={} {}={}", by, kind == "mark" ? "note" : "wish", what));
+  page_->tell(drive_.state().time_s(), fmt::format("{}: {} ({})", kind, what, by));
+}
+
+}  // namespace septet::server

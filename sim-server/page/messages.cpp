@@ -1,0 +1,198 @@
+#include "sim-server/page/messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/printable.hpp"
+#include "engine/document/json.hpp"
+
+namespace septet::page {
+namespace {
+
+using document::Json;
+
+tl::unexpected<Error> no_message(std::string what) {
+  return failure(std::move(what), "the operator's page", "load the page again");
+}
+
+/// A text member, printable and cut to length; empty where there is none.
+std::string text_member(const nlohmann::json& object, const char* name, std::size_t most) {
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_string()) return {};
+  return printable(found->get_ref<const std::string&>(), most);
+}
+
+/// Rounded: a state is sent ten times a second, and nobody reads a micrometre off a map.
+Json rounded(double value, double unit) {
+  if (!std::isfinite(value)) return nullptr;
+  const double scaled = std::round(value / unit);
+  if (std::abs(scaled) > 9e15) return nullptr;
+  return unit >= 1.0 ? Json(static_cast<std::int64_t>(scaled)) : Json(scaled / std::round(1.0 / unit));
+}
+
+double heading_rad(const RigidTransform& pose) {
+  const Vec3 ahead = pose.orientation * Vec3(1.0, 0.0, 0.0);
+  return std::atan2(ahead.y, ahead.x);
+}
+
+/// Everybody: id, model, x and y of the rear axle, heading, speed, and which lamps matter from above.
+Json everybody(const Snapshot& snapshot) {
+  Json list = Json::array();
+  for (const Participant& p : snapshot.participants) {
+    const Vec3& at = p.world_from_vehicle.position_m;
+    list.push_back({p.id, p.model, rounded(at.x, 0.01), rounded(at.y, 0.01),
+                    rounded(heading_rad(p.world_from_vehicle), 0.001), rounded(glm::length(p.velocity_mps), 0.1)});
+  }
+  return list;
+}
+
+Json screens_of(const DriveView& view, double tick_rate_hz) {
+  Tick foremost = 0;
+  for (const auto& screen : view.screens)
+    if (screen.live && screen.presented) foremost = std::max(foremost, *screen.presented);
+  Json list = Json::array();
+  for (const auto& screen : view.screens) {
+    Json behind_ms = nullptr;
+    if (screen.live && screen.presented)
+      behind_ms = rounded(1000.0 * static_cast<double>(foremost - *screen.presented) / tick_rate_hz, 0.1);
+    list.push_back({{"name", screen.name},
+                    {"live", screen.live},
+                    {"frames", screen.frames},
+                    {"frame_ms", rounded(screen.frame_ms, 0.1)},
+                    {"behind_ms", behind_ms},
+                    {"lost", screen.lost_baselines},
+                    {"drop_outs", screen.drop_outs}});
+  }
+  return list;
+}
+
+std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+Expected<BrowserMessage> read_browser_message(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) return no_message("this is no message");
+  BrowserMessage message;
+  const auto id = json.find("id");
+  if (id == json.end() || !id->is_number_unsigned()) return no_message("the message has no number");
+  message.id = id->get<std::uint64_t>();
+  const std::string wish = text_member(json, "do", 40);
+  const auto flag = [&](const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() && found->is_boolean() && found->get<bool>();
+  };
+  if (wish == "take")
+    message.wish = Take{text_member(json, "name", most_name_characters), flag("by_force")};
+  else if (wish == "release")
+    message.wish = Release{};
+  else if (wish == "pause")
+    message.wish = Pause{};
+  else if (wish == "go_on")
+    message.wish = GoOn{};
+  else if (wish == "end")
+    message.wish = End{text_member(json, "reason", most_note_characters)};
+  else if (wish == "mark")
+    message.wish = Mark{text_member(json, "note", most_note_characters)};
+  else if (wish == "change")
+    message.wish =
+        Change{json.value("command", nlohmann::json()).is_string() ? json["command"].get<std::string>() : ""};
+  else
+    return no_message("nobody knows this message");
+  return message;
+}
+
+std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_t browser) {
+  Json shapes = Json::array();
+  for (const auto& shape : map.shapes) {
+    Json points = Json::array();
+    for (const Vec2& point : shape.points_m) {
+      points.push_back(rounded(point.x, 0.1));
+      points.push_back(rounded(point.y, 0.1));
+    }
+    shapes.push_back({{"kind", static_cast<int>(shape.kind)}, {"points", std::move(points)}});
+  }
+  Json models = Json::array();
+  for (const VehicleModel& model : vehicle_models())
+    models.push_back({{"name", std::string(model.name)},
+                      {"kind", static_cast<int>(model.kind)},
+                      {"length", model.length_m},
+                      {"width", model.width_m},
+                      {"rear", model.rear_overhang_m}});
+  Json conditions = Json::array();
+  for (const Adjustable& condition : facts.conditions)
+    conditions.push_back({{"name", condition.name},
+                          {"least", document::number(condition.least)},
+                          {"most", document::number(condition.most)}});
+  return dump({{"type", "hello"},
+               {"schema", schema},
+               {"you", browser},
+               {"scenario", facts.scenario},
+               {"rig", facts.rig},
+               {"vehicle", facts.vehicle},
+               {"participant", facts.participant},
+               {"seed", std::to_string(facts.seed)},
+               {"planned_s", facts.planned_s},
+               {"driver", facts.driver},
+               {"has_traffic", facts.has_traffic},
+               {"conditions", std::move(conditions)},
+               {"models", std::move(models)},
+               {"road", std::move(shapes)}});
+}
+
+std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint64_t number,
+                       const std::optional<Commander>& commander, std::size_t browsers) {
+  Json json = {{"type", "state"},
+               {"seq", number},
+               {"phase", view.phase},
+               {"paused", view.is_paused},
+               {"wall_s", rounded(view.wall_s, 0.001)},
+               {"real_time_factor", rounded(view.real_time_factor, 0.01)},
+               {"browsers", browsers},
+               {"commander", nullptr},
+               {"leader", nullptr},
+               {"screens", screens_of(view, facts.tick_rate_hz)},
+               {"triggers", view.triggers}};
+  if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
+  Json conditions = Json::array();
+  for (const double value : view.conditions) conditions.push_back(rounded(value, 0.0001));
+  json["conditions"] = std::move(conditions);
+  if (view.leader)
+    json["leader"] = {{"id", view.leader->participant},
+                      {"gap_m", rounded(view.leader->gap_m, 0.1)},
+                      {"speed_mps", rounded(view.leader->speed_mps, 0.1)}};
+  if (!view.newest) return dump(json);
+  const Snapshot& snapshot = view.newest->snapshot();
+  const DriverCar& car = snapshot.driver_car;
+  json["tick"] = snapshot.tick;
+  json["sim_s"] = rounded(snapshot.simulated_time_s, 0.001);
+  json["car"] = {{"speed_mps", rounded(car.speed_mps, 0.01)},
+                 {"gear", car.gear},
+                 {"rpm", rounded(car.engine_radps * 30.0 / std::numbers::pi, 1.0)},
+                 {"accelerator", rounded(car.accelerator, 0.01)},
+                 {"brake", rounded(car.brake, 0.01)},
+                 {"wheel_rad", rounded(car.steering_wheel_rad, 0.001)},
+                 {"lane", car.lane},
+                 {"road_s_m", rounded(car.road_s_m, 0.1)},
+                 {"lateral_m", rounded(car.lateral_position_m, 0.01)},
+                 {"lane_width_m", rounded(car.lane_width_m, 0.01)}};
+  json["collisions"] = snapshot.diagnostics.collisions;
+  json["everybody"] = everybody(snapshot);
+  return dump(json);
+}
+
+std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not) {
+  Json json = {{"type", "answer"}, {"id", id}, {"ok", !why_not}};
+  if (why_not) json["why"] = *why_not;
+  return dump(json);
+}
+
+std::string event_text(double simulated_s, const std::string& text) {
+  return dump({{"type", "event"}, {"sim_s", rounded(simulated_s, 0.01)}, {"text", text}});
+}
+
+}  // namespace septet::page

@@ -1,0 +1,170 @@
+#include "sim-server/page/operator_page.hpp"
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace septet::page {
+namespace {
+
+constexpr std::string_view index_html =
+#include "sim-server/page/web/index.html.inc"
+    ;
+constexpr std::string_view page_css =
+#include "sim-server/page/web/page.css.inc"
+    ;
+constexpr std::string_view page_js =
+#include "sim-server/page/web/page.js.inc"
+    ;
+
+constexpr std::size_t remembered_events = 200;  ///< For who opens the page later.
+
+Text text(std::string words) { return std::make_shared<const std::string>(std::move(words)); }
+
+}  // namespace
+
+struct OperatorPage::Shared {
+  // Handed over between the two threads.
+  std::mutex mutex;
+  std::optional<DriveView> newest;  ///< The slot.
+  bool is_due = false;              ///< The page's thread has been told of it.
+  std::vector<OperatorWish> wishes;
+
+  // The page's thread's own.
+  DriveFacts facts;
+  RoadMap map;
+  std::set<BrowserId> browsers;
+  std::optional<Commander> commander;
+  std::uint64_t states = 0;
+  DriveView shown;
+  std::deque<Text> events;
+
+  std::unique_ptr<WebServer> server;  ///< Last: its thread is gone before the rest.
+
+  void opened(BrowserId browser) {
+    browsers.insert(browser);
+    server->send(browser, text(hello_text(facts, map, browser)));
+    for (const Text& event : events) server->send(browser, event);
+    send_state();
+  }
+  void closed(BrowserId browser) {
+    browsers.erase(browser);
+    if (commander && commander->browser == browser) commander.reset();
+    send_state();
+  }
+  void said(BrowserId browser, std::string_view words) {
+    auto message = read_browser_message(words);
+    if (!message) return server->send(browser, text(answer_text(0, message.error().what)));
+    const auto answer = [&](const std::optional<std::string>& why_not) {
+      server->send(browser, text(answer_text(message->id, why_not)));
+    };
+    const bool commands = commander && commander->browser == browser;
+    if (const auto* take = std::get_if<Take>(&message->wish)) {
+      if (commander && !commands && !take->by_force) return answer("somebody else commands");
+      commander = Commander{browser, take->name};
+      answer(std::nullopt);
+      return send_state();
+    }
+    if (!commands) return answer("only who commands may do that: take the command first");
+    if (std::holds_alternative<Release>(message->wish)) {
+      commander.reset();
+      answer(std::nullopt);
+      return send_state();
+    }
+    {
+      const std::lock_guard lock(mutex);
+      if (wishes.size() < most_waiting_wishes) {
+        wishes.push_back({browser, message->id, commander->name, std::move(message->wish)});
+        return;  // The drive answers.
+      }
+    }
+    answer("the drive has not yet done what was asked before");
+  }
+
+  void take_view() {
+    std::optional<DriveView> taken;
+    {
+      const std::lock_guard lock(mutex);
+      is_due = false;
+      taken.swap(newest);
+    }
+    if (taken) shown = std::move(*taken);
+    send_state();
+  }
+  void send_state() {
+    if (browsers.empty()) return;
+    const Text state = text(state_text(shown, facts, ++states, commander, browsers.size()));
+    for (const BrowserId browser : std::set(browsers)) server->send_newest(browser, state);
+  }
+};
+
+Expected<std::unique_ptr<OperatorPage>> OperatorPage::open(PageOptions options, DriveFacts facts,
+                                                           const road::RoadNetwork& roads) {
+  auto shared = std::make_unique<Shared>();
+  shared->facts = std::move(facts);
+  shared->map = road_map(roads);
+  WebServerOptions web{.port = options.port,
+                       .allowed_hosts = std::move(options.allowed_hosts),
+                       .token = options.token,
+                       .resources = {{"/", "text/html; charset=utf-8", index_html},
+                                     {"/page.css", "text/css; charset=utf-8", page_css},
+                                     {"/page.js", "text/javascript; charset=utf-8", page_js}}};
+  Shared* const here = shared.get();
+  // Nothing that needs the server may be done before it is kept: until then its thread waits here.
+  std::unique_lock starting(shared->mutex);
+  const auto once_kept = [here] { const std::lock_guard kept(here->mutex); };
+  auto server = WebServer::start(std::move(web),
+                                 {[here, once_kept](BrowserId browser) {
+                                    once_kept();
+                                    here->opened(browser);
+                                  },
+                                  [here](BrowserId browser, std::string_view words) { here->said(browser, words); },
+                                  [here](BrowserId browser) { here->closed(browser); }});
+  if (!server) return tl::unexpected(server.error());
+  shared->server = std::move(*server);
+  starting.unlock();
+  auto page = std::unique_ptr<OperatorPage>(new OperatorPage(std::move(shared)));
+  page->url_ = fmt::format("http://127.0.0.1:{}/#{}", here->server->port(), options.token);
+  return page;
+}
+
+OperatorPage::OperatorPage(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
+OperatorPage::~OperatorPage() { shared_->server->flush(0.5); }
+
+void OperatorPage::show(DriveView view) {
+  std::optional<DriveView> before;  // Its end is nothing to wait for with a lock in hand.
+  {
+    const std::lock_guard lock(shared_->mutex);
+    before.swap(shared_->newest);
+    shared_->newest.emplace(std::move(view));
+    if (std::exchange(shared_->is_due, true)) return;
+  }
+  shared_->server->post([shared = shared_.get()] { shared->take_view(); });
+}
+
+std::vector<OperatorWish> OperatorPage::take_wishes() {
+  const std::lock_guard lock(shared_->mutex);
+  return std::exchange(shared_->wishes, {});
+}
+
+void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::string>& why_not) {
+  shared_->server->post([shared = shared_.get(), browser = wish.browser, words = text(answer_text(wish.id, why_not))] {
+    shared->server->send(browser, words);
+  });
+}
+
+void OperatorPage::tell(double simulated_s, std::string words) {
+  shared_->server->post([shared = shared_.get(), event = text(event_text(simulated_s, words))] {
+    shared->events.push_back(event);
+    if (shared->events.size() > remembered_events) shared->events.pop_front();
+    for (const BrowserId browser : std::set(shared->browsers)) shared->server->send(browser, event);
+  });
+}
+
+WebCounters OperatorPage::counters() const { return shared_->server->counters(); }
+
+}  // namespace septet::page

@@ -1,0 +1,65 @@
+#pragma once
+/// The operator's page of one drive: shows it in a browser, and hands over what the operator wants.
+///
+///     auto page = OperatorPage::open(options, facts, roads);
+///     each tenth of a second: page->show(view);
+///     between two ticks:      for (auto& wish : page->take_wishes()) page->answer(wish, …);
+///
+/// All of that is called by the drive's thread and costs it a moment: a view is put in a slot where the next one takes its place, wishes
+/// lie in a bounded queue. Everything else is done in the page's own thread, which nobody waits for. Any number may look on, one commands:
+/// who asks first, until it lets go, is gone, or another one takes the command by force. All who hold the token are trusted alike.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "sim-server/page/drive_view.hpp"
+#include "sim-server/page/messages.hpp"
+#include "sim-server/page/web_server.hpp"
+
+namespace septet::page {
+
+struct PageOptions {
+  std::uint16_t port = 0;                  ///< On 127.0.0.1; 0: any free one.
+  std::vector<std::string> allowed_hosts;  ///< As a proxy is called.
+  std::string token;                       ///< Of web_server.hpp.
+};
+
+/// Something that the one who commands wants: Pause, GoOn, End, Mark or Change.
+struct OperatorWish {
+  BrowserId browser = 0;
+  std::uint64_t id = 0;
+  std::string name;  ///< Of the operator, as he calls himself; may be empty.
+  Wish wish;
+};
+
+inline constexpr std::size_t most_waiting_wishes = 64;
+
+class OperatorPage {
+ public:
+  static Expected<std::unique_ptr<OperatorPage>> open(PageOptions options, DriveFacts facts,
+                                                      const road::RoadNetwork& roads);
+  /// Who looks on sees the last view, as far as that can be sent within a moment.
+  ~OperatorPage();
+
+  /// With the token: whoever has it may command.
+  const std::string& url() const { return url_; }
+
+  void show(DriveView view);
+  std::vector<OperatorWish> take_wishes();
+  /// `why_not` where it was not done.
+  void answer(const OperatorWish& wish, const std::optional<std::string>& why_not);
+  /// For the list of events on the page.
+  void tell(double simulated_s, std::string text);
+  WebCounters counters() const;
+
+ private:
+  struct Shared;
+  explicit OperatorPage(std::unique_ptr<Shared> shared);
+  std::unique_ptr<Shared> shared_;
+  std::string url_;
+};
+
+}  // namespace septet::page

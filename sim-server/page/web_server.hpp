@@ -1,0 +1,84 @@
+#pragma once
+/// A small web server for one page and its WebSocket, on this machine's own address (127.0.0.1) and nothing else.
+///
+/// Whoever runs on this machine may connect, and a browser does so for any site that its user looks at; so before anything else is read of a
+/// request its Host must be this machine or one that was allowed by name (a foreign name that was made to point here is refused), a
+/// WebSocket's Origin must be that same host, and it must hold the token, which no other site can read. One thread of its own does all
+/// network input and output; handlers are called there. Nobody waits for a browser: of states it is sent the newest one only, of
+/// messages a bounded queue, and who does not take those is closed. Bytes from outside end a connection at worst.
+///
+/// Standards: RFC 9112 (HTTP/1.1), RFC 6455 (WebSocket), by Boost.Beast.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::page {
+
+/// What is answered to a GET.
+struct Resource {
+  std::string path;  ///< "/", "/page.js".
+  std::string type;  ///< "text/html; charset=utf-8".
+  std::string_view body;
+};
+
+struct WebServerOptions {
+  std::uint16_t port = 0;                  ///< 0: any free one.
+  std::vector<std::string> allowed_hosts;  ///< Beside localhost, 127.0.0.1 and [::1]: those of a proxy.
+  std::string token;                       ///< Of the WebSocket, as one of its subprotocols.
+  std::string socket_path = "/live";
+  std::vector<Resource> resources;
+  double silence_s = 20.0;  ///< A browser that says nothing for so long, and answers no ping, is gone.
+};
+
+inline constexpr std::size_t most_browsers = 16, most_connections = 64;
+inline constexpr std::size_t most_header_bytes = 8192, most_message_bytes = 16384;
+inline constexpr std::size_t most_waiting_messages = 256;
+
+using BrowserId = std::uint64_t;
+using Text = std::shared_ptr<const std::string>;
+
+/// Called in the server's thread; they may call send, send_newest and close.
+struct WebHandlers {
+  std::function<void(BrowserId)> opened;
+  std::function<void(BrowserId, std::string_view)> said;  ///< A text message, at most most_message_bytes, any bytes.
+  std::function<void(BrowserId)> closed;
+};
+
+struct WebCounters {
+  std::uint64_t connections = 0, refused = 0, opened = 0, closed = 0;
+  std::uint64_t states_left_out = 0;  ///< Older states that a slow browser was never sent.
+};
+
+class WebServer {
+ public:
+  /// Error: the port cannot be had.
+  static Expected<std::unique_ptr<WebServer>> start(WebServerOptions options, WebHandlers handlers);
+  /// Closes everything and waits for the thread.
+  ~WebServer();
+
+  std::uint16_t port() const;
+  /// Runs `work` in the server's thread, soon. From any thread; never waits for a browser.
+  void post(std::function<void()> work);
+
+  /// In the server's thread. A message that must arrive.
+  void send(BrowserId browser, Text text);
+  /// In the server's thread. A state: one that has not been sent yet is left out for it.
+  void send_newest(BrowserId browser, Text text);
+  void close(BrowserId browser);
+  /// Waits until every browser has been sent what waits for it, at most so long. From any other thread.
+  void flush(double patience_s);
+  WebCounters counters() const;
+
+ private:
+  struct Running;
+  explicit WebServer(std::unique_ptr<Running> running);
+  std::unique_ptr<Running> running_;
+};
+
+}  // namespace septet::page

@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include "engine/simulation/operator_command.hpp"
+
+namespace septet::simulation {
+
+TEST_CASE("an operator's command comes back from its text to the last bit") {
+  SetConditions set;
+  for (const Condition& condition : conditions())
+    set.values.emplace_back(&condition, condition.least + (condition.most - condition.least) * (1.0 / 3.0));
+  for (const OperatorCommand& command : {OperatorCommand(set), OperatorCommand(SetTraffic{3000}),
+                                         OperatorCommand(TriggerElement{"a story::its act = x"})}) {
+    const auto read = parse_operator_command(text_of(command));
+    REQUIRE(read.has_value());
+    CHECK(*read == command);
+  }
+}
+
+TEST_CASE("what is no command, or asks for what is out of range, is refused") {
+  for (const char* text : {"",
+                           "conditions",
+                           "conditions ",
+                           "conditions rain_mm_per_h",
+                           "conditions rain_mm_per_h=",
+                           "conditions rain_mm_per_h=1x",
+                           "conditions rain_mm_per_h=-1",
+                           "conditions rain_mm_per_h=1e9",
+                           "conditions rain_mm_per_h=nan",
+                           "conditions rain_mm_per_h=inf",
+                           "conditions rain_mm_per_h=1 rain_mm_per_h=2",
+                           "conditions  road_wetness=1",
+                           "conditions sun=1",
+                           "traffic vehicles=-1",
+                           "traffic vehicles=3001",
+                           "traffic vehicles=",
+                           "traffic vehicles=99999999999999",
+                           "traffic",
+                           "trigger element=",
+                           "trigger",
+                           "TRAFFIC vehicles=1",
+                           "conditions friction_scale=0"})
+    CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
+}
+
+TEST_CASE("every condition's bounds hold what the environment is by default") {
+  const scenario::ScenarioState state;
+  for (const Condition& condition : conditions()) {
+    CHECK_MESSAGE(value_of(condition, state) >= condition.least, condition.name);
+    CHECK_MESSAGE(value_of(condition, state) <= condition.most, condition.name);
+  }
+}
+
+}  // namespace septet::simulation

@@ -1,0 +1,74 @@
+/// What an operator changes while somebody drives is part of the drive: logged, and done again when it is run again.
+
+#include <doctest/doctest.h>
+
+#include "engine/simulation/operator_command.hpp"
+#include "logging/session_reader.hpp"
+#include "sim-server/command/replay_command.hpp"
+#include "sim-server/drive/driver_seat.hpp"
+#include "sim-server/drive/live_drive.hpp"
+#include "sim-server/drive/session_log.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace septet::server {
+namespace {
+
+using Commands = std::vector<std::pair<Tick, std::string>>;  ///< After this tick.
+
+/// Drives and logs; returns the last state hash.
+std::uint64_t drive_with(const Commands& commands, Tick ticks, const std::filesystem::path& out) {
+  const LoadedDrive loaded = shipped_drive("motorway-ambulance", "seven-screens");
+  auto seat = open_driver_seat(loaded.rig.car, 1, loaded.model);
+  REQUIRE(seat.has_value());
+  auto live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(*seat));
+  REQUIRE(live.has_value());
+  auto log = SessionLog::create(loaded, {.out = out, .lockstep = true});
+  REQUIRE(log.has_value());
+  (*live)->log_to(*log);
+  for (Tick tick = 0; tick < ticks; ++tick) {
+    for (const auto& [after, text] : commands) {
+      if (after != tick) continue;
+      const auto command = simulation::parse_operator_command(text);
+      REQUIRE(command.has_value());
+      const auto done = (*live)->command(*command);
+      REQUIRE_MESSAGE(done.has_value(), describe(done.error()));
+    }
+    REQUIRE((*live)->next(std::nullopt).has_value());
+  }
+  REQUIRE(log->finish(log->outcome({}, {})).has_value());
+  return (*live)->newest().state_hash;
+}
+
+}  // namespace
+
+TEST_CASE("a drive with an operator's commands is verified from its start and from a state kept between them") {
+  const septet::TemporaryFolder plain, changed;
+  const Commands commands{
+      {0, "conditions friction_scale=0.7"},
+      {60, "conditions rain_mm_per_h=12.3 road_wetness=0.6 temperature_k=280.15"},
+      {61, "trigger element=emergency drive::through the traffic::ambulance::speed::goes on"},
+      {300, "traffic vehicles=31"},
+      {1200, "conditions road_wetness=0.1"},  // The log keeps the state of this tick as it was before.
+      {1200, "conditions snow_cover=0.3"},
+  };
+  const auto hash = drive_with(commands, 1260, changed.path());
+  CHECK(hash != drive_with({}, 1260, plain.path()));
+  const auto session = changed.path() / "session.sqlite";
+  const auto whole = run_verify(session, 0.0);
+  REQUIRE_MESSAGE(whole.has_value(), describe(whole.error()));
+  const auto part = run_verify(session, 10.2);
+  REQUIRE_MESSAGE(part.has_value(), describe(part.error()));
+  const auto reader = logging::SessionReader::open(session);
+  REQUIRE(reader.has_value());
+  const auto events = reader->events();
+  REQUIRE(events.has_value());
+  std::vector<std::string> logged;
+  for (const auto& event : *events)
+    if (event.kind == operator_command_event) logged.push_back(fmt::format("{} {}", event.tick, event.detail));
+  REQUIRE(logged.size() == commands.size());
+  for (std::size_t i = 0; i < commands.size(); ++i)
+    CHECK(logged[i] == fmt::format("{} {}", commands[i].first + 1, commands[i].second));
+}
+
+}  // namespace septet::server
