@@ -105,13 +105,20 @@ std::string drawn(const Series& series, std::size_t number, const Axis& x, const
   return svg;
 }
 
-std::size_t legend_rows(const LineChart& chart) { return chart.series.size() > 1 ? (chart.series.size() + 1) / 2 : 0; }
+/// Series without a name are in no legend.
+std::size_t legend_rows(const LineChart& chart) {
+  const auto named = std::ranges::count_if(chart.series, [](const Series& series) { return !series.name.empty(); });
+  return chart.series.size() > 1 ? (static_cast<std::size_t>(named) + 1) / 2 : 0;
+}
 
 std::string legend(const LineChart& chart, const Frame& frame) {
   std::string svg;
   if (legend_rows(chart) == 0) return svg;
+  std::size_t entry = 0;
   for (std::size_t n = 0; n < chart.series.size(); ++n) {
-    const std::size_t column = n % 2, row = n / 2;
+    if (chart.series[n].name.empty()) continue;
+    const std::size_t column = entry % 2, row = entry / 2;
+    ++entry;
     const double x = frame.left + (frame.right - frame.left) / 2 * static_cast<double>(column),
                  y = frame.bottom + 52 + legend_row * static_cast<double>(row);
     const std::string its_class = css_class(chart.series[n], n);
@@ -172,6 +179,7 @@ std::string to_svg(const BarChart& chart) {
   const Frame frame = frame_of({});
   double largest = 0.0;
   for (const Bar& bar : chart.bars) largest = std::max(largest, bar.value);
+  if (chart.level) largest = std::max(largest, chart.level->value);
   const Axis x = axis_of({chart.x_low, chart.x_high}, frame.left, frame.right);
   const Axis y = axis_of({0.0, largest > 0.0 ? largest * 1.08 : 1.0}, frame.bottom, frame.top + 8);
   std::string svg = heading(frame, chart.title, chart.y_label) + y_axis(frame, y);
@@ -180,6 +188,10 @@ std::string to_svg(const BarChart& chart) {
     svg += fmt::format(
         "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}</title></rect>\n",
         bar.emphasised ? "bar strong" : "bar", a, y(bar.value), b - a, frame.bottom - y(bar.value), escaped(bar.tip));
+  }
+  if (const auto& level = chart.level) {
+    svg += fmt::format("<path class=\"mark\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", frame.left, y(level->value), frame.right) +
+           text("level", frame.left + 8, y(level->value) - 5, level->label);
   }
   for (const auto& [value, label] : chart.x_ticks) svg += x_tick(frame, x(value), label);
   return in_svg(chart.title, svg + x_line(frame, chart.x_label));

@@ -17,7 +17,7 @@ struct Point {
 enum class Stroke { line, dashed, dots };
 
 struct Series {
-  std::string name;  ///< In the legend, where there are several.
+  std::string name;  ///< In the legend, where there are several; an empty one is not in it.
   std::vector<Point> points;
   Stroke stroke = Stroke::line;
 };
@@ -44,11 +44,18 @@ struct Bar {
   std::string tip;
 };
 
+/// A value to compare the bars with.
+struct Level {
+  double value = 0.0;
+  std::string label;
+};
+
 struct BarChart {
   std::string title, x_label, y_label;
   std::vector<Bar> bars;
   double x_low = 0.0, x_high = 1.0;  ///< The axis runs from x_low at the left; x_low > x_high mirrors it.
   std::vector<std::pair<double, std::string>> x_ticks;
+  std::optional<Level> level = {};
 };
 
 /// A chart of 960 × 260 units that scales with the page.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "logging/measures/sample_steps.hpp"
+
 namespace septet::logging {
 namespace {
 
@@ -39,8 +41,11 @@ std::vector<Glance> find_glances(std::span<const Sample> samples, const GlanceSe
   GlanceDetector detector;
   detector.settings = settings;
   std::vector<Glance> glances;
-  for (const Sample& sample : samples)
-    if (const auto glance = advance(detector, sample)) glances.push_back(*glance);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0 && is_gap(samples[i - 1], samples[i]))
+      if (const auto glance = finish(detector, samples[i - 1].simulated_time_s)) glances.push_back(*glance);
+    if (const auto glance = advance(detector, samples[i])) glances.push_back(*glance);
+  }
   if (!samples.empty())
     if (const auto glance = finish(detector, samples.back().simulated_time_s)) glances.push_back(*glance);
   return glances;

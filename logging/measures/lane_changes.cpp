@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "logging/measures/sample_steps.hpp"
+
 namespace septet::logging {
 namespace {
 
@@ -29,7 +31,7 @@ std::optional<LaneChange> advance(LaneChangeDetector& detector, const Sample& sa
     detector.previous.reset();
     return std::nullopt;
   }
-  if (!detector.previous) {
+  if (!detector.previous || is_gap(*detector.previous, sample)) {
     detector.previous = sample;
     detector.counted_lane = sample.lane;
     detector.pending_lanes_to_left = 0;

@@ -7,7 +7,7 @@
 /// position from one edge of a lane to the other (more than half a lane width: a car moves less
 /// than that from sample to sample); where the lane's
 /// number changes without the jump, the road renumbered its lanes and nothing is counted. Samples
-/// off every lane (lane 0) break the sequence: a return to the road is not a lane change.
+/// off every lane (lane 0) break the sequence, and so does a gap of more than a second: a return to the road is not a lane change.
 
 #include <cstdint>
 #include <optional>

@@ -13,6 +13,14 @@ inline constexpr double sample_interval_s = 0.1;
 /// Ten a second at 120 ticks a second are 0.1 s apart; a sample that is missing makes 0.2 s.
 inline constexpr double longest_step_s = 0.15;
 
+/// A longer step is a gap: what was going on before it is not gone on with.
+inline constexpr double longest_gap_s = 1.0;
+
+inline bool is_gap(const Sample& before, const Sample& after) {
+  const double step_s = after.simulated_time_s - before.simulated_time_s;
+  return !(step_s > 0.0 && step_s <= longest_gap_s);
+}
+
 inline bool follows(const Sample& before, const Sample& after) {
   const double step_s = after.simulated_time_s - before.simulated_time_s;
   return step_s > 0.0 && step_s <= longest_step_s;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "logging/measures/sample_steps.hpp"
+
 namespace septet::logging {
 namespace {
 
@@ -18,9 +20,12 @@ void measure_speed(std::span<const Sample> samples, DriveMeasures& measures) {
   double squares = 0.0;
   for (const Sample& sample : samples) squares += std::pow(sample.speed_mps - measures.speed_mean_mps, 2);
   measures.speed_sd_mps = std::sqrt(squares / count);
-  for (std::size_t i = 1; i < samples.size(); ++i)
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (is_gap(samples[i - 1], samples[i])) continue;
+    measures.duration_s += samples[i].simulated_time_s - samples[i - 1].simulated_time_s;
     measures.distance_m += (samples[i].simulated_time_s - samples[i - 1].simulated_time_s) *
                            (samples[i].speed_mps + samples[i - 1].speed_mps) / 2.0;
+  }
 }
 
 }  // namespace
@@ -31,10 +36,10 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   measures.samples = samples.size();
   measures.collisions = find_collisions(records.events);
   if (samples.empty()) return measures;
-  measures.duration_s = samples.back().simulated_time_s - samples.front().simulated_time_s;
   measure_speed(samples, measures);
   measures.lane_changes = find_lane_changes(samples, settings.lane_changes);
-  measures.between_lane_changes_s = mean_time_between_lane_changes_s(samples, measures.lane_changes);
+  if (!measures.lane_changes.empty())
+    measures.between_lane_changes_s = measures.duration_s / static_cast<double>(measures.lane_changes.size());
   measures.lateral_position =
       compute_lateral_position_statistics(samples, measures.lane_changes, settings.lateral_position);
   measures.histogram = compute_lateral_position_histogram(samples);

@@ -38,7 +38,8 @@ class List {
 
 void list_speed(const DriveMeasures& m, const MeasureSettings& settings, List& list) {
   list.of(m.samples, 0);
-  list.add("duration_s", "Duration", "s", m.duration_s, "Simulated time from the first to the last sample.");
+  list.add("duration_s", "Duration", "s", m.duration_s,
+           "Simulated time from sample to sample; gaps of more than a second are not in it.");
   list.add("distance_m", "Distance", "m", m.distance_m, "Speed summed over time (trapezoidal).");
   list.add_of_samples("speed_mean_mps", "Speed, mean", "m/s", m.speed_mean_mps, "Over all samples, standing included.");
   list.add_of_samples("speed_sd_mps", "Speed, SD", "m/s", m.speed_sd_mps, "Divides by N.");

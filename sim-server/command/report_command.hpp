@@ -1,13 +1,20 @@
 #pragma once
-/// `septet report SESSION`: report.html from a session file.
+/// `septet report SESSION…`: report.html from a session file, or a page, a table and JSON from many.
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/core/expected.hpp"
 
 namespace septet::server {
 
-Expected<int> run_report(const std::string& session, const std::filesystem::path& out);
+struct ReportOptions {
+  std::vector<std::filesystem::path> places;  ///< Sessions, and folders with sessions anywhere below.
+  std::filesystem::path out;  ///< Of one session a file, of many a folder. Empty: beside the session; group-report.
+  std::string title, brake_event;  ///< KIND or KIND:TEXT of the events to be braked for.
+};
+
+Expected<int> run_report(const ReportOptions& options);
 
 }  // namespace septet::server

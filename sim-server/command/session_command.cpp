@@ -150,8 +150,7 @@ Expected<std::vector<fs::path>> find_sessions(const std::vector<fs::path>& place
     if (error) return failure(error.message(), place.string(), "check the path");
   }
   std::ranges::sort(sessions);
-  const auto twice = std::ranges::unique(sessions);
-  sessions.erase(twice.begin(), twice.end());
+  sessions.erase(std::unique(sessions.begin(), sessions.end()), sessions.end());
   return sessions;
 }
 

@@ -2,7 +2,6 @@
 #include "program/command_line.hpp"
 #include "sim-server/command/other_program.hpp"
 #include "sim-server/command/replay_command.hpp"
-#include "sim-server/command/report_command.hpp"
 #include "sim-server/septet/options.hpp"
 
 namespace septet::server {
@@ -58,6 +57,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
   add_about("--group", "group", "The driver's group, for log and pooled reports");
   add_about("--condition", "condition", "The condition of this drive, likewise");
   add_about("--order", "order", "Which of the driver's drives it is, likewise");
+  add_about("--part", "part", "Which part of an experiment it is, likewise");
   add_about("--note", "note", "The experimenter's note");
   drive_command
       ->add_option_function<std::vector<std::string>>(
@@ -121,11 +121,18 @@ void add_drive_commands(CLI::App& app, Options& options) {
   ice_command->set_help_flag();
   ice_command->callback([&] { options.work = [&] { return become("septet-ice", options.passed_on); }; });
 
-  auto* report_command = app.add_subcommand("report", "Write report.html for a session");
-  report_command->add_option("session", options.session, "Session file")->required();
-  report_command->add_option("--out", options.report_out, "Where to write")
-      ->default_str("report.html beside the session");
-  report_command->callback([&] { options.work = [&] { return run_report(options.session, options.report_out); }; });
+  auto* report_command = app.add_subcommand(
+      "report", "Write report.html for a session, or pool many: a page for the group, subjects.csv and subjects.json");
+  report_command->add_option("sessions", options.report.places, "Session files, or folders with sessions below")
+      ->required();
+  report_command->add_option("--out", options.report.out, "Where to write: of one session a file, of many a folder")
+      ->default_str("report.html beside the session; group-report");
+  report_command->add_option("--title", options.report.title, "Of a pooled report")->default_str("A group of drives");
+  report_command
+      ->add_option("--brake-event", options.report.brake_event,
+                   "Measure brake reactions from these events of the log: KIND, or KIND:WHAT ITS DETAIL HOLDS")
+      ->default_str("none");
+  report_command->callback([&] { options.work = [&] { return run_report(options.report); }; });
 }
 
 }  // namespace septet::server

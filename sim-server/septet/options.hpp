@@ -9,6 +9,8 @@
 #include "engine/core/expected.hpp"
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
+#include "sim-server/command/experiment_command.hpp"
+#include "sim-server/command/report_command.hpp"
 #include "sim-server/command/session_command.hpp"
 #include "sim-server/command/traffic_command.hpp"
 #include "sim-server/command/vehicle_command.hpp"
@@ -24,8 +26,7 @@ struct Options {
   DriveOptions drive, replay;
   bool verify = false;
   std::vector<std::string> passed_on;  ///< What septet-film or septet-ice is told.
-  std::string session;
-  std::filesystem::path report_out;
+  ReportOptions report;
   VehicleTestOptions track;
   double track_speed_kmh = 0.0;
   TrafficDiagramOptions diagram;
@@ -35,12 +36,14 @@ struct Options {
   AnswerOptions answer;
   StopOptions stop;
   ForgetOptions forget;
+  ExperimentOptions experiment;
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
-void add_drive_commands(CLI::App& app, Options& options);    ///< drive, replay, film, ice, report.
-void add_track_commands(CLI::App& app, Options& options);    ///< vehicle, traffic.
-void add_session_commands(CLI::App& app, Options& options);  ///< session.
-void add_file_commands(CLI::App& app, Options& options);     ///< road, rig, list, check.
+void add_drive_commands(CLI::App& app, Options& options);       ///< drive, replay, film, ice, report.
+void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
+void add_session_commands(CLI::App& app, Options& options);     ///< session.
+void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.
+void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, check.
 
 }  // namespace septet::server

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   server::add_drive_commands(app, options);
   server::add_track_commands(app, options);
   server::add_session_commands(app, options);
+  server::add_experiment_commands(app, options);
   server::add_file_commands(app, options);
   if (const auto known = program::commands_instead_of(app, argc, argv)) {
     program::say(fmt::format("septet: there is no command \"{}\"; use one of: {}", argv[1], *known));

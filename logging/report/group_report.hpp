@@ -1,0 +1,32 @@
+#pragma once
+/// Many subjects as a page, a table and JSON: distributions, differences between groups, for how long they played, and figure 5 of
+/// Lebram, Engström and Gustavsson 2006 in its form.
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "engine/core/expected.hpp"
+#include "logging/report/pool.hpp"
+
+namespace septet::logging {
+
+struct GroupReport {
+  std::string title = "A group of drives";
+  std::string note;  ///< What whoever reads the figures has to know.
+  std::vector<PooledSubject> subjects;
+  MeasureSettings settings;
+};
+
+/// A page that needs nothing beside it.
+std::string to_html(const GroupReport& report);
+/// One row a subject; columns are "LABEL.MEASURE_UNIT", answers as "answer.ITEM", the experimenter's own as "column.NAME". A value that
+/// is undefined is an empty cell.
+std::string to_csv(const GroupReport& report);
+/// The same with unit, definition, samples and missing samples of every measure, and the pooled histogram.
+std::string to_json(const GroupReport& report);
+
+/// report.html, subjects.csv and subjects.json in this folder.
+Expected<void> write_group_report(const GroupReport& report, const std::filesystem::path& folder);
+
+}  // namespace septet::logging

@@ -1,0 +1,145 @@
+#include "logging/report/pool.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "logging/session_reader.hpp"
+
+namespace septet::logging {
+namespace {
+
+constexpr double between_drives_s = 10.0;
+
+struct Opened {
+  std::filesystem::path path;
+  SessionReader reader;
+  Subject subject;
+  std::string label;
+};
+
+std::string label_of(const Subject& subject) {
+  if (subject.part.empty() || subject.condition.empty()) return subject.part + subject.condition;
+  return subject.part + ' ' + subject.condition;
+}
+
+/// What was answered, and for how long they drove.
+Expected<void> take_answers(const Opened& session, PooledSubject& pooled) {
+  const auto answers = session.reader.questionnaire();
+  if (!answers) return tl::unexpected(answers.error());
+  for (const QuestionnaireRecord& answer : *answers) {
+    if (answer.item == "playing_time") {
+      pooled.playing_time = ObservedTime{answer.observed_s, !answer.censored};
+      pooled.reason = answer.reason;
+    } else if (answer.item == "drive_completed") {
+      // They dropped out of the drive: that is when they stopped.
+      pooled.playing_time = ObservedTime{answer.observed_s, answer.censored};
+      pooled.reason = answer.reason;
+    } else if (answer.value) {
+      pooled.answers[answer.item] = *answer.value;
+    }
+  }
+  return {};
+}
+
+Expected<PooledDrive> pool_drive(const std::vector<const Opened*>& sessions, const MeasureSettings& settings) {
+  PooledDrive drive;
+  drive.label = sessions.front()->label;
+  DriveRecords all;
+  for (const Opened* session : sessions) {
+    auto records = read_drive_records(session->reader);
+    if (!records) return tl::unexpected(records.error());
+    append(all, std::move(*records));
+    drive.sessions.push_back(session->path);
+    drive.ended_cleanly = drive.ended_cleanly && session->reader.ended_cleanly();
+    const auto& seeds = session->reader.info().seeds;
+    if (const auto seed = seeds.find("drive"); seed != seeds.end()) drive.seeds.push_back(seed->second);
+  }
+  drive.measures = compute_drive_measures(all, settings);
+  return drive;
+}
+
+}  // namespace
+
+void append(DriveRecords& all, DriveRecords next) {
+  if (all.samples.empty() && all.inputs.empty() && all.events.empty()) {
+    all = std::move(next);
+    return;
+  }
+  Tick last = 0;
+  if (!all.samples.empty()) last = std::max(last, all.samples.back().tick);
+  if (!all.inputs.empty()) last = std::max(last, all.inputs.back().tick);
+  if (!all.events.empty()) last = std::max(last, all.events.back().tick);
+  const Tick later = last + static_cast<Tick>(between_drives_s * all.ticks_per_second);
+  const double later_s = static_cast<double>(later) / all.ticks_per_second;
+  for (Sample& sample : next.samples) {
+    sample.tick += later;
+    sample.simulated_time_s += later_s;
+  }
+  for (InputRecord& input : next.inputs) input.tick += later;
+  for (Event& event : next.events) {
+    event.tick += later;
+    event.simulated_time_s += later_s;
+  }
+  all.speed_limits_mps.resize(all.samples.size());
+  next.speed_limits_mps.resize(next.samples.size());
+  const auto move_behind = [](auto& target, auto& source) {
+    target.insert(target.end(), std::make_move_iterator(source.begin()), std::make_move_iterator(source.end()));
+  };
+  move_behind(all.samples, next.samples);
+  move_behind(all.inputs, next.inputs);
+  move_behind(all.events, next.events);
+  move_behind(all.speed_limits_mps, next.speed_limits_mps);
+}
+
+Expected<std::vector<PooledSubject>> pool_sessions(std::span<const std::filesystem::path> sessions,
+                                                   const MeasureSettings& settings) {
+  std::map<std::string, std::vector<Opened>> by_participant;
+  for (const auto& path : sessions) {
+    auto reader = SessionReader::open(path);
+    if (!reader) return tl::unexpected(reader.error());
+    Subject subject = subject_of(reader->info());
+    if (subject.participant.empty())
+      subject.participant = path.has_parent_path() ? path.parent_path().string() : path.string();
+    const std::string label = label_of(subject), participant = subject.participant;
+    by_participant[participant].push_back({path, std::move(*reader), std::move(subject), label});
+  }
+  std::vector<PooledSubject> subjects;
+  for (const auto& [participant, opened] : by_participant) {
+    PooledSubject pooled;
+    pooled.subject = opened.front().subject;
+    const auto& other = opened.front().reader.info().other;
+    if (const auto driver = other.find("driver"); driver != other.end()) pooled.driver = driver->second;
+    std::vector<std::string> labels;
+    for (const Opened& session : opened) {
+      if (std::ranges::find(labels, session.label) == labels.end()) labels.push_back(session.label);
+      if (auto taken = take_answers(session, pooled); !taken) return tl::unexpected(taken.error());
+    }
+    for (const auto& label : labels) {
+      std::vector<const Opened*> of_label;
+      for (const Opened& session : opened)
+        if (session.label == label) of_label.push_back(&session);
+      auto drive = pool_drive(of_label, settings);
+      if (!drive) return tl::unexpected(drive.error());
+      pooled.drives.push_back(std::move(*drive));
+    }
+    subjects.push_back(std::move(pooled));
+  }
+  return subjects;
+}
+
+std::vector<std::string> labels_of(std::span<const PooledSubject> subjects) {
+  std::vector<std::string> labels;
+  for (const PooledSubject& subject : subjects)
+    for (const PooledDrive& drive : subject.drives)
+      if (std::ranges::find(labels, drive.label) == labels.end()) labels.push_back(drive.label);
+  return labels;
+}
+
+std::vector<std::string> groups_of(std::span<const PooledSubject> subjects) {
+  std::vector<std::string> groups;
+  for (const PooledSubject& subject : subjects)
+    if (std::ranges::find(groups, subject.subject.group) == groups.end()) groups.push_back(subject.subject.group);
+  return groups;
+}
+
+}  // namespace septet::logging

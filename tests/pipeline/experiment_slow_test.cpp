@@ -1,0 +1,95 @@
+// An experiment as its user runs it: once, again, killed, without space.
+
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include "tests/pipeline/process_rig.hpp"
+
+namespace septet::pipeline {
+namespace {
+
+const std::string small_experiment =
+    "seed = 5\n[[group]]\nname = \"a\"\nsubjects = 2\ndriver = \"plain\"\nstops_mean_min = 1.1\n"
+    "[[group]]\nname = \"b\"\nsubjects = 2\ndriver = \"novice\"\n"
+    "[[part]]\nname = \"game\"\nscenario = \"motorway-ambulance\"\nup_to_min = 1.2\nparameters = { vehicles = 40 }\n";
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("an experiment run twice has identical numbers and one that was killed goes on to the same") {
+  const TemporaryFolder folder;
+  write_text(folder / "e.toml", small_experiment);
+  const std::string file = (folder / "e.toml").string();
+  const auto whole = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "1.log");
+  REQUIRE_MESSAGE(whole.code == 0, whole.error);
+  const std::string table = content_of(folder / "whole/subjects.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 5);
+
+  // Killed once something is finished, without a word to its children.
+  auto process =
+      start("septet", {"experiment", file, "--jobs", "1", "--out", (folder / "killed").string()}, folder / "2.log");
+  CHECK(becomes_true([&] { return fs::exists(folder / "killed/subjects/P03/game-01/summary.json"); }));
+  process.send_signal(SIGKILL);
+  CHECK(becomes_true([&] { return process.poll().has_value(); }));
+  CHECK_FALSE(fs::exists(folder / "killed/subjects.csv"));
+  const auto goes_on = [&] {
+    return run("septet", {"experiment", file, "--out", (folder / "killed").string()}, folder / "3.log");
+  };
+  auto resumed = goes_on();
+  // The child of the killed one may hold its folder for a moment.
+  becomes_true([&] { return resumed.code == 0 || (resumed = goes_on()).code == 0; });
+  REQUIRE_MESSAGE(resumed.code == 0, resumed.error);
+  for (const char* name : {"subjects.csv", "subjects.json", "experiment.json"}) {
+    const bool is_same = content_of(folder / "killed" / name) == content_of(folder / "whole" / name);
+    CHECK_MESSAGE(is_same, name);
+  }
+
+  // Another file in the same folder is another experiment.
+  write_text(folder / "e.toml", "title = \"other\"\n" + small_experiment);
+  const auto other = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");
+  CHECK(other.code == 1);
+  CHECK(other.error.find("another experiment") != std::string::npos);
+  CHECK(content_of(folder / "whole/subjects.csv") == table);
+}
+
+TEST_CASE("a participant who is forgotten is in no file of the drives any more and a report pools the rest") {
+  const TemporaryFolder folder;
+  const auto drive = [&](const std::string& code, const std::string& group) {
+    const auto driven =
+        run("septet",
+            {"drive", "--no-screens", "--seconds", "2", "--log", "samples", "--participant", code, "--group", group,
+             "--note", "told in confidence", "--out", (folder / "data" / code).string()},
+            folder / "drive.log");
+    REQUIRE_MESSAGE(driven.code == 0, driven.error);
+  };
+  drive("Q77", "x");
+  drive("Q78", "y");
+  const auto forgotten = run("septet", {"session", "forget", "Q77", (folder / "data").string()}, folder / "f.log");
+  CHECK_MESSAGE(forgotten.code == 0, forgotten.error);
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "data")) {
+    CHECK(entry.path().string().find("Q77") == std::string::npos);
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    CHECK_MESSAGE(content_of(entry.path()).find("Q77") == std::string::npos, entry.path().string());
+  }
+  CHECK(files >= 6);
+  const auto report =
+      run("septet", {"report", (folder / "data").string(), "--out", (folder / "pooled").string()}, folder / "r.log");
+  CHECK_MESSAGE(report.code == 0, report.error);
+  const std::string table = content_of(folder / "pooled/subjects.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 3);
+  CHECK(table.find("Q78,y,") != std::string::npos);
+  CHECK(run("septet", {"session", "forget", "Q77", (folder / "data").string()}, folder / "f.log").code == 1);
+  const auto deleted =
+      run("septet", {"session", "forget", "Q78", (folder / "data").string(), "--delete"}, folder / "f.log");
+  CHECK(deleted.code == 0);
+  CHECK_FALSE(fs::exists(folder / "data/Q78"));
+}
+
+}  // namespace septet::pipeline
