@@ -20,7 +20,8 @@ std::span<const DrivingKey> driving_keys() {
       DrivingKey{{Key::q, Key::q}, &KeyStates::look_left, "note a glance to the left in the log"},
       DrivingKey{{Key::e, Key::e}, &KeyStates::look_right, "note a glance to the right in the log"},
       DrivingKey{{Key::f1, Key::f1}, nullptr, "show these keys, or hide them"},
-      DrivingKey{{Key::escape, Key::escape}, nullptr, "end the drive"},
+      DrivingKey{{Key::escape, Key::escape}, nullptr, "pause, and go on; before the drive has begun: leave"},
+      DrivingKey{{Key::enter, Key::enter}, nullptr, "end the drive, while it is paused"},
   };
   return keys;
 }

@@ -20,7 +20,7 @@ constexpr std::array rows{
     Row{DriveEnd::road_end, "road_end", "the driver's car is beyond the end of the road", finished_status},
     Row{DriveEnd::session_end, "session_end", "the session is over", finished_status},
     Row{DriveEnd::window_closed, "window_closed", "a screen's window was closed", stopped_status},
-    Row{DriveEnd::escape, "escape", "Escape was pressed at a screen", stopped_status},
+    Row{DriveEnd::escape, "escape", "the driver left it by Escape", stopped_status},
     Row{DriveEnd::by_operator, "by_operator", "the operator ended it", stopped_status},
     Row{DriveEnd::interrupted, "interrupted", "it was interrupted (SIGINT)", stopped_status},
     Row{DriveEnd::terminated, "terminated", "it was asked to end (SIGTERM)", stopped_status},

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   app.add_flag("--no-screens", options.no_screens, "As fast as it goes, without screens");
   app.add_option("--page", options.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
       ->default_str("no page")
-      ->check(number_between(0, 65535));
+      ->check(CLI::Range(0, 65535));
   app.add_option("--page-host", options.page_hosts,
                  "Name by which a proxy in front of the page is asked for; as often as needed")
       ->type_name("NAME")

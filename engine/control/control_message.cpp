@@ -111,6 +111,11 @@ template <class Visitor>
 void fields(Notice& m, Visitor& v) {
   v(m.text);
   v(m.keys);
+  v(m.paused);
+}
+template <class Visitor>
+void fields(Pause& m, Visitor& v) {
+  v(m.paused);
 }
 
 struct Put {

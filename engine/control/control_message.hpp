@@ -116,13 +116,19 @@ struct Quit {
 
 /// Server → screen: what the driver is to read on the screen ahead, until the next notice.
 struct Notice {
-  std::string text;   ///< Empty: nothing.
-  bool keys = false;  ///< Also which keys drive, until the first one is pressed.
+  std::string text;     ///< Empty: nothing.
+  bool keys = false;    ///< Also which keys drive, until the first one is pressed.
+  bool paused = false;  ///< The person at a screen has paused the drive, and may go on or end it.
   bool operator==(const Notice&) const = default;
 };
 
+/// Screen → server: the person at this screen wants the world to stand still, or to go on.
+struct Pause {
+  bool paused = true;
+};
+
 using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish,
-                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice>;
+                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<int, key_count> glfw_keys{
     GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD,
     GLFW_KEY_A,  GLFW_KEY_D,    GLFW_KEY_E,    GLFW_KEY_F,     GLFW_KEY_H,     GLFW_KEY_L,     GLFW_KEY_Q,
-    GLFW_KEY_S,  GLFW_KEY_W,    GLFW_KEY_X,    GLFW_KEY_F1,    GLFW_KEY_ESCAPE};
+    GLFW_KEY_S,  GLFW_KEY_W,    GLFW_KEY_X,    GLFW_KEY_F1,    GLFW_KEY_ENTER, GLFW_KEY_ESCAPE};
 
 std::string glfw_error() {
   const char* text = nullptr;
@@ -79,7 +79,7 @@ Expected<Window> Window::open(const WindowOptions& options) {
   glfwSetInputMode(glfw->window, GLFW_STICKY_KEYS, GLFW_TRUE);
   glfwSetWindowUserPointer(glfw->window, glfw.get());
   glfwSetKeyCallback(glfw->window, [](GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ESCAPE)
+    if (action == GLFW_PRESS && key != GLFW_KEY_F1 && key != GLFW_KEY_ENTER && key != GLFW_KEY_ESCAPE)
       static_cast<Glfw*>(glfwGetWindowUserPointer(window))->touched = true;
   });
   if (monitor) glfwSetInputMode(glfw->window, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);

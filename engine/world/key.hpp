@@ -25,6 +25,7 @@ enum class Key : std::uint8_t {
   w,
   x,
   f1,
+  enter,
   escape,
 };
 inline constexpr std::size_t key_count = static_cast<std::size_t>(Key::escape) + 1;

@@ -19,6 +19,7 @@
 #include "sim-client/frame/playout.hpp"
 #include "sim-client/screen/departure.hpp"
 #include "sim-client/screen/frame_times.hpp"
+#include "sim-client/screen/pause_request.hpp"
 #include "sim-client/screen/picture_rate.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
@@ -285,6 +286,7 @@ void Session::say_goodbye() {
 
 Expected<void> Session::run() {
   std::optional<Departure> departure;
+  PauseRequest pause;
   while (!program::should_stop()) {
     const double now_s = program::monotonic_s();
     link_.pump(now_s);
@@ -303,10 +305,16 @@ Expected<void> Session::run() {
     Expected<void> drawn;
     if (link_.welcome()) drawn = take_welcome();
     if (drawn && display_) {
-      if (const auto leaving = display_->poll_leaving(); leaving != Display::Leaving::no) {
-        departure.emplace(leaving == Display::Leaving::escape, now_s);
+      using enum Display::Leaving;
+      const auto leaving = display_->poll_leaving();
+      const bool can_ask = !link_.server_is_gone() && !link_.welcome()->lockstep;
+      const bool is_paused = link_.notice().paused || pause.is_pausing();
+      if (leaving == closed || (leaving == escape && !can_ask) || (leaving == enter && is_paused)) {
+        departure.emplace(leaving != closed, now_s);
         continue;
       }
+      if (leaving == escape) pause.toggle(link_);
+      pause.tell(link_);
       if (link_.server_is_gone())
         drawn = draw_lost(now_s);
       else if (link_.welcome()->lockstep)

@@ -190,6 +190,8 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     if (options_.drivers.contains(screen->name)) controls_ = controls->input;
   } else if (const auto* quit = std::get_if<Quit>(&message)) {
     end_requested_ = quit->by_escape ? logging::DriveEnd::escape : logging::DriveEnd::window_closed;
+  } else if (const auto* pause = std::get_if<Pause>(&message)) {
+    pause_requested_ = pause->paused;
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
   }

@@ -102,6 +102,8 @@ class ScreenHost {
   void leave_behind(Tick tick);
   /// Whether the person at one of the screens has ended the drive, and how.
   std::optional<logging::DriveEnd> end_requested() const { return end_requested_; }
+  /// Whether the person at one of the screens wants the world to stand still.
+  bool pause_requested() const { return pause_requested_; }
   /// The newest controls that a screen with keyboard or gamepad has sent, once.
   std::optional<DriverInput> take_controls();
   /// What the driver is to read, on all screens that are there or will come.
@@ -153,6 +155,7 @@ class ScreenHost {
   std::optional<DriverInput> controls_;
   control::Notice notice_;
   std::optional<logging::DriveEnd> end_requested_;
+  bool pause_requested_ = false;
   std::optional<net::ClientId> car_client_;
   net::ChannelCounters told_;  ///< What the operator has been told of.
   double told_s_ = 0.0;

@@ -70,6 +70,7 @@ struct Loop {
 struct ScreenLoop : Loop {
   ScreenHost& host;
   const ServeOptions& options;
+  bool can_pause = false;  ///< The world goes on by the clock, and has begun.
 
   void pump() {
     if (environment.changed_list)
@@ -77,7 +78,12 @@ struct ScreenLoop : Loop {
     host.pump(environment.now_s());
     for (const auto& text : host.take_messages()) environment.message(text);
   }
-  bool is_stopped() { return Loop::is_stopped(host.end_requested()); }
+  /// Who wants to pause what cannot be paused, or has not begun, wants to leave.
+  bool is_stopped() {
+    const bool leaves = !can_pause && host.pause_requested();
+    return Loop::is_stopped(leaves ? std::optional(DriveEnd::escape) : host.end_requested());
+  }
+  bool is_paused() const { return Loop::is_paused() || (can_pause && host.pause_requested()); }
   bool is_over() { return is_stopped() || is_time_over(); }
 
   /// Pumps until `satisfied`, out of patience or stopped; false in the latter cases. `every_s` runs `nudge` now and then.
@@ -130,22 +136,33 @@ bool awaits_first_frame(const ScreenHost& host) {
   });
 }
 
-/// The world stands still, seen on all screens, for as long as the operator wants. What moves in the driver's seat rests.
+/// The world stands still, seen on all screens, for as long as the operator or the driver wants. What moves in the driver's seat rests.
 void stand_still(ScreenLoop& loop) {
   const control::Notice before = loop.host.notice();
-  loop.host.give_notice({"Paused", before.keys});
+  const auto say = [&] {
+    const bool by_driver = loop.host.pause_requested();
+    const control::Notice notice{by_driver ? "Paused. Escape: go on. Enter: end the drive" : "Paused by the operator",
+                                 before.keys, by_driver};
+    if (loop.host.notice() != notice) {
+      loop.host.give_notice(notice);
+      if (by_driver) loop.environment.message("paused by the driver");
+    }
+    loop.report(by_driver ? "paused by the driver" : "paused");
+  };
   loop.source.stand_still();
   const double begun_s = loop.environment.now_s();
-  loop.report("paused");
+  say();
   loop.pump_until([&] { return !loop.is_paused(); }, std::numeric_limits<double>::infinity(), 0.1,
                   [&] {
                     loop.show_messages();
                     if (loop.newest) loop.host.repeat_newest();
-                    loop.report("paused");
+                    say();
                   });
+  const double stood_s = loop.environment.now_s() - begun_s;
+  loop.environment.message(fmt::format("the world stood still for {:.1f} s", stood_s));
   loop.host.give_notice(before);
   loop.host.restart_shown_time();
-  loop.started_s += loop.environment.now_s() - begun_s;
+  loop.started_s += stood_s;
   loop.report("driving");
 }
 
@@ -198,6 +215,8 @@ void wait_for_driver(ScreenLoop& loop) {
 void run_real_time(ScreenLoop& loop) {
   if (!wait_for_screens(loop)) return;
   wait_for_driver(loop);
+  if (loop.is_stopped()) return;
+  loop.can_pause = true;
   const double tick_s = 1.0 / loop.source.tick_rate_hz();
   double due_s = loop.environment.now_s();
   double reported_s = due_s;

@@ -81,7 +81,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
   drive_command
       ->add_option("--page", options.drive.page_port, "Port of the operator's page on 127.0.0.1; 0: any free one")
       ->default_str("no page")
-      ->check(number_between(0, 65535));
+      ->check(CLI::Range(0, 65535));
   drive_command
       ->add_option("--page-host", options.drive.page_hosts,
                    "Name by which a proxy in front of the page is asked for; as often as needed")

@@ -178,7 +178,7 @@ TEST_CASE("a log that is deleted while the server waits for its screens ends it"
   CHECK(last_words(server).starts_with("ended log_failed"));
 }
 
-TEST_CASE("closing the window ends the drive and so does Escape") {
+TEST_CASE("closing the window ends the drive, and Escape pauses it, where Enter ends it") {
   const TemporaryFolder folder;
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1));
@@ -188,7 +188,13 @@ TEST_CASE("closing the window ends the drive and so does Escape") {
     auto drive = start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string()},
                        folder / "err", display.environment());
     REQUIRE(becomes_true([&] { return newest_picture(out / "screens" / "a") > 0; }));
-    end == "escape" ? display.press_escape("Septet a") : display.close_window("Septet a");
+    if (end == "escape") {
+      display.press_escape("Septet a");
+      REQUIRE(becomes_true([&] { return text_of(folder / "err").find("paused by the driver") != std::string::npos; }));
+      display.press_enter("Septet a");
+    } else {
+      display.close_window("Septet a");
+    }
     const int code = exit_code(drive);
     INFO(text_of(folder / "err"));
     CHECK(code == 3);
@@ -197,7 +203,7 @@ TEST_CASE("closing the window ends the drive and so does Escape") {
   }
 }
 
-TEST_CASE("Escape ends the drive also at a screen that the server has dropped") {
+TEST_CASE("Escape and Enter end the drive also at a screen that the server has dropped") {
   const TemporaryFolder folder;
   const XDisplay display;
   write_text(folder / "small.toml", small_rig(1));
@@ -214,6 +220,9 @@ TEST_CASE("Escape ends the drive also at a screen that the server has dropped") 
   REQUIRE(becomes_true([&] { return text_of(folder / "server.err").find("screen a left") != std::string::npos; }));
   display.press_escape("Septet a");
   screen.send_signal(SIGCONT);
+  REQUIRE(
+      becomes_true([&] { return text_of(folder / "server.err").find("paused by the driver") != std::string::npos; }));
+  display.press_enter("Septet a");
   const int code = exit_code(server);
   INFO(text_of(folder / "server.err"));
   CHECK(code == 3);

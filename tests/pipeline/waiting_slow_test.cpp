@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "sim-client/screen/pause_request.hpp"
 #include "sim-server/host/serve.hpp"
 #include "tests/pipeline/simulated_rig.hpp"
 
@@ -136,7 +137,7 @@ TEST_CASE(
     if (!is_paused) return;
     CHECK(circles.tick == 120);
     if (!has_joined && rig.now_s() > 4.0) {
-      CHECK(rig.screen(0).link->notice().text == "Paused");
+      CHECK(rig.screen(0).link->notice().text == "Paused by the operator");
       REQUIRE(rig.shown(0));
       CHECK(rig.shown(0)->tick >= 116);
       rig.stop_screen(1);
@@ -144,7 +145,7 @@ TEST_CASE(
       has_joined = true;
     }
     if (rig.now_s() < 8.0) return;
-    CHECK(rig.screen(1).link->notice().text == "Paused");
+    CHECK(rig.screen(1).link->notice().text == "Paused by the operator");
     is_paused = false;
   };
   environment.is_paused = [&] { return is_paused; };
@@ -155,9 +156,57 @@ TEST_CASE(
   CHECK(served.late_ticks <= 1);
   CHECK(circles.rests == 1);
   CHECK(doings.contains("paused"));
-  CHECK(rig.now_s() > 9.0);
+  CHECK(rig.now_s() > 8.9);
   CHECK(rig.screen(0).link->notice().text.empty());
   for (std::size_t i = 0; i < rig.size(); ++i) CHECK(rig.shown(i)->tick >= 236);
+}
+
+TEST_CASE("a driver who presses Escape pauses the drive and goes on by it, and before it has begun leaves by it") {
+  SimulatedRig rig({.screens = 1, .real_time = false});
+  rig.run_for(0.5);
+  DrivenCircles circles;
+  screen::PauseRequest pause;
+  int presses = 0;
+  double stood_s = 0.0;
+  const server::ServeEnvironment environment{
+      [&] { return rig.server_clock_s(); },
+      [&](double) {
+        rig.advance_1ms();
+        auto& link = *rig.screen(0).link;
+        if (link.finished()) link.report({});
+        if ((presses == 0 && circles.tick == 60) || (presses == 1 && stood_s > 3.0)) {
+          pause.toggle(link);
+          ++presses;
+        }
+        pause.tell(link);
+        if (!link.notice().paused || presses == 2) return;
+        stood_s += 0.001;
+        CHECK(link.notice().text.starts_with("Paused. Escape: go on."));
+        CHECK(circles.tick < 75);
+      },
+      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
+  const auto served = server::serve(circles, rig.host(), {.ticks = 120}, environment);
+  CHECK(served.end == logging::DriveEnd::time_over);
+  CHECK(served.ticks == 120);
+  CHECK(presses == 2);
+  CHECK(circles.rests == 1);
+
+  SimulatedRig waiting({.screens = 1, .real_time = false});
+  waiting.run_for(0.5);
+  DrivenCircles not_begun;
+  screen::PauseRequest leaves;
+  leaves.toggle(*waiting.screen(0).link);
+  const server::ServeEnvironment other{[&] { return waiting.server_clock_s(); },
+                                       [&](double) {
+                                         waiting.advance_1ms();
+                                         leaves.tell(*waiting.screen(0).link);
+                                         if (waiting.screen(0).link->finished()) waiting.screen(0).link->report({});
+                                       },
+                                       [] { return std::optional<logging::DriveEnd>(); },
+                                       [](const server::Progress&) {}, [](const std::string&) {}};
+  const auto left = server::serve(not_begun, waiting.host(), {.wait_for_driver = "Press any key to start"}, other);
+  CHECK(left.end == logging::DriveEnd::escape);
+  CHECK(left.ticks == 0);
 }
 
 TEST_CASE("a paused drive can be ended") {

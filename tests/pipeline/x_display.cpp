@@ -90,6 +90,8 @@ void XDisplay::send_key(const std::string& title, unsigned long key, bool presse
 
 void XDisplay::press_escape(const std::string& title) const { send_key(title, XK_Escape, true); }
 
+void XDisplay::press_enter(const std::string& title) const { send_key(title, XK_Return, true); }
+
 void XDisplay::tap_arrow_up(const std::string& title) const {
   send_key(title, XK_Up, true);
   send_key(title, XK_Up, false);

@@ -49,7 +49,8 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {CarReport{6, "ab", "gone"}, "01 0b 06000000 02 6162 04 676f6e65"},
       {CarFeedback{4, 0.25f, 0.5f, 2.0f, -1.0f}, "01 0c 0400000000000000 0000803e 0000003f 00000040 000080bf"},
       {Quit{true}, "01 0d 01"},
-      {Notice{"go", true}, "01 0e 02 676f 01"},
+      {Notice{"go", true, false}, "01 0e 02 676f 01 00"},
+      {Pause{true}, "01 0f 01"},
   };
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("a control message that is cut short or followed by more is refused") 
     CHECK(is_refused(bytes));
   }
   CHECK(is_refused(bytes_of("00 05 0500000000000000 0000803e")));  // A scene message.
-  CHECK(is_refused(bytes_of("01 0f 00")));                         // A kind that there is not.
+  CHECK(is_refused(bytes_of("01 10 00")));                         // A kind that there is not.
   CHECK(is_refused(bytes_of("01 0d 02")));                         // A flag is 0 or 1.
 }
 
