@@ -22,7 +22,7 @@ namespace septet::server {
 struct Options {
   DriveOptions drive, replay;
   bool verify = false;
-  std::vector<std::string> passed_on;  ///< What septet-film or septet-ice is told.
+  std::vector<std::string> passed_on;  ///< What septet-film, septet-sound or septet-ice is told.
   std::string session;
   std::filesystem::path report_out;
   VehicleTestOptions track;
@@ -34,7 +34,7 @@ struct Options {
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
-void add_drive_commands(CLI::App& app, Options& options);  ///< drive, replay, film, ice, report.
+void add_drive_commands(CLI::App& app, Options& options);  ///< drive, replay, film, sound, ice, report.
 void add_track_commands(CLI::App& app, Options& options);  ///< vehicle, traffic.
 void add_file_commands(CLI::App& app, Options& options);   ///< road, rig, list, check.
 
