@@ -31,13 +31,20 @@ void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::siz
   double phase = tone.phase;
   for (std::size_t first = 0; first < block_samples; first += lanes) {
     std::array<float, lanes> before{}, now, twice_cosine, sum{};
+    // Within eight samples the frequency stands still, so that one turn leads from each to the next.
+    const double t = (double(first) + 0.5 * double(lanes)) / double(block_samples);
+    const double turns = (from_hz + (hz - from_hz) * t) / sample_rate_hz;
+    const double angle = 2.0 * std::numbers::pi * phase, step = 2.0 * std::numbers::pi * turns;
+    const double step_sine = std::sin(step), step_cosine = std::cos(step);
+    double sine = std::sin(angle), cosine = std::cos(angle);
     for (std::size_t i = 0; i < lanes; ++i) {
-      const double t = (double(first + i) + 0.5) / double(block_samples);
-      phase += (from_hz + (hz - from_hz) * t) / sample_rate_hz;
-      const double angle = 2.0 * std::numbers::pi * phase;
-      now[i] = static_cast<float>(std::sin(angle));
-      twice_cosine[i] = static_cast<float>(2.0 * std::cos(angle));
+      const double next_sine = sine * step_cosine + cosine * step_sine;
+      cosine = cosine * step_cosine - sine * step_sine;
+      sine = next_sine;
+      now[i] = static_cast<float>(sine);
+      twice_cosine[i] = static_cast<float>(2.0 * cosine);
     }
+    phase += double(lanes) * turns;
     const float share = static_cast<float>(first + lanes) / static_cast<float>(block_samples);
     for (std::size_t h = 0; h < count; ++h) {
       const float pressure = from[h] + (pressure_pa[h] - from[h]) * share;

@@ -33,6 +33,7 @@ double horn_pressure(double a_level_db) {
 }
 
 void add_horn(Tone& low, Tone& high, double pressure_pa, double doppler, Block& out) {
+  if (pressure_pa == 0.0 && low.pressure_pa[0] == 0.0f) return;
   add_tone(low, low_hz * doppler, pressure_pa, out);
   add_tone(high, high_hz * doppler, pressure_pa, out);
 }

@@ -12,6 +12,7 @@ namespace septet::audio {
 namespace {
 
 constexpr double engine_follows_s = 0.15;
+constexpr double masked_db = 8.0;  // Below the tyres, an engine's noise is not worth making.
 constexpr double least_hz = 80.0;  // The A curve would make a roar of an idling engine's lowest tones.
 constexpr std::size_t engine_multiples = 8, siren_multiples = 8;
 
@@ -63,7 +64,8 @@ void render_other(OtherState& state, Voice& voice) {
   const double moving = std::min(1.0, sound.speed_mps / 1.0);
   add_noise(state.rolling, rolling_shape(), here * moving * rolling_shape().gain(rolling_db), out);
   const double engine_db = propulsion_outside_db(sound.kind, sound.speed_mps, sound.load);
-  add_noise(state.exhaust, exhaust_shape(), here * exhaust_shape().gain(engine_db - 3.0), out);
+  const bool is_masked = engine_db < rolling_db - masked_db;
+  add_noise(state.exhaust, exhaust_shape(), is_masked ? 0.0 : here * exhaust_shape().gain(engine_db - 3.0), out);
   state.engine_hz += (sound.engine_hz - state.engine_hz) * (1.0 - std::exp(-block_s / engine_follows_s));
   const bool is_heavy = sound.kind == ParticipantKind::lorry || sound.kind == ParticipantKind::bus;
   const double firing_hz = (is_heavy ? 3.0 : 2.0) * state.engine_hz;  // Six cylinders, or four.
