@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace septet::audio {
@@ -28,23 +29,24 @@ void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::siz
     tone.phase -= std::floor(tone.phase);
     return;
   }
-  double phase = tone.phase;
+  // Within eight samples the frequency stands still, so that one turn leads from each to the next; another leads from turn to turn.
+  constexpr double groups = double(block_samples / lanes), turn_rad = 2.0 * std::numbers::pi;
+  using Turn = std::complex<double>;
+  const auto times = [](const Turn& a, const Turn& b) {
+    return Turn(a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real());
+  };
+  const double change_hz = (hz - from_hz) / groups;
+  const Turn faster = std::polar(1.0, turn_rad * change_hz / sample_rate_hz);
+  Turn step = std::polar(1.0, turn_rad * (from_hz + 0.5 * change_hz) / sample_rate_hz);
+  Turn place = std::polar(1.0, turn_rad * tone.phase);
   for (std::size_t first = 0; first < block_samples; first += lanes) {
     std::array<float, lanes> before{}, now, twice_cosine, sum{};
-    // Within eight samples the frequency stands still, so that one turn leads from each to the next.
-    const double t = (double(first) + 0.5 * double(lanes)) / double(block_samples);
-    const double turns = (from_hz + (hz - from_hz) * t) / sample_rate_hz;
-    const double angle = 2.0 * std::numbers::pi * phase, step = 2.0 * std::numbers::pi * turns;
-    const double step_sine = std::sin(step), step_cosine = std::cos(step);
-    double sine = std::sin(angle), cosine = std::cos(angle);
     for (std::size_t i = 0; i < lanes; ++i) {
-      const double next_sine = sine * step_cosine + cosine * step_sine;
-      cosine = cosine * step_cosine - sine * step_sine;
-      sine = next_sine;
-      now[i] = static_cast<float>(sine);
-      twice_cosine[i] = static_cast<float>(2.0 * cosine);
+      place = times(place, step);
+      now[i] = static_cast<float>(place.imag());
+      twice_cosine[i] = static_cast<float>(2.0 * place.real());
     }
-    phase += double(lanes) * turns;
+    step = times(step, faster);
     const float share = static_cast<float>(first + lanes) / static_cast<float>(block_samples);
     for (std::size_t h = 0; h < count; ++h) {
       const float pressure = from[h] + (pressure_pa[h] - from[h]) * share;
@@ -57,7 +59,8 @@ void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::siz
     }
     for (std::size_t i = 0; i < lanes; ++i) out[first + i] += sum[i];
   }
-  tone.phase = phase - std::floor(phase);
+  tone.phase += 0.5 * (from_hz + hz) * double(block_samples) / sample_rate_hz;
+  tone.phase -= std::floor(tone.phase);
 }
 
 }  // namespace septet::audio
