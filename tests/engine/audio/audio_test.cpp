@@ -184,6 +184,34 @@ TEST_CASE("Nothing clicks: not at a change of gear, load, ground, rain, horn, or
   CHECK(loudest_step(horn(true)) < 1.1 * loudest_step(horn(false)));
 }
 
+TEST_CASE(
+    "A tone whose pitch jumps from block to block is never steeper than its highest pitch, and a layer's loudness "
+    "never steps") {
+  Tone tone;
+  Harmonics one{};
+  one[0] = 1.0f;
+  std::vector<float> glides;
+  for (int i = 0; i < 60; ++i) {
+    Block block{};
+    add_harmonics(tone, i % 2 ? 200.0 : 113.0, one, 1, block);
+    if (i > 0) glides.insert(glides.end(), block.begin(), block.end());
+  }
+  CHECK(loudest_step(glides) < 1.01 * 2.0 * 3.14159265 * 200.0 / sample_rate_hz);
+
+  const Shape slow(Section::low_pass(20.0, 0.7), Section::low_pass(20.0, 0.7));
+  const auto layer = [&](bool toggles) {
+    NoiseLayer noise;
+    std::vector<float> samples;
+    for (int i = 0; i < 200; ++i) {
+      Block block{};
+      add_noise(noise, slow, toggles && i % 2 ? 0.1 : 1.0, block);
+      samples.insert(samples.end(), block.begin(), block.end());
+    }
+    return loudest_step(samples);
+  };
+  CHECK(layer(true) < 3.0 * layer(false));
+}
+
 TEST_CASE("Somebody who comes or goes fades over a block") {
   const Snapshot there = with_ambulance(-10.0, 0.0);
   Snapshot gone = there;
