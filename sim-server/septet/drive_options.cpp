@@ -109,12 +109,18 @@ void add_drive_commands(CLI::App& app, Options& options) {
     };
   });
 
-  // The options of these two are those of the programs that they start, which explain them too.
+  // The options of these three are those of the programs that they start, which explain them too.
   auto* film_command = app.add_subcommand(
       "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
   film_command->set_help_flag();
   film_command->callback([&] { options.work = [&] { return become("septet-film", options.passed_on); }; });
+
+  auto* sound_command =
+      app.add_subcommand("sound", "Make the sound of a session: what the driver heard, as a WAV file");
+  sound_command->prefix_command();
+  sound_command->set_help_flag();
+  sound_command->callback([&] { options.work = [&] { return become("septet-sound", options.passed_on); }; });
 
   auto* ice_command = app.add_subcommand("ice", "Draw an object of ice alone, turning, each part of it on or off");
   ice_command->prefix_command();

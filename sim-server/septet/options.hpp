@@ -25,7 +25,7 @@ namespace septet::server {
 struct Options {
   DriveOptions drive, replay;
   bool verify = false;
-  std::vector<std::string> passed_on;  ///< What septet-film or septet-ice is told.
+  std::vector<std::string> passed_on;  ///< What septet-film, septet-sound or septet-ice is told.
   ReportOptions report;
   VehicleTestOptions track;
   double track_speed_kmh = 0.0;
@@ -40,7 +40,7 @@ struct Options {
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
-void add_drive_commands(CLI::App& app, Options& options);       ///< drive, replay, film, ice, report.
+void add_drive_commands(CLI::App& app, Options& options);       ///< drive, replay, film, sound, ice, report.
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
 void add_session_commands(CLI::App& app, Options& options);     ///< session.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.

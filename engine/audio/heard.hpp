@@ -1,0 +1,79 @@
+#pragma once
+/// What of one tick the driver hears, as plain data: the step from a snapshot to numbers that sounds are made of.
+///
+/// The ear frame is the vehicle frame moved to the driver's head: x forward, y left, z up. What a snapshot does not hold is told from what it
+/// does: the load from the accelerator and the engine's speed (on the overrun fuel is cut), slips from the motion of the axles against the
+/// wheels' turning, the ground from lane (0: beside the road), wetness and snow, a blow from a velocity that jumps. Numbers that are not
+/// finite are counted and become silence. Pure functions.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/world/snapshot.hpp"
+
+namespace septet::audio {
+
+/// What of the driver's car does not change.
+struct CarSound {
+  int cylinders = 6;
+  double idle_radps = 73.0;
+  double wheelbase_m = 2.79;
+  double wheel_radius_m = 0.32;
+  double final_ratio = 3.29;
+  Vec3 ear_m{1.4, 0.37, 1.15};  ///< Vehicle frame.
+};
+
+/// A box whose inside echoes, such as a stretch of a tunnel.
+struct EchoBox {
+  RigidTransform box_from_world;
+  Vec3 min_m{0.0}, max_m{0.0};
+};
+
+/// The driver's car in one tick.
+struct OwnCar {
+  bool running = false;                      ///< There is such a car and its engine turns.
+  double engine_hz = 0.0;                    ///< Turns a second.
+  double load = 0.0;                         ///< Share of the full torque, 0 to 1.
+  bool fuel_cut = false;                     ///< On the overrun nothing burns.
+  double speed_mps = 0.0;                    ///< Along the car, either sign.
+  double air_mps = 0.0;                      ///< Against the air.
+  double wheel_hz = 0.0;                     ///< Turns a second.
+  double front_slip = 0.0, rear_slip = 0.0;  ///< Of the contact over the ground as a share of the speed.
+  double looseness = 0.0;                    ///< 0 on a paved road, 1 on gravel or grass.
+  double wetness = 0.0, snow = 0.0;
+  double rain_mm_per_h = 0.0;  ///< On the roof: none in a tunnel, none as snow.
+  bool indicator_lit = false, horn = false, reversing = false;
+  double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond what tyres can do; 0: no blow.
+  int pieces = 0;         ///< That were broken off in this tick.
+  double tunnel = 0.0;    ///< 0 in the open to 1 inside, over 20 m at its mouth.
+};
+
+/// Somebody else in one tick.
+struct OtherSound {
+  ParticipantId id = 0;
+  ParticipantKind kind = ParticipantKind::car;
+  Vec3 position_m{0.0};  ///< Ear frame.
+  double doppler = 1.0;  ///< Heard frequency over emitted one.
+  double speed_mps = 0.0;
+  double engine_hz = 0.0, load = 0.0;
+  bool siren = false, horn = false;
+  double blow_mps = 0.0;
+  double level_db = 0.0;  ///< dB(A) at the ear outside of the car, by which the loudest are chosen.
+};
+
+struct Heard {
+  OwnCar car;
+  std::vector<OtherSound> others;  ///< The loudest, ascending id.
+  std::uint32_t bad_numbers = 0;   ///< That were not finite, in this tick.
+};
+
+inline constexpr std::size_t most_others = 16;
+inline constexpr double speed_of_sound_mps = 343.3;
+
+/// Heard over emitted frequency. Velocities in any one frame that stands still in the air; `to_listener` points from source to listener.
+double doppler_factor(const Vec3& to_listener, const Vec3& source_mps, const Vec3& listener_mps);
+
+/// `before` is the tick before, or null at the start and behind a gap.
+Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes);
+
+}  // namespace septet::audio

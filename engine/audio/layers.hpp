@@ -1,0 +1,50 @@
+#pragma once
+/// The two kinds of sound besides tones: a layer of shaped noise, and a burst that dies away. Plain states, a block at a time.
+
+#include <algorithm>
+
+#include "engine/audio/signal.hpp"
+
+namespace septet::audio {
+
+/// How a layer's noise is shaped; `unit_db` is its level in dB(A) before any gain.
+struct Shape {
+  Section first, second;
+  double unit_db;
+  Shape(const Section& one, const Section& two) : first(one), second(two), unit_db(a_level_of_noise_db(one, two)) {}
+  /// The gain with which it has this level in dB(A).
+  double gain(double a_level_db) const { return pressure_pa(a_level_db) / pressure_pa(unit_db); }
+};
+
+/// Noise through a shape.
+struct NoiseLayer {
+  Noise noise;
+  Filter first, second;
+  double gain = 0.0;  ///< At the end of the last block.
+};
+/// Adds a block whose gain goes from that of the last to this one. Nothing is computed of silence.
+void add_noise(NoiseLayer& layer, const Shape& shape, double gain, Block& out);
+
+/// What begins within 1 to 5 ms and dies away: its envelope follows a value that decays, so it has no edge.
+struct Burst {
+  float drive = 0.0f, envelope = 0.0f;
+  void strike(double pressure_pa) { drive = std::max(drive, static_cast<float>(pressure_pa)); }
+  bool is_over() const { return envelope < 1e-7f && drive < 1e-7f; }
+  float step(float attack, float decay) {
+    drive *= decay;
+    envelope += (drive - envelope) * attack;
+    return envelope;
+  }
+};
+/// Coefficients of a burst's step for a time constant.
+float attack_of(double seconds);
+float decay_of(double seconds);
+
+/// The car's body between outside and ear, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2 kHz: 11 dB and one pole at 225 Hz.
+struct CabinWall {
+  float memory = 0.0f;
+  void apply(Block& block);
+  static double gain(double frequency_hz);
+};
+
+}  // namespace septet::audio

@@ -1,0 +1,19 @@
+#pragma once
+/// What a session says of its sound besides the ticks: the car, and where it echoes.
+
+#include <vector>
+
+#include "engine/audio/heard.hpp"
+#include "engine/instant/scene_summary.hpp"
+#include "logging/session_reader.hpp"
+
+namespace septet::sound {
+
+/// Of the vehicle and the rig that were driven with; what the session lacks is as in a Volvo S80.
+audio::CarSound car_sound_of(const logging::SessionInfo& info);
+
+/// The tunnels: boxes of the scene that see no sky.
+std::vector<audio::EchoBox> echo_boxes(const instant::SceneSummary& scene);
+Expected<std::vector<audio::EchoBox>> echo_boxes_of(const logging::SessionReader& session);
+
+}  // namespace septet::sound

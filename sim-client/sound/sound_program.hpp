@@ -1,0 +1,24 @@
+#pragma once
+/// What `septet-sound` does with its command line: the sound of a recorded session as a file.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "engine/audio/sound_stage.hpp"
+#include "engine/core/expected.hpp"
+
+namespace septet::sound {
+
+struct SoundOptions {
+  std::filesystem::path session;
+  std::filesystem::path out;  ///< Empty: drive.wav beside the session.
+  std::optional<double> from_s, to_s;
+  audio::StageOptions stage;
+  std::uint64_t seed = 1;  ///< Of noises.
+};
+
+/// Makes the file and says where it lies. The exit status: 1 where somebody stopped it.
+Expected<int> run_sound(SoundOptions options);
+
+}  // namespace septet::sound

@@ -1,0 +1,345 @@
+#include <doctest/doctest.h>
+
+#include "engine/audio/engine_orders.hpp"
+#include "engine/audio/levels.hpp"
+#include "engine/audio/siren.hpp"
+#include "tests/engine/audio/sound_fixture.hpp"
+#include "tests/engine/audio/spectrum.hpp"
+
+namespace septet::audio {
+namespace {
+
+/// The driver's car at the origin, looking along x, and an ambulance with its siren on.
+Snapshot with_ambulance(double x_m, double speed_mps, double y_m = 0.0) {
+  Snapshot snapshot;
+  snapshot.driver_car.participant = 1;
+  Participant own;
+  own.id = 1;
+  Participant ambulance;
+  ambulance.id = 7;
+  for (std::size_t i = 0; i < vehicle_models().size(); ++i)
+    if (vehicle_models()[i].kind == ParticipantKind::ambulance) ambulance.model = static_cast<ModelIndex>(i);
+  ambulance.world_from_vehicle.position_m = {x_m, y_m, 0.0};
+  ambulance.velocity_mps = {speed_mps, 0.0, 0.0};
+  ambulance.lamps.set(Lamp::siren, true);
+  snapshot.participants = {own, ambulance};
+  return snapshot;
+}
+
+double loudest_step(std::span<const float> samples) {
+  float most = 0.0f;
+  for (std::size_t i = 1; i < samples.size(); ++i) most = std::max(most, std::abs(samples[i] - samples[i - 1]));
+  return most;
+}
+
+/// Total level in dB(A) at the ear: independent voices add by their powers.
+double level_inside_db(double speed_kmh, double engine_hz, double load) {
+  const auto voices = voices_of(360, [&](int) { return cruising(speed_kmh / 3.6, engine_hz, load); });
+  double power = 0.0;
+  for (std::size_t i = 0; i < own_voices; ++i)
+    if (i != std::size_t(OwnVoice::low)) power += a_weighted_power(voices[i]);
+  return level_db(std::sqrt(power));
+}
+
+}  // namespace
+
+TEST_CASE("An engine of four, five and six cylinders sings at its firing order, 10 dB over what lies beside it") {
+  for (const int cylinders : {4, 5, 6}) {
+    CAPTURE(cylinders);
+    CarSound car;
+    car.cylinders = cylinders;
+    const auto sound = played(
+        300, [](int) { return cruising(0.0, 2000.0 / 60.0, 0.5); }, {}, car);
+    const auto left = after(sound[0], 0.5);
+    const double expected_hz = cylinders / 2.0 * 2000.0 / 60.0;
+    const double found_hz = peak_hz(left, 0.8 * expected_hz, 1.2 * expected_hz);
+    CHECK(found_hz == doctest::Approx(expected_hz).epsilon(0.01));
+    CHECK(decibels(power_at(left, found_hz) / power_at(left, found_hz * 1.1)) > 10.0);
+    CHECK(peak_hz(left, 1.6 * expected_hz, 2.4 * expected_hz) == doctest::Approx(2.0 * expected_hz).epsilon(0.01));
+  }
+}
+
+TEST_CASE(
+    "With load an engine is louder by 6 dB and brighter by a fifth, and on the overrun its firing order falls by 10 "
+    "dB") {
+  const auto engine = [](double load, bool cut) {
+    return voices_of(240, [=](int) {
+      Heard heard = cruising(0.0, 40.0, load);
+      heard.car.fuel_cut = cut;
+      return heard;
+    })[std::size_t(OwnVoice::engine)];
+  };
+  const auto light = engine(0.1, false), full = engine(1.0, false), cut = engine(0.0, true);
+  CHECK(decibels(mean_square(full) / mean_square(light)) > 6.0);
+  const auto centroid = [](std::span<const float> samples) {
+    const auto spectrum = power_spectrum(samples, 8192);
+    double power = 0.0, moment = 0.0;
+    for (std::size_t i = 1; i < spectrum.size(); ++i) power += spectrum[i], moment += spectrum[i] * double(i);
+    return moment / power;
+  };
+  CHECK(centroid(full) > 1.2 * centroid(light));
+  CHECK(decibels(power_at(cut, 120.0) / power_at(light, 120.0)) < -10.0);
+}
+
+TEST_CASE("A siren's two tones are a fourth apart within 360 to 630 Hz") {
+  CHECK(siren_hz(two_tone, 0.1) == doctest::Approx(440.0));
+  CHECK(siren_hz(two_tone, 0.8) / siren_hz(two_tone, 0.1) == doctest::Approx(4.0 / 3.0));
+  CHECK(siren_hz(two_tone, 1.6) == doctest::Approx(440.0));
+  CHECK(siren_hz(wail, 0.75) == doctest::Approx(1000.0));
+}
+
+TEST_CASE("An ambulance that comes at 25 m/s sounds higher and one that goes lower, as the closed form says") {
+  for (const double speed_mps : {25.0, -25.0}) {
+    CAPTURE(speed_mps);
+    // Behind the car and far off, so that its direction stays; only the first tone sounds.
+    const Snapshot snapshot = with_ambulance(-60.0, speed_mps);
+    const auto sound = played(90, [&](int) { return hear(snapshot, nullptr, {}, {}); });
+    const double expected_hz = 440.0 * 343.3 / (343.3 - speed_mps);
+    CHECK(peak_hz(after(sound[0], 0.1), 380.0, 520.0) == doctest::Approx(expected_hz).epsilon(0.002));
+  }
+  CHECK(doppler_factor({1, 0, 0}, {25, 0, 0}, {-25, 0, 0}) == doctest::Approx(1.157).epsilon(0.001));
+  CHECK(doppler_factor({0, 1, 0}, {25, 0, 0}, {}) == doctest::Approx(1.0));
+  CHECK(std::isfinite(doppler_factor({1, 0, 0}, {343.3, 0, 0}, {})));
+}
+
+TEST_CASE("What is on the left is heard on the left") {
+  const auto sides = [](double y_m) {
+    const Snapshot snapshot = with_ambulance(1.0, 0.0, y_m);
+    const auto sound = played(60, [&](int) { return hear(snapshot, nullptr, {}, {}); });
+    return decibels(mean_square(sound[0]) / mean_square(sound[1]));
+  };
+  CHECK(sides(20.0) > 6.0);
+  CHECK(sides(-20.0) < -6.0);
+}
+
+TEST_CASE("A car that stands with its engine off is silent, also through the device") {
+  const auto sound = played(30, [](int) { return quiet(); });
+  CHECK(mean_square(sound[0]) == 0.0);
+  CHECK(mean_square(sound[1]) == 0.0);
+  // An engine that was switched off, half a second ago.
+  const auto stopped = played(240, [](int tick) { return tick < 60 ? cruising(0.0, 12.0, 0.0) : quiet(); });
+  CHECK(mean_square(after(stopped[0], 0.2).first(9600)) > 1e-6);
+  CHECK(mean_square(after(stopped[0], 1.6)) == 0.0);
+}
+
+TEST_CASE(
+    "Inside it is as loud as in a middle-class car, and wind grows by 16 dB as the speed doubles, rolling by 34 dB a "
+    "decade") {
+  const double at_50 = level_inside_db(50, 1800.0 / 60, 0.2), at_100 = level_inside_db(100, 2500.0 / 60, 0.3),
+               at_130 = level_inside_db(130, 3100.0 / 60, 0.4);
+  CHECK(at_50 >= 57.0);
+  CHECK(at_50 <= 60.0);
+  CHECK(at_100 >= 64.0);
+  CHECK(at_100 <= 67.0);
+  CHECK(at_130 >= 68.0);
+  CHECK(at_130 <= 71.0);
+  const double idle = level_inside_db(0, 700.0 / 60, 0.0);
+  CHECK(idle >= 37.0);
+  CHECK(idle <= 46.0);
+
+  const auto layer = [](double speed_mps, OwnVoice voice) {
+    return decibels(
+        a_weighted_power(voices_of(480, [=](int) { return cruising(speed_mps, 0.0, 0.0); })[std::size_t(voice)]));
+  };
+  CHECK(layer(30.0, OwnVoice::wind_left) - layer(15.0, OwnVoice::wind_left) == doctest::Approx(16.0).epsilon(0.1));
+  CHECK(layer(36.0, OwnVoice::rear_left) - layer(14.4, OwnVoice::rear_left) ==
+        doctest::Approx(34.0 * std::log10(2.5)).epsilon(0.08));
+  CHECK(wind_inside_db(31.0) > rolling_inside_db(31.0));
+  CHECK(wind_inside_db(25.0) < rolling_inside_db(25.0));
+}
+
+TEST_CASE("The car's wall takes 12 dB at 125 Hz, 25 at 1 kHz and 30 at 2 kHz") {
+  CHECK(20.0 * std::log10(CabinWall::gain(125.0)) == doctest::Approx(-12.0).epsilon(0.05));
+  CHECK(20.0 * std::log10(CabinWall::gain(1000.0)) == doctest::Approx(-25.0).epsilon(0.06));
+  CHECK(20.0 * std::log10(CabinWall::gain(2000.0)) < -29.5);
+}
+
+TEST_CASE("Nothing clicks: not at a change of gear, load, ground, rain, horn, or as a tunnel begins") {
+  const auto calm = [](int) {
+    Heard heard = cruising(20.0, 50.0, 0.9);
+    heard.car.horn = true;
+    heard.car.rain_mm_per_h = 5.0;
+    return heard;
+  };
+  const auto stepped = [](int tick) {
+    const bool other = tick / 15 % 2 == 1;
+    Heard heard = cruising(20.0, other ? 30.0 : 50.0, other ? 0.0 : 0.9);
+    heard.car.fuel_cut = other;
+    heard.car.horn = !other;
+    heard.car.rain_mm_per_h = other ? 0.0 : 5.0;
+    heard.car.tunnel = other ? 1.0 : 0.0;
+    heard.car.wetness = other ? 1.0 : 0.0;
+    return heard;
+  };
+  const auto steady = played(240, calm), changing = played(240, stepped);
+  CHECK(loudest_step(after(changing[0], 0.1)) < 1.5 * loudest_step(after(steady[0], 0.1)));
+  // Pure tones have a slope of their own: nothing is steeper than twice that.
+  const auto horn = [](bool steps) {
+    return voices_of(120, [=](int tick) {
+      Heard heard;
+      heard.car.horn = !steps || tick / 10 % 2 == 0;
+      return heard;
+    })[std::size_t(OwnVoice::horn)];
+  };
+  CHECK(loudest_step(horn(true)) < 1.1 * loudest_step(horn(false)));
+}
+
+TEST_CASE(
+    "A tone whose pitch jumps from block to block is never steeper than its highest pitch, and a layer's loudness "
+    "never steps") {
+  Tone tone;
+  Harmonics one{};
+  one[0] = 1.0f;
+  std::vector<float> glides;
+  for (int i = 0; i < 60; ++i) {
+    Block block{};
+    add_harmonics(tone, i % 2 ? 200.0 : 113.0, one, 1, block);
+    if (i > 0) glides.insert(glides.end(), block.begin(), block.end());
+  }
+  CHECK(loudest_step(glides) < 1.01 * 2.0 * 3.14159265 * 200.0 / sample_rate_hz);
+
+  const Shape slow(Section::low_pass(20.0, 0.7), Section::low_pass(20.0, 0.7));
+  const auto layer = [&](bool toggles) {
+    NoiseLayer noise;
+    std::vector<float> samples;
+    for (int i = 0; i < 200; ++i) {
+      Block block{};
+      add_noise(noise, slow, toggles && i % 2 ? 0.1 : 1.0, block);
+      samples.insert(samples.end(), block.begin(), block.end());
+    }
+    return loudest_step(samples);
+  };
+  CHECK(layer(true) < 3.0 * layer(false));
+}
+
+TEST_CASE("Somebody who comes or goes fades over a block") {
+  const Snapshot there = with_ambulance(-10.0, 0.0);
+  Snapshot gone = there;
+  gone.participants.pop_back();
+  const auto steady = played(120, [&](int) { return hear(there, nullptr, {}, {}); });
+  const auto changing = played(120, [&](int tick) { return hear(tick / 12 % 2 == 0 ? there : gone, nullptr, {}, {}); });
+  CHECK(loudest_step(changing[0]) < 1.3 * loudest_step(after(steady[0], 0.1)));
+}
+
+TEST_CASE("Numbers that are none are counted and silent, and nonsense never exceeds full scale") {
+  Snapshot snapshot = with_ambulance(-5.0, 10.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  snapshot.participants[1].world_from_vehicle.position_m.x = nan;
+  snapshot.driver_car.engine_radps = infinite;
+  snapshot.driver_car.speed_mps = nan;
+  snapshot.participants[0].velocity_mps = {nan, nan, nan};
+  snapshot.participants[0].wheel_spin_radps = -infinite;
+  snapshot.environment.wind_speed_mps = nan;
+  const auto heard = hear(snapshot, nullptr, {}, {});
+  CHECK(heard.bad_numbers == 8);
+  CHECK(heard.others.empty());
+  const auto silent = played(30, [&](int) { return heard; });
+  CHECK(mean_square(silent[0]) == 0.0);
+
+  const auto wild = played(60, [&](int tick) {
+    Heard loud = cruising(1e9, 1e9, 1e9);
+    loud.car.blow_mps = 1e9;
+    loud.car.front_slip = tick % 2 ? nan : -infinite;
+    loud.car.rain_mm_per_h = 1e12;
+    loud.car.horn = true;
+    loud.others.push_back({.id = 3, .position_m = {nan, 0, 0}, .doppler = infinite, .siren = true, .blow_mps = nan});
+    return loud;
+  });
+  for (const auto& channel : wild)
+    for (const float sample : channel) {
+      REQUIRE(std::isfinite(sample));
+      REQUIRE(std::abs(sample) <= 1.0f);
+    }
+}
+
+TEST_CASE("Of two hundred participants the sixteen loudest are heard, the ambulance among them") {
+  Snapshot snapshot = with_ambulance(-300.0, 20.0);
+  for (ParticipantId id = 10; id < 210; ++id) {
+    Participant car;
+    car.id = id;
+    car.world_from_vehicle.position_m = {20.0 + id, 4.0, 0.0};
+    car.velocity_mps = {20.0, 0.0, 0.0};
+    snapshot.participants.push_back(car);
+  }
+  const auto heard = hear(snapshot, nullptr, {}, {});
+  REQUIRE(heard.others.size() == most_others);
+  CHECK(heard.others.front().id == 7);
+  CHECK(heard.others[1].id == 10);
+  const auto sound = played(30, [&](int) { return heard; });
+  CHECK(mean_square(sound[0]) > 0.0);
+}
+
+TEST_CASE("A tunnel echoes: a horn is still heard in it when it has long ended, and not in the open") {
+  const auto tail = [](double tunnel) {
+    const auto sound = played(180, [=](int tick) {
+      Heard heard;
+      heard.car.tunnel = tunnel;
+      heard.car.horn = tick < 60;
+      return heard;
+    });
+    return mean_square(after(sound[0], 1.0));
+  };
+  CHECK(tail(1.0) > 1e-6);
+  CHECK(tail(0.0) < 1e-9);
+  Snapshot snapshot = with_ambulance(-30.0, 0.0);
+  const std::vector<EchoBox> boxes{{{}, {-100.0, -5.0, 0.0}, {100.0, 5.0, 6.0}}};
+  CHECK(hear(snapshot, nullptr, {}, boxes).car.tunnel == doctest::Approx(1.0));
+  snapshot.participants[0].world_from_vehicle.position_m.x = 98.6;  // The ear in its mouth.
+  CHECK(hear(snapshot, nullptr, {}, boxes).car.tunnel == doctest::Approx(0.5).epsilon(0.2));
+  snapshot.participants[0].world_from_vehicle.position_m.x = 130.0;
+  CHECK(hear(snapshot, nullptr, {}, boxes).car.tunnel == 0.0);
+}
+
+TEST_CASE("Of 5.1 channels the one for low frequencies has what shakes and nothing else does") {
+  const StageOptions surround{Speakers::surround_51};
+  const auto sound = played(
+      120, [](int) { return cruising(0.0, 15.0, 0.5); }, surround);
+  REQUIRE(sound.size() == 6);
+  CHECK(peak_hz(after(sound[3], 0.2), 20.0, 100.0) == doctest::Approx(45.0).epsilon(0.01));
+  const auto low = power_spectrum(after(sound[3], 0.2), 8192);
+  double below = 0.0, above = 0.0;
+  for (std::size_t i = 1; i < low.size(); ++i) (double(i) * 48000.0 / 8192.0 < 150.0 ? below : above) += low[i];
+  CHECK(decibels(above / below) < -30.0);
+  const Snapshot behind = with_ambulance(-20.0, 0.0);
+  const auto siren = played(
+      60, [&](int) { return hear(behind, nullptr, {}, {}); }, surround);
+  CHECK(mean_square(siren[4]) > 4.0 * mean_square(siren[0]));
+  CHECK(mean_square(siren[3]) < 1e-6);
+}
+
+TEST_CASE("The indicator's relay clicks where the lamp goes on and off") {
+  const auto relay = voices_of(
+      84,
+      [](int tick) {
+        Heard heard;
+        heard.car.indicator_lit = tick >= 24 && tick < 64;
+        return heard;
+      },
+      {}, 0)[std::size_t(OwnVoice::relay)];
+  const auto block = [&](int tick) {
+    return mean_square(std::span(relay).subspan(std::size_t(tick) * block_samples, block_samples));
+  };
+  CHECK(block(23) == 0.0);
+  CHECK(block(24) > 1e-6);
+  CHECK(block(50) < 1e-12);
+  CHECK(block(64) > 1e-6);
+}
+
+TEST_CASE("A blow is what no tyre can do, and whoever was moved by hand is not struck") {
+  Snapshot before = with_ambulance(-20.0, 10.0), now = before;
+  now.simulated_time_s = 1.0 / 120.0;
+  now.participants[0].velocity_mps.x = before.participants[0].velocity_mps.x - 3.0;
+  CHECK(hear(now, &before, {}, {}).car.blow_mps == doctest::Approx(3.0));
+  now.participants[0].velocity_mps.x = before.participants[0].velocity_mps.x - 0.1;  // 12 m/s².
+  CHECK(hear(now, &before, {}, {}).car.blow_mps == 0.0);
+  now.participants[0].velocity_mps.x = 200.0;
+  CHECK(hear(now, &before, {}, {}).car.blow_mps == 0.0);
+}
+
+TEST_CASE("The same drive gives the same samples, bit for bit") {
+  const Snapshot snapshot = with_ambulance(-20.0, 10.0);
+  const auto sound = [&] { return played(60, [&](int) { return hear(snapshot, nullptr, {}, {}); }); };
+  CHECK(sound() == sound());
+}
+
+}  // namespace septet::audio

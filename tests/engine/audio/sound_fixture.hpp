@@ -1,0 +1,73 @@
+#pragma once
+/// Sounds of a stretch of time, for tests.
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/audio/sound_stage.hpp"
+#include "engine/audio/soundtrack.hpp"
+
+namespace septet::audio {
+
+using HeardAt = std::function<Heard(int tick)>;
+
+/// A car that stands with its engine off.
+inline Heard quiet() { return {}; }
+
+/// A car that rolls at a steady speed.
+inline Heard cruising(double speed_mps, double engine_hz, double load) {
+  Heard heard;
+  heard.car.running = engine_hz > 0.0;
+  heard.car.engine_hz = engine_hz;
+  heard.car.load = load;
+  heard.car.speed_mps = heard.car.air_mps = speed_mps;
+  heard.car.wheel_hz = speed_mps / (2.0 * 3.14159265 * 0.32);
+  return heard;
+}
+
+/// Each voice's samples, by its place among the own voices; other voices behind them in one.
+inline std::vector<std::vector<float>> voices_of(int ticks, const HeardAt& heard, const CarSound& car = {},
+                                                 int skipped = 60) {
+  State state = start(car, Random(1));
+  std::vector<Voice> voices;
+  std::vector<std::vector<float>> samples(own_voices + 1);
+  for (int tick = 0; tick < ticks + skipped; ++tick) {
+    render(state, heard(tick), voices);
+    if (tick < skipped) continue;
+    for (std::size_t i = 0; i < voices.size(); ++i) {
+      auto& mine = samples[std::min(i, own_voices)];
+      mine.insert(mine.end(), voices[i].samples.begin(), voices[i].samples.end());
+    }
+  }
+  return samples;
+}
+
+/// Each channel as the loopback device gives it.
+inline std::vector<std::vector<float>> played(int ticks, const HeardAt& heard, const StageOptions& options = {},
+                                              const CarSound& car = {}) {
+  auto stage = SoundStage::open_loopback(options);
+  REQUIRE(stage);
+  State state = start(car, Random(1));
+  std::vector<Voice> voices;
+  std::vector<float> samples;
+  const std::size_t count = channels_of(options.speakers);
+  std::vector<std::vector<float>> channels(count);
+  for (int tick = 0; tick < ticks; ++tick) {
+    const Heard now = heard(tick);
+    render(state, now, voices);
+    stage->put(voices, now.car.tunnel);
+    stage->render(samples);
+    for (std::size_t i = 0; i < samples.size(); ++i) channels[i % count].push_back(samples[i]);
+  }
+  CHECK(stage->starved() == 0);
+  return channels;
+}
+
+inline std::span<const float> after(const std::vector<float>& samples, double seconds) {
+  return std::span(samples).subspan(static_cast<std::size_t>(seconds * sample_rate_hz));
+}
+
+}  // namespace septet::audio
