@@ -21,7 +21,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Of these messages; who speaks another one is refused.
-inline constexpr std::uint16_t protocol_version = 1;
+inline constexpr std::uint16_t protocol_version = 2;
 
 /// Screen → server, first of all.
 struct Hello {

@@ -62,7 +62,7 @@ class ClientScript {
       for (std::size_t who = 0; who < 3; ++who) clients_[who]->pump(now_s_);
       pump_host();
     }
-    for (std::size_t who = 0; who < 2; ++who) send(who, control::encode_control(control::Hello{name_of(who), 5000, 1}));
+    for (std::size_t who = 0; who < 2; ++who) send(who, control::encode_control(control::Hello{name_of(who), 5000}));
     send(2, control::encode_control(control::CarHello{}));
     for (std::size_t who = 0; who < 3; ++who) clients_[who]->pump(now_s_);
     pump_host();
@@ -184,7 +184,7 @@ class ClientScript {
         restart(who, number() % 2 == 1);
         break;
       case ScriptStep::hello:
-        send(who, control::encode_control(control::Hello{name_of(number()), 5000, 1}));
+        send(who, control::encode_control(control::Hello{name_of(number()), 5000}));
         break;
       case ScriptStep::control:
         send(who, some({std::byte{1}}));
