@@ -54,4 +54,14 @@ TEST_CASE("a hand wheel without a motor gets no force") {
         doctest::Approx(0.5));
 }
 
+TEST_CASE("a road shakes with the root of the speed and in proportion to its roughness") {
+  const rig::CarActuators limits{.vibration_most = 1.0};
+  const auto shake = [&](double speed_mps, double roughness) {
+    return actuators_for({.speed_mps = speed_mps, .roughness = roughness}, limits).vibration;
+  };
+  CHECK(shake(30.0, 2.0) == doctest::Approx(2.0 * shake(30.0, 1.0)));
+  CHECK(shake(7.5, 1.0) == doctest::Approx(0.5 * shake(30.0, 1.0)));
+  CHECK(shake(0.0, 1.0) == 0.0);
+}
+
 }  // namespace septet::car_io

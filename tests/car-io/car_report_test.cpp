@@ -178,6 +178,18 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
   CHECK(input->gear == 3);
 }
 
+TEST_CASE("who presses both indicators at once indicates nothing") {
+  for (const auto& [buttons, expected] :
+       {std::pair{1u << (4 + 6), IndicatorStalk::right}, {1u << (4 + 7), IndicatorStalk::left},
+        {1u << (4 + 6) | 1u << (4 + 7), IndicatorStalk::off}, {0u, IndicatorStalk::off}}) {
+    Bytes report(12, std::byte{0});
+    for (std::size_t i = 0; i < 3; ++i) report[i] = static_cast<std::byte>(buttons >> (8 * i) & 0xff);
+    const auto input = decode_report(layout_of("logitech-g29"), {}, report);
+    REQUIRE(input.has_value());
+    CHECK(input->indicator == expected);
+  }
+}
+
 TEST_CASE("calibrated axes read 0 and 1 at their own ends and nothing in their dead zone") {
   rig::CarCalibration calibration;
   calibration.brake = {.min = 0.2, .max = 0.7};

@@ -158,4 +158,22 @@ TEST_CASE("ten samples a second are due at any tick rate") {
   CHECK_FALSE(is_sample_due(11, 120));
 }
 
+TEST_CASE("the areas of the mirrors reach as far as their degrees say and the windscreen lies between them") {
+  const double degree = std::numbers::pi / 180;
+  const auto area_at = [&](double gaze_deg) -> std::string {
+    std::vector<Sample> samples;
+    for (int i = 0; i < 10; ++i) {
+      samples.push_back(sample_at(i, -1, 0.0));
+      samples.back().gaze_heading_rad = i < 2 || i > 7 ? 0.0 : gaze_deg * degree;
+    }
+    const auto glances = find_glances(samples);
+    return glances.empty() ? "" : glances[0].area;
+  };
+  for (const double ahead_deg : {24.0, 10.0, -19.0}) CHECK(area_at(ahead_deg) == "");
+  for (const double left_deg : {26.0, 74.0}) CHECK(area_at(left_deg) == "left mirror");
+  for (const double inside_deg : {-21.0, -44.0}) CHECK(area_at(inside_deg) == "inside mirror");
+  for (const double right_deg : {-46.0, -79.0}) CHECK(area_at(right_deg) == "right mirror");
+  for (const double beyond_deg : {76.0, -81.0}) CHECK(area_at(beyond_deg) == "");
+}
+
 }  // namespace septet::logging

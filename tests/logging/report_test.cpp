@@ -1,3 +1,4 @@
+#include "logging/report/measure_table.hpp"
 #include "logging/report/report.hpp"
 
 #include <cmath>
@@ -181,6 +182,42 @@ TEST_CASE("distance speed and headway of a drive equal those computed by hand") 
   CHECK(measures.speed_sd_mps == doctest::Approx(std::sqrt(200.0 / 3)));
   CHECK(measures.following.headway.median_s.value() == doctest::Approx(1.75));
   CHECK(measures.following.headway.smallest_s.value() == doctest::Approx(1.0));
+}
+
+TEST_CASE("whoever drives at walking pace or slower follows nobody") {
+  std::vector<Sample> samples;
+  for (const double speed_mps : {0.5, 1.0, 1.5}) {
+    samples.push_back(sample_at(static_cast<int>(samples.size()), -1, 0));
+    samples.back().speed_mps = speed_mps;
+    samples.back().leader = Leader{2, 1.0, 1.2, 1.0};
+  }
+  const auto measures = compute_drive_measures(samples);
+  CHECK(measures.following_s == doctest::Approx(0.1));
+  CHECK(measures.time_headway_median_s.value() == doctest::Approx(0.8));
+}
+
+TEST_CASE("speeds are told in kilometres per hour") {
+  DriveMeasures measures;
+  measures.speed_mean_mps = 10.0;
+  measures.speed_sd_mps = 2.5;
+  measures.speed_largest_mps = 20.0;
+  const std::string table = measure_table(measures, {});
+  for (const char* told : {">36.0 km/h<", ">9.0 km/h<", ">72.0 km/h<"}) CHECK(table.find(told) != std::string::npos);
+}
+
+TEST_CASE("a sample's acceleration is forward and to the left of the car, whichever way it heads") {
+  for (const double heading : {0.0, 1.1, 3.0}) {
+    Snapshot snapshot;
+    Participant car;
+    car.id = 1;
+    car.world_from_vehicle.orientation = orientation_from_angles(heading, 0.0, 0.0);
+    car.acceleration_mps2 = car.world_from_vehicle.orientation * Vec3(1.5, 0.7, 0.0);
+    snapshot.participants = {car};
+    snapshot.driver_car.participant = 1;
+    const Sample sample = take_sample(snapshot, std::nullopt);
+    CHECK(sample.longitudinal_acceleration_mps2 == doctest::Approx(1.5));
+    CHECK(sample.lateral_acceleration_mps2 == doctest::Approx(0.7));
+  }
 }
 
 TEST_CASE("an empty session makes a report that says so") {

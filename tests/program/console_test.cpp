@@ -80,4 +80,31 @@ TEST_CASE("an error and an exception are exit status 1 and what the work returns
   CHECK(run("p", []() -> Expected<int> { return 3; }) == 3);
 }
 
+TEST_CASE("a reader that has heard enough makes no failure of what was said to it and a full disk does") {
+  const auto status_with_output_to = [](int file) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      ::dup2(file, STDOUT_FILENO);
+      std::fclose(stderr);
+      ::_exit(run("p", []() -> Expected<int> {
+        std::fputs("a line\n", stdout);
+        return 0;
+      }));
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  ::close(ends[0]);
+  CHECK(status_with_output_to(ends[1]) == 0);
+  ::close(ends[1]);
+  const int full = ::open("/dev/full", O_WRONLY);
+  REQUIRE(full >= 0);
+  CHECK(status_with_output_to(full) == failed_status);
+  ::close(full);
+}
+
 }  // namespace septet::program

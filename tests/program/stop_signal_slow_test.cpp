@@ -57,4 +57,24 @@ TEST_CASE("a program that is stuck is ended after its patience") {
         }) == -SIGALRM);
 }
 
+TEST_CASE("of several signals the first is the one that stopped it and a terminal's end is none where it was ignored") {
+  CHECK(end_of(SIGUSR1, 3600, [] {
+          while (!stop_signal()) ::usleep(1000);
+          ::raise(SIGTERM);
+          return *stop_signal();
+        }) == SIGUSR1);
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    std::signal(SIGHUP, SIG_IGN);  // As nohup leaves it.
+    catch_stop_signals(3600);
+    ::raise(SIGHUP);
+    ::_exit(stop_signal() ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
 }  // namespace septet::program

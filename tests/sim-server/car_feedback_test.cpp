@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "car-io/simulated_hid_device.hpp"
+#include "sim-server/drive/car_motion.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
 
@@ -32,6 +33,17 @@ std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::
 }
 
 }  // namespace
+
+TEST_CASE("an engine that does not run shakes nothing though it is still turned over") {
+  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  simulation::State state;
+  state.car = vehicle::standstill(drive.model->car, {}, 10.0);
+  state.car.powertrain.engine_radps = 90.0;
+  state.car.powertrain.engine_running = true;
+  CHECK(car_motion(*drive.model, state).engine_radps == doctest::Approx(90.0));
+  state.car.powertrain.engine_running = false;
+  CHECK(car_motion(*drive.model, state).engine_radps == 0.0);
+}
 
 TEST_CASE("the fan of the car at the server rises with the speed of the drive") {
   car_io::SimulatedHidPort port;

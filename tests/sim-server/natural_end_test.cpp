@@ -29,6 +29,15 @@ TEST_CASE(
     // Beside the road, however far, is not beyond its end.
     CHECK_FALSE(is_beyond_road_end(roads, {index, 0.5 * road.length_m, 0.0}, end.position_m + 11.0 * end.direction));
   }
+  for (road::RoadIndex index = 0; index < roads.roads.size(); ++index) {
+    const road::Road& road = roads.roads[index];
+    const road::PlanPoint start = road::evaluate_plan(road.plan, 0.0);
+    const bool is_open = road.predecessor.road == road::no_index && road.predecessor.junction == road::no_index;
+    const road::RoadPosition at_start{index, 0.0, 0.0};
+    CHECK_FALSE(is_beyond_road_end(roads, at_start, start.position_m + 11.0 * start.direction));
+    CHECK_FALSE(is_beyond_road_end(roads, at_start, start.position_m - 9.0 * start.direction));
+    CHECK(is_beyond_road_end(roads, at_start, start.position_m - 11.0 * start.direction) == is_open);
+  }
   CHECK(open_ends > 0);
   MESSAGE(open_ends << " ends of roads are open, " << joints << " are not");
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "car-io/simulated_driver/gears.hpp"
 #include "car-io/simulated_driver/mirrors.hpp"
 #include "car-io/simulated_driver/pedals.hpp"
 #include "car-io/simulated_driver/perception.hpp"
@@ -72,6 +73,36 @@ TEST_CASE("the wish is none at the desired speed and at the time gap") {
   CHECK(wished_acceleration_mps2(speed, 0.0, 30.0, std::nullopt) == doctest::Approx(speed.acceleration_mps2));
   const double gap_m = speed.standstill_gap_m + 20.0 * speed.time_gap_s;
   CHECK(std::abs(wished_acceleration_mps2(speed, 20.0, 30.0, Obstacle{gap_m, 20.0})) < 1e-9);
+}
+
+TEST_CASE("at the wanted gap the wish passes from following to braking without a kink") {
+  const SpeedParameters speed;
+  const double v = 20.0, gap_m = wanted_gap_m(speed, v, v), step = 1e-4;
+  const auto wish = [&](double tightness) {
+    return wished_acceleration_mps2(speed, v, 30.0, Obstacle{gap_m / tightness, v});
+  };
+  const double before = (wish(1.0) - wish(1.0 - step)) / step, after = (wish(1.0 + step) - wish(1.0)) / step;
+  CHECK(before == doctest::Approx(-2.0 * speed.acceleration_mps2).epsilon(1e-3));
+  CHECK(after == doctest::Approx(before).epsilon(1e-3));
+}
+
+TEST_CASE("between two gears the lever stands in neutral for half of its way") {
+  GearParameters gears;
+  CarKnowledge car;
+  GearState state;
+  state.started = true;
+  state.phase = GearPhase::moving;
+  state.clutch = 1.0;
+  state.lever = 2;
+  state.target = 3;
+  double neutral_s = 0.0, whole_s = 0.0;
+  while (state.phase == GearPhase::moving && whole_s < 10.0) {
+    advance_gears(state, gears, car, {.engine_radps = 300.0, .speed_mps = 15.0, .gear = 2}, 0.001);
+    whole_s += 0.001;
+    if (state.lever == 0) neutral_s += 0.001;
+  }
+  CHECK(state.lever == 3);
+  CHECK(neutral_s == doctest::Approx(0.5 * gears.lever_s).epsilon(0.02));
 }
 
 TEST_CASE("a short gap to one who does not come nearer is opened gently, whoever cut in") {

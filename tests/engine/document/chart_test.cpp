@@ -20,6 +20,7 @@ int count_of(const std::string& text, const std::string& part) {
 TEST_CASE("ticks are round numbers within the range and a round range holds it") {
   CHECK(round_ticks({0, 100}, 5) == std::vector<double>{0, 20, 40, 60, 80, 100});
   CHECK(round_ticks({-2, 2}, 5) == std::vector<double>{-2, -1, 0, 1, 2});
+  CHECK(round_ticks({0, 10}, 4) == std::vector<double>{0, 2.5, 5, 7.5, 10});
   CHECK(round_ticks({3, 3}, 5) == std::vector<double>{3});
   const Range range = round_range({-0.13, 0.71}, 5);
   CHECK(range.low == doctest::Approx(-0.2));
@@ -36,15 +37,23 @@ TEST_CASE("a tick's label tells it from its neighbours and zero has no sign") {
   CHECK(tick_label(40, {20, 40}) == "40");
 }
 
-TEST_CASE("a line of many samples is thinned and keeps its highest peak") {
+TEST_CASE("a line of many samples is thinned and keeps its highest and its lowest peak") {
   LineChart chart;
   chart.series.emplace_back();
   for (int i = 0; i < 100000; ++i) chart.series[0].points.push_back({static_cast<double>(i), 0.0});
   chart.series[0].points[54321].y = 1.0;
-  chart.y = {0.0, 1.0};
+  chart.series[0].points[12345].y = -1.0;
+  chart.y = {-1.0, 1.0};
   const std::string svg = to_svg(chart);
   CHECK(svg.size() < 60000);
-  CHECK(svg.find(" 38.0") != std::string::npos);  // The plot's upper edge is at y = 38.
+  const auto begin = svg.find("class=\"line\"");
+  REQUIRE(begin != std::string::npos);
+  const std::string line = svg.substr(begin, svg.find("/>", begin) - begin);
+  CHECK(count_of(line, " 38.0") == 1);  // The plot's upper edge is at y = 38.
+  CHECK(count_of(line, " 38.0L") + count_of(line, " 38.0M") == 1);
+  chart.series[0].points[12345].y = 0.0;
+  const std::string without = to_svg(chart);
+  CHECK(count_of(line, "L") > count_of(without.substr(without.find("class=\"line\""), line.size()), "L"));
 }
 
 TEST_CASE("a line is interrupted where it is not finite or leaves the chart") {

@@ -148,3 +148,16 @@ TEST_CASE("a cage that names a vertex that is not there is refused") {
   cage.polygons[0][1] = 8;
   CHECK_FALSE(subdivide(cage, 1).has_value());
 }
+
+TEST_CASE("where two polygons name one edge's crease differently the sharper one holds") {
+  const auto refined = [](std::uint32_t first, std::uint32_t second) {
+    PolygonMesh cage = cube();
+    cage.edge_creases.assign(cage.polygons.size(), {});
+    cage.edge_creases[0][3] = first;   // The edge of 1 and 0 in the first polygon,
+    cage.edge_creases[2][0] = second;  // and of 0 and 1 in the third.
+    return subdivide(cage, 1).value().vertices_m;
+  };
+  CHECK(refined(crease_sharp, half) == refined(crease_sharp, crease_sharp));
+  CHECK(refined(half, crease_sharp) == refined(crease_sharp, crease_sharp));
+  CHECK(refined(half, half) != refined(crease_sharp, crease_sharp));
+}

@@ -35,6 +35,25 @@ TEST_CASE("the box filter keeps the mean of an image") {
   CHECK(half.at(3, 1) == black);
 }
 
+TEST_CASE("a pixel that lies half within another counts half") {
+  Image image(3, 1, black);
+  image.set(0, 0, white);
+  const Image two = resize(image, 2, 1);
+  CHECK(two.at(0, 0).red == 170);  // One of the pixel and a half that it covers.
+  CHECK(two.at(1, 0).red == 0);
+}
+
+TEST_CASE("a line is as wide as it was asked for wherever it lies") {
+  for (const double y : {5.5, 5.25, 5.0})
+    for (const double width_px : {1.0, 2.0, 3.5}) {
+      Image image(11, 11, black);
+      line(image, -5.0, y, 20.0, y, width_px, white);
+      double sum = 0.0;
+      for (std::uint32_t row = 0; row < 11; ++row) sum += image.at(5, row).red / 255.0;
+      CHECK(sum == doctest::Approx(width_px).epsilon(0.02).scale(0.0));
+    }
+}
+
 TEST_CASE("a transparent pixel lends no colour to a smaller image") {
   Image image(2, 1, {0, 255, 0, 0});
   image.set(0, 0, red);

@@ -92,4 +92,29 @@ TEST_CASE("screens ahead stand above screens behind from left to right") {
   CHECK(layout.rows[1].top_px > layout.rows[0].top_px + layout.rows[0].height_px);
 }
 
+TEST_CASE("in the plan a screen lies on the side of the eye where it stands") {
+  const auto offset_in_plan = [](double azimuth_deg) {
+    PanoramaView view;
+    view.eye_point_m = eye;
+    view.screens = {screen_at("one", azimuth_deg, 20, eye, nullptr)};
+    const auto picture = unroll(view);
+    REQUIRE(picture.has_value());
+    const auto mean_of = [&](Color color, double from_x, double from_y, double to_x, double to_y) {
+      double x = 0.0, y = 0.0, count = 0.0;
+      for (std::uint32_t py = 0; py < picture->height; ++py)
+        for (std::uint32_t px = 0; px < picture->width; ++px)
+          if (px >= from_x && px < to_x && py >= from_y && py < to_y && picture->at(px, py) == color)
+            x += px, y += py, count += 1.0;
+      REQUIRE(count > 10.0);
+      return Point{x / count, y / count};
+    };
+    const Point own = mean_of({255, 196, 84}, 0, 0, 1e9, 1e9);  // The eye's mark.
+    const Point there = mean_of({176, 184, 196}, own.x - 150, own.y - 150, own.x + 150, own.y + 150);
+    return Point{there.x - own.x, there.y - own.y};
+  };
+  CHECK(offset_in_plan(90).x < -20.0);
+  CHECK(offset_in_plan(-90).x > 20.0);
+  CHECK(offset_in_plan(0).y < -20.0);
+}
+
 }  // namespace septet::image

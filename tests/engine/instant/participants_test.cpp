@@ -117,4 +117,53 @@ TEST_CASE("a participant whose prototype has not arrived is left out") {
   CHECK(place_participants(std::span(&car, 1), {}, {}, 0.0, Vec3(0.0), in_the_open).meshes.empty());
 }
 
+TEST_CASE("the steering wheel's top goes to the left where the driver steers to the left") {
+  DrawnParticipant car;
+  car.steering_wheel_rad = 0.4;
+  scene::Instance wheel;
+  wheel.role = PartRole::steering_wheel;
+  const Vec3 top = vehicle_from_part(wheel, car).orientation * Vec3(0, 0, 1);
+  CHECK(top.y == doctest::Approx(std::sin(0.4)));
+  CHECK(top.z == doctest::Approx(std::cos(0.4)));
+}
+
+TEST_CASE("no snow lies on what drives and its beam begins between its head lamps") {
+  const ReferenceScene reference = reference_scene({{}, false, 0});
+  DrawnParticipant car = reference_car(reference, {0, 0, 0});
+  car.lamps.set(Lamp::low_beam, true);
+  const PlacedParticipants placed =
+      place_participants(std::span(&car, 1), reference.scene.prototypes, summaries(reference.scene), 0.0,
+                         car.world_from_vehicle.position_m, in_the_open);
+  REQUIRE_FALSE(placed.meshes.empty());
+  for (const PlacedMesh& mesh : placed.meshes) CHECK_FALSE(mesh.snowed_on);
+  REQUIRE(placed.headlights.size() == 1);
+  Vec3 low(1e9), high(-1e9);
+  for (const LampGlow& glow : placed.glows) {
+    if (!glow.beam) continue;
+    low = glm::min(low, glow.position_m), high = glm::max(high, glow.position_m);
+  }
+  REQUIRE(low.x < high.x + 1e-3);
+  const Vec3 beam = placed.headlights[0].position_m;
+  CHECK(glm::length(beam - 0.5 * (low + high)) < 0.2);
+}
+
+TEST_CASE("a participant is drawn where and as the snapshot has it") {
+  Participant participant;
+  participant.id = 12;
+  participant.world_from_vehicle = {{1.0, 2.0, 3.0}, orientation_from_angles(0.4, 0.1, 0.0)};
+  participant.lamps.set(Lamp::brake, true);
+  participant.front_steer_rad = 0.2;
+  participant.wheel_spin_rad = 0.7;
+  participant.wheel_lift_m = {0.01, -0.02, 0.03, -0.04};
+  const DrawnParticipant drawn = drawn_participant(participant, 5);
+  CHECK(drawn.prototype == 5);
+  CHECK(drawn.number == 12);
+  CHECK(drawn.world_from_vehicle.position_m == participant.world_from_vehicle.position_m);
+  CHECK(drawn.world_from_vehicle.orientation == participant.world_from_vehicle.orientation);
+  CHECK(drawn.lamps.has(Lamp::brake));
+  CHECK(drawn.front_steer_rad == 0.2);
+  CHECK(drawn.wheel_spin_rad == 0.7);
+  CHECK(drawn.wheel_lift_m == participant.wheel_lift_m);
+}
+
 }  // namespace septet::instant

@@ -38,6 +38,45 @@ TEST_CASE("a picture is the same bit for bit in any order of any buckets on any 
   CHECK_FALSE(same_bits(whole, traced(box, before_cornell_box(40), settings)));
 }
 
+TEST_CASE("a mirrored view is the view with left and right exchanged") {
+  const scene::ResolvedScene box = cornell_box();
+  instant::Instant plain = before_cornell_box(24), mirrored = plain;
+  // Nothing but what is seen first counts, and it is the same for every sample of a pixel's middle.
+  plain.views[0].projection.left_slope *= 1.3;
+  mirrored.views[0].projection.left_slope *= 1.3;
+  mirrored.views[0].mirrored = true;
+  const TraceSettings settings = cornell_settings(16);
+  const TracedPicture a = traced(box, plain, settings), b = traced(box, mirrored, settings);
+  int differing = 0;
+  for (std::uint32_t y = 0; y < 24; ++y)
+    for (std::uint32_t x = 0; x < 24; ++x)
+      differing += glm::distance(a.pixels[y * 24 + x].albedo, b.pixels[y * 24 + 23 - x].albedo) > 0.35f;
+  CHECK(differing < 12);
+  int same_way_round = 0;
+  for (std::uint32_t y = 0; y < 24; ++y)
+    for (std::uint32_t x = 0; x < 24; ++x)
+      same_way_round += glm::distance(a.pixels[y * 24 + x].albedo, b.pixels[y * 24 + x].albedo) > 0.35f;
+  CHECK(same_way_round > 30);
+}
+
+TEST_CASE("the variance that a pixel tells is that of its mean over other seeds") {
+  const scene::ResolvedScene box = cornell_box();
+  double told = 0.0, found = 0.0;
+  const auto light = [](const TracedPixel& pixel) {
+    return glm::dot(pixel.radiance, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+  };
+  for (std::uint64_t seed = 0; seed < 6; seed += 2) {
+    const TracedPicture a = traced(box, before_cornell_box(24), cornell_settings(16, seed)),
+                        b = traced(box, before_cornell_box(24), cornell_settings(16, seed + 1));
+    for (std::size_t n = a.pixels.size() / 3; n < a.pixels.size(); ++n) {
+      told += a.pixels[n].variance + b.pixels[n].variance;
+      const double off = light(a.pixels[n]) - light(b.pixels[n]);
+      found += off * off;
+    }
+  }
+  CHECK(found / told == doctest::Approx(1.0).epsilon(0.25));
+}
+
 TEST_CASE("light that is not a number is counted and black") {
   scene::SurfaceMaterial material;
   material.emission = glm::vec3(std::numeric_limits<float>::quiet_NaN());

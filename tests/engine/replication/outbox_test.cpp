@@ -127,3 +127,13 @@ TEST_CASE("what is forgotten is not sent and what stands beside it is") {
   CHECK(std::holds_alternative<NodeNameSet>(commands[0]));
   CHECK(outbox.empty());
 }
+
+TEST_CASE("a change of a layer's values is of as many elements as it sets") {
+  Store store = store_of(10);
+  REQUIRE(store.apply(GeometryLayerSet{node, 3, "uv", LayerType::vertex_xyz, 0, 0.0}).has_value());
+  const LayerRealsSet set{node, 3, 2, std::vector<float>(4 * layer_width(LayerType::vertex_xyz))};
+  const auto change = change_of(set, store);
+  REQUIRE(change);
+  CHECK(change->first == 2);
+  CHECK(change->end == 6);
+}

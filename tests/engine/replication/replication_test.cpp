@@ -338,3 +338,28 @@ TEST_CASE("a batch that claims to unpack to more than it may is refused") {
   CHECK(packed.size() < 2000);
   CHECK(std::get<CommandBatch>(replication::decode(packed).value()).commands == fair);
 }
+
+TEST_CASE("what grew and was cut off and grew again while it waited is forgotten at the client too") {
+  Wire wire;
+  fill(wire);
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  wire.build.apply(GeometrySizeSet{2, 9, 4});
+  wire.build.apply(GeometrySizeSet{2, 1, 0});
+  wire.build.apply(GeometrySizeSet{2, 9, 4});
+  REQUIRE(wire.settle(end));
+  CHECK(same_content(end.client->store(), wire.store));
+}
+
+TEST_CASE("a tag that waits while its group is made anew is there afterwards") {
+  Wire wire;
+  fill(wire);
+  auto& end = wire.add("left");
+  REQUIRE(wire.settle(end));
+  wire.build.apply(TagSet{1, 0, 0, {"to_m", 7.0}});
+  wire.build.apply(TagGroupDestroy{1, 0});
+  wire.build.apply(TagGroupSet{1, 0, "draw"});
+  wire.build.apply(TagSet{1, 0, 0, {"to_m", 8.0}});
+  REQUIRE(wire.settle(end));
+  CHECK(same_content(end.client->store(), wire.store));
+}

@@ -118,6 +118,17 @@ TEST_CASE("a wrong rig is refused with its line and column and a remedy") {
       "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
       "0]\nupper_left_m = [2, 0, 2]\n",
       "my.toml:6:16", "rectangle");
+  // Half a degree from a right angle is none.
+  refuse(
+      "eye_point_m = [0, 0, 1]\n[[screen]]\nname = \"front\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, "
+      "0]\nupper_left_m = [2, 1.0175, 2]\n",
+      "my.toml:6:16", "rectangle");
+  const std::string mirror =
+      "[[screen.inset]]\nlower_left_m = [1, 1, 0]\nlower_right_m = [1, 0, 0]\nupper_left_m = [1, 1, 1]\nheight = "
+      "0.25\nwidth = 0.25\n";
+  REQUIRE(read_rig(good + mirror + "left = 0.75\ntop = 0.75\n", "my.toml"));
+  refuse(good + mirror + "left = 0.8\n", "my.toml:14:8", "edge of its screen");
+  refuse(good + mirror + "top = 0.8\n", "my.toml:8:1", "edge of its screen");
 }
 
 TEST_CASE("the keyboard that drives is the named screen's or those at the server's own machine") {
@@ -145,6 +156,21 @@ TEST_CASE("the keyboard that drives is the named screen's or those at the server
   refused(screens + "[car]\nsource = \"keyboard\"\nkeyboard_screen = \"fra\"\n", "\"fra\"");
   // Nobody could drive.
   refused(one_screen + std::string("machine = \"pc-2\"\n[car]\nsource = \"keyboard\"\n"), "no keyboard drives");
+}
+
+TEST_CASE("the point straight ahead of the eyes is told from the screen's upper left") {
+  const auto ahead = [](const std::string& eye) {
+    std::string text = one_screen;
+    text.replace(text.find("[0, 0, 1]"), 9, eye);
+    const auto rig = read_rig(text, "my.toml");
+    REQUIRE(rig);
+    const auto point = point_ahead(*rig, rig->screens[0]);
+    REQUIRE(point);
+    return *point;
+  };
+  CHECK(glm::distance(ahead("[0, 0, 1]"), Vec2(0.5, 0.5)) < 1e-9);
+  CHECK(glm::distance(ahead("[0, 0.5, 1.5]"), Vec2(0.25, 0.25)) < 1e-9);
+  CHECK(glm::distance(ahead("[0, -0.5, 0.2]"), Vec2(0.75, 0.9)) < 1e-9);
 }
 
 }  // namespace septet::rig

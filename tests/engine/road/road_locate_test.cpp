@@ -155,6 +155,31 @@ TEST_CASE("beyond the end the connecting road is chosen whose lane is nearer to 
   CHECK(network.roads[near_c->position.road].id == "c");
 }
 
+TEST_CASE("where a road and a connecting road hold a point the road answers") {
+  const std::string over =
+      "<road id=\"b\" length=\"100\" junction=\"7\"><planView><geometry s=\"0\" x=\"0\" y=\"1\" hdg=\"0\" "
+      "length=\"100\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center>" +
+      lane(0, 0) + "</center><right>" + lane(-1, 3.5) + "</right></laneSection></lanes></road><junction id=\"7\"/>";
+  const RoadNetwork network = read_or_fail(replaced(SmallRoad{}.xml(), "</OpenDRIVE>", over + "</OpenDRIVE>"));
+  REQUIRE(network.roads.size() == 2);
+  // In the middle of the connecting road's lane, and still in that of the other.
+  const auto found = locate(network, {50.0, -0.75});
+  REQUIRE(found.has_value());
+  CHECK(found->lanes.outside_m == 0.0);
+  CHECK(network.roads[found->position.road].junction == no_index);
+}
+
+TEST_CASE("a raised lane rises evenly from its inner height to its outer one") {
+  SmallRoad road{.length_m = 100.0};
+  road.sections = "<laneSection s=\"0\"><center>" + lane(0, 0) + "</center><right>" +
+                  lane(-1, 4.0, "<height sOffset=\"0\" inner=\"0.4\" outer=\"0.6\"/>") + "</right></laneSection>";
+  const RoadNetwork network = read_or_fail(road.xml());
+  for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99}) {
+    CAPTURE(share);
+    CHECK(evaluate(network, {0, 50.0, -4.0 * share}).position_m.z == doctest::Approx(0.4 + 0.2 * share));
+  }
+}
+
 TEST_CASE("on the inside of a climbing bend the surface is steeper than the reference line") {
   SmallRoad road{.length_m = 40.0, .geometry = "<arc curvature=\"0.04\"/>"};
   road.profiles = "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0.1\" c=\"0\" d=\"0\"/></elevationProfile>";

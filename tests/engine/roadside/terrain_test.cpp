@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/buildings.hpp"
 #include "tests/engine/road/road_files.hpp"
 
 namespace septet::roadside {
@@ -173,6 +174,19 @@ TEST_CASE("squares near a place are those whose middle is in reach and no square
       CAPTURE(y);
       if (least_m <= 12.0) CHECK(is_listed);
       if (least_m > 35.0) CHECK_FALSE(is_listed);
+    }
+}
+
+TEST_CASE("no house stands nearer to the road than seventy-five metres, nor in a wood, and there are some") {
+  const RoadShape& roads = motorway_shape();
+  const Terrain terrain(roads, 3);
+  const auto houses = placed_buildings(roads, terrain, 3);
+  CHECK(houses.size() > 3);
+  for (const std::uint64_t seed : {3u, 4u, 5u, 6u, 7u, 8u})
+    for (const Building& house : placed_buildings(roads, terrain, seed)) {
+      const Vec2 at(house.world_from_building.position_m);
+      CHECK(terrain.nearest(at).outside_m >= 75.0);
+      CHECK(terrain.woodland(at) <= 0.02);
     }
 }
 

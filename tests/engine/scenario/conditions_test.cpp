@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/scenario/entity_distance.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
 
 namespace septet::scenario {
@@ -165,6 +166,30 @@ TEST_CASE("a condition of several entities holds for any or for all as it says")
   };
   CHECK(both("any"));
   CHECK_FALSE(both("all"));
+}
+
+TEST_CASE("what is behind on the next road is behind in either direction of driving") {
+  const auto straight = [](const std::string& id, double x, double length, const std::string& link) {
+    return "<road id=\"" + id + "\" length=\"" + std::to_string(length) + "\" junction=\"-1\"><link>" + link +
+           "</link><planView><geometry s=\"0\" x=\"" + std::to_string(x) + "\" y=\"0\" hdg=\"0\" length=\"" +
+           std::to_string(length) +
+           "\"><line/></geometry></planView><lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width "
+           "sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></left><center><lane id=\"0\" "
+           "type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" "
+           "c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>";
+  };
+  const auto network = road::read_opendrive(
+      "<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/>" +
+          straight("p", 0.0, 100.0, "<successor elementType=\"road\" elementId=\"q\" contactPoint=\"start\"/>") +
+          straight("q", 100.0, 200.0, "<predecessor elementType=\"road\" elementId=\"p\" contactPoint=\"end\"/>") +
+          "</OpenDRIVE>",
+      "two.xodr");
+  REQUIRE_MESSAGE(network.has_value(), describe(network.error()));
+  const road::LanePosition on_p{0, 1, 30.0, 0.0}, on_q{1, 1, 50.0, 0.0};
+  CHECK(road_distance_m(*network, on_p, true, on_q) == doctest::Approx(120.0));
+  CHECK(road_distance_m(*network, on_p, false, on_q) == doctest::Approx(-120.0));
+  CHECK(road_distance_m(*network, on_q, true, on_p) == doctest::Approx(-120.0));
+  CHECK(road_distance_m(*network, on_q, false, on_p) == doctest::Approx(120.0));
 }
 
 }  // namespace septet::scenario

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/scenario/keep_distance.hpp"
 #include "engine/scenario/speed_profile.hpp"
 #include "engine/scenario/synchronize.hpp"
 #include "tests/engine/scenario/scenario_text.hpp"
@@ -320,6 +321,30 @@ TEST_CASE("distances and profiles that say nothing are named") {
   CHECK(check(profile_text("follow", "")).find("it has no speeds") != std::string::npos);
   CHECK(check("<PrivateAction><SynchronizeAction masterEntityRef=\"B\"/></PrivateAction>")
             .find("<TargetPosition> is missing") != std::string::npos);
+}
+
+TEST_CASE("a lateral distance along the road is had on the named side by who drives against the road's direction too") {
+  const std::string init =
+      private_text("A", place_text(2, 1000) + speed_text(20)) + private_text("B", place_text(1, 1000) + speed_text(20));
+  for (const std::string system : {"", " coordinateSystem=\"road\""}) {
+    Drive drive = drive_with(init, beside_text("freespace=\"false\" distance=\"2\"" + system, "", true));
+    drive.run_until(1.0);
+    CHECK(left_m(drive) == doctest::Approx(2.0));
+  }
+}
+
+TEST_CASE("a time gap is that of who is behind") {
+  Drive drive = drive_with(cars(-60, 15), speed_text(20), 1e3);
+  KeepDistanceAction what;
+  what.reference = 1;
+  what.time_gap_s = 2.0;
+  what.freespace = false;
+  const auto way_m = [&](double side, EntityIndex actor) {
+    what.reference = 1 - actor;
+    return way_to_distance_m(drive.network, drive.scenario, drive.state, what, side, actor).value();
+  };
+  CHECK(way_m(-1.0, 0) == doctest::Approx(-60.0 + 2.0 * 15.0));  // A, ahead, at the distance that B wants.
+  CHECK(way_m(1.0, 1) == doctest::Approx(60.0 - 2.0 * 15.0));
 }
 
 }  // namespace septet::scenario

@@ -332,3 +332,20 @@ TEST_CASE("random content is resolved without harm") {
     for (const auto& instance : resolver.scene().instances) REQUIRE(instance.mesh < resolver.scene().meshes.size());
   }
 }
+
+TEST_CASE("the material of face index 0 is worn by what has none in whatever order they were linked") {
+  World w;
+  PolygonMesh mesh = cube();
+  mesh.polygon_materials = {0, 1, 0, 1, 0, 5};
+  const NodeId red = w.build.add_material("red", {.base_color = {1, 0, 0}});
+  const NodeId blue = w.build.add_material("blue", {.base_color = {0, 0, 1}});
+  const NodeId object = w.build.add_object("", {.geometry = w.build.add_mesh("", mesh)});
+  REQUIRE(w.store.apply(LinkSet{object, 10, {"material", blue, 1}}));
+  REQUIRE(w.store.apply(LinkSet{object, 11, {"material", red, 0}}));
+  const ResolvedScene scene = resolve(w.store);
+  REQUIRE(scene.meshes.size() == 1);
+  std::uint32_t red_indices = 0;
+  for (const auto& part : scene.meshes[0].parts)
+    if (scene.materials[part.material].base_color == glm::vec3(1, 0, 0)) red_indices += part.index_count;
+  CHECK(red_indices == 4 * 6);
+}

@@ -7,7 +7,9 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/debris/contacts.hpp"
 #include "engine/simulation/effects/body_box.hpp"
+#include "engine/world/vehicle_body.hpp"
 
 using namespace septet;
 using namespace septet::simulation;
@@ -129,4 +131,32 @@ TEST_CASE("a body begins above the ground and its middle moves with the turn of 
         doctest::Approx(model.centre_x_m()));
   CHECK(glm::dot(box.velocity_mps, forward) == doctest::Approx(10.0));
   CHECK(glm::dot(box.velocity_mps, left) == doctest::Approx(0.5 * model.centre_x_m()));
+}
+
+TEST_CASE("a car's front is cut off from the edge of its bonnet to where its roof begins") {
+  const Participant car = participant(1, "saloon", 0.0, 0.0, 0.0, 0.0);
+  const VehicleModel& model = vehicle_models()[car.model];
+  const FrontSlope slope = front_slope(model.kind).value();
+  const debris::Box box = body_box(car);
+  const double edge_m = slope.edge_height * model.height_m, roof_m = model.front_m() - slope.roof_begins * model.length_m;
+  CHECK(debris::gap_to_box(box, {model.front_m() - 0.01, 0.0, edge_m - 0.03}).gap_m < 0.0);
+  CHECK(debris::gap_to_box(box, {model.front_m() - 0.01, 0.0, edge_m + 0.03}).gap_m > 0.0);
+  CHECK(debris::gap_to_box(box, {roof_m - 0.03, 0.0, model.height_m - 0.01}).gap_m < 0.0);
+  CHECK(debris::gap_to_box(box, {roof_m + 0.1, 0.0, model.height_m - 0.01}).gap_m > 0.0);
+}
+
+TEST_CASE("parts are thrown with the motion that the car had when it touched what stands, though it stands itself now") {
+  const std::vector<Participant> stopped{participant(1, "volvo-s80", 0.0, 0.0, 0.0, 0.0)};
+  vehicle::HullTouch touch;
+  touch.point_m = stopped[0].world_from_vehicle * Vec3(front_m(stopped[0]), 0.5, 0.5);
+  touch.normal = {-1.0, 0.0, 0.0};
+  touch.velocity_mps = {15.0, 0.0, 0.0};
+  touch.closing_speed_mps = 15.0;
+  CrashMemory memory;
+  memory.struck_standing = {touch};
+  debris::State debris;
+  Random random(1);
+  const CrashOutcome outcome = advance_crashes(stopped, 1, {}, memory, debris, random);
+  CHECK(outcome.crashes == 1);
+  CHECK(outcome.pieces > 0);
 }

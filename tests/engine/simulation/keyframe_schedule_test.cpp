@@ -70,3 +70,14 @@ TEST_CASE("an effect that is offered no more is gone at once") {
   CHECK(published.keyframes[1].id == 3);
   CHECK(published.keyframes[1].tick == 2);
 }
+
+TEST_CASE("an effect that rested and moves again is written again at its rate") {
+  PublishedEffects published;
+  publish(std::vector{offer(1, 10, true)}, 2, {}, published);
+  publish(std::vector{offer(1, 10)}, 40, {}, published);
+  CHECK(published.keyframes.front().tick == 40);
+  publish(std::vector{offer(1, 10)}, 42, {}, published);
+  CHECK(published.keyframes.front().tick == 40);
+  publish(std::vector{offer(1, 10)}, 44, {}, published);
+  CHECK(published.keyframes.front().tick == 44);
+}

@@ -125,4 +125,62 @@ TEST_CASE("an ambulance is heard at 300 m and not before, and after the driver's
   }
 }
 
+TEST_CASE("who has let an ambulance by takes the time to react to the next one again") {
+  Ring ring;
+  constexpr double speed_mps = 20.0, dt_s = 0.05;
+  const Driver driver{{speed_mps, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  ring.add(2, 1200.0, speed_mps, driver);
+  ForeignVehicle ambulance{.id = 1, .model = model_named("ambulance")};
+  ambulance.lamps.set(Lamp::siren, true);
+  const auto comes_up = [&](double time_s) {
+    for (double now_s = 0.0; now_s < time_s; now_s += dt_s) {
+      ambulance.world_from_vehicle =
+          road::world_from_lane(road::evaluate_lane(ring.network, {0, -2, ring.traffic().x_m[0] - 100.0, 1.875}));
+      ring.advance_one(std::span(&ambulance, 1), dt_s);
+    }
+  };
+  comes_up(3.0);
+  REQUIRE(ring.traffic().aside_target_m[0] != 0.0);
+  for (int k = 0; k < 200; ++k) ring.advance_one({}, dt_s);
+  REQUIRE(ring.traffic().aside_m[0] == 0.0);
+  comes_up(0.8);
+  CHECK(ring.traffic().aside_target_m[0] == 0.0);
+  comes_up(0.4);
+  CHECK(ring.traffic().aside_target_m[0] != 0.0);
+}
+
+TEST_CASE("who wants to keep right more than a change costs moves right where nobody is, and nobody moves left") {
+  const auto lane_after = [](double keep_right_mps2) {
+    Ring ring;
+    Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+    driver.lane_change.threshold_mps2 = 0.2;
+    driver.lane_change.keep_right_mps2 = keep_right_mps2;
+    ring.add(3, 500.0, 30.0, driver);
+    ring.traffic().next_decision_s[0] = 0.0;
+    for (int k = 0; k < 20; ++k) ring.advance_one({}, 0.05);
+    return ring.traffic().lane[0];
+  };
+  CHECK(lane_after(0.3) == 4);
+  CHECK(lane_after(0.1) == 3);
+  CHECK(lane_after(0.0) == 3);
+}
+
+TEST_CASE("after a change of lane two seconds pass before the next one is thought of") {
+  Ring ring;
+  Driver driver{{30.0, 1.3, 1.5, 2.5, 2.0}, {}, 1.0};
+  driver.lane_change.keep_right_mps2 = 0.5;
+  ring.add(2, 500.0, 30.0, driver);
+  ring.traffic().next_decision_s[0] = 0.0;
+  double arrived_s = -1.0, left_again_s = -1.0;
+  for (double now_s = 0.05; now_s < 20.0 && left_again_s < 0.0; now_s += 0.05) {
+    ring.advance_one({}, 0.05);
+    const bool changes = ring.traffic().from_lane[0] != ring.traffic().lane[0];
+    if (arrived_s < 0.0 && ring.traffic().lane[0] == 3 && !changes) arrived_s = now_s;
+    if (arrived_s >= 0.0 && ring.traffic().lane[0] == 4) left_again_s = now_s;
+  }
+  REQUIRE(left_again_s > 0.0);
+  CHECK(left_again_s - arrived_s > 1.9);
+  CHECK(left_again_s - arrived_s < 2.6);
+}
+
 }  // namespace septet::traffic

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include <doctest/doctest.h>
+#include <glm/gtc/constants.hpp>
 
 #include "engine/core/random.hpp"
+#include "engine/world/participant_quantisation.hpp"
 
 namespace septet {
 namespace {
@@ -153,6 +155,19 @@ TEST_CASE("truncated and mutated bytes are refused or decode within bounds") {
     }
   }
   CHECK(accepted > 0);
+}
+
+TEST_CASE("a wheel's angle comes back as the part of a turn that it is however often it has turned") {
+  for (const double turns : {0.3, 1.3, 5.3, -0.7, -2.7}) {
+    CAPTURE(turns);
+    Participant participant;
+    participant.wheel_spin_rad = turns * 2.0 * glm::pi<double>();
+    WireParticipant wire;
+    quantise(participant, wire);
+    CHECK(wire.fields[field_wheel_spin] >= participant_field_limits(field_wheel_spin).low);
+    CHECK(wire.fields[field_wheel_spin] <= participant_field_limits(field_wheel_spin).high);
+    CHECK(std::abs(dequantise(wire).wheel_spin_rad - 0.6 * glm::pi<double>()) < 1e-4);
+  }
 }
 
 }  // namespace septet

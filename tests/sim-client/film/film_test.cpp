@@ -6,9 +6,12 @@
 
 #include "engine/film_script/film_script.hpp"
 #include "engine/math/spherical_interpolation.hpp"
+#include "engine/image/png.hpp"
 #include "sim-client/film/camera.hpp"
+#include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"
 #include "tests/shipped_files.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::film {
 namespace {
@@ -277,6 +280,20 @@ TEST_CASE("a film shows its session at even steps and slow motion at shorter one
   const auto beyond = plan_film({{{.from_s = 1.0, .to_s = 9.0, .where = "shot 4"}}}, frames_per_second, {0.0, 8.0});
   REQUIRE_FALSE(beyond.has_value());
   CHECK(describe(beyond.error()).find("shot 4: it shows 1 to 9 s, and the session lasts from 0.00 to 8.00 s") == 0);
+}
+
+TEST_CASE("a picture that is there already counts where it is whole and of the film's size") {
+  const TemporaryFolder place;
+  const auto folder = FilmFolder::open(place / "film", {{"size", "4x3"}}, false);
+  REQUIRE(folder.has_value());
+  CHECK_FALSE(folder->has(0, 4, 3));
+  REQUIRE(image::write_png(folder->picture(0), image::Image(4, 3, {1, 2, 3})).has_value());
+  CHECK(folder->has(0, 4, 3));
+  CHECK_FALSE(folder->has(0, 4, 4));
+  CHECK_FALSE(folder->has(0, 5, 3));
+  CHECK_FALSE(folder->has(1, 4, 3));
+  std::filesystem::resize_file(folder->picture(0), 20);
+  CHECK_FALSE(folder->has(0, 4, 3));
 }
 
 }  // namespace septet::film

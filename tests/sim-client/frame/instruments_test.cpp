@@ -78,4 +78,14 @@ TEST_CASE("the table of keys has every key and stays on the screen") {
   }
 }
 
+TEST_CASE("an engine that idles is not called stalled and one that stands is") {
+  const rig::Rig rig = shipped_rig("desktop");
+  const auto is_told_at = [&](double engine_radps) {
+    return says(instruments(driving(0.0, 0, {}, engine_radps), rig, rig.screens[0]), "engine stalled");
+  };
+  CHECK_FALSE(is_told_at(70.0));
+  CHECK_FALSE(is_told_at(20.0));
+  CHECK(is_told_at(0.0));
+}
+
 }  // namespace septet::frame

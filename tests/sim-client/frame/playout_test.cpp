@@ -122,3 +122,18 @@ TEST_CASE("an effect that is gone is not shown and one that is new has nothing b
   CHECK(effects_at(history, 4.5 * played_tick_s, played_tick_s).at(0).before->id == 1);
   CHECK(effects_at(history, -1.0, played_tick_s).at(0).before == nullptr);  // Older than all that is kept.
 }
+
+TEST_CASE("an effect that was gone for a while is a new one when it is there again") {
+  TickHistory history;
+  for (Tick tick = 0; tick <= 12; ++tick) {
+    HistoryTick entry = tick_at(tick);
+    if (tick < 4) entry.snapshot.effects = {keyframe(1, 2)};
+    if (tick >= 8) entry.snapshot.effects = {keyframe(1, 9)};
+    history.add(entry);
+  }
+  const EffectMoment moment = effects_at(history, 10.0 * played_tick_s, played_tick_s).at(0);
+  REQUIRE(moment.before);
+  CHECK(moment.before->tick == 9);
+  CHECK(moment.earlier == nullptr);
+  CHECK(effects_at(history, 8.5 * played_tick_s, played_tick_s).at(0).before == nullptr);
+}

@@ -90,3 +90,22 @@ TEST_CASE("a screen looks out of the driver's car and where there is none out of
   CHECK(driver_viewpoint(shown).inside == 5);
   CHECK(driver_viewpoint(shown).world_from_views.position_m.x == 5.0);
 }
+
+TEST_CASE("drivers sit on the left below the roof and ahead of the rear axle, and riders in the middle") {
+  for (const VehicleModel& model : vehicle_models()) {
+    CAPTURE(model.name);
+    const Vec3 eye = eye_in(model);
+    const bool seated = model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
+                        model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry;
+    if (seated) {
+      CHECK(eye.y > 0.1 * model.width_m);
+      CHECK(eye.y < 0.4 * model.width_m);
+      CHECK(eye.z < model.height_m - 0.1);
+      CHECK(eye.x > 0.0);
+    } else {
+      CHECK(eye.y == 0.0);
+    }
+    CHECK(eye.x < model.front_m());
+    CHECK(eye.z > 1.0);
+  }
+}

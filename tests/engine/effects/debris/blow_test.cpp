@@ -104,3 +104,19 @@ TEST_CASE("fragments are scattered across the blow with the energy that is given
     CHECK(std::abs(moved.z() - 0.5) < 0.4 * (moved - Eigen::Vector3d(1.0, -2.0, 0.5)).norm());
   }
 }
+
+TEST_CASE("fragments that lie above each other in the blow's direction are not driven along it") {
+  std::vector<Piece> fragments;
+  for (const double side : {-1.0, 1.0})
+    for (const double up : {-1.0, 1.0}) {
+      Piece lamp = part_at_rest(Part::lamp);
+      for (auto& x : lamp.body.position_m) x += Eigen::Vector3d(side, 0.0, up);
+      fragments.push_back(lamp);
+    }
+  scatter(fragments, Eigen::Vector3d::UnitZ(), 3.0);
+  for (const Piece& p : fragments) {
+    const Eigen::Vector3d moved = elastic::momentum_ns(p.body) / elastic::total_mass_kg(p.body);
+    CHECK(moved.norm() > 0.1);
+    CHECK(std::abs(moved.z()) < 1e-9 * moved.norm());
+  }
+}

@@ -118,3 +118,21 @@ TEST_CASE("two parts that collide keep their momentum together") {
   CHECK(elastic::momentum_ns(state.pieces[0].body).x() < -1.0);
   CHECK((after - before).norm() < 1e-10 * before.norm());
 }
+
+TEST_CASE("of a part that breaks one of the large pieces keeps the name") {
+  State state;
+  Random random(1);
+  const std::uint32_t id =
+      spawn_part(state, Part::ice_slab, {{0, 0, 0.2}, {1, 0, 0, 0}}, Vec3(10.0, 0, -30.0), Vec3(0.3, 0.2, 0), random);
+  ContactWorld road = level_road();
+  int fractures = 0;
+  for (int k = 0; k < 30 && state.pieces.size() < 2; ++k) fractures += advance_debris(state, road, 1.0 / 60).fractures;
+  REQUIRE(fractures > 0);
+  REQUIRE(state.pieces.size() > 1);
+  std::size_t largest = 0, named = 0;
+  for (const Piece& piece : state.pieces) {
+    largest = std::max(largest, piece.body.elements.size());
+    if (piece.id == id) named = piece.body.elements.size();
+  }
+  CHECK(2 * named > largest);  // The largest of each break, which may break again.
+}

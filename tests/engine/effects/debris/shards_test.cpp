@@ -114,3 +114,26 @@ TEST_CASE("a wheel meets a slab that lies flat and nothing thinner than a centim
   for (auto& x : state.pieces[0].body.position_m) x.z() *= 0.1;  // 8 mm.
   CHECK_FALSE(highest_debris_m(state, 0.0, 0.0, 0.2));
 }
+
+TEST_CASE("a shard that slides on the road stops after v squared over two mu g, on a slippery one that much later") {
+  for (const double factor : {1.0, 0.5, 0.25}) {
+    CAPTURE(factor);
+    State state = with_shard({0, 0, 0}, {5, 0, 0});
+    ContactWorld road;
+    road.ground = [factor](double, double) {
+      GroundPoint point;
+      point.friction_factor = factor;
+      return point;
+    };
+    for (int k = 0; k < 8000; ++k) advance_shards(state, road, shard_step_s);
+    CHECK(state.shards[0].velocity_mps == Vec3(0.0));
+    CHECK(state.shards[0].position_m.x == doctest::Approx(25.0 / (2.0 * 0.4 * factor * 9.81)).epsilon(0.01).scale(0.0));
+  }
+}
+
+TEST_CASE("a shard that touches the road gently does not come back from it") {
+  State state = with_shard({0, 0, 1e-6}, {3, 0, -0.4});
+  advance_shards(state, level_road(), shard_step_s);
+  CHECK(std::abs(state.shards[0].velocity_mps.z) < 1e-12);
+  CHECK(state.shards[0].velocity_mps.x > 2.0);
+}

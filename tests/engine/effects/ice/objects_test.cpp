@@ -114,4 +114,38 @@ TEST_CASE("a crack's vertices have unit normals across its faces, and air fills 
   CHECK(inside.size() == 19 * 6);
 }
 
+TEST_CASE("a crack's normal at a corner is across its surface there") {
+  Crack crack;
+  crack.turn = glm::mat3(1.0f);
+  crack.size_m = 2.0f;
+  crack.bend = 0.25f;
+  std::vector<IceVertex> inside;
+  constexpr std::uint32_t cells = 64;
+  append_crack(inside, crack, InsideKind::crack, cells);
+  // Triangles about a corner lie in the surface but for the second order of a cell.
+  for (std::size_t i = 0; i < inside.size(); i += 3)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t other = 0; other < 3; ++other) {
+        const glm::vec3 along = inside[i + other].position_m - inside[i + c].position_m;
+        REQUIRE(std::abs(glm::dot(along, inside[i + c].normal)) <= 0.02f * glm::length(along) + 1e-6f);
+      }
+}
+
+TEST_CASE("cells above each other have cracks of their own") {
+  const auto shifted_by_a_cell = [](const glm::vec3& shift) {
+    const float cell = 0.4f;
+    const Box low{glm::vec3(0.0f), glm::vec3(0.8f)}, high{cell * shift, glm::vec3(0.8f) + cell * shift};
+    const auto a = cracks_in(low, cell), b = cracks_in(high, cell);
+    int same = 0;
+    for (const Crack& crack : a)
+      same += std::ranges::any_of(b, [&](const Crack& other) {
+        return glm::length(other.middle_m - crack.middle_m - cell * shift) < 1e-4f;
+      });
+    return same;
+  };
+  CHECK(shifted_by_a_cell({1, 0, 0}) == 0);
+  CHECK(shifted_by_a_cell({0, 1, 0}) == 0);
+  CHECK(shifted_by_a_cell({0, 0, 1}) == 0);
+}
+
 }  // namespace septet::ice

@@ -127,3 +127,45 @@ TEST_CASE("a line of sight loses light by the cross-sections of the cells that i
   CHECK(*visibility_m(0.4, true) == doctest::Approx(20.0));
   CHECK(!visibility_m(0.0, true));
 }
+
+TEST_CASE("a cell is a wall where its middle is") {
+  Grid grid = make_grid({{10.0, 0.0, 0.0}, {1, 0, 0, 0}}, 0.5, 8, 4, 4, 0);
+  add_walls(grid, [](const Vec3& world_m) { return world_m.x > 12.2; });
+  for (int i = 0; i < 8; ++i) CHECK(int{grid.wall[grid.index(i, 1, 1)]} == int{10.0 + 0.5 * (i + 0.5) > 12.2});
+}
+
+TEST_CASE("a body fills the cells whose middle it covers or misses by no more than a quarter of a cell") {
+  const auto full_cells = [](double half_size_m) {
+    State state = make_smoke(make_grid({}, 1.0, 9, 9, 9, 0), {Emitter{}}, 3);
+    const Obstacle box{{{4.5, 4.5, 4.5}, {1, 0, 0, 0}}, Vec3(half_size_m)};
+    advance_smoke(state, Vec3(0.0), {&box, 1}, step_s);
+    return std::count(state.full.begin(), state.full.end(), 1);
+  };
+  CHECK(full_cells(0.7) == 1);
+  CHECK(full_cells(0.8) == 27);
+  CHECK(full_cells(1.7) == 27);
+  CHECK(full_cells(1.8) == 125);
+}
+
+TEST_CASE("smoke leaves by the face that is open and by no other") {
+  const auto left_with_wind = [](const Vec3& wind_mps, std::uint8_t open_faces) {
+    Emitter fire;
+    fire.position_m = {4.5, 4.5, 4.5};
+    fire.radius_m = 1.0;
+    fire.rate_per_s = 300.0;
+    State state = make_smoke(make_grid({}, 1.0, 9, 9, 9, open_faces), {fire}, 3, 1000);
+    int left = 0;
+    for (int tick = 0; tick < 60; ++tick) left += advance_smoke(state, wind_mps, {}, step_s).left;
+    return left;
+  };
+  const struct {
+    Vec3 wind_mps;
+    std::uint8_t towards, away;
+  } winds[] = {{{25, 0, 0}, open_x_high, open_x_low}, {{-25, 0, 0}, open_x_low, open_x_high},
+               {{0, 25, 0}, open_y_high, open_y_low}, {{0, -25, 0}, open_y_low, open_y_high},
+               {{0, 0, 25}, open_z_high, open_z_low}, {{0, 0, -25}, open_z_low, open_z_high}};
+  for (const auto& [wind_mps, towards, away] : winds) {
+    CHECK(left_with_wind(wind_mps, towards) > 10);
+    CHECK(left_with_wind(wind_mps, away) == 0);
+  }
+}

@@ -60,3 +60,13 @@ TEST_CASE("a beam at rest hangs at a depth that goes with one over the stiffness
     CHECK(deepest * young == doctest::Approx(first).epsilon(0.01));
   }
 }
+
+TEST_CASE("what is called converged is in balance at every node that is free") {
+  ElasticBody body = beam::make(1, {1e6, 0.25, 1000.0});
+  beam::clamp_start(body);
+  const Eigen::Vector3d gravity(0.0, -9.81, 0.0);
+  REQUIRE(find_equilibrium(body, gravity).converged);
+  const auto internal = internal_forces_n(body);
+  for (int i = 0; i < body.node_count(); ++i)
+    if (!body.fixed[i]) CHECK((internal[i] + body.mass_kg[i] * gravity).norm() < 1e-5 * body.mass_kg[i] * 9.81);
+}

@@ -257,3 +257,44 @@ TEST_CASE("bad meshes and materials are refused with a message") {
   CHECK_FALSE(make_elastic_body(mesh, {}).has_value());
   CHECK_FALSE(make_elastic_body({}, {}).has_value());
 }
+
+TEST_CASE("a body that lies in a surface is let out of it and no faster than two metres a second") {
+  for (const double depth_m : {0.001, 0.02}) {
+    CAPTURE(depth_m);
+    ElasticBody body = block({1e7, 0.3, 1000.0}, {1, 1, 1});
+    StepSettings settings;
+    settings.gravity_mps2.setZero();
+    double fastest = 0.0;
+    for (int k = 0; k < 60; ++k) {
+      std::vector<NodeContact> contacts;
+      for (int i = 0; i < body.node_count(); ++i)
+        if (body.rest_position_m[i].z() < 1e-9)
+          contacts.push_back({.node = i, .gap_m = body.position_m[i].z() - depth_m});
+      step_elastic(body, settings, contacts);
+      for (const auto& v : body.velocity_mps) fastest = std::max(fastest, v.z());
+    }
+    for (int i = 0; i < body.node_count(); ++i) CHECK(body.position_m[i].z() - depth_m > -0.05 * depth_m);
+    CHECK(fastest > 0.0);
+    CHECK(fastest < 2.5);
+  }
+}
+
+TEST_CASE("a blow on one corner turns a free body by as much as its impulse has leverage") {
+  ElasticBody body = block({1e8, 0.3, 1000.0}, {2, 2, 2});
+  for (auto& v : body.velocity_mps) v = {0.0, 0.0, -3.0};
+  StepSettings settings;
+  settings.gravity_mps2.setZero();
+  const RigidMotion before = rigid_motion(body);
+  int corner = 0;
+  for (int i = 0; i < body.node_count(); ++i)
+    if (body.rest_position_m[i].norm() < 1e-9) corner = i;
+  std::vector<NodeContact> contacts{{.node = corner}};
+  const Eigen::Vector3d arm = body.position_m[corner] - before.centre_m;
+  step_elastic(body, settings, contacts);
+  REQUIRE(contacts[0].impulse_ns.z() > 0.1);
+  const RigidMotion after = rigid_motion(body);
+  const Eigen::Vector3d given = arm.cross(contacts[0].impulse_ns);
+  CHECK((after.angular_momentum_nms - given).norm() < 1e-6 * given.norm());
+  CHECK((momentum_ns(body) - total_mass_kg(body) * before.velocity_mps - contacts[0].impulse_ns).norm() <
+        1e-6 * contacts[0].impulse_ns.norm());
+}

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <doctest/doctest.h>
 
+#include "engine/physics/vehicle/controls.hpp"
 #include "tests/engine/physics/vehicle/car.hpp"
 #include "tests/engine/physics/vehicle/hostile_driving.hpp"
 
@@ -242,4 +244,25 @@ TEST_CASE(
   CHECK(fast.wheel_2_s_deg < 120.0);
   CHECK(fast.wheel_deg < 240.0);
   CHECK(fast.heading_deg < 10.0);
+}
+
+TEST_CASE("stability control has braked the outer front wheel a tenth of a second after the car turns too much") {
+  const VehicleParameters car = read_car("volvo-s80");
+  for (const double yaw_radps : {1.0, -1.0}) {
+    VehicleState state = standstill(car, {}, 25.0);
+    state.angular_velocity_radps.z = yaw_radps;
+    std::array<double, wheel_count> torque_nm{};
+    for (int i = 0; i < 100; ++i) torque_nm = advance_brakes(car, {}, {25.0, 0.0, 0.0}, 0.001, state);
+    const int outer = yaw_radps > 0.0 ? 1 : 0;
+    CHECK(state.brakes.stabilising[outer] > 0.5);
+    CHECK(torque_nm[1 - outer] < 0.05 * car.brakes.full_torque_nm[0]);
+  }
+}
+
+TEST_CASE("each braking on split friction begins with the delay of its yaw moment") {
+  const VehicleParameters car = read_car("volvo-s80");
+  VehicleState state = standstill(car, {}, 25.0);
+  state.brakes.front_difference = 1.0;  // Of a braking that is over.
+  for (int i = 0; i < 2000; ++i) advance_brakes(car, {}, {25.0, 0.0, 0.0}, 0.001, state);
+  CHECK(state.brakes.front_difference < 0.05);
 }

@@ -11,6 +11,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/cage.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/world/vehicle_body.hpp"
 
@@ -143,6 +144,22 @@ TEST_CASE("the scene holds a prototype for every model of the catalogue") {
     CAPTURE(prototype.name);
     CHECK(prototype.parts.size() >= 3);
   }
+}
+
+TEST_CASE("a limb goes from one thickness to the other over its length") {
+  geometry::MeshBuilder builder;
+  add_limb(builder, {0, 0, 1}, {0, 2, 1}, 0.1f, 0.04f, 24);
+  const geometry::PolygonMesh limb = builder.take();
+  CHECK(geometry::is_closed(limb));
+  CHECK(geometry::signed_volume_m3(limb) > 0.0);
+  const auto radius_near = [&](float y) {
+    float radius = 0.0f;
+    for (const glm::vec3& p : limb.vertices_m)
+      if (std::abs(p.y - y) < 0.05f) radius = std::max(radius, std::hypot(p.x, p.z - 1.0f));
+    return radius;
+  };
+  CHECK(radius_near(0.0f) == doctest::Approx(0.1));
+  CHECK(radius_near(2.0f) == doctest::Approx(0.04));
 }
 
 }  // namespace septet::scenery
