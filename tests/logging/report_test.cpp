@@ -191,9 +191,12 @@ TEST_CASE("whoever drives at walking pace or slower follows nobody") {
     samples.back().speed_mps = speed_mps;
     samples.back().leader = Leader{2, 1.0, 1.2, 1.0};
   }
-  const auto measures = compute_drive_measures(samples);
-  CHECK(measures.following_s == doctest::Approx(0.1));
-  CHECK(measures.time_headway_median_s.value() == doctest::Approx(0.8));
+  DriveRecords records;
+  records.samples = samples;
+  const FollowingMeasures following = compute_drive_measures(records).following;
+  CHECK(following.samples == 1);
+  CHECK(following.too_slow == 2);
+  CHECK(following.headway.median_s.value() == doctest::Approx(0.8));
 }
 
 TEST_CASE("speeds are told in kilometres per hour") {
