@@ -1,11 +1,10 @@
 #include "sim-client/film/film.hpp"
 
-#include "engine/image/png.hpp"
-#include "engine/raytrace/displayed.hpp"
 #include "engine/render/renderer.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_frames.hpp"
+#include "sim-client/film/traced/master.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 
 namespace septet::film {
@@ -23,87 +22,9 @@ Expected<render::Renderer> make_rasteriser(const FilmOptions& options, const sce
   return renderer;
 }
 
-/// One frame after the other, by one of the renderers.
-class FilmPainter {
- public:
-  /// The preview lies in `folder`.
-  static Expected<FilmPainter> create(const FilmOptions& options, const fs::path& folder,
-                                      const scene::ResolvedScene& scene) {
-    FilmPainter painter(options, folder);
-    if (options.renderer == FilmRenderer::raster) {
-      auto rasteriser = make_rasteriser(options, scene);
-      if (!rasteriser) return tl::unexpected(rasteriser.error());
-      painter.rasteriser_.emplace(std::move(*rasteriser));
-    } else {
-      auto tracer = raytrace::RayTracer::create(scene);
-      if (!tracer) return tl::unexpected(tracer.error());
-      painter.tracer_.emplace(std::move(*tracer));
-      painter.summary_ = instant::summarise(scene);
-    }
-    return painter;
-  }
-
-  /// Nothing where `go_on` has said no.
-  Expected<std::optional<image::Image>> draw(instant::FrameInput input, std::uint64_t number, FilmMade& made,
-                                             const std::function<bool(const FilmMade&)>& go_on) {
-    if (!rasteriser_) return trace(std::move(input), number, made, go_on);
-    if (auto drawn = rasteriser_->draw(std::move(input)); !drawn) return tl::unexpected(drawn.error());
-    return rasteriser_->read_back().map([](image::Image picture) { return std::optional(std::move(picture)); });
-  }
-
- private:
-  FilmPainter(const FilmOptions& options, fs::path folder) : options_(&options), folder_(std::move(folder)) {}
-
-  Expected<std::optional<image::Image>> trace(instant::FrameInput input, std::uint64_t number, FilmMade& made,
-                                              const std::function<bool(const FilmMade&)>& go_on) {
-    const std::uint32_t width = options_->width_px, height = options_->height_px;
-    raytrace::TraceSettings settings;
-    settings.samples = options_->samples;
-    settings.seed = number;  // Another noise in each frame.
-    tracer_->begin(instant::describe(std::move(input), summary_), settings);
-    const instant::Exposure exposure = tracer_->instant().exposure;
-    raytrace::TracedPicture so_far(width, height);
-    const double pixels = double(width) * double(height);
-    double traced = 0.0, shown = 0.0;
-    bool goes_on = true;
-    const auto picture = raytrace::whole_picture(*tracer_, width, height, [&](const raytrace::Bucket& bucket) {
-      so_far.put(bucket);
-      traced += static_cast<double>(bucket.pixels.size());
-      made.share_of_next = traced / pixels;
-      if (made.share_of_next >= shown + 0.125) {
-        shown = made.share_of_next;
-        show_preview(raytrace::displayed(so_far, exposure));
-      }
-      goes_on = goes_on && go_on(made);
-      return goes_on;
-    });
-    made.share_of_next = 0.0;
-    made.bad_samples += picture.bad_samples;
-    std::error_code ignored;
-    fs::remove(folder_ / "preview.png", ignored);
-    if (!goes_on) return std::nullopt;
-    return raytrace::displayed(picture, exposure);
-  }
-
-  /// Whoever looks sees a whole file. Without one the film is made none the less.
-  void show_preview(const image::Image& picture) const {
-    const fs::path part = folder_ / "preview.part";
-    std::error_code ignored;
-    if (image::write_png(part, picture, image::PngEffort::fast)) fs::rename(part, folder_ / "preview.png", ignored);
-    fs::remove(part, ignored);
-  }
-
-  const FilmOptions* options_;
-  fs::path folder_;
-  std::optional<render::Renderer> rasteriser_;
-  std::optional<raytrace::RayTracer> tracer_;
-  instant::SceneSummary summary_;
-};
-
 /// Those that are not there yet, until all are or `go_on` says no.
-Expected<void> draw_pictures(const FilmOptions& options, FilmFrames& frames, FilmPainter& painter,
-                             const FilmFolder& folder, FilmMade& made,
-                             const std::function<bool(const FilmMade&)>& go_on) {
+Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render::Renderer& rasteriser,
+                         const FilmFolder& folder, FilmMade& made, const std::function<bool(const FilmMade&)>& go_on) {
   frame::PictureWriter pictures;
   for (const FilmFrame& frame : frames.plan().frames) {
     if (!go_on(made)) break;
@@ -113,10 +34,10 @@ Expected<void> draw_pictures(const FilmOptions& options, FilmFrames& frames, Fil
     }
     auto input = frames.input_of(frame);
     if (!input) return tl::unexpected(input.error());
-    auto picture = painter.draw(std::move(*input), frame.number, made, go_on);
+    if (auto drawn = rasteriser.draw(std::move(*input)); !drawn) return tl::unexpected(drawn.error());
+    auto picture = rasteriser.read_back();
     if (!picture) return tl::unexpected(picture.error());
-    if (!*picture) break;
-    if (auto queued = pictures.write(folder.picture(frame.number), std::move(**picture)); !queued) return queued;
+    if (auto queued = pictures.write(folder.picture(frame.number), std::move(*picture)); !queued) return queued;
     ++made.frames;
   }
   return pictures.finish();
@@ -124,7 +45,12 @@ Expected<void> draw_pictures(const FilmOptions& options, FilmFrames& frames, Fil
 
 }  // namespace
 
-Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on) {
+Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on,
+                             Machines* others) {
+  const bool traced = options.renderer == FilmRenderer::traced;
+  if (others && !traced)
+    return failure("mpirun shares out what is traced alone", "--renderer raster",
+                   "add --renderer traced, or leave mpirun out");
   const auto is_file = is_film_file(options.out);
   if (!is_file) return tl::unexpected(is_file.error());
   fs::path ffmpeg, pictures_in = options.out;
@@ -143,13 +69,18 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   if (!frames) return tl::unexpected(frames.error());
   const auto record = film_record(options, frames->session());
   if (!record) return tl::unexpected(record.error());
-  auto painter = FilmPainter::create(options, pictures_in, frames->scene());
-  if (!painter) return tl::unexpected(painter.error());
+  std::optional<render::Renderer> rasteriser;
+  if (!traced) {
+    auto created = make_rasteriser(options, frames->scene());
+    if (!created) return tl::unexpected(created.error());
+    rasteriser.emplace(std::move(*created));
+  }
   const auto folder = FilmFolder::open(pictures_in, *record, options.resume);
   if (!folder) return tl::unexpected(folder.error());
   FilmMade made{.planned = frames->plan().frames.size()};
-  if (auto drawn = draw_pictures(options, *frames, *painter, *folder, made, go_on); !drawn)
-    return tl::unexpected(drawn.error());
+  const auto drawn = traced ? trace_film(options, *frames, *folder, others, made, go_on)
+                            : rasterise(options, *frames, *rasteriser, *folder, made, go_on);
+  if (!drawn) return tl::unexpected(drawn.error());
   made.stopped = made.frames < made.planned;
   if (!*is_file || made.stopped) return made;
   std::vector<fs::path> pictures;

@@ -57,13 +57,18 @@ struct FilmMade {
   std::size_t kept = 0;           ///< Of the frames: they were there already.
   bool encoding = false;          ///< All pictures are there, and a film is made of them.
   bool stopped = false;           ///< `go_on` has said no.
-  double share_of_next = 0.0;     ///< Of the frame that is being drawn, 0 to 1.
+  double share_of_next = 0.0;     ///< Of the frames that are being drawn together: 1 is one frame.
+  std::size_t workers = 0;        ///< That trace: programs, this one too.
+  std::string notice;             ///< What was noticed last that does not stop the film: who has given up.
   std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.
 };
 
-/// Draws the film. `go_on` hears how far it is before each frame and while one is traced, from any thread, one call at a time; where it
-/// says no, the film ends there. While a frame is traced, preview.png in the folder shows what there is of it. What is finished stays
-/// whatever happens.
-Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on);
+class Machines;
+
+/// Draws the film. `go_on` hears how far it is before each frame and while frames are traced; where it says no, the film ends there.
+/// While a frame is traced, preview.png in the folder shows what there is of it. What is finished stays whatever happens: pictures, and of
+/// frames that are traced their tiles. `others` help to trace (traced/machines.hpp); null: nobody.
+Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on,
+                             Machines* others = nullptr);
 
 }  // namespace septet::film

@@ -55,8 +55,10 @@ int main(int argc, char** argv) {
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
       ->check(number_between(0.0, 1e6));
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
-  return program::run("septet", app, argc, argv, [&] {
-    options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
-    return film::run_film(options);
+  return film::run_alone_or_by_mpirun([&](film::Machines* others) {
+    return program::run("septet", app, argc, argv, [&] {
+      options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
+      return film::run_film(options, others);
+    });
   });
 }

@@ -8,6 +8,8 @@
 #include "program/console.hpp"
 #include "program/run.hpp"
 #include "program/stop_signal.hpp"
+#include "sim-client/film/traced/messages.hpp"
+#include "sim-client/film/traced/worker.hpp"
 
 namespace septet::film {
 
@@ -26,7 +28,11 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
   if (so_far.encoding) return fmt::format("all {} pictures are drawn; ffmpeg makes the film of them", so_far.frames);
   const double done = static_cast<double>(so_far.frames) + so_far.share_of_next;
   std::string text = fmt::format("{} of {} frames", so_far.frames, so_far.planned);
-  if (so_far.share_of_next > 0.0) text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
+  if (so_far.share_of_next > 1.0)
+    text += fmt::format(" and {:.1f} in parts", so_far.share_of_next);
+  else if (so_far.share_of_next > 0.0)
+    text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
+  if (so_far.workers > 1) text += fmt::format(" by {} programs", so_far.workers);
   const double drawn = done - static_cast<double>(so_far.kept);
   if (!(drawn > 0.0)) return text;
   const double left_s = elapsed_s * (static_cast<double>(so_far.planned) - done) / drawn;
@@ -34,15 +40,18 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
          (left_s < 90.0 ? fmt::format(", {:.0f} s left", left_s) : fmt::format(", {:.0f} min left", left_s / 60.0));
 }
 
-Expected<int> run_film(FilmOptions options) {
+Expected<int> run_film(FilmOptions options, Machines* others) {
   if (options.out.empty()) options.out = options.session.parent_path() / "film";
   program::catch_stop_signals();
   program::ProgressLine progress;
   const double begun_s = program::monotonic_s();
-  const auto made = make_film(options, [&](const FilmMade& so_far) {
+  std::string noticed;
+  const auto goes_on = [&](const FilmMade& so_far) {
+    if (so_far.notice != noticed) progress.message("septet: " + (noticed = so_far.notice));
     if (progress.is_due(program::monotonic_s())) progress.show(progress_text(so_far, program::monotonic_s() - begun_s));
     return !program::should_stop();
-  });
+  };
+  const auto made = make_film(options, goes_on, others);
   progress.close();
   if (!made) return tl::unexpected(made.error());
   if (made->stopped) {
@@ -58,6 +67,21 @@ Expected<int> run_film(FilmOptions options) {
   if (!made->encoding) text += "; as one film: --out film.mp4";
   program::announce(text);
   return 0;
+}
+
+int run_alone_or_by_mpirun(const std::function<int(Machines*)>& work) {
+  const auto number = number_by_mpirun();
+  if (!number) return work(nullptr);
+  auto machines = start_machines();
+  if (!machines) {
+    if (*number == 0) program::say("septet: " + describe(machines.error()));
+    return program::failed_status;
+  }
+  const int status = *number > 0 ? serve_master(**machines) : work(machines->get());
+  (*machines)->will_end_with(status);
+  if (*number > 0) return status;
+  for (int other = 1; other < (*machines)->count(); ++other) (*machines)->send(other, message(Word::end));
+  return status;
 }
 
 }  // namespace septet::film

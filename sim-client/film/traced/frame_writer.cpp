@@ -1,0 +1,126 @@
+#include "sim-client/film/traced/frame_writer.hpp"
+
+#include "engine/image/png.hpp"
+#include "engine/raytrace/displayed.hpp"
+
+namespace septet::film {
+namespace fs = std::filesystem;
+namespace {
+
+struct Assembled {
+  raytrace::TracedPicture picture;
+  FrameFacts facts;
+  std::size_t missing = 0;
+};
+
+Assembled assembled(const FilmOptions& options, const KeptTiles& kept, std::span<const instant::PixelRectangle> tiles) {
+  Assembled whole{raytrace::TracedPicture(options.width_px, options.height_px), {}, 0};
+  for (std::uint32_t n = 0; n < tiles.size(); ++n) {
+    auto tile = kept.read(n);
+    if (!tile) {
+      ++whole.missing;
+      continue;
+    }
+    whole.facts = tile->facts;
+    whole.picture.put({tiles[n], std::move(tile->pixels)});
+  }
+  return whole;
+}
+
+Expected<void> write_whole(const fs::path& file, const Assembled& whole) {
+  const fs::path part = file.string() + ".part";
+  std::error_code error, ignored;
+  const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
+  if (auto written = image::write_png(part, raytrace::displayed(whole.picture, exposure), image::PngEffort::fast);
+      !written) {
+    fs::remove(part, ignored);
+    return written;
+  }
+  fs::rename(part, file, error);
+  if (error) return failure(error.message(), file.string(), "check the folder and its permissions");
+  return {};
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(const FilmOptions& options, std::span<const instant::PixelRectangle> tiles)
+    : options_(options), tiles_(tiles), thread_([this] { run(); }) {}
+
+FrameWriter::~FrameWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+Expected<void> FrameWriter::finish(fs::path picture, KeptTiles tiles, fs::path kept_in) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return jobs_.size() < 4; });
+  if (error_) return tl::unexpected(*error_);
+  jobs_.push_back({std::move(picture), std::move(tiles), std::move(kept_in)});
+  changed_.notify_all();
+  return {};
+}
+
+void FrameWriter::show_preview(const fs::path& folder, const fs::path& kept_in) {
+  const std::lock_guard lock(mutex_);
+  preview_ = folder / "preview.png";
+  if (!jobs_.empty() || writing_) return;
+  jobs_.push_back({preview_, std::nullopt, kept_in});
+  changed_.notify_all();
+}
+
+Expected<void> FrameWriter::wait() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return jobs_.empty() && !writing_; });
+  std::error_code ignored;
+  if (!preview_.empty()) fs::remove(preview_, ignored);
+  if (error_) return tl::unexpected(*error_);
+  return {};
+}
+
+std::uint64_t FrameWriter::bad_samples() {
+  const std::lock_guard lock(mutex_);
+  return bad_samples_;
+}
+
+Expected<void> FrameWriter::write(Job& job) {
+  std::error_code error;
+  if (!job.tiles) {
+    // Who looks sees a whole file; without one the film is made none the less. It may be whole and gone by now.
+    if (!fs::exists(job.kept_in, error)) return {};
+    if (const auto kept = KeptTiles::open(job.kept_in, tiles_))
+      (void)write_whole(job.picture, assembled(options_, *kept, tiles_));
+    return {};
+  }
+  const Assembled whole = assembled(options_, *job.tiles, tiles_);
+  if (whole.missing > 0)
+    return failure("what was written there cannot be read", job.kept_in.string(),
+                   "check the disk and add --resume to go on");
+  if (auto written = write_whole(job.picture, whole); !written) return written;
+  fs::remove(job.kept_in, error);
+  const std::lock_guard lock(mutex_);
+  bad_samples_ += whole.picture.bad_samples;
+  return {};
+}
+
+void FrameWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
+    if (jobs_.empty()) return;
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    writing_ = true;
+    lock.unlock();
+    const auto written = write(job);
+    lock.lock();
+    writing_ = false;
+    if (!written && !error_) error_ = written.error();
+    changed_.notify_all();
+  }
+}
+
+}  // namespace septet::film

@@ -1,0 +1,53 @@
+#pragma once
+/// Makes pictures of the tiles of whole frames, on a thread of its own, so that who deals tiles does not wait for it.
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "sim-client/film/film.hpp"
+#include "sim-client/film/traced/kept_tiles.hpp"
+
+namespace septet::film {
+
+class FrameWriter {
+ public:
+  /// Both outlive it.
+  FrameWriter(const FilmOptions& options, std::span<const instant::PixelRectangle> tiles);
+  ~FrameWriter();  ///< Writes what is queued.
+  FrameWriter(const FrameWriter&) = delete;
+  FrameWriter& operator=(const FrameWriter&) = delete;
+
+  /// Queues the frame whose tiles are all there, and removes their file once the picture is whole; waits while four are
+  /// queued. Answers the first failure of an earlier one.
+  Expected<void> finish(std::filesystem::path picture, KeptTiles tiles, std::filesystem::path kept_in);
+  /// preview.png in the folder, of what there is of a frame; not while pictures wait.
+  void show_preview(const std::filesystem::path& folder, const std::filesystem::path& kept_in);
+  /// Until everything is written; the preview is gone then. The first failure.
+  Expected<void> wait();
+  std::uint64_t bad_samples();
+
+ private:
+  struct Job {
+    std::filesystem::path picture;
+    std::optional<KeptTiles> tiles;  ///< None: a preview.
+    std::filesystem::path kept_in;
+  };
+  void run();
+  Expected<void> write(Job& job);
+
+  const FilmOptions& options_;
+  std::span<const instant::PixelRectangle> tiles_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;
+  bool writing_ = false, stop_ = false;
+  std::optional<Error> error_;
+  std::filesystem::path preview_;
+  std::uint64_t bad_samples_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace septet::film

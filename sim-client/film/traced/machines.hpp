@@ -1,0 +1,46 @@
+#pragma once
+/// The programs that trace one film, on this machine and others, as seen by one of them: messages between a master, number 0, and
+/// workers.
+///
+/// Open MPI carries them, in a module of its own (mpi_module_main.cpp), which is loaded only where mpirun has started the program:
+/// Septet is built and runs without it. Between two programs messages keep their order. A worker may be lost at any time; nobody is
+/// told, what is sent to it is lost, and nothing more comes from it. One thread.
+
+#include <memory>
+#include <optional>
+
+#include "engine/core/bytes.hpp"
+#include "engine/core/expected.hpp"
+
+namespace septet::film {
+
+struct Mail {
+  int from = 0;
+  Bytes bytes;
+};
+
+class Machines {
+ public:
+  virtual ~Machines() = default;
+  virtual int own_number() const = 0;
+  virtual int count() const = 0;
+  virtual void send(int to, Bytes bytes) = 0;
+  /// Does not wait.
+  virtual std::optional<Mail> receive() = 0;
+  /// The exit status of this program, told before the end: there it may have to leave the others behind.
+  virtual void will_end_with(int status) = 0;
+};
+
+using StartMachines = std::unique_ptr<Machines> (*)();
+
+/// The number that mpirun has given to this program; nothing where it was not started by mpirun, or alone.
+std::optional<int> number_by_mpirun();
+
+/// All that mpirun has started; waits for them. Error: this Septet was built without Open MPI, or it is not installed.
+Expected<std::unique_ptr<Machines>> start_machines();
+
+/// How many threads are this program's share of its machine, beside the others that mpirun has started there. It may run on all
+/// processors from then on: mpirun binds each program to one, which is not meant for a program of many threads.
+unsigned share_of_processors();
+
+}  // namespace septet::film

@@ -1,0 +1,298 @@
+#include "sim-client/film/traced/master.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "engine/core/regular_file.hpp"
+#include "program/clock.hpp"
+#include "sim-client/film/traced/frame_writer.hpp"
+#include "sim-client/film/traced/kept_tiles.hpp"
+#include "sim-client/film/traced/worker.hpp"
+
+namespace septet::film {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int own_worker = 0;
+constexpr std::size_t part_bytes = 1 << 20, longest_told_script_bytes = 1 << 22;
+constexpr double still_there_every_s = 1.0, ask_again_after_s = 0.005;
+
+/// The way between the master and the worker that is a thread of the same program.
+class OwnWorkersMail : public Machines {
+ public:
+  int own_number() const override { return own_worker; }
+  int count() const override { return 1; }
+  void send(int, Bytes bytes) override {
+    const std::lock_guard lock(mutex_);
+    from_worker_.push_back(std::move(bytes));
+  }
+  std::optional<Mail> receive() override { return taken(to_worker_); }
+  void will_end_with(int) override {}
+
+  void send_to_worker(Bytes bytes) {
+    const std::lock_guard lock(mutex_);
+    to_worker_.push_back(std::move(bytes));
+  }
+  std::optional<Mail> receive_from_worker() { return taken(from_worker_); }
+
+ private:
+  std::optional<Mail> taken(std::deque<Bytes>& queue) {
+    const std::lock_guard lock(mutex_);
+    if (queue.empty()) return std::nullopt;
+    Mail mail{own_worker, std::move(queue.front())};
+    queue.pop_front();
+    return mail;
+  }
+  std::mutex mutex_;
+  std::deque<Bytes> to_worker_, from_worker_;
+};
+
+class Master {
+ public:
+  Master(const FilmOptions& options, const FilmPlan& plan, const FilmFolder& folder, Machines* others, FilmMade& made)
+      : options_(options),
+        folder_(folder),
+        others_(others),
+        made_(made),
+        tiles_(raytrace::buckets_of(options.width_px, options.height_px, tile_side_px)),
+        schedule_(plan.frames.size(), static_cast<std::uint32_t>(tiles_.size())),
+        writer_(options, tiles_) {
+    for (const FilmFrame& frame : plan.frames) numbers_.push_back(frame.number);
+  }
+
+  Expected<void> take_up();
+  Expected<void> run(FilmFrames& frames, const std::function<bool(const FilmMade&)>& go_on);
+
+ private:
+  struct Worker {
+    int number = 0;
+    std::size_t in_schedule = 0;
+  };
+
+  Expected<void> obey(const Mail& mail);
+  Expected<void> take_tile(const Worker& worker, ByteReader& reader);
+  void welcome(int number, ByteReader& reader);
+  void send_part(int number, ByteReader& reader);
+  void deal();
+  void send(int to, Bytes bytes) {
+    if (to == own_worker)
+      own_.send_to_worker(std::move(bytes));
+    else
+      others_->send(to, std::move(bytes));
+  }
+  Expected<KeptTiles*> kept(std::size_t frame);
+  fs::path kept_file(std::size_t frame) const { return folder_.path() / fmt::format("{:06}.tiles", numbers_[frame]); }
+  const Worker* worker(int number) const {
+    const auto found =
+        std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.number == number; });
+    return found == workers_.end() ? nullptr : &*found;
+  }
+
+  const FilmOptions& options_;
+  const FilmFolder& folder_;
+  Machines* others_;
+  FilmMade& made_;
+  std::vector<instant::PixelRectangle> tiles_;
+  raytrace::BucketSchedule schedule_;
+  FrameWriter writer_;
+  std::vector<std::uint64_t> numbers_;  ///< Of frames, as their pictures are called.
+  std::vector<Worker> workers_;
+  std::map<std::size_t, KeptTiles> kept_;
+  OwnWorkersMail own_;
+  std::ifstream session_;
+  double now_s_ = 0.0;
+  double shown_ = 0.0;  ///< Tiles until the last preview.
+  double came_ = 0.0;
+};
+
+/// What is there already.
+Expected<void> Master::take_up() {
+  if (!options_.resume) return {};
+  std::error_code ignored;
+  for (std::size_t frame = 0; frame < numbers_.size(); ++frame) {
+    if (folder_.has(numbers_[frame], options_.width_px, options_.height_px)) {
+      schedule_.skip_frame(frame);
+      fs::remove(kept_file(frame), ignored);
+      ++made_.frames, ++made_.kept;
+      continue;
+    }
+    if (!fs::exists(kept_file(frame), ignored)) continue;
+    const auto tiles = kept(frame);
+    if (!tiles) return tl::unexpected(tiles.error());
+    for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)
+      if ((*tiles)->read(tile)) schedule_.skip_tile(frame, tile);
+    if (schedule_.has_frame(frame)) {
+      if (auto queued = writer_.finish(folder_.picture(numbers_[frame]), std::move(kept_.at(frame)), kept_file(frame));
+          !queued)
+        return queued;
+      kept_.erase(frame);
+      ++made_.frames;
+    }
+  }
+  return {};
+}
+
+Expected<KeptTiles*> Master::kept(std::size_t frame) {
+  auto found = kept_.find(frame);
+  if (found == kept_.end()) {
+    auto opened = KeptTiles::open(kept_file(frame), tiles_);
+    if (!opened) return tl::unexpected(opened.error());
+    found = kept_.emplace(frame, std::move(*opened)).first;
+  }
+  return &found->second;
+}
+
+Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
+  const auto frame = reader.get<std::uint64_t>();
+  const auto tile = reader.get<std::uint32_t>();
+  const auto encoded = reader.take(reader.remaining());
+  if (!reader.ok() || frame >= numbers_.size() || tile >= tiles_.size() ||
+      encoded.size() != encoded_tile_size(std::size_t{tiles_[tile].width} * tiles_[tile].height))
+    return {};
+  if (schedule_.has_frame(frame)) {
+    schedule_.finish(from.in_schedule, frame, tile, now_s_);
+    return {};
+  }
+  const auto tiles = kept(frame);
+  if (!tiles) return tl::unexpected(tiles.error());
+  if (auto put = (*tiles)->put(tile, encoded); !put) return put;
+  if (!schedule_.finish(from.in_schedule, frame, tile, now_s_)) return {};
+  ++came_;
+  if (schedule_.has_frame(frame)) {
+    auto queued = writer_.finish(folder_.picture(numbers_[frame]), std::move(**tiles), kept_file(frame));
+    kept_.erase(frame);
+    ++made_.frames;
+    return queued;
+  }
+  if (came_ >= shown_ + 0.125 * static_cast<double>(tiles_.size())) {
+    shown_ = came_;
+    writer_.show_preview(folder_.path(), kept_file(frame));
+  }
+  return {};
+}
+
+void Master::welcome(int number, ByteReader& reader) {
+  const auto threads = read_hello(reader);
+  if (worker(number)) return;
+  if (!threads) {
+    made_.notice = fmt::format("program {} of mpirun is another Septet; it does not help", number);
+    send(number, message(Word::end));
+    return;
+  }
+  workers_.push_back({number, schedule_.add_worker(*threads)});
+  if (number == own_worker) return;
+  FilmTold told{options_, std::nullopt, 0};
+  std::error_code ignored;
+  told.session_bytes = fs::file_size(options_.session, ignored);
+  if (!options_.shots.empty())
+    if (const auto text = read_regular_file(options_.shots, longest_told_script_bytes)) told.script = *text;
+  send(number, film_message(told));
+}
+
+void Master::send_part(int number, ByteReader& reader) {
+  const auto from = reader.get<std::uint64_t>();
+  if (!session_.is_open()) session_.open(options_.session, std::ios::binary);
+  session_.clear();
+  session_.seekg(static_cast<std::streamoff>(from));
+  std::string text(part_bytes, '\0');
+  session_.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, session_.gcount())));
+  Bytes bytes = message(Word::part);
+  ByteWriter writer(bytes);
+  writer.put(from);
+  writer.put_bytes(std::as_bytes(std::span(text)));
+  send(number, std::move(bytes));
+}
+
+Expected<void> Master::obey(const Mail& mail) {
+  ByteReader reader(mail.bytes);
+  const auto word = static_cast<Word>(reader.get<std::uint8_t>());
+  const Worker* from = worker(mail.from);
+  if (word == Word::hello) {
+    welcome(mail.from, reader);
+  } else if (word == Word::part_wanted) {
+    send_part(mail.from, reader);
+  } else if (word == Word::tile && from) {
+    return take_tile(*from, reader);
+  } else if (word == Word::ready && from) {
+    schedule_.was_ready_after(from->in_schedule, reader.get_double());
+  } else if (word == Word::failed) {
+    const Error error = read_error(reader);
+    if (mail.from == own_worker) return tl::unexpected(error);
+    if (from) schedule_.remove_worker(from->in_schedule);
+    std::erase_if(workers_, [&](const Worker& each) { return each.number == mail.from; });
+    made_.notice = fmt::format("program {} of mpirun gives up: {}", mail.from, describe(error));
+  }
+  return {};
+}
+
+void Master::deal() {
+  for (const Worker& each : workers_) {
+    if (!schedule_.is_free(each.in_schedule)) continue;
+    const auto deal = schedule_.deal(each.in_schedule, now_s_);
+    if (!deal) continue;
+    if (deal->shortened) {
+      const auto other = std::find_if(workers_.begin(), workers_.end(),
+                                      [&](const Worker& w) { return w.in_schedule == deal->shortened->worker; });
+      if (other != workers_.end()) send(other->number, shorter_run_message(deal->shortened->run));
+    }
+    send(each.number, run_message(deal->run));
+  }
+}
+
+Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const FilmMade&)>& go_on) {
+  if (auto taken = take_up(); !taken) return taken;
+  const unsigned threads = others_ ? share_of_processors() : std::max(1u, std::thread::hardware_concurrency());
+  own_.send(own_worker, hello_message(threads));
+  std::jthread own([&] {
+    if (const auto traced = trace_for_master(own_, frames, options_, threads); !traced)
+      own_.send(own_worker, error_message(traced.error()));
+  });
+  Expected<void> result;
+  double told_s = 0.0, asked_s = 0.0;
+  while (result && !schedule_.has_all()) {
+    now_s_ = program::monotonic_s();
+    made_.share_of_next = static_cast<double>(schedule_.tiles_of_begun_frames()) / static_cast<double>(tiles_.size());
+    made_.workers = workers_.size();
+    if (!go_on(made_)) break;
+    bool came = false;
+    auto mail = own_.receive_from_worker();
+    if (!mail && others_) mail = others_->receive();
+    if (mail) {
+      came = true;
+      result = obey(*mail);
+    }
+    if (came || now_s_ > asked_s + ask_again_after_s) {
+      asked_s = now_s_;
+      deal();
+    }
+    if (others_ && now_s_ > told_s + still_there_every_s) {
+      told_s = now_s_;
+      for (const Worker& each : workers_)
+        if (each.number != own_worker) send(each.number, message(Word::still_there));
+    }
+    if (!came) std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
+  made_.share_of_next = 0.0;
+  own_.send_to_worker(message(Word::end));
+  own.join();
+  const auto written = writer_.wait();
+  made_.bad_samples += writer_.bad_samples();
+  return result ? written : result;
+}
+
+}  // namespace
+
+Expected<void> trace_film(const FilmOptions& options, FilmFrames& frames, const FilmFolder& folder, Machines* others,
+                          FilmMade& made, const std::function<bool(const FilmMade&)>& go_on) {
+  return Master(options, frames.plan(), folder, others, made).run(frames, go_on);
+}
+
+}  // namespace septet::film

@@ -1,0 +1,75 @@
+#pragma once
+/// What master and workers of a film say to each other: one byte for the kind, then what belongs to it. Both are of one build, which
+/// the first message makes sure of; bytes from another program are checked all the same.
+///
+/// A worker says hello and is told the film; it asks for the session's file, part by part; then it gets runs of tiles, and each
+/// tile goes back as soon as it is traced.
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/raytrace/bucket_schedule.hpp"
+#include "engine/raytrace/ray_tracer.hpp"
+#include "sim-client/film/film.hpp"
+
+namespace septet::film {
+
+enum class Word : std::uint8_t {
+  hello,        ///< Worker: which Septet it is; threads.
+  film,         ///< Master: what is filmed, and how long the session's file is.
+  part_wanted,  ///< Worker: from which byte of that file on.
+  part,         ///< Master: from which byte on, and bytes.
+  run,          ///< Master: frame, first tile, end; in the stead of the run before.
+  shorter_run,  ///< Master: frame, end. Of the run that it has.
+  ready,        ///< Worker: how many seconds it took to begin a frame.
+  tile,         ///< Worker: frame, tile, and the tile (encode_tile).
+  failed,       ///< Worker: why it gives up.
+  still_there,  ///< Master: nothing new.
+  end,          ///< Master: no more is to be done.
+};
+
+/// The tiles of a film's frames: squares of this many pixels, rows from the top.
+inline constexpr std::uint32_t tile_side_px = 16;
+
+/// What is known of a whole frame, beside its pixels.
+struct FrameFacts {
+  double simulated_time_s = 0.0;
+  double ev100 = 0.0;
+  instant::FrameView view;
+};
+FrameFacts facts_of(const instant::Instant& instant);
+
+struct TracedTile {
+  FrameFacts facts;
+  std::vector<raytrace::TracedPixel> pixels;
+};
+
+/// With a hash, so that a half-written one is known. Tiles of equally many pixels are equally many bytes.
+Bytes encode_tile(const FrameFacts& facts, std::span<const raytrace::TracedPixel> pixels);
+std::size_t encoded_tile_size(std::size_t pixels);
+/// Nothing where the bytes are not such a tile of this many pixels, whole.
+std::optional<TracedTile> decode_tile(std::span<const std::byte> bytes, std::size_t pixels);
+
+Bytes message(Word word);
+Bytes hello_message(unsigned threads);
+/// Threads; nothing where it is another Septet.
+std::optional<unsigned> read_hello(ByteReader& reader);
+
+/// What all that a worker has to know is, but for the session's bytes.
+struct FilmTold {
+  FilmOptions options;  ///< Without files.
+  std::optional<std::string> script;
+  std::uint64_t session_bytes = 0;
+};
+Bytes film_message(const FilmTold& told);
+std::optional<FilmTold> read_film(ByteReader& reader);
+
+Bytes run_message(const raytrace::TileRun& run);
+Bytes shorter_run_message(const raytrace::TileRun& run);
+std::optional<raytrace::TileRun> read_run(ByteReader& reader);
+
+Bytes error_message(const Error& error);
+Error read_error(ByteReader& reader);
+
+}  // namespace septet::film

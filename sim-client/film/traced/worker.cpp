@@ -1,0 +1,239 @@
+#include "sim-client/film/traced/worker.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "program/clock.hpp"
+#include "program/temporary_folder.hpp"
+#include "sim-client/film/traced/messages.hpp"
+
+namespace septet::film {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t master = 0;
+constexpr double longest_silence_s = 120.0;
+constexpr std::chrono::microseconds pause{300};
+
+/// Threads that trace the tiles of a run one by one, in order.
+class TracingThreads {
+ public:
+  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles, unsigned threads)
+      : tracer_(tracer), tiles_(tiles) {
+    for (unsigned n = 0; n < threads; ++n) threads_.emplace_back([this] { work(); });
+  }
+  ~TracingThreads() {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    changed_.notify_all();
+  }
+
+  /// None is in any hands: a new frame may be begun.
+  bool is_idle() {
+    const std::lock_guard lock(mutex_);
+    return next_ >= end_ && busy_ == 0;
+  }
+  void begin_frame(std::size_t frame, const FrameFacts& facts) {
+    const std::lock_guard lock(mutex_);
+    frame_ = frame, facts_ = facts;
+  }
+  void set_run(std::uint32_t first, std::uint32_t end) {
+    {
+      const std::lock_guard lock(mutex_);
+      next_ = first, end_ = std::min(end, static_cast<std::uint32_t>(tiles_.size()));
+    }
+    changed_.notify_all();
+  }
+  void shorten(std::uint32_t end) {
+    const std::lock_guard lock(mutex_);
+    end_ = std::min(end_, end);
+  }
+  /// Messages about tiles that are done; waits a moment for one.
+  std::deque<Bytes> done() {
+    std::unique_lock lock(mutex_);
+    if (done_.empty()) came_.wait_for(lock, pause);
+    return std::exchange(done_, {});
+  }
+
+ private:
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return stop_ || next_ < end_; });
+      if (stop_) return;
+      const std::uint32_t tile = next_++;
+      ++busy_;
+      lock.unlock();
+      const raytrace::Bucket bucket = tracer_.trace(tiles_[tile]);
+      Bytes bytes = message(Word::tile);
+      ByteWriter writer(bytes);
+      writer.put(std::uint64_t{frame_}), writer.put(tile);
+      writer.put_bytes(encode_tile(facts_, bucket.pixels));
+      lock.lock();
+      --busy_;
+      done_.push_back(std::move(bytes));
+      came_.notify_all();
+    }
+  }
+
+  const raytrace::RayTracer& tracer_;
+  std::span<const instant::PixelRectangle> tiles_;
+  std::mutex mutex_;
+  std::condition_variable changed_, came_;
+  std::size_t frame_ = 0;  ///< Written while nothing is in any hands.
+  FrameFacts facts_;
+  std::uint32_t next_ = 0, end_ = 0;
+  unsigned busy_ = 0;
+  std::deque<Bytes> done_;
+  bool stop_ = false;
+  std::vector<std::jthread> threads_;  ///< Last: they use the rest.
+};
+
+/// What the master has said, until it says end.
+class Listening {
+ public:
+  explicit Listening(Machines& machines) : machines_(machines), heard_s_(program::monotonic_s()) {}
+
+  /// Calls `obey(word, reader)` with each message. False: it is the end.
+  template <class Obey>
+  Expected<bool> listen(const Obey& obey) {
+    const double now_s = program::monotonic_s();
+    while (auto mail = machines_.receive()) {
+      heard_s_ = now_s;
+      ByteReader reader(mail->bytes);
+      const auto word = static_cast<Word>(reader.get<std::uint8_t>());
+      if (word == Word::end) return false;
+      obey(word, reader);
+    }
+    if (now_s - heard_s_ > longest_silence_s)
+      return failure(fmt::format("nothing has come from the master for {:.0f} s", now_s - heard_s_), "mpirun",
+                     "start the film again with --resume");
+    return true;
+  }
+
+ private:
+  Machines& machines_;
+  double heard_s_;
+};
+
+/// Waits for the film, then for the session's bytes. Nothing: the master has said end before.
+Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path& folder) {
+  std::optional<FilmTold> told;
+  std::ofstream session(folder / "session.sqlite", std::ios::binary);
+  std::uint64_t there = 0, asked = 0;
+  const auto ask = [&] {
+    Bytes bytes = message(Word::part_wanted);
+    ByteWriter(bytes).put(there);
+    machines.send(master, std::move(bytes));
+    asked = there;
+  };
+  for (Listening listening(machines);;) {
+    const auto goes_on = listening.listen([&](Word word, ByteReader& reader) {
+      if (word == Word::film && !told) {
+        told = read_film(reader);
+        ask();
+      } else if (word == Word::part && told && reader.get<std::uint64_t>() == there) {
+        const auto bytes = reader.take(reader.remaining());
+        session.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        there += bytes.size();
+      }
+    });
+    if (!goes_on) return tl::unexpected(goes_on.error());
+    if (!*goes_on) return std::nullopt;
+    session.flush();
+    if (!session) return failure("the session finds no room there", folder.string(), "make room, or set TMPDIR");
+    if (told && there >= told->session_bytes) break;
+    if (told && there > asked) ask();
+    std::this_thread::sleep_for(pause);
+  }
+  told->options.session = folder / "session.sqlite";
+  if (told->script) {
+    told->options.shots = folder / "shots.toml";
+    std::ofstream(told->options.shots, std::ios::binary) << *told->script;
+  }
+  return told;
+}
+
+Expected<void> serve(Machines& machines) {
+  const unsigned threads = share_of_processors();
+  machines.send(master, hello_message(threads));
+  auto folder = program::TemporaryFolder::make("septet-film");
+  if (!folder) return tl::unexpected(folder.error());
+  const auto told = fetch_film(machines, folder->path());
+  if (!told) return tl::unexpected(told.error());
+  if (!*told) return {};
+  auto frames = FilmFrames::open((*told)->options);
+  if (!frames) return tl::unexpected(frames.error());
+  return trace_for_master(machines, *frames, (*told)->options, threads);
+}
+
+}  // namespace
+
+Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads) {
+  auto tracer = raytrace::RayTracer::create(frames.scene());
+  if (!tracer) return tl::unexpected(tracer.error());
+  const instant::SceneSummary summary = instant::summarise(frames.scene());
+  const auto tiles = raytrace::buckets_of(options.width_px, options.height_px, tile_side_px);
+  TracingThreads tracing(*tracer, tiles, threads);
+  std::optional<raytrace::TileRun> wanted;
+  std::optional<std::size_t> frame;
+  Listening listening(machines);
+  while (true) {
+    const auto goes_on = listening.listen([&](Word word, ByteReader& reader) {
+      const auto run = word == Word::run || word == Word::shorter_run ? read_run(reader) : std::nullopt;
+      if (!run || run->frame >= frames.plan().frames.size()) return;
+      if (word == Word::run)
+        wanted = run, tracing.shorten(0);
+      else if (wanted && wanted->frame == run->frame)
+        wanted->end = std::min(wanted->end, run->end);
+      else if (frame == run->frame)
+        tracing.shorten(run->end);
+    });
+    if (!goes_on) return tl::unexpected(goes_on.error());
+    if (!*goes_on) return {};
+    if (wanted && frame != wanted->frame && tracing.is_idle()) {
+      const double begun_s = program::monotonic_s();
+      const FilmFrame& of_film = frames.plan().frames[wanted->frame];
+      auto input = frames.input_of(of_film);
+      if (!input) return tl::unexpected(input.error());
+      raytrace::TraceSettings settings;
+      settings.samples = options.samples;
+      settings.seed = of_film.number;  // Another noise in each frame.
+      tracer->begin(instant::describe(std::move(*input), summary), settings);
+      frame = wanted->frame;
+      tracing.begin_frame(*frame, facts_of(tracer->instant()));
+      Bytes bytes = message(Word::ready);
+      ByteWriter(bytes).put(program::monotonic_s() - begun_s);
+      machines.send(master, std::move(bytes));
+    }
+    if (wanted && frame == wanted->frame) {
+      tracing.set_run(wanted->first, wanted->end);
+      wanted.reset();
+    }
+    for (Bytes& bytes : tracing.done()) machines.send(master, std::move(bytes));
+  }
+}
+
+int serve_master(Machines& machines) {
+  const auto served = serve(machines);
+  if (served) return 0;
+  machines.send(master, error_message(served.error()));
+  // mpirun ends all where one ends with another status than 0, or before the rest: the film goes on without this one.
+  Listening listening(machines);
+  while (true) {
+    const auto goes_on = listening.listen([](Word, ByteReader&) {});
+    if (!goes_on) return 1;
+    if (!*goes_on) return 0;
+    std::this_thread::sleep_for(10 * pause);
+  }
+}
+
+}  // namespace septet::film

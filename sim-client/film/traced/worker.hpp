@@ -1,0 +1,17 @@
+#pragma once
+/// A worker of a traced film: traces the runs of tiles that a master deals it, on its share of the machine's processors, until the
+/// master says end.
+
+#include "sim-client/film/film_frames.hpp"
+#include "sim-client/film/traced/machines.hpp"
+
+namespace septet::film {
+
+/// With the session and its frames at hand. Error: the session cannot be read, or the master is silent for minutes.
+Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads);
+
+/// The whole of a program that mpirun has started and that is not the master, from whom it gets film and session. The exit
+/// status. Says nothing: the master does.
+int serve_master(Machines& machines);
+
+}  // namespace septet::film
