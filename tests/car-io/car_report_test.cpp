@@ -179,9 +179,10 @@ TEST_CASE("a Logitech G29 report reads as its layout says") {
 }
 
 TEST_CASE("who presses both indicators at once indicates nothing") {
-  for (const auto& [buttons, expected] :
-       {std::pair{1u << (4 + 6), IndicatorStalk::right}, {1u << (4 + 7), IndicatorStalk::left},
-        {1u << (4 + 6) | 1u << (4 + 7), IndicatorStalk::off}, {0u, IndicatorStalk::off}}) {
+  for (const auto& [buttons, expected] : {std::pair{1u << (4 + 6), IndicatorStalk::right},
+                                          {1u << (4 + 7), IndicatorStalk::left},
+                                          {1u << (4 + 6) | 1u << (4 + 7), IndicatorStalk::off},
+                                          {0u, IndicatorStalk::off}}) {
     Bytes report(12, std::byte{0});
     for (std::size_t i = 0; i < 3; ++i) report[i] = static_cast<std::byte>(buttons >> (8 * i) & 0xff);
     const auto input = decode_report(layout_of("logitech-g29"), {}, report);

@@ -1,5 +1,5 @@
-#include "logging/report/measure_table.hpp"
 #include "logging/report/report.hpp"
+#include "logging/report/measure_table.hpp"
 
 #include <cmath>
 #include <cstdlib>

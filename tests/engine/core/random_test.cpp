@@ -10,12 +10,8 @@ using namespace septet;
 TEST_CASE("the generator is xoshiro256++ as its authors publish it") {
   auto random = Random::from_state({1, 2, 3, 4});
   REQUIRE(random);
-  const std::array<std::uint64_t, 6> published{41943041,
-                                               58720359,
-                                               3588806011781223,
-                                               3591011842654386,
-                                               9228616714210784205u,
-                                               9973669472204895162u};
+  const std::array<std::uint64_t, 6> published{
+      41943041, 58720359, 3588806011781223, 3591011842654386, 9228616714210784205u, 9973669472204895162u};
   for (const std::uint64_t expected : published) CHECK(random->next_bits() == expected);
 }
 

@@ -138,14 +138,16 @@ TEST_CASE("a car's front is cut off from the edge of its bonnet to where its roo
   const VehicleModel& model = vehicle_models()[car.model];
   const FrontSlope slope = front_slope(model.kind).value();
   const debris::Box box = body_box(car);
-  const double edge_m = slope.edge_height * model.height_m, roof_m = model.front_m() - slope.roof_begins * model.length_m;
+  const double edge_m = slope.edge_height * model.height_m,
+               roof_m = model.front_m() - slope.roof_begins * model.length_m;
   CHECK(debris::gap_to_box(box, {model.front_m() - 0.01, 0.0, edge_m - 0.03}).gap_m < 0.0);
   CHECK(debris::gap_to_box(box, {model.front_m() - 0.01, 0.0, edge_m + 0.03}).gap_m > 0.0);
   CHECK(debris::gap_to_box(box, {roof_m - 0.03, 0.0, model.height_m - 0.01}).gap_m < 0.0);
   CHECK(debris::gap_to_box(box, {roof_m + 0.1, 0.0, model.height_m - 0.01}).gap_m > 0.0);
 }
 
-TEST_CASE("parts are thrown with the motion that the car had when it touched what stands, though it stands itself now") {
+TEST_CASE(
+    "parts are thrown with the motion that the car had when it touched what stands, though it stands itself now") {
   const std::vector<Participant> stopped{participant(1, "volvo-s80", 0.0, 0.0, 0.0, 0.0)};
   vehicle::HullTouch touch;
   touch.point_m = stopped[0].world_from_vehicle * Vec3(front_m(stopped[0]), 0.5, 0.5);

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "engine/film_script/film_script.hpp"
-#include "engine/math/spherical_interpolation.hpp"
 #include "engine/image/png.hpp"
+#include "engine/math/spherical_interpolation.hpp"
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"

@@ -138,9 +138,8 @@ TEST_CASE("cells above each other have cracks of their own") {
     const auto a = cracks_in(low, cell), b = cracks_in(high, cell);
     int same = 0;
     for (const Crack& crack : a)
-      same += std::ranges::any_of(b, [&](const Crack& other) {
-        return glm::length(other.middle_m - crack.middle_m - cell * shift) < 1e-4f;
-      });
+      same += std::ranges::any_of(
+          b, [&](const Crack& other) { return glm::length(other.middle_m - crack.middle_m - cell * shift) < 1e-4f; });
     return same;
   };
   CHECK(shifted_by_a_cell({1, 0, 0}) == 0);
