@@ -137,3 +137,29 @@ TEST_CASE("a change of a layer's values is of as many elements as it sets") {
   CHECK(change->first == 2);
   CHECK(change->end == 6);
 }
+
+TEST_CASE("a tag's group is there before its tag whichever of them waits longer") {
+  Store store = store_of(1);
+  REQUIRE(store.apply(TagGroupSet{node, 2, "draw"}).has_value());
+  REQUIRE(store.apply(TagSet{node, 2, 5, {"to_m", 7.0}}).has_value());
+  Outbox outbox;
+  outbox.mark({{node, SubjectKind::tag, 2, 5}});
+  Change made_anew{{node, SubjectKind::tag_group, 2, 0}};
+  made_anew.renew = true;
+  outbox.mark(made_anew);
+  const auto commands = written(outbox, store);
+  REQUIRE(commands.size() == 3);
+  CHECK(std::holds_alternative<TagGroupDestroy>(commands[0]));
+  CHECK(std::holds_alternative<TagGroupSet>(commands[1]));
+  CHECK(std::holds_alternative<TagSet>(commands[2]));
+}
+
+TEST_CASE("what waits of a node that is of another type by now says nothing") {
+  const Store store = store_of(3);  // A geometry.
+  Outbox outbox;
+  for (const SubjectKind kind : {SubjectKind::transform, SubjectKind::hide, SubjectKind::light, SubjectKind::link,
+                                 SubjectKind::fragment, SubjectKind::bitmap_size, SubjectKind::bitmap_layer})
+    outbox.mark({{node, kind, 0, 0}});
+  CHECK(written(outbox, store).empty());
+  CHECK(outbox.empty());
+}

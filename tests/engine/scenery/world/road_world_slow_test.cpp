@@ -296,7 +296,7 @@ TEST_CASE("no fifty metres of a bridge are without a pier or an abutment") {
 }
 
 TEST_CASE("the strip beside the road lies below the pavement of a ramp that runs there") {
-  int above = 0, beside = 0;
+  int above = 0, shallow = 0, beside = 0;
   for (const Drawn& tile : drawn(motorway_store(), "verge"))
     for (const auto& corners : triangles(motorway_store(), tile))
       for (const Vec3& corner : corners) {
@@ -307,10 +307,12 @@ TEST_CASE("the strip beside the road lies below the pavement of a ramp that runs
         if (std::min(extent.left_t_m - place->position.t_m, place->position.t_m - extent.right_t_m) < 0.7) continue;
         ++beside;
         const double over_m = corner.z - road::evaluate(motorway(), place->position).position_m.z;
-        above += over_m > 0.02;  // At a joint they meet.
+        above += over_m > 0.02;
+        shallow += over_m > -0.3 && over_m < -0.02;  // At a joint of two roads their edges meet.
       }
   CHECK(beside > 0);
   CHECK(above == 0);
+  CHECK(shallow == 0);
 }
 
 TEST_CASE("a kerb's faces look outwards and its top up") {
