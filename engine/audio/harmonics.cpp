@@ -15,6 +15,10 @@ constexpr double highest_hz = 16000.0;
 
 void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::size_t count, Block& out) {
   static_assert(block_samples % lanes == 0);
+  if (!std::isfinite(hz)) {
+    tone = {};  // No tone, until there is a frequency again.
+    return;
+  }
   const double from_hz = tone.hz > 0.0 ? tone.hz : hz;
   const double fastest_hz = std::max({from_hz, hz, 1.0});
   count = std::min({count, most_harmonics, static_cast<std::size_t>(highest_hz / fastest_hz)});
@@ -30,7 +34,7 @@ void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::siz
     return;
   }
   // Within eight samples the frequency stands still, so that one turn leads from each to the next; another leads from turn to turn.
-  constexpr double groups = double(block_samples / lanes), turn_rad = 2.0 * std::numbers::pi;
+  constexpr double groups = double(block_samples) / double(lanes), turn_rad = 2.0 * std::numbers::pi;
   using Turn = std::complex<double>;
   const auto times = [](const Turn& a, const Turn& b) {
     return Turn(a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real());

@@ -30,6 +30,7 @@ page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loade
 
 std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) {
   std::vector<page::ScreenView> views;
+  views.reserve(screens.size());
   for (const HostedScreen& screen : screens)
     views.push_back({.name = screen.name,
                      .live = screen.live(),

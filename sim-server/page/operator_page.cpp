@@ -157,7 +157,7 @@ void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::str
   });
 }
 
-void OperatorPage::tell(double simulated_s, std::string words) {
+void OperatorPage::tell(double simulated_s, const std::string& words) {
   shared_->server->post([shared = shared_.get(), event = text(event_text(simulated_s, words))] {
     shared->events.push_back(event);
     if (shared->events.size() > remembered_events) shared->events.pop_front();

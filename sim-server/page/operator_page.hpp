@@ -52,7 +52,7 @@ class OperatorPage {
   /// `why_not` where it was not done.
   void answer(const OperatorWish& wish, const std::optional<std::string>& why_not);
   /// For the list of events on the page.
-  void tell(double simulated_s, std::string text);
+  void tell(double simulated_s, const std::string& text);
   WebCounters counters() const;
 
  private:
