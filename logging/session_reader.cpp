@@ -78,6 +78,7 @@ Expected<Statement> prepare_range(const Database& database, std::string_view col
 struct SessionReader::State {
   Database database;
   SessionInfo info;
+  std::filesystem::path path;
   bool ended_cleanly = false;
 };
 
@@ -143,7 +144,7 @@ Expected<SessionReader> SessionReader::open(const std::filesystem::path& path) {
   auto info = read_info(*database);
   if (!info) return tl::unexpected(info.error());
   const bool ended = info->other.contains("ended");
-  return SessionReader(std::make_unique<State>(State{std::move(*database), std::move(*info), ended}));
+  return SessionReader(std::make_unique<State>(State{std::move(*database), std::move(*info), path, ended}));
 }
 
 const SessionInfo& SessionReader::info() const { return state_->info; }
@@ -167,6 +168,17 @@ Expected<std::optional<std::pair<double, double>>> SessionReader::time_span_s() 
     *value = statement->real(0);
   }
   return std::optional(span);
+}
+
+Expected<std::pair<double, double>> SessionReader::shown_span_s() const {
+  const auto span = time_span_s();
+  if (!span) return tl::unexpected(span.error());
+  if (*span) return **span;
+  const auto log = state_->info.other.find("log");
+  if (log != state_->info.other.end() && log->second == "samples")
+    return failure("the session was logged without snapshots (--log samples): it can be measured, and not shown again",
+                   state_->path.string(), "drive it again with the same options and --log whole");
+  return failure("the session holds no tick", state_->path.string(), "record a longer drive");
 }
 
 Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) const {

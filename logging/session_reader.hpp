@@ -57,6 +57,8 @@ class SessionReader {
   Expected<std::uint64_t> missing_ticks() const;
   /// Simulated time of the first and last snapshot; nothing where there is none.
   Expected<std::optional<std::pair<double, double>>> time_span_s() const;
+  /// The same for whoever shows the drive again: an Error where nothing is there to be shown, and why.
+  Expected<std::pair<double, double>> shown_span_s() const;
 
   /// From the last snapshot at or before this time on; before the first one, from the first.
   Expected<SnapshotCursor> snapshots_from(double simulated_time_s) const;

@@ -16,13 +16,6 @@ constexpr double time_slack_s = 1e-6;
 constexpr std::size_t longest_script_bytes = 1 << 22;
 constexpr std::size_t most_frames = 1'000'000;
 
-Expected<std::pair<double, double>> span_of(const logging::SessionReader& session, const fs::path& file) {
-  const auto span = session.time_span_s();
-  if (!span) return tl::unexpected(span.error());
-  if (!*span) return failure("the session holds no tick", file.string(), "record a longer drive");
-  return **span;
-}
-
 Expected<Snapshot> world_at(const logging::SessionReader& session, double instant_s) {
   return SessionInstants::start(session, instant_s).and_then([&](SessionInstants instants) {
     return instants.at(instant_s);
@@ -134,7 +127,7 @@ const logging::SessionInfo& FilmFrames::session() const { return state_->session
 Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   auto session = logging::SessionReader::open(options.session);
   if (!session) return tl::unexpected(session.error());
-  const auto span_s = span_of(*session, options.session);
+  const auto span_s = session->shown_span_s();
   if (!span_s) return tl::unexpected(span_s.error());
   auto script = choose_script(options, *session, *span_s);
   if (!script) return tl::unexpected(script.error());

@@ -27,10 +27,9 @@ struct Span {
 };
 
 Expected<Span> span_of(const SoundOptions& options, const logging::SessionReader& session) {
-  const auto whole = session.time_span_s();
+  const auto whole = session.shown_span_s();
   if (!whole) return tl::unexpected(whole.error());
-  if (!*whole) return failure("the session holds no tick", options.session.string(), "record a longer drive");
-  const auto [first_s, last_s] = **whole;
+  const auto [first_s, last_s] = *whole;
   const Span span{options.from_s.value_or(first_s), options.to_s.value_or(last_s)};
   if (!(span.from_s >= first_s - time_slack_s && span.to_s <= last_s + time_slack_s && span.from_s < span.to_s))
     return failure(fmt::format("from {} to {} s is not a part of the session, which lasts from {:.2f} to {:.2f} s",

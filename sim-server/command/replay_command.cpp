@@ -107,6 +107,7 @@ struct Verified {
 Expected<Verified> verify(const std::filesystem::path& file, double from_s) {
   const auto session = logging::SessionReader::open(file);
   if (!session) return tl::unexpected(session.error());
+  if (auto shown = session->shown_span_s(); !shown) return tl::unexpected(shown.error());
   const auto inputs = session->inputs();
   if (!inputs) return tl::unexpected(inputs.error());
   if (inputs->empty())

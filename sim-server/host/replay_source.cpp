@@ -3,6 +3,7 @@
 namespace septet::server {
 
 Expected<std::unique_ptr<ReplaySource>> ReplaySource::start(const logging::SessionReader& session, double from_s) {
+  if (auto shown = session.shown_span_s(); !shown) return tl::unexpected(shown.error());
   auto cursor = session.snapshots_from(from_s);
   if (!cursor) return tl::unexpected(cursor.error());
   return std::unique_ptr<ReplaySource>(new ReplaySource(std::move(*cursor), session.info().ticks_per_second));

@@ -69,6 +69,14 @@ TEST_CASE("a participant who is forgotten is in no file of the drives any more a
   };
   drive("Q77", "x");
   drive("Q78", "y");
+  // Such a session can be measured, and whoever wants to see it again is told why not.
+  const std::string session = (folder / "data/Q77/session.sqlite").string();
+  for (const char* command : {"replay", "film", "sound"}) {
+    const auto shown = run("septet", {command, session, "--out", (folder / "shown").string()}, folder / "s.log");
+    CHECK(shown.code == 1);
+    CHECK_MESSAGE(shown.error.find("without snapshots") != std::string::npos, command, shown.error);
+  }
+  CHECK_FALSE(fs::exists(folder / "shown"));
   const auto forgotten = run("septet", {"session", "forget", "Q77", (folder / "data").string()}, folder / "f.log");
   CHECK_MESSAGE(forgotten.code == 0, forgotten.error);
   std::size_t files = 0;

@@ -1,0 +1,42 @@
+#pragma once
+/// Simulated subjects' drives, some at once.
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "program/console.hpp"
+#include "sim-server/command/experiment_study.hpp"
+
+namespace septet::server {
+
+struct RunningDrive;
+
+class ExperimentRun {
+ public:
+  ExperimentRun(const Study& study, const ExperimentOptions& options);
+  ~ExperimentRun();
+
+  std::size_t subjects() const { return stands_.size(); }
+  std::size_t finished() const { return finished_; }
+  double driven_now_s() const { return done_s_ - found_s_; }
+  double wall_s() const;
+
+  /// Until all are finished, somebody stops it, or a drive fails, which is said once: what stops one stops the others too.
+  Expected<void> go_on();
+
+ private:
+  Expected<void> take_ended();
+  void show();
+
+  const Study& study_;
+  std::map<std::size_t, Stand> stands_;
+  std::vector<std::size_t> waiting_;
+  std::vector<RunningDrive> running_;
+  std::size_t jobs_ = 1, finished_ = 0;
+  double total_s_ = 0.0, done_s_ = 0.0, found_s_ = 0.0, begun_s_ = 0.0;
+  program::ProgressLine progress_;
+};
+
+}  // namespace septet::server
