@@ -303,7 +303,8 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     }
     float edge_m = met ? glm::length(point.position_m - edge_ray.origin_m) : std::numeric_limits<float>::infinity();
     if (first && met)
-      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, point.place + 1};
+      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, world_.object(point.place),
+                world_.participant(point.place)};
     first = nullptr;
     if (meet_smoke(edge_ray, edge_m, point)) {
       met = true;

@@ -19,7 +19,8 @@ struct FirstSeen {
   float distance_m = 0.0f;  ///< 0: the sky.
   glm::vec3 normal{0.0f};   ///< World axes.
   glm::vec3 albedo{0.0f};
-  std::uint32_t place = 0;  ///< From 1; 0: the sky.
+  std::uint32_t object = 0;       ///< From 1 (TracedPixel::object); 0: the sky.
+  std::uint32_t participant = 0;  ///< Its number; 0: of none.
 };
 
 /// Radiance, in the units of engine/instant. `first` may be null.

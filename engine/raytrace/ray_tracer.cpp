@@ -86,7 +86,8 @@ TracedPixel trace_pixel(const World& world, const Camera& camera, const TraceSet
     pixel.radiance += radiance;
     pixel.normal += first.normal;
     pixel.albedo += first.albedo;
-    if (sample == 0) pixel.depth_m = first.distance_m, pixel.object = first.place;
+    if (sample == 0)
+      pixel.depth_m = first.distance_m, pixel.object = first.object, pixel.participant = first.participant;
     const double light = luminance(radiance);
     sum += light, squares += light * light;
   }

@@ -35,7 +35,10 @@ struct TracedPixel {
   float variance = 0.0f;                 ///< Of that mean's luminance.
   glm::vec3 normal{0.0f}, albedo{0.0f};  ///< Means of what is seen first.
   float depth_m = 0.0f;                  ///< Of the first sample; 0: the sky.
-  std::uint32_t object = 0;       ///< Of the first sample: from 1, alike within one instance of a frame; 0: the sky.
+  /// Of the first sample; 0: the sky. From 1 in the order of the scene's instances, then of its meshes, as parts of participants, then
+  /// of its materials, as debris, then ice: the same number means the same in every frame.
+  std::uint32_t object = 0;
+  std::uint32_t participant = 0;  ///< Of the first sample; 0: of none.
   std::uint32_t bad_samples = 0;  ///< Not a number, or infinite.
 };
 

@@ -71,18 +71,21 @@ World::World(const scene::ResolvedScene& scene, const instant::Instant& instant,
   for (const scene::SurfaceMaterial& material : scene.materials) cut_.push_back(is_cut(material, scene));
   geometry_.keep(scene.meshes.size());
   std::vector<Place> places;
-  for (const scene::Instance& instance : scene.instances) {
+  for (std::size_t n = 0; n < scene.instances.size(); ++n) {
+    const scene::Instance& instance = scene.instances[n];
     if (instance.mesh >= scene.meshes.size()) continue;
     const scene::SurfaceMesh& mesh = scene.meshes[instance.mesh];
-    add(places, instant::place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object), true);
+    add(places, instant::place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object), true,
+        n + 1);
   }
-  for (const instant::PlacedMesh& part : instant.parts) add(places, part, false);
+  for (const instant::PlacedMesh& part : instant.parts)
+    add(places, part, false, scene.instances.size() + part.mesh + 1);
   add_soups(places, bodies);
   geometry_.place(places, this);
   add_lamps(places);
 }
 
-void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands) {
+void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object) {
   if (placed.mesh >= scene_.meshes.size()) return;
   const double distance_m = glm::length(placed.origin_m - origin_m_);
   if (distance_m < placed.visible_from_m || distance_m >= placed.visible_to_m) return;
@@ -100,7 +103,9 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      placed.snowed_on,
                      placed.number,
                      stands,
-                     {}});
+                     {},
+                     nullptr,
+                     static_cast<std::uint32_t>(object)});
 }
 
 /// Triangles of this instant alone.
@@ -130,8 +135,14 @@ void World::add_soups(std::vector<Place>& places, std::span<const ClearBody> bod
     soup.parts = loose_parts_.back();
     soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
     soup.share_of_sky = loose.share_of_sky;
+    soup.object = static_cast<std::uint32_t>(scene_.instances.size() + scene_.meshes.size() + loose.material + 1);
   }
-  for (const ClearBody& body : bodies) add_soup(body.origin_m, body.vertices, true).body = &body;
+  const std::size_t ice = scene_.instances.size() + scene_.meshes.size() + scene_.materials.size() + 1;
+  for (const ClearBody& body : bodies) {
+    PlacedSurface& soup = add_soup(body.origin_m, body.vertices, true);
+    soup.body = &body;
+    soup.object = static_cast<std::uint32_t>(ice);
+  }
 }
 
 float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const {

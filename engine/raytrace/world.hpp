@@ -82,6 +82,10 @@ class World : public Openings {
   const Smoke& smoke() const { return smoke_; }
   const Vec3& origin_m() const { return origin_m_; }  ///< World.
 
+  /// As a picture's layers name them (TracedPixel).
+  std::uint32_t object(std::uint32_t place) const { return placed_[place].object; }
+  std::uint32_t participant(std::uint32_t place) const { return placed_[place].stands ? 0 : placed_[place].number; }
+
   SurfacePoint point(const Ray& ray, const Hit& hit) const;
   /// What fog gives off in this direction: as bright as the sky behind it, below the horizon as the sky just above.
   glm::vec3 fog_radiance(const glm::vec3& direction) const;
@@ -105,12 +109,13 @@ class World : public Openings {
     bool stands = false;               ///< An instance of the scene: not a part of a participant, nor loose.
     std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
     const ClearBody* body = nullptr;
+    std::uint32_t object = 0;  ///< TracedPixel::object.
   };
   struct Corners {
     const scene::SurfaceVertex *a, *b, *c;
   };
 
-  void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands);
+  void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object);
   float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const;
   void add_soups(std::vector<Place>& places, std::span<const ClearBody> bodies);
   void add_lamps(const std::vector<Place>& places);

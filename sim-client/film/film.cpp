@@ -28,7 +28,7 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
   frame::PictureWriter pictures;
   for (const FilmFrame& frame : frames.plan().frames) {
     if (!go_on(made)) break;
-    if (options.resume && folder.has(frame.number, options.width_px, options.height_px)) {
+    if (options.resume && folder.has(frame.number, options)) {
       ++made.frames, ++made.kept;
       continue;
     }
@@ -51,6 +51,10 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   if (others && !traced)
     return failure("mpirun shares out what is traced alone", "--renderer raster",
                    "add --renderer traced, or leave mpirun out");
+  if (!traced && options.exr != ExrNumbers::none)
+    return failure("only what is traced has OpenEXR pictures", "--exr", "add --renderer traced, or leave --exr out");
+  if (options.exr == ExrNumbers::none && !options.layers.empty())
+    return failure("layers lie in OpenEXR pictures alone", "--layers", "add --exr half, or leave --layers out");
   const auto is_file = is_film_file(options.out);
   if (!is_file) return tl::unexpected(is_file.error());
   fs::path ffmpeg, pictures_in = options.out;
@@ -90,7 +94,7 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   if (!whole) return tl::unexpected(whole.error());
   made.stopped = !*whole;
   std::error_code ignored;
-  if (*whole) fs::remove_all(pictures_in, ignored);
+  if (*whole && options.exr == ExrNumbers::none) fs::remove_all(pictures_in, ignored);
   return made;
 }
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "sim-client/film/camera_path.hpp"
 
@@ -16,6 +18,12 @@ enum class FilmRenderer : std::uint8_t {
   raster,  ///< engine/render, by a graphics card where there is one.
   traced,  ///< engine/raytrace, by the processor's cores.
 };
+
+/// OpenEXR pictures beside the others, with what numbers.
+enum class ExrNumbers : std::uint8_t { none, half_precision, single_precision };
+
+/// What they hold beside the light.
+enum class Layer : std::uint8_t { depth, object, participant, normal, albedo, variance };
 
 struct FilmOptions {
   std::filesystem::path session;
@@ -29,7 +37,9 @@ struct FilmOptions {
   bool software =
       false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
   FilmRenderer renderer = FilmRenderer::raster;
-  std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer.
+  std::uint32_t samples = 64;         ///< Of a pixel, of the ray tracer.
+  ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
+  std::set<Layer> layers;
   std::optional<double> from_s,
       to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
 };

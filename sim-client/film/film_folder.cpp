@@ -15,7 +15,9 @@
 #include "engine/core/version.hpp"
 #include "engine/document/json.hpp"
 #include "engine/document/text_file.hpp"
+#include "engine/exr/exr.hpp"
 #include "engine/image/png.hpp"
+#include "sim-client/film/traced/layers.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -74,10 +76,15 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
                     {"frames_per_second", fmt::format("{}", options.frames_per_second)},
                     {"size", fmt::format("{}x{}", options.width_px, options.height_px)},
                     {"renderer", options.renderer == FilmRenderer::traced ? "traced" : "raster"}};
-  if (options.renderer == FilmRenderer::traced)
+  if (options.renderer == FilmRenderer::traced) {
     record["samples"] = fmt::format("{}", options.samples);
-  else
+    record["exr"] = options.exr == ExrNumbers::none             ? "none"
+                    : options.exr == ExrNumbers::half_precision ? "half"
+                                                                : "float";
+    record["layers"] = layers_text(options.layers);
+  } else {
     record["drawn_by"] = options.software ? "processor" : "graphics card, if there is one";
+  }
   return record;
 }
 
@@ -126,11 +133,14 @@ FilmFolder::~FilmFolder() {
 
 fs::path FilmFolder::picture(std::uint64_t number) const { return path_ / fmt::format("{:06}.png", number); }
 
-bool FilmFolder::has(std::uint64_t number, std::uint32_t width_px, std::uint32_t height_px) const {
+fs::path FilmFolder::exr_picture(std::uint64_t number) const { return path_ / fmt::format("{:06}.exr", number); }
+
+bool FilmFolder::has(std::uint64_t number, const FilmOptions& options) const {
   std::error_code error;
   if (!fs::is_regular_file(picture(number), error)) return false;
   const auto read = image::read_png(picture(number));
-  return read && read->width == width_px && read->height == height_px;
+  if (!read || read->width != options.width_px || read->height != options.height_px) return false;
+  return options.exr == ExrNumbers::none || exr::is_whole(exr_picture(number), options.width_px, options.height_px);
 }
 
 }  // namespace septet::film

@@ -32,8 +32,9 @@ class FilmFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path picture(std::uint64_t number) const;
-  /// Whether the picture is there, whole, of this size.
-  bool has(std::uint64_t number, std::uint32_t width_px, std::uint32_t height_px) const;
+  std::filesystem::path exr_picture(std::uint64_t number) const;
+  /// Whether the picture is there, whole, of this size; and its OpenEXR one, where the film has them.
+  bool has(std::uint64_t number, const FilmOptions& options) const;
 
  private:
   explicit FilmFolder(std::filesystem::path path) : path_(std::move(path)) {}

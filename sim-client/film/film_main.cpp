@@ -7,12 +7,13 @@
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
 #include "sim-client/film/film_program.hpp"
+#include "sim-client/film/traced/layers.hpp"
 
 int main(int argc, char** argv) {
   using namespace septet;
   using program::number_between;
   film::FilmOptions options;
-  std::string renderer = "raster";
+  std::string renderer = "raster", exr = "none";
   CLI::App app{
       "Turn a recorded session into a folder of numbered pictures, or a film, seen by the cameras of a script.\n"
       "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
@@ -49,6 +50,17 @@ int main(int argc, char** argv) {
   app.add_option("--samples", options.samples, "Of a pixel that is traced: four times as many halve the noise")
       ->check(CLI::Range(1u, 1u << 20))
       ->capture_default_str();
+  app.add_option("--exr", exr, "OpenEXR pictures too, of what is traced: half (16 bits a number) or float (32)")
+      ->check(CLI::IsMember({"none", "half", "float"}))
+      ->capture_default_str();
+  app.add_option("--layers",
+                 "What they hold beside light: all, or some of depth,object,participant,normal,albedo,variance")
+      ->type_name("NAMES")
+      ->default_str("")
+      ->each([&](const std::string& text) {
+        if (const auto problem = film::read_layers(text, options.layers); !problem.empty())
+          throw CLI::ValidationError(problem);
+      });
   app.add_flag("--resume", options.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");
@@ -58,6 +70,9 @@ int main(int argc, char** argv) {
   return film::run_alone_or_by_mpirun([&](film::Machines* others) {
     return program::run("septet", app, argc, argv, [&] {
       options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
+      options.exr = exr == "half"    ? film::ExrNumbers::half_precision
+                    : exr == "float" ? film::ExrNumbers::single_precision
+                                     : film::ExrNumbers::none;
       return film::run_film(options, others);
     });
   });

@@ -1,5 +1,10 @@
 #include "sim-client/film/traced/frame_writer.hpp"
 
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/core/version.hpp"
 #include "engine/image/png.hpp"
 #include "engine/raytrace/displayed.hpp"
 
@@ -41,10 +46,26 @@ Expected<void> write_whole(const fs::path& file, const Assembled& whole) {
   return {};
 }
 
+ExrFacts exr_facts(const FilmOptions& options, const logging::SessionInfo& session) {
+  ExrFacts facts{.septet = version_text(),
+                 .session = session.started_utc + " " + session.git_revision,
+                 .ticks_per_second = session.ticks_per_second,
+                 .frames_per_second = options.frames_per_second,
+                 .samples = options.samples};
+  for (const auto& [name, seed] : session.seeds) facts.drive_seeds += fmt::format("{} {}\n", name, seed);
+  return facts;
+}
+
 }  // namespace
 
-FrameWriter::FrameWriter(const FilmOptions& options, std::span<const instant::PixelRectangle> tiles)
-    : options_(options), tiles_(tiles), thread_([this] { run(); }) {}
+FrameWriter::FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
+                         std::span<const instant::PixelRectangle> tiles)
+    : options_(options),
+      folder_(folder),
+      exr_facts_(exr_facts(options, session)),
+      tiles_(tiles),
+      preview_(folder.path() / "preview.png"),
+      thread_([this] { run(); }) {}
 
 FrameWriter::~FrameWriter() {
   {
@@ -55,20 +76,19 @@ FrameWriter::~FrameWriter() {
   thread_.join();
 }
 
-Expected<void> FrameWriter::finish(fs::path picture, KeptTiles tiles, fs::path kept_in) {
+Expected<void> FrameWriter::finish(std::uint64_t frame, KeptTiles tiles, fs::path kept_in) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.size() < 4; });
   if (error_) return tl::unexpected(*error_);
-  jobs_.push_back({std::move(picture), std::move(tiles), std::move(kept_in)});
+  jobs_.push_back({frame, std::move(tiles), std::move(kept_in)});
   changed_.notify_all();
   return {};
 }
 
-void FrameWriter::show_preview(const fs::path& folder, const fs::path& kept_in) {
+void FrameWriter::show_preview(fs::path kept_in) {
   const std::lock_guard lock(mutex_);
-  preview_ = folder / "preview.png";
   if (!jobs_.empty() || writing_) return;
-  jobs_.push_back({preview_, std::nullopt, kept_in});
+  jobs_.push_back({0, std::nullopt, std::move(kept_in)});
   changed_.notify_all();
 }
 
@@ -76,7 +96,7 @@ Expected<void> FrameWriter::wait() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.empty() && !writing_; });
   std::error_code ignored;
-  if (!preview_.empty()) fs::remove(preview_, ignored);
+  fs::remove(preview_, ignored);
   if (error_) return tl::unexpected(*error_);
   return {};
 }
@@ -92,14 +112,20 @@ Expected<void> FrameWriter::write(Job& job) {
     // Who looks sees a whole file; without one the film is made none the less. It may be whole and gone by now.
     if (!fs::exists(job.kept_in, error)) return {};
     if (const auto kept = KeptTiles::open(job.kept_in, tiles_))
-      (void)write_whole(job.picture, assembled(options_, *kept, tiles_));
+      (void)write_whole(preview_, assembled(options_, *kept, tiles_));
     return {};
   }
   const Assembled whole = assembled(options_, *job.tiles, tiles_);
   if (whole.missing > 0)
     return failure("what was written there cannot be read", job.kept_in.string(),
                    "check the disk and add --resume to go on");
-  if (auto written = write_whole(job.picture, whole); !written) return written;
+  // The picture last: where it is, its frame is whole.
+  if (options_.exr != ExrNumbers::none) {
+    exr_facts_.frame = job.frame;
+    const exr::Picture picture = exr_picture(whole.picture, whole.facts, exr_facts_, options_.exr, options_.layers);
+    if (auto written = exr::write(folder_.exr_picture(job.frame), picture); !written) return written;
+  }
+  if (auto written = write_whole(folder_.picture(job.frame), whole); !written) return written;
   fs::remove(job.kept_in, error);
   const std::lock_guard lock(mutex_);
   bad_samples_ += whole.picture.bad_samples;

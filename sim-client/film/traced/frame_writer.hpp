@@ -7,31 +7,33 @@
 #include <optional>
 #include <thread>
 
-#include "sim-client/film/film.hpp"
+#include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/traced/kept_tiles.hpp"
+#include "sim-client/film/traced/layers.hpp"
 
 namespace septet::film {
 
 class FrameWriter {
  public:
-  /// Both outlive it.
-  FrameWriter(const FilmOptions& options, std::span<const instant::PixelRectangle> tiles);
+  /// All but `session` outlive it.
+  FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
+              std::span<const instant::PixelRectangle> tiles);
   ~FrameWriter();  ///< Writes what is queued.
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Queues the frame whose tiles are all there, and removes their file once the picture is whole; waits while four are
   /// queued. Answers the first failure of an earlier one.
-  Expected<void> finish(std::filesystem::path picture, KeptTiles tiles, std::filesystem::path kept_in);
+  Expected<void> finish(std::uint64_t frame, KeptTiles tiles, std::filesystem::path kept_in);
   /// preview.png in the folder, of what there is of a frame; not while pictures wait.
-  void show_preview(const std::filesystem::path& folder, const std::filesystem::path& kept_in);
+  void show_preview(std::filesystem::path kept_in);
   /// Until everything is written; the preview is gone then. The first failure.
   Expected<void> wait();
   std::uint64_t bad_samples();
 
  private:
   struct Job {
-    std::filesystem::path picture;
+    std::uint64_t frame = 0;
     std::optional<KeptTiles> tiles;  ///< None: a preview.
     std::filesystem::path kept_in;
   };
@@ -39,13 +41,15 @@ class FrameWriter {
   Expected<void> write(Job& job);
 
   const FilmOptions& options_;
+  const FilmFolder& folder_;
+  ExrFacts exr_facts_;
   std::span<const instant::PixelRectangle> tiles_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   bool writing_ = false, stop_ = false;
   std::optional<Error> error_;
-  std::filesystem::path preview_;
+  const std::filesystem::path preview_;
   std::uint64_t bad_samples_ = 0;
   std::thread thread_;
 };

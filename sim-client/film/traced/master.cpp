@@ -56,15 +56,16 @@ class OwnWorkersMail : public Machines {
 
 class Master {
  public:
-  Master(const FilmOptions& options, const FilmPlan& plan, const FilmFolder& folder, Machines* others, FilmMade& made)
+  Master(const FilmOptions& options, const FilmFrames& frames, const FilmFolder& folder, Machines* others,
+         FilmMade& made)
       : options_(options),
         folder_(folder),
         others_(others),
         made_(made),
         tiles_(raytrace::buckets_of(options.width_px, options.height_px, tile_side_px)),
-        schedule_(plan.frames.size(), static_cast<std::uint32_t>(tiles_.size())),
-        writer_(options, tiles_) {
-    for (const FilmFrame& frame : plan.frames) numbers_.push_back(frame.number);
+        schedule_(frames.plan().frames.size(), static_cast<std::uint32_t>(tiles_.size())),
+        writer_(options, folder, frames.session(), tiles_) {
+    for (const FilmFrame& frame : frames.plan().frames) numbers_.push_back(frame.number);
   }
 
   Expected<void> take_up();
@@ -117,7 +118,7 @@ Expected<void> Master::take_up() {
   if (!options_.resume) return {};
   std::error_code ignored;
   for (std::size_t frame = 0; frame < numbers_.size(); ++frame) {
-    if (folder_.has(numbers_[frame], options_.width_px, options_.height_px)) {
+    if (folder_.has(numbers_[frame], options_)) {
       schedule_.skip_frame(frame);
       fs::remove(kept_file(frame), ignored);
       ++made_.frames, ++made_.kept;
@@ -129,8 +130,7 @@ Expected<void> Master::take_up() {
     for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)
       if ((*tiles)->read(tile)) schedule_.skip_tile(frame, tile);
     if (schedule_.has_frame(frame)) {
-      if (auto queued = writer_.finish(folder_.picture(numbers_[frame]), std::move(kept_.at(frame)), kept_file(frame));
-          !queued)
+      if (auto queued = writer_.finish(numbers_[frame], std::move(kept_.at(frame)), kept_file(frame)); !queued)
         return queued;
       kept_.erase(frame);
       ++made_.frames;
@@ -166,14 +166,14 @@ Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
   if (!schedule_.finish(from.in_schedule, frame, tile, now_s_)) return {};
   ++came_;
   if (schedule_.has_frame(frame)) {
-    auto queued = writer_.finish(folder_.picture(numbers_[frame]), std::move(**tiles), kept_file(frame));
+    auto queued = writer_.finish(numbers_[frame], std::move(**tiles), kept_file(frame));
     kept_.erase(frame);
     ++made_.frames;
     return queued;
   }
   if (came_ >= shown_ + 0.125 * static_cast<double>(tiles_.size())) {
     shown_ = came_;
-    writer_.show_preview(folder_.path(), kept_file(frame));
+    writer_.show_preview(kept_file(frame));
   }
   return {};
 }
@@ -292,7 +292,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
 
 Expected<void> trace_film(const FilmOptions& options, FilmFrames& frames, const FilmFolder& folder, Machines* others,
                           FilmMade& made, const std::function<bool(const FilmMade&)>& go_on) {
-  return Master(options, frames.plan(), folder, others, made).run(frames, go_on);
+  return Master(options, frames, folder, others, made).run(frames, go_on);
 }
 
 }  // namespace septet::film

@@ -86,6 +86,33 @@ TEST_CASE("light that is not a number is counted and black") {
   for (const TracedPixel& pixel : picture.pixels) CHECK(std::isfinite(pixel.radiance.x));
 }
 
+TEST_CASE(
+    "a pixel says which object is seen and whose part it is by numbers that do not change with what else is there") {
+  scene::ResolvedScene scene = ball_scene({}, 1);
+  scene.instances.front().world_from_object.position_m = {50.0, 0.0, 0.0};
+  scene.instances.front().visible_to_m = 100.0f;
+  scene.instances.push_back(scene.instances.front());
+  scene.instances.back().world_from_object.position_m = {0.0, 1.5, 0.0};
+  instant::Instant instant = instant_from({-6.0, 0.0, 0.0}, 0.9, 32, even_sky(0.25f));
+  instant::PlacedMesh part;
+  part.origin_m = {0.0, -1.5, 0.0};
+  part.number = 77;
+  instant.parts.push_back(part);
+  const auto check = [&] {
+    const TracedPicture picture = traced(scene, instant, {.samples = 1, .filter = Filter::box});
+    const TracedPixel &left = picture.at(7, 16), &right = picture.at(24, 16), &sky = picture.at(16, 1);
+    CHECK(left.object == 2);
+    CHECK(left.participant == 0);
+    CHECK(right.object == 3);  // Behind the two instances: the first mesh as a part.
+    CHECK(right.participant == 77);
+    CHECK(sky.object == 0);
+    CHECK(sky.participant == 0);
+  };
+  check();
+  scene.instances.front().visible_to_m = 1.0f;
+  check();
+}
+
 TEST_CASE("what the sun gives and what the sky gives add up whichever is looked at") {
   // Which kind of light is looked at is a matter of chance; what is found is not.
   scene::SurfaceMaterial white;

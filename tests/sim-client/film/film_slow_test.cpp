@@ -1,13 +1,24 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
 #include "engine/image/png.hpp"
+#include "engine/instant/tone_curve.hpp"
 #include "sim-client/film/film.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/temporary_folder.hpp"
@@ -58,6 +69,18 @@ std::string refusal_of(const FilmOptions& options) {
   return made ? "" : describe(made.error());
 }
 
+template <class Value>
+std::vector<Value> channel(Imf::InputFile& file, const char* name, Imf::PixelType type) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto width = static_cast<std::size_t>(window.max.x) + 1;
+  std::vector<Value> values(width * (static_cast<std::size_t>(window.max.y) + 1));
+  Imf::FrameBuffer buffer;
+  buffer.insert(name, Imf::Slice(type, reinterpret_cast<char*>(values.data()), sizeof(Value), sizeof(Value) * width));
+  file.setFrameBuffer(buffer);
+  file.readPixels(0, window.max.y);
+  return values;
+}
+
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
@@ -94,6 +117,66 @@ TEST_CASE("a film begun in the middle shows frame by frame what the whole film s
       CHECK(bytes_of(picture.path()) == bytes_of(folder / (name + "-whole") / file));
     }
   }
+}
+
+TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a film that was not stopped") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0.2\nto_s = 0.3\nparticipant = \"1\"\n";
+  FilmOptions options{.session = folder / "session.sqlite",
+                      .shots = folder / "shots.toml",
+                      .out = folder / "film",
+                      .width_px = 64,
+                      .height_px = 48,
+                      .renderer = FilmRenderer::traced,
+                      .samples = 2,
+                      .exr = ExrNumbers::single_precision,
+                      .layers = {Layer::depth, Layer::object, Layer::participant, Layer::normal, Layer::albedo},
+                      .to_s = 0.26};
+  // Somebody stops it between the tiles of the second frame: what they know is kept.
+  const auto stopped =
+      make_film(options, [](const FilmMade& so_far) { return so_far.frames < 1 || so_far.share_of_next < 0.4; });
+  REQUIRE(stopped.has_value());
+  REQUIRE(stopped->stopped);
+  options.resume = true;
+  fs::resize_file(options.out / "000001.exr", fs::file_size(options.out / "000001.exr") - 50);
+  REQUIRE(refusal_of(options) == "");
+  options.resume = false;
+  options.out = folder / "at once";
+  REQUIRE(refusal_of(options) == "");
+  for (const char* name : {"000001.exr", "000002.exr", "000002.png"})
+    CHECK(bytes_of(options.out / name) == bytes_of(folder / "film" / name));
+
+  Imf::InputFile file((options.out / "000002.exr").c_str());
+  CHECK(file.header().typedAttribute<Imf::DoubleAttribute>("septet.instant_s").value() == doctest::Approx(0.24));
+  CHECK(file.header().typedAttribute<Imf::DoubleAttribute>("septet.tick").value() == doctest::Approx(28.8));
+  CHECK(file.header().typedAttribute<Imf::StringAttribute>("septet.seed").value() == "2");
+  CHECK(has(file.header().typedAttribute<Imf::StringAttribute>("septet.drive_seeds").value(), "traffic"));
+  const std::vector<float> red = channel<float>(file, "R", Imf::FLOAT), depth = channel<float>(file, "Z", Imf::FLOAT);
+  const auto what = channel<std::uint32_t>(file, "object", Imf::UINT);
+  const auto picture = image::read_png(options.out / "000002.png");
+  REQUIRE(picture.has_value());
+  bool light_is_that = true, sky_is_nothing = true;
+  for (std::size_t n = 0; n < red.size(); ++n) {
+    const float code = 255.0f * std::clamp(instant::display_code(glm::vec3(red[n])).x, 0.0f, 1.0f);
+    light_is_that = light_is_that && std::abs(code - static_cast<float>(picture->rgba[4 * n])) <= 0.51f;
+    sky_is_nothing = sky_is_nothing && (what[n] == 0) == std::isinf(depth[n]);
+  }
+  CHECK(light_is_that);
+  CHECK(sky_is_nothing);
+}
+
+TEST_CASE("OpenEXR pictures are refused where there are none and layers without them") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  FilmOptions options{.session = folder / "session.sqlite", .shots = folder / "shots.toml", .out = folder / "film"};
+  options.exr = ExrNumbers::half_precision;
+  CHECK(has(refusal_of(options), "add --renderer traced"));
+  options.renderer = FilmRenderer::traced;
+  options.exr = ExrNumbers::none;
+  options.layers = {Layer::depth};
+  CHECK(has(refusal_of(options), "add --exr half"));
+  CHECK_FALSE(fs::exists(options.out));
 }
 
 TEST_CASE("a film that is stopped while a frame is traced ends there") {

@@ -1,5 +1,11 @@
 #include "sim-client/film/film.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+#include <variant>
+
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -10,6 +16,7 @@
 #include "sim-client/film/camera.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_program.hpp"
+#include "sim-client/film/traced/layers.hpp"
 #include "tests/shipped_files.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -282,18 +289,81 @@ TEST_CASE("a film shows its session at even steps and slow motion at shorter one
   CHECK(describe(beyond.error()).find("shot 4: it shows 1 to 9 s, and the session lasts from 0.00 to 8.00 s") == 0);
 }
 
+TEST_CASE("layers are named by a list and what is no layer is refused with those there are") {
+  std::set<Layer> layers;
+  CHECK(read_layers("normal,depth", layers) == "");
+  CHECK(layers == std::set<Layer>{Layer::depth, Layer::normal});
+  CHECK(layers_text(layers) == "depth,normal");
+  CHECK(read_layers("all", layers) == "");
+  CHECK(read_layers(layers_text(layers), layers) == "");
+  CHECK(layers.size() == 6);
+  for (const char* wrong : {"", "depth,", "dept", "depth normal", ",", "DEPTH"}) {
+    CAPTURE(wrong);
+    CHECK(read_layers(wrong, layers).find("is no layer; write all, or some of depth,") != std::string::npos);
+  }
+}
+
+TEST_CASE("a picture's layers are its pixels' and its header says where the camera stood and how bright white is") {
+  raytrace::TracedPicture traced(2, 1);
+  traced.pixels[0] = {.radiance = {0.5f, 0.25f, 0.125f},
+                      .variance = 0.01f,
+                      .normal = {0.0f, -1.0f, 0.5f},
+                      .albedo = {0.1f, 0.2f, 0.3f},
+                      .depth_m = 12.0f,
+                      .object = 0x80000001u,
+                      .participant = 7};
+  FrameFacts facts{.simulated_time_s = 2.5, .ev100 = 12.0};
+  facts.view.projection = instant::symmetric_view({0.0, 0.0, 1.2}, 0.3, -0.1, 1.0, 0.6);
+  facts.view.world_from_car = {{4000.0, -300.0, 2.0}, orientation_from_angles(2.0, 0.02, 0.01)};
+  const exr::Picture picture =
+      exr_picture(traced, facts, {.frame = 9}, ExrNumbers::half_precision,
+                  {Layer::depth, Layer::object, Layer::participant, Layer::normal, Layer::albedo, Layer::variance});
+  const double scale = 8000.0 / (1.2 * std::exp2(12.0));
+  CHECK(picture.white_luminance_cdpm2 == doctest::Approx(1.2 * std::exp2(12.0)));
+  const auto value = [&](const std::string& name, std::size_t pixel) -> double {
+    for (const exr::Channel& channel : picture.channels)
+      if (channel.name == name)
+        return std::visit([&](const auto& values) { return static_cast<double>(values[pixel]); }, channel.values);
+    FAIL("no channel " << name);
+    return 0.0;
+  };
+  CHECK(value("R", 0) == doctest::Approx(0.5 * scale));
+  CHECK(value("B", 0) == doctest::Approx(0.125 * scale));
+  CHECK(value("variance", 0) == doctest::Approx(0.01 * scale * scale));
+  CHECK(value("normal.Y", 0) == -1.0);
+  CHECK(value("albedo.G", 0) == doctest::Approx(0.2));
+  CHECK(value("object", 0) == 0x80000001u);
+  CHECK(value("participant", 0) == 7);
+  CHECK(value("Z", 0) == 12.0);
+  CHECK(std::isinf(value("Z", 1)));
+  CHECK(std::get<std::string>(picture.attributes.at("septet.seed")) == "9");
+  CHECK(std::get<double>(picture.attributes.at("septet.tick")) == 300.0);
+  // What the camera sees in its middle lies ahead of it, and what lies to its right is to its right.
+  const Vec3 eye_m = instant::world_eye(facts.view);
+  const Vec3 ahead_m = eye_m + 5.0 * (facts.view.world_from_car.orientation * -facts.view.projection.back),
+             right_m = ahead_m + facts.view.world_from_car.orientation * facts.view.projection.right;
+  CHECK(glm::distance(picture.camera_from_world * glm::dvec4(ahead_m, 1.0), glm::dvec4(0, 0, 5, 1)) < 1e-9);
+  CHECK(glm::distance(picture.camera_from_world * glm::dvec4(right_m, 1.0), glm::dvec4(1, 0, 5, 1)) < 1e-9);
+  CHECK(picture.screen_width == doctest::Approx(2.0 * std::tan(0.5)));
+}
+
 TEST_CASE("a picture that is there already counts where it is whole and of the film's size") {
   const TemporaryFolder place;
   const auto folder = FilmFolder::open(place / "film", {{"size", "4x3"}}, false);
   REQUIRE(folder.has_value());
-  CHECK_FALSE(folder->has(0, 4, 3));
+  const auto has = [&](std::uint64_t number, std::uint32_t width_px, std::uint32_t height_px) {
+    FilmOptions options;
+    options.width_px = width_px, options.height_px = height_px;
+    return folder->has(number, options);
+  };
+  CHECK_FALSE(has(0, 4, 3));
   REQUIRE(image::write_png(folder->picture(0), image::Image(4, 3, {1, 2, 3})).has_value());
-  CHECK(folder->has(0, 4, 3));
-  CHECK_FALSE(folder->has(0, 4, 4));
-  CHECK_FALSE(folder->has(0, 5, 3));
-  CHECK_FALSE(folder->has(1, 4, 3));
+  CHECK(has(0, 4, 3));
+  CHECK_FALSE(has(0, 4, 4));
+  CHECK_FALSE(has(0, 5, 3));
+  CHECK_FALSE(has(1, 4, 3));
   std::filesystem::resize_file(folder->picture(0), 20);
-  CHECK_FALSE(folder->has(0, 4, 3));
+  CHECK_FALSE(has(0, 4, 3));
 }
 
 }  // namespace septet::film

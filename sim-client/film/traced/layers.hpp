@@ -1,0 +1,34 @@
+#pragma once
+/// What an OpenEXR picture of a traced frame holds beside its light, and the picture made of a frame's pixels.
+///
+/// R, G, B are linear Rec. 709 after exposure, 1 being white; the header's whiteLuminance says how many cd/m² that is. FILM.md has the
+/// table of the layers and of the header.
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "engine/exr/exr.hpp"
+#include "sim-client/film/traced/messages.hpp"
+
+namespace septet::film {
+
+/// Puts "depth,normal" or "all" into the set. What is wrong with it, or nothing.
+std::string read_layers(const std::string& text, std::set<Layer>& layers);
+/// Their names as read_layers takes them.
+std::string layers_text(const std::set<Layer>& layers);
+
+/// What the header says of the session and the frame, beside what each tile knows (FrameFacts).
+struct ExrFacts {
+  std::string septet, session, drive_seeds;
+  double ticks_per_second = 120.0, frames_per_second = 25.0;
+  std::uint64_t frame = 0;  ///< Its number, which is its noise's seed.
+  std::uint32_t samples = 0;
+};
+
+exr::Picture exr_picture(const raytrace::TracedPicture& traced, const FrameFacts& facts, const ExrFacts& more,
+                         ExrNumbers numbers, const std::set<Layer>& layers);
+
+}  // namespace septet::film
