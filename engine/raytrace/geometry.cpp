@@ -26,6 +26,10 @@ struct Mesh {
   Scene scene;  ///< Its hierarchy; null while nobody has placed it.
 };
 
+/// One instruction set whatever the processor has more: hierarchies and rounding differ between them, and the machines of a film draw
+/// one picture. Septet is compiled for the same one (SEPTET_ARCHITECTURE); wider vectors were no faster (trace/cornell, trace/motorway).
+constexpr const char* device_options = "threads=1,isa=avx2";
+
 /// What a query's filter needs to know; begins as Embree's own context does.
 struct Query {
   RTCIntersectContext context;
@@ -124,10 +128,10 @@ Geometry::~Geometry() = default;
 
 Expected<Geometry> Geometry::create() {
   auto parts = std::make_unique<Parts>();
-  parts->device.reset(rtcNewDevice("threads=1"));
+  parts->device.reset(rtcNewDevice(device_options));
   if (!parts->device)
     return failure(fmt::format("Embree does not start (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
-                   "ray tracer", "use a processor with SSE2 or better, or --renderer raster");
+                   "ray tracer", "use a processor with AVX2, or --renderer raster");
   return Geometry(std::move(parts));
 }
 

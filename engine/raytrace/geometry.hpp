@@ -3,8 +3,9 @@
 /// file and is included by geometry.cpp alone.
 ///
 /// Frame: metres from an origin that the caller chooses, single precision; near the eye that is finest where it is seen best.
-/// Hierarchies are built by one thread and so are the same each time: which of two surfaces in one place a ray meets does not
-/// change. All queries are const and may be made by any number of threads at once.
+/// Hierarchies are built by one thread for one instruction set and so are the same each time and on every machine: which of two
+/// surfaces in one place a ray meets does not change. (Processors of two makes estimate reciprocals differently: there a hit's place
+/// may differ in its last digit.) All queries are const and may be made by any number of threads at once.
 
 #include <cstdint>
 #include <limits>

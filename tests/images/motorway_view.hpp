@@ -2,6 +2,8 @@
 /// The scenario's motorway with traffic at fixed instants, for tests of pictures.
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <string_view>
@@ -61,17 +63,8 @@ class Motorway {
     for (std::size_t i = 0; i < 14; ++i) {
       // Some ahead of the eye and some behind it, in all lanes but its own nearby.
       const double ahead_m = (i % 2 == 0 ? 14.0 : -16.0) + (i % 2 == 0 ? 9.0 : -9.0) * static_cast<double>(i);
-      const auto& models = vehicle_models();
-      Participant participant;
-      participant.model = static_cast<ModelIndex>(i % models.size());
-      if (models[participant.model].kind == ParticipantKind::pedestrian) continue;
-      participant.paint = static_cast<std::uint8_t>(i);
-      participant.world_from_vehicle = in_lane(-2 - static_cast<int>((i * 2 + 2) % 5), instant.s_m + ahead_m);
-      participant.wheel_spin_rad = 0.4;
-      participant.lamps.set(Lamp::low_beam, instant.night || instant.rain);
-      participant.lamps.set(Lamp::brake, i % 4 == 0);
-      participant.lamps.set(Lamp::beacon, models[participant.model].kind == ParticipantKind::ambulance);
-      input.participants.push_back(instant::drawn_participant(participant, prototype(models[participant.model].name)));
+      add_vehicle(input, i, in_lane(-2 - static_cast<int>((i * 2 + 2) % 5), instant.s_m + ahead_m),
+                  instant.night || instant.rain);
     }
     instant::DrawnParticipant own;  // The driver's car gives its light and its shadow.
     own.prototype = prototype("volvo-s80");
@@ -82,9 +75,39 @@ class Motorway {
     return input;
   }
 
+  /// So many vehicles more, evenly along all 10 km and over its five lanes.
+  void add_traffic(instant::FrameInput& input, std::size_t count, bool lit) const {
+    double length_m = 0.0;
+    for (road::RoadIndex each = 0; each < main_roads; ++each) length_m += network_.roads[each].length_m;
+    for (std::size_t i = 0; input.participants.size() < count && i < 2 * count; ++i) {
+      double s_m = length_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+      road::RoadIndex on = 0;
+      while (on + 1 < main_roads && s_m > network_.roads[on].length_m) s_m -= network_.roads[on++].length_m;
+      add_vehicle(input, i, in_lane(-2 - static_cast<int>(i * 2 % 5), std::fmod(s_m, network_.roads[on].length_m), on),
+                  lit);
+    }
+  }
+
  private:
-  RigidTransform in_lane(int lane, double s_m) const {
-    return road::world_from_lane(road::evaluate_lane(network_, {0, lane, s_m, 0.0}));
+  static constexpr road::RoadIndex main_roads = 3;
+
+  RigidTransform in_lane(int lane, double s_m, road::RoadIndex on = 0) const {
+    return road::world_from_lane(road::evaluate_lane(network_, {on, lane, s_m, 0.0}));
+  }
+  /// Which model and paint, and what is lit, follows from its number. Nobody walks here.
+  void add_vehicle(instant::FrameInput& input, std::size_t i, const RigidTransform& world_from_vehicle,
+                   bool lit) const {
+    const auto& models = vehicle_models();
+    Participant participant;
+    participant.model = static_cast<ModelIndex>(i % models.size());
+    if (models[participant.model].kind == ParticipantKind::pedestrian) return;
+    participant.paint = static_cast<std::uint8_t>(i);
+    participant.world_from_vehicle = world_from_vehicle;
+    participant.wheel_spin_rad = 0.4;
+    participant.lamps.set(Lamp::low_beam, lit);
+    participant.lamps.set(Lamp::brake, i % 4 == 0);
+    participant.lamps.set(Lamp::beacon, models[participant.model].kind == ParticipantKind::ambulance);
+    input.participants.push_back(instant::drawn_participant(participant, prototype(models[participant.model].name)));
   }
   std::uint32_t prototype(std::string_view name) const {
     const auto found = std::ranges::find(scene_.prototypes, name, &scene::Prototype::name);

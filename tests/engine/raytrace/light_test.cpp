@@ -1,0 +1,153 @@
+// Light of lamps, sky and sun through the whole tracer, and what rough surfaces make of it, against closed forms.
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <memory>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include "tests/engine/raytrace/traced_scenes.hpp"
+
+namespace septet::raytrace {
+namespace {
+
+void add_part(scene::ResolvedScene& scene, const std::array<glm::vec3, 4>& corners,
+              const scene::SurfaceMaterial& material) {
+  if (scene.meshes.empty()) {
+    scene.meshes.emplace_back();
+    scene.meshes[0].bounds_min_m = glm::vec3(-100.0f), scene.meshes[0].bounds_max_m = glm::vec3(100.0f);
+    scene.instances.push_back({});
+  }
+  scene::SurfaceMesh& mesh = scene.meshes[0];
+  mesh.parts.push_back(
+      {static_cast<std::uint32_t>(mesh.indices.size()), 6, static_cast<std::uint32_t>(scene.materials.size())});
+  add_triangle(mesh, {corners[0], corners[1], corners[2]});
+  add_triangle(mesh, {corners[0], corners[2], corners[3]});
+  scene.materials.push_back(material);
+}
+
+/// At x, as wide as it is high, towards −x: the side from which it is looked at.
+std::array<glm::vec3, 4> wall(float x, float half_m) {
+  return {glm::vec3(x, -half_m, -half_m), {x, -half_m, half_m}, {x, half_m, half_m}, {x, half_m, -half_m}};
+}
+
+/// A needle's view of one point of it, along a way in the plane of x and y.
+instant::Instant needle(const Vec3& at_m, double aside_rad, std::shared_ptr<const instant::SkyLight> light) {
+  const Vec3 eye_m = at_m - 4.0 * Vec3(std::cos(aside_rad), std::sin(aside_rad), 0.0);
+  instant::Instant instant = instant_from(eye_m, 1e-4, 8, std::move(light));
+  instant.views.front().projection = instant::symmetric_view(eye_m, aside_rad, 0.0, 1e-4, 1e-4);
+  return instant;
+}
+
+TraceSettings direct(std::uint32_t samples) {
+  return {.samples = samples, .paths = {.longest = 2}, .filter = Filter::box};
+}
+
+/// Share of the hemisphere's cosines that a parallel rectangle takes of which one corner is straight ahead.
+double of_corner(double a, double b) {
+  const double p = std::sqrt(1.0 + a * a), q = std::sqrt(1.0 + b * b);
+  return (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+TEST_CASE("a lamp lights a wall by the rectangle's form factor however rough the wall is") {
+  scene::SurfaceMaterial white, lamp;
+  white.base_color = glm::vec3(0.6f);
+  white.roughness = 1.0f;
+  lamp.base_color = glm::vec3(0.0f);
+  lamp.emission = glm::vec3(7.0f);
+  scene::ResolvedScene scene;
+  add_part(scene, wall(5.0f, 3.0f), white);
+  // It faces the wall at a distance of 1 m, beside the way of the eye.
+  const float y0 = 0.2f, y1 = 1.5f, z0 = -0.5f, z1 = 0.8f;
+  add_part(scene, {glm::vec3(4.0f, y0, z0), {4.0f, y1, z0}, {4.0f, y1, z1}, {4.0f, y0, z1}}, lamp);
+  const auto corner = [](float y, float z) { return std::copysign(of_corner(y, std::abs(z)), z); };
+  const double share = corner(y1, z1) - corner(y0, z1) - corner(y1, z0) + corner(y0, z0);
+  const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, 0.0, even_sky(0.0f)), direct(512)));
+  CHECK(mean.sigma < 0.004 * 0.6 * 7.0 * share);
+  CHECK(std::abs(mean.radiance.x - 0.6 * 7.0 * share) < 4.0 * mean.sigma);
+}
+
+TEST_CASE("a sky lights a wall by the integral of its radiance and the cosine") {
+  auto sky = *even_sky(0.2f);
+  sky.sun_direction = glm::normalize(glm::vec3(-0.6f, 0.5f, 0.3f));
+  // One bright cloud, and brighter towards the top.
+  for (std::uint32_t row = instant::SkyTable::rows / 2; row < instant::SkyTable::rows; ++row)
+    for (std::uint32_t column = 0; column < instant::SkyTable::columns; ++column)
+      sky.table.radiance[std::size_t{row} * instant::SkyTable::columns + column] *=
+          1.0f + 0.1f * static_cast<float>(row) + (row > 44 && row < 50 && column < 9 ? 100.0f : 0.0f);
+  scene::SurfaceMaterial white;
+  white.base_color = glm::vec3(0.5f);
+  white.roughness = 1.0f;
+  scene::ResolvedScene scene;
+  add_part(scene, wall(5.0f, 3.0f), white);
+  double irradiance = 0.0, drawn_share = 0.0;
+  constexpr int rings = 800, spokes = 800;
+  const Sky light(sky);
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < 2 * spokes; ++j) {
+      const glm::vec3 direction = from_angles(2.0f * (static_cast<float>(i) + 0.5f) / rings - 1.0f,
+                                              pi * (static_cast<float>(j) + 0.5f) / spokes);
+      irradiance += double(luminance(instant::sky_radiance(sky, direction)) * std::max(0.0f, -direction.x));
+      drawn_share += double(light.pdf(direction));
+    }
+  const double solid_angle = 2.0 * std::numbers::pi / rings / spokes;
+  CHECK(drawn_share * solid_angle == doctest::Approx(1.0).epsilon(0.005));
+  const double known = 0.5 / std::numbers::pi * irradiance * solid_angle;
+  const PictureMean mean =
+      mean_of(traced(scene, needle({5.0, 0.0, 0.0}, 0.0, std::make_shared<const instant::SkyLight>(sky)), direct(512)));
+  CHECK(mean.sigma < 0.006 * known);
+  CHECK(std::abs(mean.radiance.x - known) < 4.0 * mean.sigma + 1e-3 * known);
+}
+
+TEST_CASE("rough metal under the sun shines as Walter's microfacets say") {
+  scene::SurfaceMaterial metal;
+  metal.base_color = glm::vec3(0.9f);
+  metal.metallic = 1.0f;
+  for (const float roughness : {0.4f, 0.8f})
+    for (const double aside_deg : {20.0, 50.0}) {
+      metal.roughness = roughness;
+      scene::ResolvedScene scene;
+      add_part(scene, wall(5.0f, 3.0f), metal);
+      auto sun = *even_sky(0.0f);
+      sun.light_direction = glm::normalize(glm::vec3(-1.0f, 0.5f, 0.2f));
+      sun.light_irradiance = glm::vec3(3.0f);
+      const double aside = aside_deg * std::numbers::pi / 180.0;
+      const PictureMean mean = mean_of(
+          traced(scene, needle({5.0, 0.0, 0.0}, aside, std::make_shared<const instant::SkyLight>(sun)), direct(64)));
+      // By tangents, as the paper writes D and G; D's width is the square of the roughness.
+      const glm::dvec3 l(sun.light_direction), v(-std::cos(aside), -std::sin(aside), 0.0), h = glm::normalize(l + v);
+      const double a2 = std::pow(double(roughness), 4.0);
+      const auto tangent2 = [](double cosine) { return 1.0 / (cosine * cosine) - 1.0; };
+      const double d = a2 / (std::numbers::pi * std::pow(-h.x, 4.0) * std::pow(a2 + tangent2(-h.x), 2.0));
+      // Height-correlated (Heitz), where the paper multiplies the two.
+      const auto lambda = [&](double cosine) { return 0.5 * (std::sqrt(1.0 + a2 * tangent2(cosine)) - 1.0); };
+      const double g = 1.0 / (1.0 + lambda(-l.x) + lambda(-v.x));
+      const double f = 0.9 + 0.1 * std::pow(1.0 - glm::dot(h, v), 5.0);
+      const double known = f * d * g / (4.0 * v.x * l.x) * -l.x * 3.0;
+      CAPTURE(roughness);
+      CAPTURE(aside_deg);
+      CHECK(mean.radiance.x == doctest::Approx(known).epsilon(0.01).scale(0));
+    }
+}
+
+TEST_CASE("a mirror shows a lamp as bright as it is") {
+  scene::SurfaceMaterial mirror, lamp;
+  mirror.base_color = glm::vec3(0.8f);
+  mirror.metallic = 1.0f;
+  mirror.roughness = 0.01f;
+  lamp.base_color = glm::vec3(0.0f);
+  lamp.emission = glm::vec3(7.0f);
+  scene::ResolvedScene scene;
+  add_part(scene, wall(5.0f, 3.0f), mirror);
+  add_part(scene, {glm::vec3(1.0f, 1.0f, -2.0f), {1.0f, 6.0f, -2.0f}, {1.0f, 6.0f, 2.0f}, {1.0f, 1.0f, 2.0f}}, lamp);
+  // Its image fills the needle's view.
+  const double aside = std::atan2(0.75, 1.0);
+  const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, aside, even_sky(0.0f)), direct(64)));
+  const double fresnel_here = 0.8 + 0.2 * std::pow(1.0 - std::cos(aside), 5.0);
+  CHECK(mean.radiance.x == doctest::Approx(7.0 * fresnel_here).epsilon(0.005).scale(0));
+}
+
+}  // namespace septet::raytrace
