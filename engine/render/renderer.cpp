@@ -14,6 +14,7 @@
 #include "engine/instant/clouds.hpp"
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/graph/render_graph.hpp"
+#include "engine/render/ice_frame.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/glow_pass.hpp"
@@ -41,12 +42,6 @@ Expected<void> check_size(std::uint32_t width, std::uint32_t height) {
 }
 
 }  // namespace
-
-using AddImage = std::function<ResourceId(const char*, const vulkan::DeviceImage&, Access)>;
-
-struct IceResources {
-  ResourceId front, back, depth, inside, around, around_depth, cube;
-};
 
 struct Renderer::State {
   RendererOptions options;
@@ -87,9 +82,6 @@ struct Renderer::State {
   void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
                  const std::function<void()>& draw_seen_through);
   void draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant);
-  IceResources add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
-                              const PreparedFrame& frame, const Instant& instant,
-                              const std::vector<ResourceUse>& view_reads);
   void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
 
@@ -207,46 +199,9 @@ void Renderer::State::draw_views(PassContext& context, const PreparedFrame& fram
 void Renderer::State::draw_surroundings(PassContext& context, std::span<const PreparedView> views,
                                         const Instant& instant) {
   const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
-  begin_view_rendering(context, ice_pass.targets.around, ice_pass.targets.around_depth);
+  begin_view_rendering(context, ice_pass.targets[IceImage::around], ice_pass.targets[IceImage::around_depth]);
   for (const PreparedView& prepared : views) draw_view(context, prepared, instant, soot, [] {});
   vkCmdEndRendering(context.slot.commands);
-}
-
-IceResources Renderer::State::add_ice_passes(RenderGraph& graph, const AddImage& add_image, PassContext& context,
-                                             const PreparedFrame& frame, const Instant& instant,
-                                             const std::vector<ResourceUse>& view_reads) {
-  const IceTargets& held = ice_pass.targets;
-  const IceResources ice{add_image("ice front", held.front, held.front_access),
-                         add_image("ice back", held.back, held.back_access),
-                         add_image("ice depth", held.depth, held.depth_access),
-                         add_image("ice inside", held.inside, held.inside_access),
-                         add_image("surroundings", held.around, held.around_access),
-                         add_image("surroundings depth", held.around_depth, held.around_depth_access),
-                         add_image("surroundings cube", held.cube, held.cube_access)};
-  const auto layer = [this, &context, &frame, &instant](IceLayer which) {
-    return [this, &context, &frame, &instant, which] {
-      draw_ice_layer(ice_pass, context, which, frame.ice, instant.ice, frame.ice_upload,
-                     {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view});
-    };
-  };
-  graph.add_pass("surroundings",
-                 {view_reads, {{ice.around, Access::color_attachment}, {ice.around_depth, Access::depth_attachment}}},
-                 [this, &context, &frame, &instant] { draw_surroundings(context, frame.around_views, instant); });
-  graph.add_pass("surroundings cube",
-                 {{{ice.around, Access::transfer_source}}, {{ice.cube, Access::transfer_destination}}},
-                 [this, &context] { copy_surroundings(ice_pass, context); });
-  graph.add_pass("ice front faces",
-                 {view_reads, {{ice.front, Access::color_attachment}, {ice.depth, Access::depth_attachment}}},
-                 layer(IceLayer::front));
-  std::vector<ResourceUse> reads = view_reads;
-  reads.push_back({ice.front, Access::sampled});
-  graph.add_pass("ice back faces",
-                 {reads, {{ice.back, Access::color_attachment}, {ice.depth, Access::depth_attachment}}},
-                 layer(IceLayer::back));
-  reads.push_back({ice.back, Access::sampled});
-  reads.push_back({ice.cube, Access::sampled});
-  graph.add_pass("ice inside", {reads, {{ice.inside, Access::color_attachment}}}, layer(IceLayer::inside));
-  return ice;
 }
 
 std::optional<std::uint32_t> Renderer::State::next_window_image(const vulkan::FrameSlot& slot) {
@@ -269,9 +224,10 @@ void Renderer::State::draw(const Instant& instant) {
   const PreparedFrame frame = prepare_frame(context, scene, instant, targets.width, targets.height);
   const bool new_text = lay_out(*overlay_pass, instant.overlay);
   const bool icy = !frame.ice.list.empty();
-  if (icy && !ice_targets_fit(ice_pass, targets.width, targets.height, instant.ice_surroundings_px)) {
+  const IceTargetSizes ice_sizes{targets.width, targets.height, instant.ice_surroundings_px, frame.ice.beyond};
+  if (icy && !ice_targets_fit(ice_pass, ice_sizes)) {
     wait_for_frames(ring, device);
-    prepare_ice_targets(ice_pass, context, targets.width, targets.height, instant.ice_surroundings_px);
+    prepare_ice_targets(ice_pass, context, ice_sizes);
   }
 
   RenderGraph graph;
@@ -302,9 +258,12 @@ void Renderer::State::draw(const Instant& instant) {
   std::vector<ResourceUse> view_reads{{table, Access::sampled}, {shadow_map, Access::sampled}};
   std::optional<IceResources> ice;
   if (icy) {
-    ice = add_ice_passes(graph, add_image, context, frame, instant, view_reads);
-    for (const ResourceId seen : {ice->front, ice->back, ice->inside, ice->cube})
-      view_reads.push_back({seen, Access::sampled});
+    ice = add_ice_passes(graph, ice_pass, context, frame, instant,
+                         {add_image,
+                          view_reads,
+                          {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view},
+                          [&] { draw_surroundings(context, frame.around_views, instant); }});
+    for (const ResourceUse& use : ice_reads(*ice, frame.ice.beyond)) view_reads.push_back(use);
   }
   graph.add_pass("views", {view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
                  [&] { draw_views(context, frame, instant); });
@@ -354,16 +313,8 @@ void Renderer::State::draw(const Instant& instant) {
   targets.picture_access = left[picture];
   atlas_access = left[atlas];
   targets.radiance_access = left[radiance];
-  if (ice) {
-    IceTargets& held = ice_pass.targets;
-    held.front_access = left[ice->front];
-    held.back_access = left[ice->back];
-    held.depth_access = left[ice->depth];
-    held.inside_access = left[ice->inside];
-    held.around_access = left[ice->around];
-    held.around_depth_access = left[ice->around_depth];
-    held.cube_access = left[ice->cube];
-  }
+  if (ice)
+    for (std::size_t i = 0; i < ice_image_count; ++i) ice_pass.targets.accesses[i] = left[(*ice)[i]];
   if (mapped) targets.mapped_access = left[*mapped];
   if (window_image) {
     submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   app.add_option("--surroundings", surroundings,
                  "outdoors: sun, field and columns. room: a panorama, as references have it")
       ->check(CLI::IsMember({"outdoors", "room"}));
-  bool one_sided = false, as_a_lens = false, no_reflection = false, straight_cracks = false;
+  bool one_sided = false, as_a_lens = false, no_reflection = false, straight_cracks = false, alone = false;
   app.add_flag("--one-sided", one_sided, "The front face alone refracts");
   app.add_flag("--as-a-lens", as_a_lens, "Equation 1 with the back face's normal added, not taken away as printed");
   app.add_option("--back-share", options.look.back_share, "Share of the back face's normal in equation 1")
@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
   app.add_option("--cracks", options.cracks, "Number of cracks inside")->check(CLI::Range(0u, 100000u));
   app.add_option("--air", options.air_planes, "Number of planes with bubbles of air")->check(CLI::Range(0u, 1000u));
   app.add_flag("--straight-cracks", straight_cracks, "In quality mode: cracks do not bend what is seen through them");
+  app.add_flag("--nothing-beyond", alone, "In quality mode: light that has left the ice meets no other ice behind it");
+  app.add_flag("--pair", options.pair, "A second one stands behind it");
   app.add_flag("--mark-cracks", options.mark_cracks, "Cracks in red, as figure 5 of the paper shows their clipping");
   app.add_option("--bump", options.look.bump, "Slope of the surface's unevenness")->check(number_between(0.0, 1.0));
   app.add_option("--bump-size", options.look.bump_size_m, "Length of its waves, m; the object is a metre across")
@@ -66,6 +68,7 @@ int main(int argc, char** argv) {
     options.look.back_sign = as_a_lens ? ice::BackSign::as_a_lens : ice::BackSign::as_printed;
     options.look.reflects = !no_reflection;
     options.look.bent_by_cracks = !straight_cracks;
+    options.look.seen_beyond = !alone;
     return ice_viewer::run_ice(options);
   });
 }

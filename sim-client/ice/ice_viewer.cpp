@@ -64,6 +64,10 @@ instant::FrameInput frame_of(const ice::Surface& surface, const IceOptions& opti
   view.viewport = {0, 0, options.width_px, options.height_px};
   input.views = {view};
   input.ice = {body_of(surface, options, turn_rad)};
+  if (options.pair) {
+    input.ice.push_back(body_of(surface, options, 0.0));
+    input.ice.back().origin_m = Vec3(second_place_m);
+  }
   input.ice_surroundings_px = options.surroundings_px;
   return input;
 }

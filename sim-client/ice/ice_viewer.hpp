@@ -17,6 +17,7 @@ struct IceOptions {
   Surroundings surroundings = Surroundings::outdoors;
   ice::Look look;
   std::uint32_t cracks = 2, air_planes = 19;  ///< The paper's.
+  bool pair = false;                          ///< A second one stands behind it.
   bool mark_cracks = false;                   ///< In red, as figure 5 shows them.
   std::uint64_t seed = 1;
   std::uint32_t width_px = 800, height_px = 600;
@@ -33,6 +34,8 @@ Expected<ice::Surface> read_surface(const std::string& object, const std::functi
 
 /// The object, turned about the vertical by `turn_rad`.
 ice::IceBody body_of(const ice::Surface& surface, const IceOptions& options, double turn_rad);
+/// Where the second one stands; it does not turn.
+inline constexpr glm::vec3 second_place_m{1.15f, 0.22f, -0.1f};
 
 /// How the object is seen: from the front, a little from above.
 instant::FrameInput frame_of(const ice::Surface& surface, const IceOptions& options, double turn_rad);

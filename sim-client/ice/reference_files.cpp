@@ -19,13 +19,19 @@ Expected<void> write(const std::filesystem::path& path, const std::string& bytes
   return failure("it cannot be written", path.string(), "look at the folder's rights and the disk's space");
 }
 
-std::string object_text(const ice::Surface& surface) {
+std::string object_text(const ice::Surface& surface, bool pair) {
   std::string text;
-  for (const ice::IceVertex& v : surface) {
-    text += fmt::format("v {} {} {}\n", v.position_m.x, v.position_m.y, v.position_m.z);
-    text += fmt::format("vn {} {} {}\n", v.normal.x, v.normal.y, v.normal.z);
+  std::size_t corners = 0;
+  for (const glm::vec3& place : {glm::vec3(0.0f), second_place_m}) {
+    for (const ice::IceVertex& v : surface) {
+      const glm::vec3 at = v.position_m + place;
+      text += fmt::format("v {} {} {}\n", at.x, at.y, at.z);
+      text += fmt::format("vn {} {} {}\n", v.normal.x, v.normal.y, v.normal.z);
+    }
+    corners += surface.size();
+    if (!pair) break;
   }
-  for (std::size_t i = 1; i + 2 <= surface.size(); i += 3)
+  for (std::size_t i = 1; i + 2 <= corners; i += 3)
     text += fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", i, i + 1, i + 2);
   return text;
 }
@@ -79,7 +85,7 @@ Expected<void> write_reference_files(const ice::Surface& surface, const IceOptio
       options.height_px, room_radiance);
   if (auto done = write(options.reference / "camera.json", camera); !done) return done;
   if (auto done = write(options.reference / "panorama.pfm", panorama_bytes()); !done) return done;
-  return write(options.reference / "object.obj", object_text(surface));
+  return write(options.reference / "object.obj", object_text(surface, options.pair));
 }
 
 }  // namespace septet::ice_viewer

@@ -22,10 +22,12 @@ struct Look {
   float back_share = static_cast<float>(paper_back_share);
   bool reflects = true;        ///< Off: what is seen through it alone.
   bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
-  float bump = 0.12f;          ///< Slope of the unevenness; 0: as smooth as its mesh.
-  float bump_size_m = 0.05f;   ///< Length of its longest waves.
-  float roughness = 0.0f;      ///< Share of the surface that crystals of frost make white.
-  float share_of_sky = 1.0f;   ///< Of the sun's light that reaches it.
+  bool seen_beyond =
+      false;  ///< In quality mode: light that has left goes on through what else of ice it meets, of equal absorption.
+  float bump = 0.12f;         ///< Slope of the unevenness; 0: as smooth as its mesh.
+  float bump_size_m = 0.05f;  ///< Length of its longest waves.
+  float roughness = 0.0f;     ///< Share of the surface that crystals of frost make white.
+  float share_of_sky = 1.0f;  ///< Of the sun's light that reaches it.
   glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
 };
 

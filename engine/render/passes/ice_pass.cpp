@@ -12,11 +12,8 @@ namespace {
 constexpr VkFormat layer_format = VK_FORMAT_R32G32B32A32_SFLOAT, inside_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 
 void destroy_ice_targets(IcePass& pass, vulkan::MemoryPool& memory) {
-  IceTargets& targets = pass.targets;
-  for (vulkan::DeviceImage* image : {&targets.front, &targets.back, &targets.depth, &targets.inside, &targets.around,
-                                     &targets.around_depth, &targets.cube})
-    destroy_image(memory, *image);
-  targets = {};
+  for (vulkan::DeviceImage& image : pass.targets.images) destroy_image(memory, image);
+  pass.targets = {};
 }
 
 void push_layer(PassContext& context, std::uint32_t binding, VkImageView view) {
@@ -38,8 +35,10 @@ void draw_vertices(PassContext& context, const FrameData& vertices, std::uint32_
   ++context.statistics.draws;
 }
 
-VkPipeline layer_pipeline(IcePass& pass, PassContext& context) {
-  if (pass.layer) return pass.layer;
+/// `peel` as in shaders/ice_layer.frag.
+VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t peel) {
+  VkPipeline& pipeline = pass.layers[peel];
+  if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::ice_layer_vert();
   description.fragment_code = shaders::ice_layer_frag();
@@ -47,7 +46,8 @@ VkPipeline layer_pipeline(IcePass& pass, PassContext& context) {
   description.color_format = layer_format;
   description.depth_format = context.formats.depth;
   description.blend = vulkan::Blend::data;
-  return pass.layer = create_pipeline(context.device, context.layout, description);
+  description.constants = {peel};
+  return pipeline = create_pipeline(context.device, context.layout, description);
 }
 
 /// Nearer than the back face, over its normal; its depth, the fourth number, stays.
@@ -80,9 +80,12 @@ VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, st
 }
 
 VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBody& body) {
-  const std::array<std::uint32_t, 4> constants{body.look.mode == ice::Mode::quality, body.look.two_sided,
-                                               !body.inside.empty(), body.look.roughness > 0.0f};
-  VkPipeline& pipeline = pass.fronts[constants[0] | constants[1] << 1 | constants[2] << 2 | constants[3] << 3];
+  const bool quality = body.look.mode == ice::Mode::quality;
+  const std::array<std::uint32_t, 5> constants{quality, body.look.two_sided, !body.inside.empty(),
+                                               body.look.roughness > 0.0f, quality && body.look.seen_beyond};
+  std::uint32_t variant = 0;
+  for (std::uint32_t i = 0; i < constants.size(); ++i) variant |= constants[i] << i;
+  VkPipeline& pipeline = pass.fronts[variant];
   if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::ice_vert();
@@ -91,20 +94,18 @@ VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBod
   description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
-  description.constants = {constants[0], constants[1], constants[2], constants[3]};
+  std::ranges::copy(constants, description.constants.begin());
   return pipeline = create_pipeline(context.device, context.layout, description);
 }
 
-void begin_layer(PassContext& context, const IceTargets& targets, IceLayer layer, const IceTiles& tiles) {
+void begin_layer(PassContext& context, const IceTargets& targets, IceImage layer, const IceTiles& tiles) {
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-  color.imageView = layer == IceLayer::front  ? targets.front.view
-                    : layer == IceLayer::back ? targets.back.view
-                                              : targets.inside.view;
+  color.imageView = targets[layer].view;
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-  depth.imageView = targets.depth.view;
+  depth.imageView = targets[IceImage::depth].view;
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
   depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -113,9 +114,9 @@ void begin_layer(PassContext& context, const IceTargets& targets, IceLayer layer
   rendering.layerCount = 1;
   rendering.colorAttachmentCount = 1;
   rendering.pColorAttachments = &color;
-  if (layer != IceLayer::inside) rendering.pDepthAttachment = &depth;
+  if (layer != IceImage::inside) rendering.pDepthAttachment = &depth;
   vkCmdBeginRendering(context.slot.commands, &rendering);
-  set_viewport(context, {0, 0, targets.front.description.width, targets.front.description.height});
+  set_viewport(context, {0, 0, targets[layer].description.width, targets[layer].description.height});
   vkCmdSetFrontFace(context.slot.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
@@ -123,6 +124,70 @@ void begin_tile(PassContext& context, const IceTile& tile) {
   const VkRect2D scissor{{tile.rectangle.x, tile.rectangle.y}, {tile.rectangle.width, tile.rectangle.height}};
   vkCmdSetScissor(context.slot.commands, 0, 1, &scissor);
   push_constants(context, std::as_bytes(std::span(&tile.constants, 1)));
+}
+
+void bind(PassContext& context, VkPipeline pipeline) {
+  vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+}
+
+void draw_inside(IcePass& pass, PassContext& context, const IceTiles& tiles, std::span<const ice::IceBody> bodies,
+                 const IceUpload& upload) {
+  push_layer(context, vulkan::binding_ice_back, pass.targets[IceImage::back].view);
+  push_layer(context, vulkan::binding_surroundings, pass.targets[IceImage::cube].view);
+  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
+  for (const IceTile& tile : tiles.list) {
+    const IceUpload::Vertices& vertices = upload.bodies[tile.body];
+    if (vertices.inside_count == 0) continue;
+    const bool quality = bodies[tile.body].look.mode == ice::Mode::quality;
+    begin_tile(context, tile);
+    bind(context, inside_pipeline(pass, context, quality, vertices.mixed ? 0 : 1));
+    draw_vertices(context, vertices.inside, vertices.first_air);
+    bind(context, inside_pipeline(pass, context, quality, 2));
+    draw_vertices(context, vertices.inside, vertices.inside_count - vertices.first_air, vertices.first_air);
+  }
+}
+
+void draw_faces(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles, const IceUpload& upload) {
+  vkCmdSetCullMode(context.slot.commands, layer == IceImage::front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);
+  bind(context, layer_pipeline(pass, context, 0));
+  for (const IceTile& tile : tiles.list) {
+    begin_tile(context, tile);
+    draw_vertices(context, upload.bodies[tile.body].surface, upload.bodies[tile.body].surface_count);
+  }
+}
+
+void draw_bending_cracks(IcePass& pass, PassContext& context, const IceTiles& tiles,
+                         std::span<const ice::IceBody> bodies, const IceUpload& upload) {
+  vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
+  for (const IceTile& tile : tiles.list) {
+    const ice::Look& look = bodies[tile.body].look;
+    const IceUpload::Vertices& vertices = upload.bodies[tile.body];
+    if (look.mode != ice::Mode::quality || !look.bent_by_cracks || vertices.inside_count == 0) continue;
+    bind(context, crack_pipeline(pass, context));
+    begin_tile(context, tile);
+    draw_vertices(context, vertices.inside, vertices.inside_count);
+  }
+}
+
+void draw_beyond(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles,
+                 std::span<const ice::IceBody> bodies, const IceUpload& upload) {
+  const bool front = layer == IceImage::beyond;
+  if (front)
+    push_layer(context, vulkan::binding_ice_back, pass.targets[IceImage::back].view);
+  else
+    push_layer(context, vulkan::binding_ice_beyond, pass.targets[IceImage::beyond].view);
+  vkCmdSetCullMode(context.slot.commands, front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);
+  bind(context, layer_pipeline(pass, context, front ? 1 : 2));
+  for (const IceTile& tile : tiles.list) {
+    if (tile.constants.beyond.x == 0.0f) continue;
+    begin_tile(context, tile);
+    draw_vertices(context, upload.bodies[tile.body].surface, upload.bodies[tile.body].surface_count);
+    for (const std::uint32_t other : tile.beyond) {
+      const IceConstants constants = constants_beyond(tile, bodies[tile.body], bodies[other]);
+      push_constants(context, std::as_bytes(std::span(&constants, 1)));
+      draw_vertices(context, upload.bodies[other].surface, upload.bodies[other].surface_count);
+    }
+  }
 }
 
 }  // namespace
@@ -145,43 +210,45 @@ IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies)
   return upload;
 }
 
-bool ice_targets_fit(const IcePass& pass, std::uint32_t width, std::uint32_t height, std::uint32_t surroundings_px) {
-  return pass.targets.front.description.width == width && pass.targets.front.description.height == height &&
-         pass.targets.cube.description.width == surroundings_px;
+bool ice_targets_fit(const IcePass& pass, const IceTargetSizes& sizes) {
+  const vulkan::ImageDescription& layer = pass.targets[IceImage::front].description;
+  return layer.width == sizes.width && layer.height == sizes.height &&
+         pass.targets[IceImage::cube].description.width == sizes.surroundings_px &&
+         (!sizes.beyond || pass.targets[IceImage::beyond].image);
 }
 
-void prepare_ice_targets(IcePass& pass, PassContext& context, std::uint32_t width, std::uint32_t height,
-                         std::uint32_t surroundings_px) {
-  if (ice_targets_fit(pass, width, height, surroundings_px)) return;
+void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSizes& sizes) {
+  if (ice_targets_fit(pass, sizes)) return;
   destroy_ice_targets(pass, context.memory);
   IceTargets& targets = pass.targets;
   vulkan::ImageDescription description;
-  description.width = width;
-  description.height = height;
+  const auto make = [&](IceImage which) { targets[which] = create_image(context.memory, description); };
+  description.width = sizes.width;
+  description.height = sizes.height;
   description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   description.format = layer_format;
-  targets.front = create_image(context.memory, description);
-  targets.back = create_image(context.memory, description);
+  make(IceImage::front), make(IceImage::back);
+  if (sizes.beyond) make(IceImage::beyond), make(IceImage::beyond_back);
   description.format = inside_format;
-  targets.inside = create_image(context.memory, description);
+  make(IceImage::inside);
   description.format = context.formats.depth;
   description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
   description.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
-  targets.depth = create_image(context.memory, description);
-  description.width = 3 * surroundings_px;
-  description.height = 2 * surroundings_px;
+  make(IceImage::depth);
+  description.width = 3 * sizes.surroundings_px;
+  description.height = 2 * sizes.surroundings_px;
   description.samples = context.formats.samples;
-  targets.around_depth = create_image(context.memory, description);
+  make(IceImage::around_depth);
   description.aspect = VK_IMAGE_ASPECT_COLOR_BIT;
   description.format = context.formats.radiance;
   description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  targets.around = create_image(context.memory, description);
-  description.width = description.height = surroundings_px;
+  make(IceImage::around);
+  description.width = description.height = sizes.surroundings_px;
   description.samples = VK_SAMPLE_COUNT_1_BIT;
   description.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   description.layers = 6;
   description.cube = true;
-  targets.cube = create_image(context.memory, description);
+  make(IceImage::cube);
 }
 
 void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory) {
@@ -189,61 +256,45 @@ void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::Memor
   for (const auto& pipelines : {pass.fronts, pass.insides})
     for (const auto& [key, pipeline] : pipelines)
       if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
-  for (const VkPipeline pipeline : {pass.layer, pass.cracks})
+  for (const VkPipeline pipeline : {pass.layers[0], pass.layers[1], pass.layers[2], pass.cracks})
     if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
   pass = {};
 }
 
-void draw_ice_layer(IcePass& pass, PassContext& context, IceLayer layer, const IceTiles& tiles,
+void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles,
                     std::span<const ice::IceBody> bodies, const IceUpload& upload, const ViewBindings& bindings) {
-  const VkCommandBuffer commands = context.slot.commands;
   begin_layer(context, pass.targets, layer, tiles);
   push_view(context, bindings);
-  if (layer != IceLayer::front) push_layer(context, vulkan::binding_ice_front, pass.targets.front.view);
-  if (layer == IceLayer::inside) {
-    push_layer(context, vulkan::binding_ice_back, pass.targets.back.view);
-    push_layer(context, vulkan::binding_surroundings, pass.targets.cube.view);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-    for (const IceTile& tile : tiles.list) {
-      const IceUpload::Vertices& vertices = upload.bodies[tile.body];
-      if (vertices.inside_count == 0) continue;
-      const bool quality = bodies[tile.body].look.mode == ice::Mode::quality;
-      begin_tile(context, tile);
-      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                        inside_pipeline(pass, context, quality, vertices.mixed ? 0 : 1));
-      draw_vertices(context, vertices.inside, vertices.first_air);
-      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, inside_pipeline(pass, context, quality, 2));
-      draw_vertices(context, vertices.inside, vertices.inside_count - vertices.first_air, vertices.first_air);
-    }
-  } else {
-    vkCmdSetCullMode(commands, layer == IceLayer::front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layer_pipeline(pass, context));
-    for (const IceTile& tile : tiles.list) {
-      begin_tile(context, tile);
-      draw_vertices(context, upload.bodies[tile.body].surface, upload.bodies[tile.body].surface_count);
-    }
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-    for (const IceTile& tile : tiles.list) {
-      const ice::Look& look = bodies[tile.body].look;
-      const IceUpload::Vertices& vertices = upload.bodies[tile.body];
-      if (layer != IceLayer::back || look.mode != ice::Mode::quality || !look.bent_by_cracks ||
-          vertices.inside_count == 0)
-        continue;
-      vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, crack_pipeline(pass, context));
-      begin_tile(context, tile);
-      draw_vertices(context, vertices.inside, vertices.inside_count);
-    }
+  if (layer != IceImage::front) push_layer(context, vulkan::binding_ice_front, pass.targets[IceImage::front].view);
+  // Of one shader's bindings each layer reads those that it needs; something must be bound to all.
+  for (const std::uint32_t unused : {vulkan::binding_ice_back, vulkan::binding_ice_beyond})
+    push_layer(context, unused, bindings.noise);
+  switch (layer) {
+    case IceImage::inside:
+      draw_inside(pass, context, tiles, bodies, upload);
+      break;
+    case IceImage::beyond:
+    case IceImage::beyond_back:
+      draw_beyond(pass, context, layer, tiles, bodies, upload);
+      break;
+    default:
+      draw_faces(pass, context, layer, tiles, upload);
+      if (layer == IceImage::back) draw_bending_cracks(pass, context, tiles, bodies, upload);
   }
-  vkCmdEndRendering(commands);
+  vkCmdEndRendering(context.slot.commands);
 }
 
 void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::uint32_t view,
               std::span<const ice::IceBody> bodies, const IceUpload& upload) {
   if (std::ranges::none_of(tiles.list, [&](const IceTile& tile) { return tile.view == view; })) return;
-  push_layer(context, vulkan::binding_ice_front, pass.targets.front.view);
-  push_layer(context, vulkan::binding_ice_back, pass.targets.back.view);
-  push_layer(context, vulkan::binding_ice_inside, pass.targets.inside.view);
-  push_layer(context, vulkan::binding_surroundings, pass.targets.cube.view);
+  const IceTargets& targets = pass.targets;
+  push_layer(context, vulkan::binding_ice_front, targets[IceImage::front].view);
+  push_layer(context, vulkan::binding_ice_back, targets[IceImage::back].view);
+  push_layer(context, vulkan::binding_ice_inside, targets[IceImage::inside].view);
+  push_layer(context, vulkan::binding_surroundings, targets[IceImage::cube].view);
+  push_layer(context, vulkan::binding_ice_beyond, targets[tiles.beyond ? IceImage::beyond : IceImage::front].view);
+  push_layer(context, vulkan::binding_ice_beyond_back,
+             targets[tiles.beyond ? IceImage::beyond_back : IceImage::back].view);
   vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_BACK_BIT);
   for (const IceTile& tile : tiles.list) {
     if (tile.view != view) continue;
@@ -255,8 +306,8 @@ void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::u
 }
 
 void copy_surroundings(const IcePass& pass, PassContext& context) {
-  const std::uint32_t side = pass.targets.cube.description.width;
-  const bool multisampled = pass.targets.around.description.samples != VK_SAMPLE_COUNT_1_BIT;
+  const std::uint32_t side = pass.targets[IceImage::cube].description.width;
+  const bool multisampled = pass.targets[IceImage::around].description.samples != VK_SAMPLE_COUNT_1_BIT;
   for (std::uint32_t i = 0; i < 6; ++i) {
     const VkOffset3D from{std::int32_t(i % 3 * side), std::int32_t(i / 3 * side), 0};
     const VkImageSubresourceLayers source{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
@@ -264,11 +315,12 @@ void copy_surroundings(const IcePass& pass, PassContext& context) {
     const VkImageResolve resolve{source, from, target, {}, {side, side, 1}};
     const VkImageCopy copy{source, from, target, {}, {side, side, 1}};
     if (multisampled)
-      vkCmdResolveImage(context.slot.commands, pass.targets.around.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                        pass.targets.cube.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &resolve);
+      vkCmdResolveImage(context.slot.commands, pass.targets[IceImage::around].image,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pass.targets[IceImage::cube].image,
+                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &resolve);
     else
-      vkCmdCopyImage(context.slot.commands, pass.targets.around.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                     pass.targets.cube.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+      vkCmdCopyImage(context.slot.commands, pass.targets[IceImage::around].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                     pass.targets[IceImage::cube].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
   }
 }
 

@@ -2,12 +2,18 @@
 /// Ice, after Seipel and Nivfors (2006): three passes into layers, whatever the number of cracks, then the front faces.
 ///
 /// 1. Front faces: normals and depth. 2. Back faces: normals and depth (figure 5 a, b); in quality mode cracks bend the normals.
+/// Where a body is looked through to what of ice lies behind it: the same two of what begins behind those back faces.
 /// 3. Cracks and air, clipped between the two (figure 5 d). 4. In the view, after the sky: front faces that put together what
 /// is seen through both faces, what is inside and what is mirrored. What lies around comes from a cube map that is drawn
 /// anew each frame from the ice's middle. Deviations: a rectangle a body (ice_tiles.hpp) instead of textures of 512²;
 /// world-space normals of the front face, too; all in linear light.
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <span>
+#include <vector>
 
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/ice_tiles.hpp"
@@ -15,19 +21,33 @@
 
 namespace septet::render {
 
-/// Images of the layers and the surroundings; made when ice is first seen.
+/// Images of the layers and the surroundings; made when ice is first seen, those of what is beyond when that is.
+enum class IceImage : std::uint8_t {
+  front,
+  back,
+  beyond,
+  beyond_back,
+  inside,
+  depth,
+  around,
+  around_depth,
+  cube,
+};
+inline constexpr std::size_t ice_image_count = 9;
+
 struct IceTargets {
-  vulkan::DeviceImage front, back, depth, inside;
-  vulkan::DeviceImage around, around_depth, cube;
-  Access front_access = Access::none, back_access = Access::none, depth_access = Access::none,
-         inside_access = Access::none, around_access = Access::none, around_depth_access = Access::none,
-         cube_access = Access::none;
+  std::array<vulkan::DeviceImage, ice_image_count> images;
+  std::array<Access, ice_image_count> accesses{};
+
+  vulkan::DeviceImage& operator[](IceImage which) { return images[std::size_t(which)]; }
+  const vulkan::DeviceImage& operator[](IceImage which) const { return images[std::size_t(which)]; }
 };
 
 struct IcePass {
   IceTargets targets;
   std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< By variant.
-  VkPipeline layer = VK_NULL_HANDLE, cracks = VK_NULL_HANDLE;
+  std::array<VkPipeline, 3> layers{};                   ///< By what is left out of them.
+  VkPipeline cracks = VK_NULL_HANDLE;
 };
 
 /// What of a frame's ice is on the device.
@@ -43,17 +63,19 @@ struct IceUpload {
 
 IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// Makes the images, or makes them anew, for a target and surroundings of these sizes. No frame that uses them is in flight
-/// where they change.
-void prepare_ice_targets(IcePass& pass, PassContext& context, std::uint32_t width, std::uint32_t height,
-                         std::uint32_t surroundings_px);
-/// Whether that would change anything.
-bool ice_targets_fit(const IcePass& pass, std::uint32_t width, std::uint32_t height, std::uint32_t surroundings_px);
+/// Sizes of the target and of the surroundings; whether there are layers of what is beyond.
+struct IceTargetSizes {
+  std::uint32_t width = 0, height = 0, surroundings_px = 0;
+  bool beyond = false;
+};
+/// Makes the images, or makes them anew. No frame that uses them is in flight where they change.
+void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSizes& sizes);
+/// Whether that would change nothing.
+bool ice_targets_fit(const IcePass& pass, const IceTargetSizes& sizes);
 void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-enum class IceLayer : std::uint8_t { front, back, inside };
-/// One of the three passes; `bindings` are those of any view: light is the same in all.
-void draw_ice_layer(IcePass& pass, PassContext& context, IceLayer layer, const IceTiles& tiles,
+/// One of the passes, into `layer`, which is front, back, beyond, beyond_back or inside; `bindings` are those of any view: light is the same in all.
+void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles,
                     std::span<const ice::IceBody> bodies, const IceUpload& upload, const ViewBindings& bindings);
 /// Into the view that is being drawn, which has this index.
 void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::uint32_t view,

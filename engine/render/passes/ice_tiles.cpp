@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -63,6 +64,10 @@ std::optional<Seen> seen_body(const ice::IceBody& body, const Vec3& eye_m, const
   return seen;
 }
 
+float waves_per_m(const ice::Look& look) {
+  return 2.0f * std::numbers::pi_v<float> / std::max(look.bump_size_m, 1e-3f);
+}
+
 IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std::uint32_t y, float scale,
                 std::uint32_t width, std::uint32_t height) {
   const float wide = std::max(1.0f, std::floor(seen.wide_px * scale)),
@@ -78,8 +83,7 @@ IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std
   const ice::Look& look = body.look;
   IceConstants& constants = tile.constants;
   constants.u = glm::vec4((seen.right * per_x + seen.forward * x0) / float(width), look.bump);
-  constants.v = glm::vec4((seen.forward * y0 - seen.up * per_y) / float(height),
-                          2.0f * std::numbers::pi_v<float> / std::max(look.bump_size_m, 1e-3f));
+  constants.v = glm::vec4((seen.forward * y0 - seen.up * per_y) / float(height), waves_per_m(look));
   constants.forward = glm::vec4(seen.forward, 0.98f * seen.nearest);
   constants.origin = glm::vec4(seen.origin, look.share_of_sky);
   constants.blend = glm::vec4(1.0f - look.back_share, float(look.back_sign) * look.back_share, look.roughness,
@@ -91,7 +95,34 @@ IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std
   return tile;
 }
 
+/// `further`: tiles of bodies that lie further away, the nearest last.
+void find_beyond(IceTile& tile, std::span<const IceTile> further) {
+  const glm::vec3 at(tile.constants.origin), forward(tile.constants.forward);
+  const float extent_m = tile.constants.absorption.w, nearest_m = tile.constants.forward.w;
+  glm::vec4& beyond = tile.constants.beyond;
+  beyond = {extent_m, extent_m, nearest_m + 1.02f * extent_m, 0.0f};
+  for (auto other = further.rbegin(); other != further.rend() && tile.beyond.size() < most_beyond; ++other) {
+    if (other->view != tile.view) continue;
+    const glm::vec3 there(other->constants.origin);
+    const float other_m = other->constants.absorption.w, ahead = glm::dot(there, forward);
+    // Light leaves a body within a cone, and mostly along its middle.
+    const float aside = glm::length(there - forward * ahead), reach = ahead - glm::dot(at, forward);
+    if (!(aside < extent_m + other_m + reach)) continue;
+    tile.beyond.push_back(other->body);
+    beyond.x = std::max(beyond.x, ahead + other_m - nearest_m);
+    beyond.y = std::max(beyond.y, other_m);
+  }
+}
+
 }  // namespace
+
+IceConstants constants_beyond(const IceTile& tile, const ice::IceBody& own, const ice::IceBody& other) {
+  IceConstants constants = tile.constants;
+  constants.origin += glm::vec4(other.origin_m - own.origin_m, 0.0f);
+  constants.u.w = other.look.bump;
+  constants.v.w = waves_per_m(other.look);
+  return constants;
+}
 
 IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameView> views, std::uint32_t width,
                    std::uint32_t height) {
@@ -139,6 +170,12 @@ IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameVi
     const glm::vec3 at(tile.constants.origin);
     return glm::dot(at, at);
   });
+  for (std::size_t i = 0; i < tiles.list.size(); ++i) {
+    const ice::Look& look = bodies[tiles.list[i].body].look;
+    if (look.mode != ice::Mode::quality || !look.two_sided || !look.seen_beyond) continue;
+    find_beyond(tiles.list[i], std::span(tiles.list).first(i));
+    tiles.beyond = true;
+  }
   return tiles;
 }
 

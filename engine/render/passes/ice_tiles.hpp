@@ -5,7 +5,8 @@
 /// follows the body's size on the screen. The frustum depends on the eye and the body alone: on both sides of a screen's
 /// edge the layers hold the same. No device is needed.
 
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,19 +19,27 @@ namespace septet::render {
 
 /// The twin of Ice in shaders/ice.glsl.
 struct IceConstants {
-  glm::vec4 u{0.0f}, v{0.0f}, forward{0.0f}, origin{0.0f}, blend{0.0f}, absorption{0.0f}, rectangle{0.0f};
+  glm::vec4 u{0.0f}, v{0.0f}, forward{0.0f}, origin{0.0f}, blend{0.0f}, absorption{0.0f}, rectangle{0.0f}, beyond{0.0f};
 };
 
 struct IceTile {
   std::uint32_t body = 0, view = 0;  ///< Indices of Instant::ice and Instant::views.
   PixelRectangle rectangle;
   IceConstants constants;
+  std::vector<std::uint32_t> beyond;  ///< Bodies behind it that light from it may meet, the nearest few, if it is to.
 };
+
+/// Of such bodies.
+inline constexpr std::size_t most_beyond = 4;
 
 struct IceTiles {
   std::vector<IceTile> list;  ///< Nearest body last.
+  bool beyond = false;        ///< Some body is looked through to what lies behind it.
   std::uint32_t used_width = 0, used_height = 0;
 };
+
+/// Those with which another body is drawn into the layers of this one's tile.
+IceConstants constants_beyond(const IceTile& tile, const ice::IceBody& own, const ice::IceBody& other);
 
 /// A rectangle for each body that a view sees, in one image of this size. Where they do not fit, all are drawn coarser.
 IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameView> views, std::uint32_t width,

@@ -10,71 +10,46 @@ layout(constant_id = 0) const uint quality = 0;
 layout(constant_id = 1) const uint two_sided = 0;
 layout(constant_id = 2) const uint filled = 0;  // Cracks or air are inside.
 layout(constant_id = 3) const uint frosted = 0;
+layout(constant_id = 4) const uint beyond = 0;  // What of ice lies behind is looked through, too.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest;
 layout(location = 0) out vec4 result;
 
-// Both layers at a place, as distances along forward; x = 0 where the body is not.
-vec2 faces_at(vec3 place, out ivec2 texel) {
-  vec2 at = vec2(dot(place, ice.u.xyz), dot(place, ice.v.xyz)) / dot(place, ice.forward.xyz);
-  texel = ivec2(floor(at * vec2(textureSize(ice_front, 0))));
-  if (any(lessThan(vec2(texel), ice.rectangle.xy)) || any(greaterThanEqual(vec2(texel), ice.rectangle.zw)))
-    return vec2(0.0);
-  return vec2(texelFetch(ice_front, texel, 0).w, texelFetch(ice_back, texel, 0).w);
-}
-
 bool is_inside(vec3 place, out ivec2 texel) {
-  vec2 faces = faces_at(place, texel);
   float depth = dot(place, ice.forward.xyz);
-  return faces.x > 0.0 && depth >= faces.x - 1e-3 * ice.absorption.w && depth <= faces.y + 1e-3 * ice.absorption.w;
+  texel = ivec2(floor(vec2(dot(place, ice.u.xyz), dot(place, ice.v.xyz)) / depth * vec2(textureSize(ice_front, 0))));
+  if (any(lessThan(vec2(texel), ice.rectangle.xy)) || any(greaterThanEqual(vec2(texel), ice.rectangle.zw))) return false;
+  float slack = 1e-3 * ice.absorption.w;
+  float front = texelFetch(ice_front, texel, 0).w;
+  if (front > 0.0 && depth >= front - slack && depth <= texelFetch(ice_back, texel, 0).w + slack) return true;
+  if (beyond == 0) return false;
+  front = texelFetch(ice_beyond, texel, 0).w;
+  return front > 0.0 && depth >= front - slack && depth <= texelFetch(ice_beyond_back, texel, 0).w + slack;
 }
 
-// Light on its way through the body, from `way` within: marched through the layers (Oliveira and Brauwers, "Real-Time
-// Refraction Through Deformable Objects", 2007) to the face where it leaves, or is wholly reflected and goes on.
-vec3 followed(vec3 way) {
-  const int steps = 24, halvings = 6, most_reflections = 4;
-  vec3 place = relative;
-  float length_m = 0.0;
-  for (int i = 0; i <= most_reflections; ++i) {
-    ivec2 texel, last = ivec2(ice.rectangle.xy);
-    float within = 0.0, beyond = 0.0;
-    for (int k = 1; k <= steps; ++k) {
-      beyond = ice.absorption.w * float(k) / float(steps);
-      if (!is_inside(place + way * beyond, texel)) break;
-      within = beyond;
-      last = texel;
-    }
-    for (int k = 0; k < halvings; ++k) {
-      float middle = 0.5 * (within + beyond);
-      if (is_inside(place + way * middle, texel)) {
-        within = middle;
-        last = texel;
-      } else {
-        beyond = middle;
-      }
-    }
-    if (within == 0.0) is_inside(place, last);
-    place += way * within;
-    length_m += within;
-    last = clamp(last, ivec2(ice.rectangle.xy), ivec2(ice.rectangle.zw) - 1);
-    vec4 front = texelFetch(ice_front, last, 0), back = texelFetch(ice_back, last, 0);
-    float depth = dot(place, ice.forward.xyz);
-    bool nearer = abs(depth - front.w) < abs(back.w - depth);
-    vec3 n = nearer ? front.xyz : back.xyz;
-    // At the rim the nearest face may be the wrong one of the two.
-    if (dot(n, way) <= 0.0) n = nearer ? back.xyz : front.xyz;
-    if (dot(n, n) == 0.0 || dot(n, way) <= 0.0) break;
-    n = normalize(n);
-    vec3 out_way = refracted(way, -n, out_of_ice);
-    if (out_way != vec3(0.0)) {
-      way = out_way;
-      break;
-    }
-    way = reflect(way, n);
+// Takes a face if it is nearer than the one that is held, and light on this way goes through it outwards, or inwards.
+void consider(vec4 face, float depth, vec3 way, float outwards, inout float nearest, inout vec3 n) {
+  float apart = abs(depth - face.w);
+  if (face.w > 0.0 && dot(face.xyz, way) * outwards > 0.0 && apart < nearest) {
+    nearest = apart;
+    n = face.xyz;
   }
-  return around(way) * exp(-ice.absorption.rgb * length_m);
+}
+
+// The normal of the face that light meets here, of length 0 where there is none.
+vec3 face_normal(ivec2 texel, float depth, vec3 way, float outwards) {
+  texel = clamp(texel, ivec2(ice.rectangle.xy), ivec2(ice.rectangle.zw) - 1);
+  float nearest = 1e30;
+  vec3 n = vec3(0.0);
+  consider(texelFetch(ice_front, texel, 0), depth, way, outwards, nearest, n);
+  consider(texelFetch(ice_back, texel, 0), depth, way, outwards, nearest, n);
+  if (beyond != 0) {
+    consider(texelFetch(ice_beyond, texel, 0), depth, way, outwards, nearest, n);
+    consider(texelFetch(ice_beyond_back, texel, 0), depth, way, outwards, nearest, n);
+  }
+  return dot(n, n) > 0.0 ? normalize(n) : n;
 }
 
 float exact_fresnel(float cosine) {
@@ -82,6 +57,64 @@ float exact_fresnel(float cosine) {
   float s = (into_ice * cosine - beyond) / (into_ice * cosine + beyond);
   float p = (into_ice * beyond - cosine) / (into_ice * beyond + cosine);
   return 0.5 * (s * s + p * p);
+}
+
+// Light on its way through the body, from `way` within: marched through the layers (Oliveira and Brauwers, "Real-Time
+// Refraction Through Deformable Objects", 2007) to the face where it leaves, or is wholly reflected and goes on; having
+// left, it may meet ice again, of which a share is mirrored.
+vec3 followed(vec3 way) {
+  const int steps = 24, halvings = 6, most_faces = beyond != 0 ? 8 : 5;
+  vec3 place = relative, light = vec3(0.0), share = vec3(1.0);
+  bool in_ice = true;
+  for (int i = 0; i < most_faces; ++i) {
+    float reach = in_ice ? max(ice.absorption.w, ice.beyond.y) : ice.beyond.x;
+    ivec2 texel, last = ivec2(ice.rectangle.xy);
+    float before = 0.0, after = 0.0;
+    bool met = in_ice;
+    for (int k = 1; k <= steps; ++k) {
+      after = reach * float(k) / float(steps);
+      if (is_inside(place + way * after, texel) != in_ice) {
+        met = true;
+        break;
+      }
+      before = after;
+      last = texel;
+    }
+    if (!met) break;
+    for (int k = 0; k < halvings; ++k) {
+      float middle = 0.5 * (before + after);
+      if (is_inside(place + way * middle, texel) == in_ice) {
+        before = middle;
+        if (in_ice) last = texel;
+      } else {
+        after = middle;
+        if (!in_ice) last = texel;
+      }
+    }
+    float length_m = in_ice ? before : after;
+    if (length_m == 0.0 || !in_ice) is_inside(place + way * length_m, last);
+    place += way * length_m;
+    if (in_ice) share *= exp(-ice.absorption.rgb * length_m);
+    vec3 n = face_normal(last, dot(place, ice.forward.xyz), way, in_ice ? 1.0 : -1.0);
+    if (dot(n, n) == 0.0) break;
+    if (in_ice) {
+      vec3 out_way = refracted(way, -n, out_of_ice);
+      if (out_way == vec3(0.0)) {
+        way = reflect(way, n);
+        continue;
+      }
+      way = out_way;
+      if (beyond == 0) break;
+      in_ice = false;
+    } else {
+      float mirrored = exact_fresnel(abs(dot(way, n)));
+      light += share * mirrored * around(reflect(way, n));
+      share *= 1.0 - mirrored;
+      way = refracted(way, n, into_ice);
+      in_ice = true;
+    }
+  }
+  return light + share * around(way);
 }
 
 void main() {

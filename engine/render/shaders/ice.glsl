@@ -11,12 +11,15 @@ layout(push_constant) uniform Ice {
   vec4 blend;       // x: share of the front face's normal, y: of the back face's, signed. z: frost, w: 1 it reflects.
   vec4 absorption;  // rgb: per metre. w: the body's largest extent, m.
   vec4 rectangle;   // In the layers, texels: first and last corner.
+  vec4 beyond;      // Of what lies behind it. x: how far light is followed, m; 0: not. y: the largest extent, m. z: behind its far end.
 } ice;
 
 layout(set = 0, binding = 6) uniform sampler2D ice_front;   // Normal, distance along forward; 0: nothing is there.
 layout(set = 0, binding = 7) uniform sampler2D ice_back;    // The same of the back face behind it.
 layout(set = 0, binding = 8) uniform sampler2D ice_inside;  // What cracks and air add, and how much they hide.
 layout(set = 0, binding = 9) uniform samplerCube surroundings;
+layout(set = 0, binding = 10) uniform sampler2D ice_beyond;       // As ice_front, of what begins behind that back face.
+layout(set = 0, binding = 11) uniform sampler2D ice_beyond_back;  // Of the back face behind that.
 
 const float into_ice = 1.0003 / 1.3091, out_of_ice = 1.3091 / 1.0003;
 

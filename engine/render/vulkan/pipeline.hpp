@@ -21,8 +21,10 @@ enum Binding : std::uint32_t {
       6,                 ///< Ice (passes/ice_pass.hpp): normals and depth of its nearest front faces, of the back faces
   binding_ice_back = 7,  ///< behind them, what is inside it,
   binding_ice_inside = 8,
-  binding_surroundings = 9,  ///< and the cube map of what lies around it.
-  binding_count = 10,
+  binding_surroundings = 9,      ///< and the cube map of what lies around it.
+  binding_ice_beyond = 10,       ///< Of the nearest front faces behind those back faces, and of the back faces
+  binding_ice_beyond_back = 11,  ///< behind these.
+  binding_count = 12,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;

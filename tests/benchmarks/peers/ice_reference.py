@@ -1,7 +1,7 @@
 """Draws the references that ice is compared with, by Mitsuba 3.5.2 (PyPI): a path tracer sees the same object in the same panorama.
 
     python3 -m venv V && V/bin/pip install mitsuba==3.5.2 numpy
-    V/bin/python ice_reference.py SEPTET_ICE OUT_FOLDER [SAMPLES]
+    V/bin/python ice_reference.py SEPTET_ICE OUT_FOLDER [SAMPLES [NAME...]]
 
 SEPTET_ICE writes object, panorama and camera (`--reference`). A smooth dielectric of 1.3091 in air of 1.0003, paths of up to
 64 bounces, box filter; then Septet's exposure and tone curve. Alpha marks the object.
@@ -20,7 +20,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "images"))
 import flip
 
 mitsuba.set_variant("scalar_rgb")
-OBJECTS = ("sphere", "peanut", "cube")
+OBJECTS = {"sphere": ["--object", "sphere"], "peanut": ["--object", "peanut"], "cube": ["--object", "cube"],
+           "pair": ["--object", "sphere", "--pair"]}
 # Of a roofed place, as the room is: engine/instant/instant.cpp.
 EXPOSURE = 2.6
 
@@ -50,11 +51,12 @@ def scene(folder, camera, hidden):
 def main():
     program, out = sys.argv[1], pathlib.Path(sys.argv[2])
     samples = int(sys.argv[3]) if len(sys.argv) > 3 else 256
+    names = sys.argv[4:] or list(OBJECTS)
     out.mkdir(parents=True, exist_ok=True)
-    for name in OBJECTS:
+    for name in names:
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            subprocess.run([program, "--object", name, "--surroundings", "room", "--width", "400", "--height", "300", "--share", "0.4",
+            subprocess.run([program, *OBJECTS[name], "--surroundings", "room", "--width", "400", "--height", "300", "--share", "0.4",
                             "--pictures", "1", "--software", "--reference", folder, "--out", folder], check=True)
             camera = json.loads((folder / "camera.json").read_text())
             light = numpy.array(mitsuba.render(scene(folder, camera, False), spp=samples))

@@ -72,6 +72,8 @@ TEST_CASE("ice is drawn without a word of the validation layer in both modes wit
     input.ice[1].origin_m.y = -0.6;
     input.ice[1].look.mode = ice::Mode::quality;
     input.ice[1].look.roughness = 0.5f;
+    check_valid(renderer, input);
+    input.ice[1].look.seen_beyond = true;
     // A mirror in the picture's corner sees them, too.
     input.views.push_back(input.views[0]);
     input.views[1].viewport = {100, 4, 50, 30};
@@ -126,6 +128,57 @@ TEST_CASE("cracks are drawn where a ray meets them inside the ice and nowhere el
   }
 }
 
+TEST_CASE("in quality mode cracks bend what is seen, absorption takes red before blue, and ice is seen through ice") {
+  constexpr std::uint32_t width = 240, height = 180;
+  Renderer renderer = ice_renderer(width, height);
+  FrameInput input = seen_ahead(width, height);
+  ice::IceBody body = body_of(ice::sphere(), {1.9, 0.0, 0.0});
+  body.look.mode = ice::Mode::quality;
+  body.look.bump = 0.0f;
+  body.look.reflects = false;
+  body.look.absorption_per_m = glm::vec3(0.0f);
+  const auto light_of = [&](const std::vector<ice::IceBody>& bodies) {
+    input.ice = bodies;
+    check_valid(renderer, input);
+    return *renderer.read_radiance();
+  };
+  const auto differing = [&](const RadianceImage& a, const RadianceImage& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i)
+      count += glm::length(a.radiance[i] - b.radiance[i]) > 0.02f * glm::length(a.radiance[i]) + 1e-4f;
+    return count;
+  };
+  const RadianceImage clear = light_of({body});
+  const glm::vec3 through = clear.at(width / 2, height / 2);
+
+  ice::IceBody blue = body;
+  blue.look.absorption_per_m = {2.0f, 1.0f, 0.0f};
+  const glm::vec3 taken = light_of({blue}).at(width / 2, height / 2) / through;
+  // A metre through the middle.
+  CHECK(taken.r == doctest::Approx(std::exp(-2.0)).epsilon(0.03));
+  CHECK(taken.g == doctest::Approx(std::exp(-1.0)).epsilon(0.03));
+  CHECK(taken.b == doctest::Approx(1.0).epsilon(0.01));
+
+  ice::IceBody cracked = body;
+  for (const ice::Crack& crack : generic_cracks(bounds(body.vertices), 2, 3)) append_crack(cracked.inside, crack);
+  ice::IceBody straight = cracked;
+  straight.look.bent_by_cracks = false;
+  const int bent = differing(light_of({cracked}), light_of({straight}));
+  CAPTURE(bent);
+  CHECK(bent > 1000);
+
+  ice::IceBody behind = blue;
+  behind.origin_m = {3.2, 0.0, 0.0};
+  blue.look.seen_beyond = true;
+  const RadianceImage both = light_of({behind, blue}), either = light_of({blue, behind});
+  // Two metres of ice, in whatever order they come.
+  const glm::vec3 share = both.at(width / 2, height / 2) / through;
+  CHECK(share.r == doctest::Approx(std::exp(-4.0)).epsilon(0.15));
+  CHECK(share.g == doctest::Approx(std::exp(-2.0)).epsilon(0.15));
+  CHECK(share.b == doctest::Approx(1.0).epsilon(0.1));
+  CHECK(differing(both, either) == 0);
+}
+
 TEST_CASE("two screens of one eye show the same ice on both sides of their edge") {
   constexpr std::uint32_t width = 320, height = 200;
   Renderer renderer = ice_renderer(width, height);
@@ -135,6 +188,10 @@ TEST_CASE("two screens of one eye show the same ice on both sides of their edge"
     body.look.mode = mode;
     for (const ice::Crack& crack : generic_cracks(bounds(body.vertices), 2, 3)) append_crack(body.inside, crack);
     input.ice = {body};
+    if (mode == ice::Mode::quality) {
+      input.ice[0].look.seen_beyond = true;
+      input.ice.push_back(body_of(ice::sphere(), {4.0, 0.1, 0.0}));
+    }
     check_valid(renderer, input);
     const image::Image left = *renderer.read_back();
     // The neighbour looks the same way; its picture begins half a picture further to the right.
@@ -180,10 +237,12 @@ TEST_CASE("open, inverted, flat, endless and crowded bodies of ice are drawn har
     for (const ice::IceBody* body : {&open, &inverted, &flat, &broken, &around, &far, &crowded}) {
       input.ice = {*body};
       input.ice[0].look.mode = mode;
+      input.ice[0].look.seen_beyond = true;
       check_valid(renderer, input);
     }
   // Seventy at once share the layers.
   input.ice.assign(70, body_of(whole, {2, 0, 0}));
+  for (ice::IceBody& body : input.ice) body.look.mode = ice::Mode::quality, body.look.seen_beyond = true;
   check_valid(renderer, input);
   const RadianceImage light = *renderer.read_radiance();
   CHECK(std::ranges::all_of(light.radiance, [](const glm::vec3& r) {
