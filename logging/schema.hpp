@@ -8,7 +8,11 @@
 namespace septet::logging {
 
 inline constexpr std::int32_t application_id = 0x53535444;
-inline constexpr std::int32_t format_version = 1;
+inline constexpr std::int32_t format_version = 2;
+inline constexpr std::int32_t oldest_format_version = 1;  ///< Whose snapshots are not packed.
+
+/// A row of `snapshots` is near 1 KB: in pages of SQLite's usual 4 KB a fifth of each would stay empty.
+inline constexpr std::uint32_t page_bytes = 16384;
 
 struct Table {
   std::string_view name;

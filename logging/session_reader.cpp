@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "logging/packed_snapshot.hpp"
 #include "logging/record_tables.hpp"
 #include "logging/schema.hpp"
 #include "logging/sqlite_database.hpp"
@@ -18,8 +19,9 @@ Expected<void> check_format(const Database& database) {
                    "give a session file that Septet wrote");
   const auto version = database.query_integer("PRAGMA user_version");
   if (!version) return tl::unexpected(version.error());
-  if (*version != format_version)
-    return failure(fmt::format("the session has format {}, and this Septet reads format {}", *version, format_version),
+  if (*version < oldest_format_version || *version > format_version)
+    return failure(fmt::format("the session has format {}, and this Septet reads formats {} to {}", *version,
+                               oldest_format_version, format_version),
                    database.where(), "use the version of Septet that wrote it (meta row septet_version)");
   for (const Table& table : tables) {
     auto statement = database.prepare("SELECT sql FROM sqlite_schema WHERE name = ? AND type = 'table'");
@@ -28,7 +30,7 @@ Expected<void> check_format(const Database& database) {
     const auto row = statement->step();
     if (!row) return tl::unexpected(row.error());
     if (!*row || statement->text(0) != table.sql)
-      return failure(fmt::format("the table {} is missing or not that of format {}", table.name, format_version),
+      return failure(fmt::format("the table {} is missing or not that of format {}", table.name, *version),
                      database.where(), "use an unaltered session file");
   }
   return {};
@@ -85,6 +87,7 @@ struct SessionReader::State {
 struct SnapshotCursor::State {
   Statement rows;
   std::string where;
+  SnapshotUnpacker unpacker;
   std::optional<WireSnapshot> previous;
   std::optional<WireSnapshot> ready;  ///< Decoded on the way to the time that was asked for.
   bool ended = false;                 ///< Another step would begin anew.
@@ -109,7 +112,7 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
                    "replay up to the tick before it, or use a copy of the file");
   };
   const auto bytes = rows.blob(1);
-  const auto header = read_snapshot_header(bytes);
+  const auto header = read_stored_header(bytes);
   if (!header) return damaged(header.error().what);
   if (header->tick != tick) return damaged(fmt::format("its bytes are those of tick {}", header->tick));
   const auto& previous = state_->previous;
@@ -118,7 +121,7 @@ Expected<std::optional<WireSnapshot>> SnapshotCursor::next_wire() {
                    state_->where, "replay up to the tick before it, or use a copy of the file");
   if (header->baseline && (!previous || previous->rest.tick != *header->baseline))
     return damaged(fmt::format("it is a difference to tick {}, which is not the row before", *header->baseline));
-  auto snapshot = decode_snapshot(bytes, header->baseline ? &*previous : nullptr);
+  auto snapshot = state_->unpacker.unpack(bytes, header->baseline ? &*previous : nullptr);
   if (!snapshot) return damaged(snapshot.error().what);
   state_->previous = *snapshot;
   // The row's own hash is the one that was recorded for comparison; whoever altered it has altered the session.
@@ -203,7 +206,7 @@ Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) 
   if (!rows) return tl::unexpected(rows.error());
   rows->bind(1, first);
   SnapshotCursor cursor(std::make_unique<SnapshotCursor::State>(
-      SnapshotCursor::State{std::move(*rows), database.where(), {}, {}, false}));
+      SnapshotCursor::State{std::move(*rows), database.where(), {}, {}, {}, false}));
   for (;;) {
     auto snapshot = cursor.next_wire();
     if (!snapshot) return tl::unexpected(snapshot.error());

@@ -13,6 +13,7 @@
 
 #include "engine/core/bounded_queue.hpp"
 #include "engine/core/check.hpp"
+#include "logging/packed_snapshot.hpp"
 #include "logging/record_tables.hpp"
 #include "logging/schema.hpp"
 #include "logging/sqlite_database.hpp"
@@ -56,10 +57,9 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
   auto database = Database::open(path, OpenMode::create);
   if (!database) return database;
   std::string sql = fmt::format(
-      "PRAGMA application_id={}; PRAGMA user_version={}; PRAGMA journal_mode=WAL; PRAGMA "
-      "synchronous=FULL; "
-      "PRAGMA locking_mode=NORMAL; BEGIN; ",
-      application_id, format_version);
+      "PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}; PRAGMA journal_mode=WAL; "
+      "PRAGMA synchronous=FULL; PRAGMA locking_mode=NORMAL; BEGIN; ",
+      page_bytes, application_id, format_version);
   for (const Table& table : tables) sql += fmt::format("{}; ", table.sql);
   sql += fmt::format("{}; ", saved_states.sql);
   sql += keyframe_index;
@@ -67,9 +67,7 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
   if (auto done = insert_info(*database, info); !done) return tl::unexpected(done.error());
   if (auto done = database->execute("COMMIT"); !done) return tl::unexpected(done.error());
   if (options.max_bytes) {
-    const auto page_bytes = database->query_integer("PRAGMA page_size");
-    if (!page_bytes) return tl::unexpected(page_bytes.error());
-    const std::uint64_t pages = *options.max_bytes / static_cast<std::uint64_t>(*page_bytes);
+    const std::uint64_t pages = *options.max_bytes / page_bytes;
     if (auto done = database->execute(fmt::format("PRAGMA max_page_count={}", pages)); !done)
       return tl::unexpected(done.error());
   }
@@ -144,6 +142,7 @@ struct SessionWriter::State {
   std::size_t uncommitted = 0;  ///< Records of the transaction that is open.
   bool has_failed = false;
   bool is_finished = false;
+  SnapshotPacker packer;
   Bytes encoded;
 
   std::thread thread;
@@ -205,7 +204,7 @@ Expected<void> SessionWriter::State::write_snapshot(const std::shared_ptr<const 
   const bool is_keyframe = !previous || rest.simulated_time_s >= keyframe_time_s + options.keyframe_interval_s;
   if (is_keyframe) keyframe_time_s = rest.simulated_time_s;
   encoded.clear();
-  encode_snapshot(taken->wire(), is_keyframe ? nullptr : &previous->wire(), encoded);
+  packer.pack(taken->wire(), is_keyframe ? nullptr : &previous->wire(), encoded);
   Statement& statement = inserts.snapshot;
   statement.bind(1, static_cast<std::int64_t>(rest.tick));
   statement.bind(2, rest.simulated_time_s);

@@ -288,7 +288,11 @@ Snapshot from_wire(const WireSnapshot& wire) {
   return snapshot;
 }
 
-void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out) {
+namespace {
+
+enum class Participants : std::uint8_t { told, as_expected };
+
+void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants participants, Bytes& out) {
   SEPTET_CHECK(!baseline || baseline->rest.tick < wire.rest.tick, "tick {} against {}", wire.rest.tick,
                baseline ? baseline->rest.tick : 0);
   const Snapshot& rest = wire.rest;
@@ -312,9 +316,24 @@ void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Byt
   writer.put_varint(rest.diagnostics.collisions);
   writer.put_varint(rest.diagnostics.input_stale_ticks);
 
-  put_participants(writer, baseline, wire);
+  if (participants == Participants::told) {
+    put_participants(writer, baseline, wire);
+  } else {
+    put_ids(writer, {});
+    writer.put_varint(0);
+  }
   static const std::vector<EffectKeyframe> no_effects;
   put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
+}
+
+}  // namespace
+
+void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out) {
+  encode(wire, baseline, Participants::told, out);
+}
+
+void encode_without_participants(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out) {
+  encode(wire, baseline, Participants::as_expected, out);
 }
 
 Expected<SnapshotHeader> read_snapshot_header(std::span<const std::byte> bytes) {

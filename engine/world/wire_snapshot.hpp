@@ -75,6 +75,8 @@ Snapshot from_wire(const WireSnapshot& wire);
 
 /// Appends the bytes of `wire`, as a difference to `baseline` or, where that is null, as a keyframe.
 void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out);
+/// The same for whoever tells the participants in another way: none has changed, so that decoding gives the baseline's, moved on.
+void encode_without_participants(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out);
 
 struct SnapshotHeader {
   Tick tick = 0;
