@@ -22,6 +22,7 @@
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"
+#include "sim-server/drive/can_seat.hpp"
 #include "sim-server/drive/drive_loader.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
@@ -161,13 +162,13 @@ Expected<std::vector<scenario::ParameterValue>> read_parameters(const std::vecto
 /// The seat that command line and rig ask for; `car` says in the end what it became.
 Expected<DriverSeat> choose_seat(const ServerOptions& options, rig::Car& car,
                                  const std::shared_ptr<const simulation::Model>& model,
-                                 program::ProgressLine& progress) {
+                                 const car_io::OpenHidDevice& can_controls, program::ProgressLine& progress) {
   const auto let_drive = [&](const std::string& driver) {
     car.source = rig::CarSource::simulated_driver;
     car.driver = driver;
   };
   if (!options.driver.empty()) let_drive(options.driver);
-  auto seat = open_driver_seat(car, options.seed, model);
+  auto seat = open_driver_seat(car, options.seed, model, can_controls);
   if (!seat || seat->car) return seat;
   if (car.source == rig::CarSource::automatic) progress.message("the rig's car is not plugged in: a keyboard drives");
   car.source = rig::CarSource::keyboard;
@@ -190,8 +191,11 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   scenery::build_debris_looks(builder);
   scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
                             {.raised = drive.loaded.model->raised.get()});
-  auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, progress);
+  auto can = open_can_seat(drive.loaded.rig, options.rig);
+  if (!can) return tl::unexpected(can.error());
+  auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, can->controls, progress);
   if (!seat) return tl::unexpected(seat.error());
+  seat->show = std::move(can->show);
   drive.by_person = !seat->look;
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);

@@ -151,8 +151,8 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
-  car.source =
-      static_cast<CarSource>(reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic"}));
+  car.source = static_cast<CarSource>(
+      reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic", "can"}));
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
@@ -166,6 +166,37 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
   reader.finish(documented_in);
   return car;
+}
+
+/// What the DBC file makes of the names is found out where it is read.
+CanSignal read_can_signal(TableReader& reader, std::string_view signal, const toml::node& node) {
+  CanSignal result{std::string(signal), node.value<std::string>().value_or(""), node.value<double>().value_or(0.0)};
+  const auto point = signal.find('.');
+  if (point == 0 || point == std::string_view::npos || point + 1 == signal.size())
+    reader.report(signal, fmt::format("\"{}\" names no signal", signal), "write \"MESSAGE.SIGNAL\" in quotes");
+  else if (result.quantity.empty() && !(node.is_number() && std::abs(result.constant) < 1e15))
+    reader.report(signal, fmt::format("the signal \"{}\" is given neither a quantity nor a number", signal),
+                  "name one of car-io/can/README.md, or a constant");
+  return result;
+}
+
+Can read_can(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "can", error);
+  Can can;
+  can.interface = reader.get_string("interface", "");
+  constexpr std::size_t longest = 15;  // Linux' IFNAMSIZ with its 0.
+  if (can.interface.empty() || can.interface.size() > longest ||
+      can.interface.find_first_of(std::string_view("/ :\t\n\0", 6)) != std::string::npos)
+    reader.report("interface", "can.interface names no network interface",
+                  "write one that `ip link` lists, such as can0");
+  can.dbc = reader.get_string("dbc", can.dbc);
+  if (can.dbc.empty()) reader.report("dbc", "can.dbc is empty", "name a DBC file");
+  if (const auto* signals = reader.get_table("signals")) {
+    TableReader names(*signals, file, "can.signals", error);
+    for (const auto& [signal, node] : *signals) can.signals.push_back(read_can_signal(names, signal.str(), node));
+  }
+  reader.finish(documented_in);
+  return can;
 }
 
 /// Somebody's keyboard must reach the car, where the rig says that one does.
@@ -219,6 +250,10 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   rig.eye_point_m = reader.get_point("eye_point_m");
   if (const auto* table = reader.get_table("network")) rig.network = read_network(*table, name, error);
   if (const auto* table = reader.get_table("car")) rig.car = read_car(*table, name, error);
+  if (const auto* table = reader.get_table("can")) rig.can = read_can(*table, name, error);
+  if (rig.car.source == CarSource::can && (!rig.can || !rig.car.machine.empty()))
+    reader.report("car", "car.source is \"can\", and the rig has no CAN bus at the server's own machine",
+                  "add a [can] table, and leave car.machine out");
   std::set<std::string> names;
   for (const toml::table* table : reader.get_tables("screen")) {
     rig.screens.push_back(read_screen(*table, name, error));

@@ -58,8 +58,8 @@ struct Network {
   double playout_delay_ticks = 2.0;
 };
 
-/// `automatic`: the HID device where it is plugged in, else the keyboard (or gamepad) of a screen's window.
-enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard, automatic };
+/// `automatic`: the HID device where it is plugged in, else the keyboard (or gamepad) of a screen's window. `can`: the rig's CAN bus.
+enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard, automatic, can };
 
 /// How one axis of a particular device differs from its report layout: readings on the layout's own scale (hand wheel: −1 full
 /// right to 1 full left; pedal: 0 released to 1 floored). `septet-car calibrate` records and prints them.
@@ -101,12 +101,27 @@ struct Car {
   CarActuators actuators;
 };
 
+/// What one signal of the DBC file carries, where its own name does not say so.
+struct CanSignal {
+  std::string signal;     ///< "MESSAGE.SIGNAL".
+  std::string quantity;   ///< One of car-io/can/README.md; empty: the constant.
+  double constant = 0.0;  ///< Sent always.
+};
+
+/// The CAN bus of instruments and controls, at the server's own machine.
+struct Can {
+  std::string interface;            ///< Linux' name of it: can0, vcan0.
+  std::string dbc = "cluster.dbc";  ///< File that says what the frames mean, from the rig file's folder.
+  std::vector<CanSignal> signals;
+};
+
 struct Rig {
   std::string name;
   Vec3 eye_point_m{0.0};
   std::vector<Screen> screens;
   Network network;
   Car car;
+  std::optional<Can> can;
 };
 
 /// The screens whose keyboard or gamepad drives: none unless the rig's car is driven so.

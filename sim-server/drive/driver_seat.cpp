@@ -7,7 +7,8 @@
 namespace septet::server {
 
 Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
-                                      const std::shared_ptr<const simulation::Model>& model) {
+                                      const std::shared_ptr<const simulation::Model>& model,
+                                      const car_io::OpenHidDevice& controls) {
   DriverSeat seat;
   if (car.source == rig::CarSource::simulated_driver) {
     auto parameters = car_io::find_driver(car.driver);
@@ -26,6 +27,14 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     return seat;
   }
   if (car.source == rig::CarSource::keyboard) return seat;
+  if (car.source == rig::CarSource::can) {
+    // A bus that is missing is noticed before the drive begins.
+    if (const auto bus = controls(); !bus) return tl::unexpected(bus.error());
+    seat.car = std::make_unique<car_io::CarConnection>(
+        controls,
+        car_io::CarConnectionOptions{.calibration = {.steering_lock_rad = car.calibration.steering_lock_rad}});
+    return seat;
+  }
   const auto layout = car_io::find_car_layout(car.layout);
   if (!layout) return tl::unexpected(layout.error());
   car_io::CarConnectionOptions options{.layout = *layout, .calibration = car.calibration};

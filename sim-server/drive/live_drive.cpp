@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "car-io/can/instruments.hpp"
 #include "engine/core/printable.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "sim-server/drive/car_motion.hpp"
@@ -77,10 +78,12 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
 
 bool LiveDrive::driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) {
   if (controls) held_ = *controls;
+  show_instruments(held_);
   if (controls || seat_.look) return true;
   if (!seat_.car) return false;
   waited_s_ = waited_s;
   const auto reading = seat_.car->poll(waited_s);
+  car_was_there_ = reading.is_connected;
   if (const auto error = seat_.car->take_error()) tell(describe(*error));
   if (!reading.is_connected || !reading.report) return false;
   if (!found_) found_ = reading.input;
@@ -98,6 +101,14 @@ void LiveDrive::move_actuators() {
   if (!seat_.actuate) return;
   const auto motion = car_motion(*model_, state_);
   if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators)))
+    tell(describe(*error));
+}
+
+void LiveDrive::show_instruments(const DriverInput& input) {
+  if (!seat_.show) return;
+  const bool is_lost = seat_.car && !car_was_there_;
+  if (const auto error =
+          seat_.show(car_io::instruments_of(newest_->snapshot(), input, car_motion(*model_, state_), is_lost)))
     tell(describe(*error));
 }
 
@@ -131,6 +142,7 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   std::vector<simulation::Event> events = std::exchange(events_, {});
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
   move_actuators();
+  show_instruments(input.input);
   if (told_)
     for (const auto& event : events) told_(event, state_.time_s());
   if (auto error = state_.traffic->take_error()) {

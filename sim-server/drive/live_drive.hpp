@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "car-io/actuators.hpp"
+#include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
@@ -27,7 +28,9 @@ struct DriverSeat {
   std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
   /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
   std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
-  rig::CarActuators actuators;        ///< Their limits.
+  rig::CarActuators actuators;  ///< Their limits.
+  /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
+  std::function<std::optional<Error>(const car_io::Instruments&)> show;
   std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
 };
 
@@ -60,6 +63,7 @@ class LiveDrive final : public TickSource {
   LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
   void move_actuators();
+  void show_instruments(const DriverInput& input);
   void keep_state();
   void tell(const std::string& what);
 

@@ -1,0 +1,143 @@
+#include "car-io/can/can_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "car-io/can/signal_codec.hpp"
+
+namespace septet::car_io {
+namespace {
+
+constexpr std::string_view frame_counter = "counter";
+constexpr double usual_period_s = 0.1, shortest_period_s = 0.005;
+
+constexpr Quantity<Instruments> instruments[] = {
+    {"ignition", &Instruments::ignition},
+    {"speed_kmh", &Instruments::speed_kmh},
+    {"engine_rpm", &Instruments::engine_rpm},
+    {"gear", &Instruments::gear},
+    {"selector", &Instruments::selector},
+    {"coolant_temperature_c", &Instruments::coolant_temperature_c},
+    {"outside_temperature_c", &Instruments::outside_temperature_c},
+    {"fuel_percent", &Instruments::fuel_percent},
+    {"indicator_left", &Instruments::indicator_left},
+    {"indicator_right", &Instruments::indicator_right},
+    {"low_beam", &Instruments::low_beam},
+    {"high_beam", &Instruments::high_beam},
+    {"rear_fog", &Instruments::rear_fog},
+    {"parking_brake", &Instruments::parking_brake},
+    {"anti_lock", &Instruments::anti_lock},
+    {"engine_stopped", &Instruments::engine_stopped},
+    {"controls_lost", &Instruments::controls_lost},
+};
+constexpr Quantity<CanControls> controls[] = {
+    {"steering_wheel_deg", &CanControls::steering_wheel_deg},
+    {"accelerator_percent", &CanControls::accelerator_percent},
+    {"brake_percent", &CanControls::brake_percent},
+    {"clutch_percent", &CanControls::clutch_percent},
+    {"indicator_left_switch", &CanControls::indicator_left_switch},
+    {"indicator_right_switch", &CanControls::indicator_right_switch},
+    {"hazard_switch", &CanControls::hazard_switch},
+    {"horn_switch", &CanControls::horn_switch},
+    {"low_beam_switch", &CanControls::low_beam_switch},
+    {"high_beam_switch", &CanControls::high_beam_switch},
+    {"parking_brake_switch", &CanControls::parking_brake_switch},
+    {"selector_position", &CanControls::selector_position},
+    {"gear_position", &CanControls::gear_position},
+};
+constexpr std::size_t axes = 4;  // The first of the controls.
+
+template <class Values>
+std::optional<double Values::*> find(std::span<const Quantity<Values>> quantities, std::string_view name) {
+  const auto found = std::ranges::find(quantities, name, &Quantity<Values>::name);
+  return found == quantities.end() ? std::nullopt : std::optional(found->value);
+}
+
+bool is_axis(double CanControls::*control) {
+  return std::ranges::any_of(std::span(controls).first(axes), [&](const auto& axis) { return axis.value == control; });
+}
+
+/// What the rig says of a signal, or else its own name.
+std::variant<std::string_view, double> meaning(const rig::Can& can, const dbc::Message& message,
+                                               const dbc::Signal& signal) {
+  const std::string name = message.name + "." + signal.name;
+  const auto found = std::ranges::find(can.signals, name, &rig::CanSignal::signal);
+  if (found == can.signals.end()) return std::string_view(signal.name);
+  if (found->quantity.empty()) return found->constant;
+  return std::string_view(found->quantity);
+}
+
+Expected<void> check_names(const dbc::Database& database, const rig::Can& can) {
+  for (const rig::CanSignal& named : can.signals) {
+    const auto point = named.signal.find('.');
+    const auto* message = dbc::find_message(database, named.signal.substr(0, point));
+    if (!message || !dbc::find_signal(*message, named.signal.substr(point + 1)))
+      return failure(fmt::format("[can.signals] names {}, which {} has not", named.signal, can.dbc), "the rig",
+                     "name a message and signal of it");
+    if (named.quantity.empty() || named.quantity == frame_counter) continue;
+    if (find(instrument_quantities(), named.quantity) || find(control_quantities(), named.quantity)) continue;
+    return failure(
+        fmt::format("[can.signals] gives {} the quantity \"{}\", which there is not", named.signal, named.quantity),
+        "the rig", "choose one of car-io/can/README.md");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::span<const Quantity<Instruments>> instrument_quantities() { return instruments; }
+std::span<const Quantity<CanControls>> control_quantities() { return controls; }
+
+Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can) {
+  if (const auto known = check_names(database, can); !known) return tl::unexpected(known.error());
+  CanPlan plan;
+  for (const dbc::Message& message : database.messages) {
+    SentMessage sent{message, std::max(message.period_s.value_or(usual_period_s), shortest_period_s), {}};
+    HeardMessage heard{message, {}, false};
+    bool shows = false;  // Constants and counters alone make no message of ours.
+    for (const dbc::Signal& signal : message.signals) {
+      const auto means = meaning(can, message, signal);
+      if (const auto* constant = std::get_if<double>(&means)) {
+        sent.signals.push_back({signal, *constant});
+        shows = true;
+        continue;
+      }
+      const auto name = std::get<std::string_view>(means);
+      if (const auto instrument = find(instrument_quantities(), name)) {
+        sent.signals.push_back({signal, *instrument});
+        shows = true;
+      } else if (const auto control = find(control_quantities(), name)) {
+        heard.signals.push_back({signal, *control});
+        heard.must_beat |= is_axis(*control);
+      } else if (name == frame_counter) {
+        sent.signals.push_back({signal, FrameCounter{}});
+      }
+    }
+    if (shows && !heard.signals.empty())
+      return failure(fmt::format("{} would be sent and heard", message.name), can.dbc,
+                     "let a message carry instruments or controls");
+    if (shows) {
+      dbc::Message ours = message;
+      ours.signals.clear();
+      for (const auto& signal : sent.signals) ours.signals.push_back(signal.signal);
+      if (const auto both = dbc::overlap(ours))
+        return failure(fmt::format("{} and {} of {} share bits", both->first->name, both->second->name, message.name),
+                       can.dbc, "send only one of them");
+    }
+    if (shows || !heard.signals.empty()) plan.needs_fd |= message.is_fd;
+    if (shows)
+      plan.sent.push_back(std::move(sent));
+    else if (!heard.signals.empty())
+      plan.heard.push_back(std::move(heard));
+  }
+  if (plan.sent.empty() && plan.heard.empty())
+    return failure("none of its signals carries anything of the car", can.dbc, "name some in the rig's [can.signals]");
+  return plan;
+}
+
+}  // namespace septet::car_io

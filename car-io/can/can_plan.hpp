@@ -1,0 +1,84 @@
+#pragma once
+/// Which signals of a DBC file carry what of the car: instruments out, controls in.
+///
+/// A signal that is called as a quantity of the tables below carries that quantity; the rig's [can.signals] gives others theirs, or a
+/// constant. README.md lists the quantities with their units.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "car-io/can/dbc.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
+
+namespace septet::car_io {
+
+/// What a cluster shows; what is no measurement is 0 or 1.
+struct Instruments {
+  double ignition = 0.0;
+  double speed_kmh = 0.0;
+  double engine_rpm = 0.0;
+  double gear = 0.0;      ///< −1 reverse, 0 neutral, 1…8.
+  double selector = 0.0;  ///< GearSelector: 0 park to 4 manual.
+  double coolant_temperature_c = 0.0, outside_temperature_c = 0.0;
+  double fuel_percent = 0.0;
+  double indicator_left = 0.0, indicator_right = 0.0;  ///< Lit now.
+  double low_beam = 0.0, high_beam = 0.0, rear_fog = 0.0;
+  double parking_brake = 0.0, anti_lock = 0.0;  ///< Warning lamps, likewise the next.
+  double engine_stopped = 0.0, controls_lost = 0.0;
+};
+
+/// What the driver does, as signals say it.
+struct CanControls {
+  double steering_wheel_deg = 0.0;  ///< Positive to the left.
+  double accelerator_percent = 0.0, brake_percent = 0.0, clutch_percent = 0.0;
+  double indicator_left_switch = 0.0, indicator_right_switch = 0.0;
+  double hazard_switch = 0.0, horn_switch = 0.0;
+  double low_beam_switch = 1.0, high_beam_switch = 0.0, parking_brake_switch = 0.0;
+  double selector_position = 3.0;  ///< As GearSelector.
+  double gear_position = 0.0;      ///< −1 reverse, 0 neutral, 1…6.
+};
+
+template <class Values>
+struct Quantity {
+  std::string_view name;
+  double Values::*value;
+};
+std::span<const Quantity<Instruments>> instrument_quantities();
+std::span<const Quantity<CanControls>> control_quantities();
+
+/// Counts the frames of its message; clusters notice by it that a sender hangs.
+struct FrameCounter {};
+
+struct SentSignal {
+  dbc::Signal signal;
+  std::variant<double, double Instruments::*, FrameCounter> carries;  ///< A number: always that.
+};
+struct SentMessage {
+  dbc::Message message;
+  double period_s = 0.1;
+  std::vector<SentSignal> signals;
+};
+struct HeardSignal {
+  dbc::Signal signal;
+  double CanControls::*control = nullptr;
+};
+struct HeardMessage {
+  dbc::Message message;
+  std::vector<HeardSignal> signals;
+  bool must_beat = false;  ///< It carries the wheel or a pedal, so that its silence is a loss.
+};
+struct CanPlan {
+  std::vector<SentMessage> sent;
+  std::vector<HeardMessage> heard;
+  bool needs_fd = false;
+};
+
+/// Error: a signal or quantity that is not there, a message that would be sent and heard, signals on each other.
+Expected<CanPlan> plan_can(const dbc::Database& database, const rig::Can& can);
+
+}  // namespace septet::car_io

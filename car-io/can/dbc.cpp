@@ -1,0 +1,328 @@
+#include "car-io/can/dbc.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "car-io/can/dbc_scanner.hpp"
+#include "engine/core/printable.hpp"
+
+namespace septet::car_io::dbc {
+namespace {
+
+constexpr std::size_t largest_file = 8u << 20, most_messages = 10'000, most_signals = 1024;
+constexpr std::uint64_t extended_flag = 1ull << 31;
+/// Vector's place for signals that belong to no message.
+constexpr std::uint64_t independent_signals = 0xC0000000;
+
+constexpr std::string_view statements[] = {"VERSION",
+                                           "NS_",
+                                           "BS_",
+                                           "BU_",
+                                           "VAL_TABLE_",
+                                           "BO_",
+                                           "SG_",
+                                           "BO_TX_BU_",
+                                           "EV_",
+                                           "EV_DATA_",
+                                           "ENVVAR_DATA_",
+                                           "SGTYPE_",
+                                           "SGTYPE_VAL_",
+                                           "CM_",
+                                           "BA_DEF_",
+                                           "BA_DEF_DEF_",
+                                           "BA_",
+                                           "BA_DEF_REL_",
+                                           "BA_REL_",
+                                           "BA_DEF_DEF_REL_",
+                                           "BA_DEF_SGTYPE_",
+                                           "BA_SGTYPE_",
+                                           "VAL_",
+                                           "CAT_DEF_",
+                                           "CAT_",
+                                           "FILTER",
+                                           "SIG_GROUP_",
+                                           "SIG_VALTYPE_",
+                                           "SIGTYPE_VALTYPE_",
+                                           "SIG_TYPE_REF_",
+                                           "SG_MUL_VAL_",
+                                           "BU_SG_REL_",
+                                           "BU_EV_REL_",
+                                           "BU_BO_REL_",
+                                           "NS_DESC_"};
+
+bool is_statement(std::string_view word) { return std::ranges::find(statements, word) != std::end(statements); }
+
+bool is_length(std::uint64_t bytes) {
+  constexpr std::array<std::uint64_t, 7> of_fd{12, 16, 20, 24, 32, 48, 64};
+  return bytes <= 8 || std::ranges::find(of_fd, bytes) != of_fd.end();
+}
+
+/// Whether all bits of the signal lie in its message. Motorola's sit in rows from bit 7 down, byte after byte.
+bool fits(const Signal& signal, std::uint8_t bytes) {
+  const int begin =
+      signal.order == ByteOrder::intel ? signal.start_bit : signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8;
+  return begin + signal.bits <= 8 * bytes;
+}
+
+class Reader {
+ public:
+  Reader(std::string_view text, std::string_view name) : scan_(text), name_(name) {}
+
+  Expected<Database> read() {
+    while (error_.what.empty() && !scan_.at_end()) statement();
+    if (error_.what.empty()) finish();
+    if (!error_.what.empty()) return tl::unexpected(std::move(error_));
+    return std::move(database_);
+  }
+
+ private:
+  void refuse(std::string what, std::string remedy = "correct it, or export the file again") {
+    if (error_.what.empty()) error_ = {std::move(what), fmt::format("{}:{}", name_, line_), std::move(remedy)};
+  }
+
+  void statement() {
+    line_ = scan_.line();
+    const auto word = scan_.take_identifier();
+    if (!word || !is_statement(*word)) {
+      refuse(word ? fmt::format("\"{}\" begins no statement of a DBC file", printable(std::string(word->substr(0, 40))))
+                  : fmt::format("a statement begins with \"{}\"", printable(std::string(1, scan_.peek()))));
+    } else if (*word == "VERSION") {
+      if (!scan_.take_string()) refuse("VERSION has no text in quotes");
+    } else if (*word == "NS_") {
+      new_symbols();
+    } else if (*word == "BS_") {
+      while (scan_.take(':') || scan_.take(',') || scan_.take_unsigned()) {
+      }
+    } else if (*word == "BU_") {
+      scan_.take(':');
+      for (auto node = scan_.peek_identifier(); node && !is_statement(*node); node = scan_.peek_identifier())
+        scan_.take_identifier();
+    } else if (*word == "BO_") {
+      message();
+    } else if (*word == "SG_") {
+      signal();
+    } else if (*word == "BA_") {
+      attribute();
+    } else if (*word == "BA_DEF_DEF_") {
+      default_of_attribute();
+    } else if (*word == "SIG_VALTYPE_") {
+      value_type();
+    } else {
+      end_statement();
+    }
+  }
+
+  void end_statement() {
+    if (!scan_.skip_statement()) refuse("a statement has no end", "end it with ;");
+  }
+
+  /// A list of words that are statements elsewhere, until the first that is none of them.
+  void new_symbols() {
+    if (!scan_.take(':')) return refuse("NS_ has no colon");
+    for (auto word = scan_.peek_identifier(); word && *word != "BS_" && *word != "BU_" && *word != "BO_";
+         word = scan_.peek_identifier())
+      scan_.take_identifier();
+  }
+
+  void message() {
+    const auto id = scan_.take_unsigned();
+    const auto name = scan_.take_identifier();
+    if (!id || !name || !scan_.take(':')) return refuse("a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
+    const auto bytes = scan_.take_unsigned();
+    if (!bytes || !scan_.take_identifier()) return refuse("a BO_ is not of the form BO_ ID NAME: BYTES SENDER");
+    ignored_ = *id == independent_signals;
+    if (ignored_) return;
+    Message message;
+    message.is_extended = (*id & extended_flag) != 0;
+    const std::uint64_t number = *id & ~extended_flag;
+    if (number > (message.is_extended ? 0x1FFFFFFFu : 0x7FFu))
+      return refuse(fmt::format("{} is no CAN identifier", *id), "use 11 bits, or 29 bits with bit 31 set");
+    if (!is_length(*bytes))
+      return refuse(fmt::format("{} cannot have {} bytes", *name, *bytes), "use 0 to 8, 12, 16, 20, 24, 32, 48 or 64");
+    message.id = static_cast<std::uint32_t>(number);
+    message.name = *name;
+    message.bytes = static_cast<std::uint8_t>(*bytes);
+    message.is_fd = *bytes > 8;
+    if (database_.messages.size() == most_messages) return refuse("the file has more than 10000 messages", "split it");
+    if (!names_.insert(message.name).second) return refuse(fmt::format("two messages are called {}", message.name));
+    if (!numbers_.emplace(*id, database_.messages.size()).second)
+      return refuse(fmt::format("two messages have the identifier {}", *id));
+    database_.messages.push_back(std::move(message));
+  }
+
+  void signal() {
+    if (database_.messages.empty() && !ignored_) return refuse("a SG_ stands before the first BO_");
+    const auto name = scan_.take_identifier();
+    if (!name) return refuse("a SG_ has no name");
+    Signal signal;
+    signal.name = *name;
+    if (const auto multiplex = scan_.take_identifier(); multiplex && !read_multiplex(*multiplex, signal))
+      return refuse(fmt::format("{} is multiplexed by {}, which is not understood", *name, *multiplex),
+                    "use M or mNUMBER");
+    if (!read_place(signal) || !read_scale(signal))
+      return refuse(fmt::format("the signal {} is not of the form {}", *name, form));
+    receivers();
+    if (ignored_ || !error_.what.empty()) return;
+    Message& message = database_.messages.back();
+    if (!fits(signal, message.bytes))
+      return refuse(fmt::format("{} reaches beyond the {} bytes of {}", *name, message.bytes, message.name));
+    if (find_signal(message, signal.name)) return refuse(fmt::format("{} has two signals {}", message.name, *name));
+    if (signal.selects && std::ranges::find(message.signals, true, &Signal::selects) != message.signals.end())
+      return refuse(fmt::format("{} has two signals that select", message.name), "extended multiplexing is not read");
+    if (message.signals.size() == most_signals)
+      return refuse(fmt::format("{} has more than 1024 signals", message.name));
+    message.signals.push_back(std::move(signal));
+  }
+
+  static constexpr const char* form = "SG_ NAME : START|BITS@ORDER SIGN (SCALE,OFFSET) [LOW|HIGH] \"UNIT\" RECEIVERS";
+
+  static bool read_multiplex(std::string_view text, Signal& signal) {
+    if (text == "M") return signal.selects = true;
+    Scanner number(text.substr(1));
+    signal.selected_by = number.take_unsigned();
+    return text.starts_with('m') && signal.selected_by && number.at_end();
+  }
+
+  bool read_place(Signal& signal) {
+    if (!scan_.take(':')) return false;
+    const auto start = scan_.take_unsigned();
+    if (!start || *start > 511 || !scan_.take('|')) return false;
+    const auto bits = scan_.take_unsigned();
+    if (!bits || *bits < 1 || *bits > 64 || !scan_.take('@')) return false;
+    const auto order = scan_.take_unsigned();
+    if (!order || *order > 1) return false;
+    signal.start_bit = static_cast<std::uint16_t>(*start);
+    signal.bits = static_cast<std::uint8_t>(*bits);
+    signal.order = *order == 1 ? ByteOrder::intel : ByteOrder::motorola;
+    if (scan_.take('-'))
+      signal.number = Number::signed_whole;
+    else if (!scan_.take('+'))
+      return false;
+    return true;
+  }
+
+  bool read_scale(Signal& signal) {
+    const auto pair = [&](char open, char between, char close, double& first, double& second) {
+      if (!scan_.take(open)) return false;
+      const auto a = scan_.take_number();
+      if (!a || !scan_.take(between)) return false;
+      const auto b = scan_.take_number();
+      if (!b || !scan_.take(close)) return false;
+      first = *a;
+      second = *b;
+      return true;
+    };
+    if (!pair('(', ',', ')', signal.scale, signal.offset) || !pair('[', '|', ']', signal.low, signal.high))
+      return false;
+    auto unit = scan_.take_string();
+    if (!unit) return false;
+    signal.unit = std::move(*unit);
+    if (signal.scale == 0.0 || !std::isnormal(signal.scale)) refuse(fmt::format("the scale of {} is 0", signal.name));
+    return true;
+  }
+
+  void receivers() {
+    for (auto word = scan_.peek_identifier(); word && !is_statement(*word); word = scan_.peek_identifier()) {
+      scan_.take_identifier();
+      scan_.take(',');
+    }
+  }
+
+  /// BA_ "NAME" BO_ ID VALUE; the attributes of everything else are skipped.
+  void attribute() {
+    const auto name = scan_.take_string();
+    if (!name) return refuse("BA_ names no attribute");
+    const auto of = scan_.peek_identifier();
+    if (of && *of == "BO_" && (*name == cycle_time || *name == frame_format)) {
+      scan_.take_identifier();
+      const auto id = scan_.take_unsigned();
+      const auto value = scan_.take_number();
+      if (!id || !value)
+        return refuse(fmt::format("BA_ \"{}\" BO_ is not followed by an identifier and a number", *name));
+      if (const auto found = numbers_.find(*id); found != numbers_.end())
+        set(database_.messages[found->second], *name, *value);
+    }
+    end_statement();
+  }
+
+  void set(Message& message, const std::string& attribute, double value) {
+    constexpr double longest_ms = 600'000.0, standard_fd = 14.0, extended_fd = 15.0;
+    if (attribute == frame_format)
+      message.is_fd |= value == standard_fd || value == extended_fd;
+    else if (value < 0.0 || value > longest_ms)
+      refuse(fmt::format("{} is sent every {} ms", message.name, value), "use 0 to 600000 ms");
+    else if (value > 0.0)
+      message.period_s = value / 1000.0;
+    else
+      periodless_.insert(message.name);
+  }
+
+  void default_of_attribute() {
+    const auto name = scan_.take_string();
+    if (!name) return refuse("BA_DEF_DEF_ names no attribute");
+    if (*name == cycle_time) default_period_ms_ = scan_.take_number().value_or(0.0);
+    end_statement();
+  }
+
+  /// SIG_VALTYPE_ ID SIGNAL : 1 or 2;
+  void value_type() {
+    const auto id = scan_.take_unsigned();
+    const auto name = scan_.take_identifier();
+    scan_.take(':');
+    const auto type = scan_.take_unsigned();
+    if (!id || !name || !type || *type > 2 || !scan_.take(';'))
+      return refuse("a SIG_VALTYPE_ is not of the form SIG_VALTYPE_ ID SIGNAL : 0, 1 or 2;");
+    const auto message = numbers_.find(*id);
+    if (message == numbers_.end() || *type == 0) return;
+    auto& signals = database_.messages[message->second].signals;
+    const auto signal = std::ranges::find(signals, *name, &Signal::name);
+    if (signal == signals.end()) return;
+    if (signal->bits != 32 * *type)
+      return refuse(fmt::format("{} is a float of {} bits", *name, signal->bits), "use 32 or 64 bits");
+    signal->number = *type == 1 ? Number::float32 : Number::float64;
+  }
+
+  void finish() {
+    if (!(default_period_ms_ > 0.0 && default_period_ms_ <= 600'000.0)) return;
+    for (Message& message : database_.messages)
+      if (!message.period_s && !periodless_.contains(message.name)) message.period_s = default_period_ms_ / 1000.0;
+  }
+
+  static constexpr const char *cycle_time = "GenMsgCycleTime", *frame_format = "VFrameFormat";
+
+  Scanner scan_;
+  std::string name_;
+  Database database_;
+  std::map<std::uint64_t, std::size_t> numbers_;  ///< Messages by their identifier as the file writes it.
+  std::set<std::string> names_, periodless_;
+  int line_ = 1;          ///< In which the statement begins.
+  bool ignored_ = false;  ///< The signals that follow belong to no message.
+  double default_period_ms_ = 0.0;
+  Error error_;
+};
+
+}  // namespace
+
+const Message* find_message(const Database& database, std::string_view name) {
+  const auto found = std::ranges::find(database.messages, name, &Message::name);
+  return found == database.messages.end() ? nullptr : &*found;
+}
+
+const Signal* find_signal(const Message& message, std::string_view name) {
+  const auto found = std::ranges::find(message.signals, name, &Signal::name);
+  return found == message.signals.end() ? nullptr : &*found;
+}
+
+Expected<Database> read_dbc(std::string_view text, std::string_view name) {
+  if (text.size() > largest_file)
+    return failure("the file is larger than 8 MB", std::string(name), "name a file with the messages that are used");
+  return Reader(text, name).read();
+}
+
+}  // namespace septet::car_io::dbc

@@ -1,0 +1,56 @@
+#pragma once
+/// What the frames of a CAN bus mean, read from a DBC file (Vector's format, as cantools and most tools write it).
+///
+/// Read are messages, signals with their multiplexing, floating point signals (SIG_VALTYPE_), and the attributes GenMsgCycleTime and
+/// VFrameFormat; everything else that the format knows (comments, value tables, nodes, environment variables) is skipped. The file comes
+/// from outside: whatever it holds, the outcome is a database whose signals all lie within their messages, or an Error with the line.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::car_io::dbc {
+
+/// Of a signal longer than a byte: Intel counts its bits upwards from `start_bit`, Motorola begins there with the most significant
+/// one and goes on in the next byte's bit 7. Bit b lies in byte b / 8, 0 is that byte's least significant.
+enum class ByteOrder : std::uint8_t { motorola, intel };
+enum class Number : std::uint8_t { unsigned_whole, signed_whole, float32, float64 };
+
+struct Signal {
+  std::string name;
+  std::uint16_t start_bit = 0;
+  std::uint8_t bits = 1;  ///< 1 to 64.
+  ByteOrder order = ByteOrder::intel;
+  Number number = Number::unsigned_whole;
+  double scale = 1.0, offset = 0.0;  ///< Physical value = raw · scale + offset.
+  double low = 0.0, high = 0.0;      ///< Physical range; equal: the file gives none.
+  std::string unit;
+  bool selects = false;                      ///< Its raw value says which of the multiplexed signals a frame carries.
+  std::optional<std::uint64_t> selected_by;  ///< Multiplexed: only in frames whose selecting signal has this raw value.
+};
+
+struct Message {
+  std::uint32_t id = 0;  ///< 11 bits, or 29 where it is extended.
+  bool is_extended = false;
+  std::string name;
+  std::uint8_t bytes = 8;          ///< 0 to 8, with CAN FD to 64.
+  bool is_fd = false;              ///< Longer than a classic frame, or declared so.
+  std::optional<double> period_s;  ///< How often it is sent, where the file says so.
+  std::vector<Signal> signals;
+};
+
+struct Database {
+  std::vector<Message> messages;
+};
+
+const Message* find_message(const Database& database, std::string_view name);
+const Signal* find_signal(const Message& message, std::string_view name);
+
+/// `name` is used in messages: "cluster.dbc:12".
+Expected<Database> read_dbc(std::string_view text, std::string_view name);
+
+}  // namespace septet::car_io::dbc

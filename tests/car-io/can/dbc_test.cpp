@@ -1,0 +1,163 @@
+#include "car-io/can/dbc.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "car-io/can/signal_codec.hpp"
+#include "tests/shipped_files.hpp"
+
+namespace septet::car_io::dbc {
+namespace {
+
+constexpr const char* head = "VERSION \"\"\nNS_ :\nBS_:\nBU_: A\n";
+
+Database reference() {
+  auto database = read_dbc(shipped_text("tests/car-io/can/reference.dbc"), "reference.dbc");
+  REQUIRE_MESSAGE(database.has_value(), (database ? "" : describe(database.error())));
+  return *database;
+}
+
+std::vector<std::byte> bytes_of(const std::string& hex) {
+  std::vector<std::byte> bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes.push_back(static_cast<std::byte>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  return bytes;
+}
+
+Error refusal(const std::string& text) {
+  const auto read = read_dbc(text, "bad.dbc");
+  REQUIRE_FALSE(read.has_value());
+  return read.error();
+}
+
+}  // namespace
+
+TEST_CASE("frames that cantools made decode to its values and those encode to the same frames") {
+  const Database database = reference();
+  std::istringstream lines(shipped_text("tests/car-io/can/reference.txt"));
+  int frames = 0;
+  for (std::string line; std::getline(lines, line); ++frames) {
+    CAPTURE(line);
+    std::istringstream words(line);
+    std::string name, hex, value;
+    words >> name >> hex;
+    const Message* message = find_message(database, name);
+    REQUIRE(message);
+    const auto data = bytes_of(hex);
+    REQUIRE(data.size() == message->bytes);
+    std::vector<std::byte> encoded(data.size());
+    std::size_t values = 0;
+    for (; words >> value; ++values) {
+      const auto equals = value.find('=');
+      const Signal* signal = find_signal(*message, value.substr(0, equals));
+      REQUIRE(signal);
+      const double expected = std::stod(value.substr(equals + 1));
+      const auto decoded = decode(*message, *signal, data);
+      REQUIRE(decoded.has_value());
+      CHECK(*decoded == doctest::Approx(expected).epsilon(1e-12));
+      encode(*signal, expected, encoded);
+    }
+    CHECK(encoded == data);
+    std::size_t carried = 0;
+    for (const Signal& signal : message->signals) carried += decode(*message, signal, data).has_value() ? 1 : 0;
+    CHECK(carried == values);
+  }
+  CHECK(frames == 84);
+}
+
+TEST_CASE("a DBC file says how often messages are sent which are long and which are extended") {
+  const Database database = reference();
+  CHECK(database.messages.size() == 7);
+  CHECK(find_message(database, "INTEL")->period_s == 0.01);
+  CHECK(find_message(database, "MOTOROLA")->period_s == 0.05);
+  CHECK_FALSE(find_message(database, "INTEL")->is_fd);
+  CHECK(find_message(database, "WIDE")->is_fd);
+  const Message* extended = find_message(database, "LONG");
+  CHECK((extended->is_extended && extended->is_fd && extended->id == (2566844926u & 0x1FFFFFFFu)));
+  CHECK(find_signal(*find_message(database, "MOTOROLA"), "d16")->unit == "\"quoted\"");
+  CHECK_FALSE(overlap(*find_message(database, "MULTIPLEXED")).has_value());
+}
+
+TEST_CASE("values that the bits cannot hold are taken to the nearest that they can") {
+  Signal signal{.name = "s", .start_bit = 0, .bits = 8};
+  std::vector<std::byte> data(8);
+  const auto raw_for = [&](double value) {
+    encode(signal, value, data);
+    return std::to_integer<int>(data[0]);
+  };
+  CHECK(raw_for(300.0) == 255);
+  CHECK(raw_for(-1.0) == 0);
+  CHECK(raw_for(1e300) == 255);
+  CHECK(raw_for(std::nan("")) == 0);
+  CHECK(raw_for(2.5) == 2);
+  signal.number = Number::signed_whole;
+  CHECK(raw_for(300.0) == 127);
+  CHECK(raw_for(-300.0) == 128);
+  signal.low = -10.0;
+  signal.high = 10.0;
+  CHECK(raw_for(300.0) == 10);
+  signal = {.name = "s", .start_bit = 0, .bits = 64};
+  const Message message{.signals = {signal}};
+  encode(signal, 1e30, data);
+  CHECK(decode(message, signal, data) == 18446744073709551616.0);
+  signal.number = Number::signed_whole;
+  encode(signal, -1e30, data);
+  CHECK(decode(message, signal, data) == -9223372036854775808.0);
+}
+
+TEST_CASE("data too short for a signal hold nothing for it and take nothing from it") {
+  const Signal signal{.name = "s", .start_bit = 12, .bits = 8};
+  const Message message{.signals = {signal}};
+  std::vector<std::byte> data(2, std::byte{0xFF});
+  CHECK_FALSE(decode(message, signal, data).has_value());
+  encode(signal, 0.0, data);
+  CHECK(data == std::vector<std::byte>(2, std::byte{0xFF}));
+}
+
+TEST_CASE("what is wrong with a DBC file is said with its line") {
+  const std::pair<const char*, std::string_view> files[] = {
+      {"BO_ 7 A: 8 X\n SG_ s : 60|8@1+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
+      {"BO_ 7 A: 8 X\n SG_ s : 60|14@0+ (1,0) [0|0] \"\" X\n", "s reaches beyond the 8 bytes of A"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|65@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|0@1+ (1,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (0,0) [0|0] \"\" X\n", "the scale of s is 0"},
+      {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1e999,0) [0|0] \"\" X\n", "the signal s is not of the form"},
+      {"BO_ 7 A: 8 X\n SG_ s m : 0|8@1+ (1,0) [0|0] \"\" X\n", "s is multiplexed by m"},
+      {"\nSG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ stands before the first BO_"},
+      {"\nBO_ 4096 A: 8 X\n", "4096 is no CAN identifier"},
+      {"\nBO_ 18446744073709551615 A: 8 X\n", "18446744073709551615 is no CAN identifier"},
+      {"\nBO_ 7 A: 9 X\n", "A cannot have 9 bytes"},
+      {"BO_ 7 A: 8 X\nBO_ 7 B: 8 X\n", "two messages have the identifier 7"},
+      {"BO_ 7 A: 8 X\nBO_ 8 A: 8 X\n", "two messages are called A"},
+      {"BO_ 7 A: 8 X\nBA_ \"GenMsgCycleTime\" BO_ 7 -1;\n", "A is sent every -1 ms"},
+      {"BO_ 7 A: 8 X\nHello;\n", "\"Hello\" begins no statement of a DBC file"},
+      {"\n\x01\n", "a statement begins with"},
+  };
+  for (const auto& file : files) {
+    CAPTURE(std::string(file.first));
+    const Error error = refusal(std::string(head) + file.first);
+    CHECK_MESSAGE(error.what.starts_with(file.second), error.what);
+    CHECK(error.where == "bad.dbc:6");
+  }
+  CHECK(refusal("VERSION \"\"\nNS_ :\nBS_:\nBU_: A\nCM_ \"never ended;\n\n").what == "a statement has no end");
+}
+
+TEST_CASE("signals on each other are found unless they are never in one frame") {
+  Message message{.signals = {{.name = "a", .start_bit = 0, .bits = 9},
+                              {.name = "b", .start_bit = 15, .bits = 8, .order = ByteOrder::motorola}}};
+  const auto both = overlap(message);
+  REQUIRE(both.has_value());
+  CHECK((both->first->name == "a" && both->second->name == "b"));
+  message.signals[0].selected_by = 1;
+  message.signals[1].selected_by = 2;
+  CHECK_FALSE(overlap(message).has_value());
+}
+
+}  // namespace septet::car_io::dbc

@@ -1,0 +1,44 @@
+#include "engine/rig/rig.hpp"
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+namespace septet::rig {
+namespace {
+
+std::string with(const std::string& tables) {
+  return "name = \"r\"\neye_point_m = [1, 0, 1]\n" + tables +
+         "\n[[screen]]\nname = \"a\"\nlower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n";
+}
+
+}  // namespace
+
+TEST_CASE("a rig names its CAN bus and what foreign signals carry") {
+  const auto rig = read_rig(with("[car]\nsource = \"can\"\n[can]\ninterface = \"can0\"\ndbc = "
+                                 "\"own.dbc\"\n[can.signals]\n\"A.v\" = \"speed_kmh\"\n\"A.w\" = 7\n"),
+                            "r");
+  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  CHECK(rig->car.source == CarSource::can);
+  CHECK((rig->can->interface == "can0" && rig->can->dbc == "own.dbc"));
+  REQUIRE(rig->can->signals.size() == 2);
+  CHECK((rig->can->signals[0].signal == "A.v" && rig->can->signals[0].quantity == "speed_kmh"));
+  CHECK((rig->can->signals[1].quantity.empty() && rig->can->signals[1].constant == 7.0));
+  CHECK_FALSE(read_rig(with(""), "r")->can.has_value());
+}
+
+TEST_CASE("a CAN bus that cannot be is refused with its place") {
+  for (const char* tables :
+       {"[can]\n", "[can]\ninterface = \"a name too long\"\n", "[can]\ninterface = \"can0\"\ndbc = \"\"\n",
+        "[can]\ninterface = \"can0\"\n[can.signals]\nspeed = \"speed_kmh\"\n",
+        "[can]\ninterface = \"can0\"\n[can.signals]\n\"A.v\" = true\n",
+        "[can]\ninterface = \"can0\"\n[can.signals]\n\"A.v\" = nan\n", "[car]\nsource = \"can\"\n",
+        "[car]\nsource = \"can\"\nmachine = \"pc\"\n[can]\ninterface = \"can0\"\n"}) {
+    CAPTURE(tables);
+    const auto rig = read_rig(with(tables), "bad.toml");
+    REQUIRE_FALSE(rig.has_value());
+    CHECK(rig.error().where.starts_with("bad.toml:"));
+  }
+}
+
+}  // namespace septet::rig
