@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "engine/core/check.hpp"
 #include "engine/road/cross_section.hpp"
@@ -172,6 +173,24 @@ std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, 
     if (const auto beyond = locate_beyond_end(network, near, world_m)) return beyond;
   }
   return locate_anywhere(network, world_m, reach_m);
+}
+
+std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& world_m) {
+  std::vector<Location> holding;
+  if (!std::isfinite(world_m.x) || !std::isfinite(world_m.y)) return holding;
+  for (std::size_t i = 0; i < network.stretches.size();) {
+    const StretchNode& node = network.stretches[i];
+    if (distance_to(node, world_m) > 0.0) {
+      i = node.skip;
+      continue;
+    }
+    ++i;
+    if (node.road == no_index) continue;
+    if (std::ranges::any_of(holding, [&](const Location& found) { return found.position.road == node.road; })) continue;
+    const Location location = location_on(network, node.road, world_m, node.s_m + 0.5 * node.step_m);
+    if (location.lanes.outside_m == 0.0) holding.push_back(location);
+  }
+  return holding;
 }
 
 std::optional<SurfacePoint> surface_at(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint,

@@ -8,6 +8,7 @@
 /// from many threads.
 
 #include <optional>
+#include <vector>
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_position.hpp"
@@ -24,6 +25,9 @@ struct Location {
 /// overlap.
 std::optional<Location> locate(const RoadNetwork& network, const Vec2& world_m, const RoadPosition* hint = nullptr,
                                double reach_m = 20.0);
+
+/// All roads whose lanes hold the point, each once: in a junction several lie on one another. In the order of the network's tree.
+std::vector<Location> roads_holding(const RoadNetwork& network, const Vec2& world_m);
 
 /// The point of the surface above or below a world point.
 struct SurfacePoint {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
 
@@ -57,7 +58,9 @@ std::vector<BesideLine> noise_walls(const RoadShape& roads, const RoadTile& tile
 
 std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& tile) {
   std::vector<BesideLine> result;
-  if (tile.in_tunnel || tile.on_bridge) return result;
+  if (tile.in_tunnel || tile.on_bridge || roads.road(tile.road).junction != road::no_index ||
+      is_in_town(roads.network(), tile.road, tile.middle_m()))
+    return result;
   for (double s = std::ceil(tile.s0_m / 50.0) * 50.0; s < tile.s1_m; s += 50.0) {
     const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s);
     for (const double side : {1.0, -1.0}) {

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "engine/road/lane_geometry.hpp"
 
 namespace septet::roadside {
 
@@ -76,6 +81,52 @@ std::vector<RoadTile> RoadShape::tiles(double length_m) const {
         result.push_back(tile);
       }
     }
+  }
+  return result;
+}
+
+std::vector<double> height_steps(const RoadShape& roads, const RoadTile& tile) {
+  std::vector<double> steps;
+  for (const road::Lane& lane : road::section_at(roads.road(tile.road), tile.middle_m()).lanes)
+    for (const road::LaneHeight& height : lane.heights)
+      if (height.s_m > tile.s0_m + 0.01 && height.s_m < tile.s1_m - 0.01) steps.push_back(height.s_m);
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
+}
+
+std::vector<double> close_stations(const RoadShape& roads, const RoadTile& tile, double most_step_m) {
+  constexpr double most_aside_m = 0.03, most_over_m = 0.01, inside_m = 1e-6;
+  const double least_step_m = std::max(0.6, (tile.s1_m - tile.s0_m) / 128.0);
+  const auto edge = [&](double s_m, int side) {
+    const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s_m);
+    return roads.point(tile.road, s_m, side == 0 ? 0.0 : side > 0 ? extent.left_t_m : extent.right_t_m);
+  };
+  const auto leaves = [&](double s0_m, double s1_m, int side) {
+    const Vec3 from = edge(s0_m + inside_m, side), to = edge(s1_m - inside_m, side),
+               off = edge(0.5 * (s0_m + s1_m), side) - 0.5 * (from + to);
+    const Vec2 chord(to - from);
+    const double length = glm::length(chord);
+    // Only what lies across the chord is an error: stations are not evenly spaced along an edge.
+    const double aside = length > 0.0 ? std::abs(chord.x * off.y - chord.y * off.x) / length : glm::length(Vec2(off));
+    return aside > most_aside_m || std::abs(off.z) > most_over_m;
+  };
+  std::vector<double> cuts = height_steps(roads, tile), result{tile.s0_m};
+  cuts.push_back(tile.s1_m);
+  RoadTile piece = tile;
+  for (const double cut : cuts) {
+    piece.s1_m = cut;
+    double step = most_step_m;
+    std::vector<double> along = stations(piece, step);
+    const auto any_leaves = [&] {
+      for (std::size_t i = 0; i + 1 < along.size(); ++i)
+        for (const int side : {-1, 0, 1})
+          if (leaves(along[i], along[i + 1], side)) return true;
+      return false;
+    };
+    while (step > least_step_m && any_leaves()) along = stations(piece, step *= 0.5);
+    result.insert(result.end(), along.begin() + 1, along.end());
+    piece.s0_m = cut;
   }
   return result;
 }

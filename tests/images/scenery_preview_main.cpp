@@ -1,9 +1,9 @@
 /// Draws the vehicles and the road world to PNG files, for people to judge.
 ///
 ///     scenery_preview OUT vehicles [MODEL…]              turntables
-///     scenery_preview OUT road ROAD.xodr S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
+///     scenery_preview OUT road ROAD.xodr [ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…
 ///
-/// S and T place the eye on the first road; the view is 44° × 30°, that of one screen of the rig.
+/// S and T place the eye on the road of that id, else on the first one; the view is 44° × 30°, that of one screen of the rig.
 ///
 /// Prints what each picture costs to submit, and the size of the scene on the wire.
 
@@ -15,6 +15,9 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -187,18 +190,21 @@ void road_views(const std::filesystem::path& out, const std::vector<std::string>
   for (std::size_t i = 1; i < words.size(); ++i) {
     // Stations and angles as on the command line; all but the first two are optional.
     double values[6]{0, -8, 0, 1.2, 0, 1};
-    std::size_t from = 0;
+    const std::size_t at = words[i].find('@');
+    const std::optional<road::RoadIndex> named =
+        at == std::string::npos ? std::nullopt : road::find_road(network, words[i].substr(0, at));
+    std::size_t from = at == std::string::npos ? 0 : at + 1;
     for (double& value : values) {
       if (from > words[i].size()) break;
       const std::size_t to = std::min(words[i].find(':', from), words[i].size());
       value = std::stod(words[i].substr(from, to - from));
       from = to + 1;
     }
-    const auto point = road::evaluate(network, {0, values[0], values[1]});
+    const auto point = road::evaluate(network, {named.value_or(0), values[0], values[1]});
     auto input = frame(camera(point.position_m + Vec3(0, 0, values[3]), point.heading_rad + values[2] * degree_rad,
                               values[4] * degree_rad),
                        44.0);
-    if (values[5] > 0.0) add_traffic(input, scene, network, values[0]);
+    if (values[5] > 0.0 && !named) add_traffic(input, scene, network, values[0]);
     must(image::write_png(out / fmt::format("road-{}.png", words[i]), drawn(renderer, input), image::PngEffort::fast));
     const auto& cost = renderer.statistics();
     fmt::print("{}: {} triangles ({} in shadows), {} draws, {} instances\n", words[i], cost.triangles,
@@ -215,7 +221,7 @@ int main(int argc, char** argv) {
   if (words.size() < 2 || (words[1] == "road" && words.size() < 4)) {
     fmt::print(stderr,
                "scenery_preview OUT vehicles [MODEL…] | OUT road ROAD.xodr "
-               "S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…\n");
+               "[ROAD@]S:T[:HEADING_DEG[:HEIGHT_M[:PITCH_DEG[:TRAFFIC]]]]…\n");
     return 2;
   }
   std::filesystem::create_directories(words[0]);

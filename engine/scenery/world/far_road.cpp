@@ -1,5 +1,6 @@
 #include "engine/scenery/world/far_road.hpp"
 
+#include "engine/scenery/world/lane_surfaces.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
 namespace septet::scenery {

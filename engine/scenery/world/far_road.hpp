@@ -9,7 +9,6 @@
 namespace septet::scenery {
 
 /// `step_m` is the distance between stations.
-void draw_far_pavement(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);
 void draw_far_marks(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);
 void draw_far_verges(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);
 void draw_far_barriers(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/road/lane_geometry.hpp"
 #include "engine/scenery/world/far_road.hpp"
+#include "engine/scenery/world/lane_surfaces.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -15,14 +18,14 @@ using geometry::MeshBuilder;
 
 constexpr double texture_length_m = 7.5, texture_width_m = 3.75;
 constexpr double near_step_m = 10.0;
-constexpr double mark_lift_m = 0.010, repair_lift_m = 0.005, far_mark_lift_m = 0.04;
+constexpr double mark_lift_m = 0.010, repair_lift_m = 0.006, repair_edge_lift_m = 0.003, far_mark_lift_m = 0.04;
 
 /// Points between a tile's stations lie on the chords that the pavement is made of, so that what is
 /// painted stays above it.
 class TileSurface {
  public:
-  TileSurface(const RoadShape& roads, const RoadTile& tile, double step_m)
-      : roads_(roads), tile_(tile), stations_(stations(tile, step_m)) {}
+  TileSurface(const RoadShape& roads, const RoadTile& tile, std::vector<double> along)
+      : roads_(roads), tile_(tile), stations_(std::move(along)) {}
 
   const std::vector<double>& at() const { return stations_; }
   glm::vec3 point(double s_m, double t_m, double up_m) const {
@@ -37,72 +40,6 @@ class TileSurface {
   const RoadTile& tile_;
   std::vector<double> stations_;
 };
-
-Ground asphalt_of(const RoadTile& tile) {
-  if (tile.in_tunnel) return Ground::asphalt_tunnel;
-  // Stretches were laid in different years.
-  const auto stretch = static_cast<std::int64_t>(std::floor(tile.middle_m() / 900.0)) + tile.road * 3;
-  constexpr Ground laid[]{Ground::asphalt, Ground::asphalt_old, Ground::asphalt, Ground::asphalt_fresh};
-  return laid[((stretch % 4) + 4) % 4];
-}
-
-/// What a lane is covered with; the strip before a median barrier is paved like the lanes. In a junction lanes of several roads lie on one
-/// another, all in asphalt.
-Ground ground_of(road::LaneType type, const RoadTile& tile, bool in_junction) {
-  using enum road::LaneType;
-  const bool on_earth = !tile.in_tunnel && !tile.on_bridge;
-  if (in_junction) return asphalt_of(tile);
-  switch (type) {
-    case none:
-      return on_earth ? Ground::verge : asphalt_of(tile);
-    case sidewalk:
-    case curb:
-      return tile.in_tunnel ? Ground::concrete_tunnel : Ground::concrete;
-    case rail:
-    case tram:
-      return on_earth ? Ground::gravel : asphalt_of(tile);
-    case biking:
-    case parking:
-      return tile.in_tunnel ? Ground::asphalt_tunnel : Ground::asphalt_old;
-    default:
-      return asphalt_of(tile);
-  }
-}
-
-geometry::PolygonMesh near_pavement(const WorldContext& world, const RoadTile& tile) {
-  const road::Road& road = world.roads.road(tile.road);
-  const road::LaneSection& section = road::section_at(road, tile.middle_m());
-  MeshBuilder builder;
-  const std::vector<double> along = stations(tile, near_step_m);
-  // Vertices are shared between neighbouring lanes; the centre line is border 0.
-  std::vector<std::vector<std::uint32_t>> borders;
-  std::vector<std::vector<double>> border_t;
-  for (int lane = section.left_count; lane >= -section.right_count; --lane) {
-    auto& column = borders.emplace_back();
-    auto& column_t = border_t.emplace_back();
-    for (const double s : along) {
-      column_t.push_back(road::outer_border_t_m(road, section, lane, s));
-      column.push_back(builder.vertex(world.roads.local(tile, s, column_t.back())));
-    }
-  }
-  for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
-    const int outside = section.left_count - static_cast<int>(k);
-    const road::Lane& lane = section.lane(outside > 0 ? outside : outside - 1);
-    builder.material = index_of(ground_of(lane.type, tile, road.junction != road::no_index));
-    for (std::size_t i = 0; i + 1 < along.size(); ++i) {
-      const double width0 = border_t[k][i] - border_t[k + 1][i], width1 = border_t[k][i + 1] - border_t[k + 1][i + 1];
-      if (width0 < 1e-3 && width1 < 1e-3) continue;
-      const bool worn = std::max(width0, width1) > 3.0;  // The texture shows where wheels of a lane run.
-      const auto u0 = static_cast<float>(worn ? 1.0 : width0 / texture_width_m),
-                 u1 = static_cast<float>(worn ? 1.0 : width1 / texture_width_m);
-      const auto v0 = static_cast<float>((along[i] - tile.s0_m) / texture_length_m),
-                 v1 = static_cast<float>((along[i + 1] - tile.s0_m) / texture_length_m);
-      builder.quad(borders[k][i], borders[k + 1][i], borders[k + 1][i + 1], borders[k][i + 1],
-                   {{{0, v0}, {u0, v0}, {u1, v1}, {0, v1}}});
-    }
-  }
-  return builder.take();
-}
 
 /// Texture coordinates of a stripe: across it as far as the asphalt's texture reaches, or from one edge to the other.
 enum class StripeUv { none, texture, edges };
@@ -144,7 +81,8 @@ void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile&
   const double widening = near ? 1.0 : 3.0;
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
-  const TileSurface surface(world.roads, tile, step_m);
+  const TileSurface surface(world.roads, tile,
+                            near ? roadside::close_stations(world.roads, tile, step_m) : stations(tile, step_m));
   for (const road::Lane& lane : section.lanes) {
     const auto border = [&](double s) { return road::outer_border_t_m(road, section, lane.id, s); };
     for (const road::RoadMark& mark : lane.marks)
@@ -175,13 +113,12 @@ void draw_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile&
 geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, Random& random) {
   const road::Road& road = world.roads.road(tile.road);
   const road::LaneSection& section = road::section_at(road, tile.middle_m());
-  const TileSurface surface(world.roads, tile, near_step_m);
+  const TileSurface surface(world.roads, tile, roadside::close_stations(world.roads, tile, near_step_m));
   MeshBuilder builder;
-  builder.material = index_of(Ground::repair);
   std::vector<int> lanes;
   for (const road::Lane& lane : section.lanes)
     if (road::is_drivable(lane.type)) lanes.push_back(lane.id);
-  if (lanes.empty() || tile.on_bridge || tile.in_tunnel) return {};
+  if (lanes.empty() || tile.on_bridge || tile.in_tunnel || road.junction != road::no_index) return {};
   const auto any_lane = [&] { return lanes[static_cast<std::size_t>(random.below(lanes.size()))]; };
   const double length = tile.s1_m - tile.s0_m;
   if (random.uniform() < 0.55 && length > 40.0) {
@@ -190,10 +127,16 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
     const road::LaneBorders borders = road::lane_borders(road, section, lane, s0);
     const double width = borders.width_m() * random.uniform(0.45, 0.92),
                  shift = random.uniform(-0.5, 0.5) * (borders.width_m() - width - 0.3);
-    draw_stripe(
-        builder, surface, s0, s1, width, repair_lift_m,
-        [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; }, StripeUv::texture);
+    const auto middle_t = [&](double s) { return road::lane_borders(road, section, lane, s).centre_t_m() + shift; };
+    // Its edge is rolled out thin: half way to the old asphalt's tone.
+    constexpr double edge_m = 0.18;
+    builder.material = index_of(Ground::repair_edge);
+    draw_stripe(builder, surface, s0 - edge_m, s1 + edge_m, width + 2 * edge_m, repair_edge_lift_m, middle_t,
+                StripeUv::texture);
+    builder.material = index_of(Ground::repair);
+    draw_stripe(builder, surface, s0, s1, width, repair_lift_m, middle_t, StripeUv::texture);
   }
+  builder.material = index_of(Ground::crack);
   for (int crack = 0; crack < 2; ++crack) {
     const int lane = any_lane();
     double s = tile.s0_m + random.uniform(0.0, length * 0.6), t = random.uniform(-1.4, 1.4);
@@ -218,21 +161,6 @@ geometry::PolygonMesh repairs(const WorldContext& world, const RoadTile& tile, R
 
 }  // namespace
 
-void draw_far_pavement(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
-  builder.material = index_of(tile.in_tunnel ? Ground::asphalt_tunnel : Ground::far_asphalt);
-  std::uint32_t last = 0;
-  const std::vector<double> along = stations(tile, step_m);
-  for (std::size_t i = 0; i < along.size(); ++i) {
-    const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
-    const std::uint32_t row = builder.vertex(world.roads.local(tile, along[i], extent.left_t_m));
-    builder.vertex(world.roads.local(tile, along[i], std::clamp(0.0, extent.right_t_m, extent.left_t_m)));
-    builder.vertex(world.roads.local(tile, along[i], extent.right_t_m));
-    if (i > 0)
-      for (std::uint32_t k = 0; k < 2; ++k) builder.quad(last + k, last + k + 1, row + k + 1, row + k);
-    last = row;
-  }
-}
-
 void draw_far_marks(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   draw_marks(builder, world, tile, false, step_m);
 }
@@ -242,7 +170,7 @@ void build_pavement(const WorldContext& world) {
   for (const RoadTile& tile : world.roads.tiles(160.0)) {
     MeshBuilder marks;
     draw_marks(marks, world, tile, true, near_step_m);
-    add_tile_mesh(world, tile, "pavement", near_pavement(world, tile), 0.0f, road_near_m);
+    add_tile_mesh(world, tile, "pavement", lane_surfaces(world, tile), 0.0f, road_near_m);
     add_tile_mesh(world, tile, "marks", marks.mesh(), 0.0f, road_near_m);
     add_tile_mesh(world, tile, "repairs", repairs(world, tile, random), 0.0f, 200.0f);
   }

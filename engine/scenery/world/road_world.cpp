@@ -1,5 +1,6 @@
 #include "engine/scenery/world/road_world.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "engine/scenery/world/world_context.hpp"
@@ -7,11 +8,26 @@
 
 namespace septet::scenery {
 
+namespace {
+
+/// Whether anything of junctions or towns is drawn.
+bool has_towns(const road::RoadNetwork& network) {
+  return std::ranges::any_of(network.roads, [](const road::Road& road) {
+    return road.junction != road::no_index || std::ranges::any_of(road.sections, [](const road::LaneSection& section) {
+             return std::ranges::any_of(section.lanes, [](const road::Lane& lane) {
+               return lane.type == road::LaneType::sidewalk || lane.type == road::LaneType::biking;
+             });
+           });
+  });
+}
+
+}  // namespace
+
 void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& network, std::uint64_t seed,
                       const RoadWorldOptions& options) {
   const RoadShape roads(network, options.overrun_m);
   const Terrain terrain(roads, seed);
-  const Palette palette = add_world_finishes(builder, seed);
+  const Palette palette = add_world_finishes(builder, seed, has_towns(network));
   const WorldContext world{builder, roads, terrain, palette, seed};
   std::optional<roadside::RaisedAreas> own_raised;
   build_pavement(world);

@@ -68,6 +68,33 @@ Image asphalt_texture(std::uint64_t seed) {
   });
 }
 
+Image plain_asphalt_texture(std::uint64_t seed) {
+  return painted(256, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
+    const double grain = lattice_random(x, y, seed) - 0.5, stone = lattice_random(x / 2, y / 2, seed + 1);
+    double value = 94.0 + 24.0 * grain + 7.0 * fractal_noise(u * 16, v * 16, 3, seed + 2, 16) +
+                   6.0 * fractal_noise(u * 4, v * 4, 3, seed + 3, 4);
+    if (stone > 0.93) value += 24.0;
+    if (stone < 0.05) value -= 18.0;
+    return grey(value, 1.0);
+  });
+}
+
+Image paving_texture(std::uint64_t seed) {
+  constexpr std::uint32_t slabs = 3;  // Of half a metre.
+  return painted(192, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
+    const auto row = static_cast<std::uint32_t>(v * slabs);
+    // Each row is laid half a slab further.
+    const double across = u * slabs + (row % 2 == 0 ? 0.0 : 0.5), along = v * slabs;
+    const auto slab = static_cast<std::uint32_t>(across) % slabs;
+    const double joint = std::min(
+        {across - std::floor(across), std::ceil(across) - across, along - std::floor(along), std::ceil(along) - along});
+    double value = 190.0 + 16.0 * (lattice_random(slab, row, seed) - 0.5) +
+                   14.0 * (lattice_random(x, y, seed + 1) - 0.5) + 10.0 * fractal_noise(u * 8, v * 8, 3, seed + 2, 8);
+    if (joint < 0.025) value -= 58.0;
+    return grey(value, 2.0);
+  });
+}
+
 Image ground_texture(std::uint64_t seed) {
   return painted(256, [&](std::uint32_t x, std::uint32_t y, double u, double v) -> Color {
     const double clumps = fractal_noise(u * 8, v * 8, 4, seed, 8);

@@ -12,6 +12,12 @@ namespace septet::scenery {
 /// middle, the seam of the paver at the edge.
 image::Image asphalt_texture(std::uint64_t seed);
 
+/// The same without tracks, 3.75 m a side: for where lanes cross.
+image::Image plain_asphalt_texture(std::uint64_t seed);
+
+/// Concrete slabs of half a metre with their joints, 1.5 m a side.
+image::Image paving_texture(std::uint64_t seed);
+
 /// Soil or grass in nearly neutral grey-green, about 6 m a side: multiplied by a field's colour.
 image::Image ground_texture(std::uint64_t seed);
 

@@ -1,10 +1,18 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/noise.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/roadside/town.hpp"
 #include "engine/scenery/world/far_road.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
@@ -32,6 +40,9 @@ constexpr std::array<Column, 8> near_columns{{{0, 0.0, 0, 0},
                                               {20, 0, 1, 0.35},
                                               {38, 0, 1, -1.2}}};
 constexpr std::array<Column, 4> far_columns{{{0, 0.0, 0, 0}, {4.5, 1.0, 0, 0}, {20, 0, 1, 0.35}, {38, 0, 1, -1.2}}};
+/// In a town lawn goes on from the pavement nearly level.
+constexpr std::array<Column, 6> town_columns{
+    {{0, 0.0, 0, 0}, {0.6, 0.03, 0, 0}, {4, 0.08, 0, 0}, {11, 0.15, 0, 0}, {20, 0, 1, 0.35}, {38, 0, 1, -1.2}}};
 /// Beside a tunnel's mouth the bank is fine further out, where the grid is left out.
 constexpr std::array<Column, 11> mouth_columns{{{0, 0.0, 0, 0},
                                                 {0.7, 0.05, 0, 0},
@@ -45,37 +56,156 @@ constexpr std::array<Column, 11> mouth_columns{{{0, 0.0, 0, 0},
                                                 {58, 0, 1, 0.35},
                                                 {70, 0, 1, -2.0}}};
 
+Vec2 outwards(const WorldContext& world, const RoadTile& tile, double s, double side) {
+  const double heading = world.roads.at(tile.road, s, 0.0).heading_rad;
+  return {-std::sin(heading) * side, std::cos(heading) * side};
+}
+
 glm::vec3 column_point(const WorldContext& world, const RoadTile& tile, double s, double edge_t, double side,
-                       const Column& column) {
+                       const Column& column, bool is_limited) {
   const Vec3 edge = world.roads.point(tile.road, s, edge_t);
-  const road::RoadPoint axis = world.roads.at(tile.road, s, 0.0);
-  const Vec2 outward(-std::sin(axis.heading_rad) * side, std::cos(axis.heading_rad) * side);
-  const Vec2 p = Vec2(edge) + outward * column.out_m;
+  const Vec2 p = Vec2(edge) + outwards(world, tile, s, side) * column.out_m;
   double z = edge.z - column.fall_m;
   if (column.of_land > 0.0) z = std::lerp(z, world.terrain.height_m(p) + column.lift_m, column.of_land);
   // Where a ramp runs beside, the strip passes below its pavement.
-  if (column.out_m > 0.0) {
+  if (column.out_m > 0.0 && !is_limited) {
     const Nearest near = world.terrain.nearest(p);
     if (near.found && near.road != tile.road && near.outside_m < 0.6) z = std::min(z, near.edge_z_m - 0.4);
   }
   return world.roads.local(tile, Vec3(p, z));
 }
 
-void draw_side(const WorldContext& world, const RoadTile& tile, double side, double step_m,
-               std::span<const Column> columns, MeshBuilder& builder, bool near) {
-  const std::vector<double> along = stations(tile, step_m);
+/// How far outwards of a road's edge a strip goes.
+struct Free {
+  double out_m = 1e9;
+  std::optional<double> z_m;  ///< Height of the other road that ends it.
+};
+Free free_beside(const WorldContext& world, const RoadTile& tile, double s, double edge_t, double side, double most_m) {
+  const road::RoadNetwork& network = world.roads.network();
+  const road::RoadPoint at = world.roads.at(tile.road, s, edge_t);
+  const Vec2 edge(at.position_m), out = outwards(world, tile, s, side);
+  // Inside a bend the rows meet in its middle.
+  Free free;
+  if (at.curvature_per_m * side > 1e-4) free.out_m = 0.85 / (at.curvature_per_m * side);
+  const auto holding = [&](double out_m) -> std::optional<road::Location> {
+    for (const road::Location& location : road::roads_holding(network, edge + out * out_m))
+      if (location.position.road != tile.road) return location;
+    return std::nullopt;
+  };
+  constexpr double step_m = 0.7;
+  double clear_m = 0.0;
+  for (double out_m = 0.05; out_m < std::min(most_m, free.out_m); out_m += step_m) {
+    auto there = holding(out_m);
+    if (!there) {
+      clear_m = out_m;
+      continue;
+    }
+    double taken_m = out_m;
+    for (int round = 0; round < 5; ++round) {
+      const double middle = 0.5 * (clear_m + taken_m);
+      if (const auto nearer = holding(middle)) {
+        taken_m = middle;
+        there = nearer;
+      } else {
+        clear_m = middle;
+      }
+    }
+    return {clear_m, road::evaluate(network, there->position).position_m.z};
+  }
+  return free;
+}
+
+Column mixed(const Column& a, const Column& b, double out_m) {
+  const double share = (out_m - a.out_m) / (b.out_m - a.out_m);
+  return {out_m, std::lerp(a.fall_m, b.fall_m, share), std::lerp(a.of_land, b.of_land, share),
+          std::lerp(a.lift_m, b.lift_m, share)};
+}
+
+double edge_t_m(const WorldContext& world, const RoadTile& tile, double s, double side) {
+  const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), s);
+  return side > 0 ? extent.left_t_m : extent.right_t_m;
+}
+
+/// For each station; from one to the next the strip's end moves no further than they lie apart.
+std::vector<Free> free_along(const WorldContext& world, const RoadTile& tile, const std::vector<double>& along,
+                             double side, double most_m, bool among_roads) {
+  std::vector<Free> result(along.size());
+  if (!among_roads) return result;
+  for (std::size_t i = 0; i < along.size(); ++i)
+    result[i] = free_beside(world, tile, along[i], edge_t_m(world, tile, along[i], side), side, most_m);
+  const auto limit = [&](Free& free, const Free& beside, double apart_m) {
+    if (free.out_m > beside.out_m + apart_m) free = {beside.out_m + apart_m, std::nullopt};
+  };
+  for (std::size_t i = 1; i < along.size(); ++i) limit(result[i], result[i - 1], along[i] - along[i - 1]);
+  for (std::size_t i = along.size(); i-- > 1;) limit(result[i - 1], result[i], along[i] - along[i - 1]);
+  return result;
+}
+
+/// From the road's edge outwards. Towards another road the strip ends at that one's edge.
+std::vector<glm::vec3> row_of(const WorldContext& world, const RoadTile& tile, double s, double side,
+                              std::span<const Column> columns, const Free& free, bool among_roads) {
+  const double edge_t = edge_t_m(world, tile, s, side);
+  const Vec3 edge = world.roads.point(tile.road, s, edge_t);
+  const Vec2 out = outwards(world, tile, s, side);
+  std::vector<glm::vec3> row;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double out_m = std::min(columns[k].out_m, free.out_m);
+    if (!free.z_m || k == 0) {
+      Column column = columns[k];
+      for (std::size_t j = 1; j <= k && column.out_m > out_m; ++j)
+        if (columns[j].out_m >= out_m) column = mixed(columns[j - 1], columns[j], out_m);
+      row.push_back(column_point(world, tile, s, edge_t, side, column, among_roads));
+      continue;
+    }
+    // Down or up to the other road's edge.
+    const double share = free.out_m > 1e-6 ? out_m / free.out_m : 1.0;
+    const double z = std::lerp(edge.z, *free.z_m, share) - 0.012;
+    row.push_back(world.roads.local(tile, Vec3(Vec2(edge) + out * out_m, z)));
+  }
+  return row;
+}
+
+/// Whether cars drive along this edge of a junction's road: what lies between two of them is paved.
+bool is_driven_along(const road::Road& road, const RoadTile& tile, double side) {
+  if (road.junction == road::no_index) return false;
+  const road::LaneSection& section = road::section_at(road, tile.middle_m());
+  const int outermost = side > 0 ? section.left_count : -section.right_count;
+  return outermost == 0 || road::is_drivable(section.lane(outermost).type);
+}
+
+/// Whether another road may lie within the strip beside this tile.
+bool is_among_roads(const WorldContext& world, const RoadTile& tile) {
+  const road::Road& road = world.roads.road(tile.road);
+  if (road.junction != road::no_index) return true;
+  constexpr double near_m = 60.0;
+  const auto meets = [](const road::RoadLink& link) { return link.junction != road::no_index; };
+  return (meets(road.predecessor) && tile.s0_m < near_m) ||
+         (meets(road.successor) && tile.s1_m > road.length_m - near_m);
+}
+
+void draw_side(const WorldContext& world, const RoadTile& tile, double side, const std::vector<double>& along,
+               std::span<const Column> columns, MeshBuilder& builder, bool near, bool among_roads) {
   std::uint32_t first = 0;
+  std::vector<glm::vec3> last;
+  const std::vector<Free> free = free_along(world, tile, along, side, columns.back().out_m, among_roads);
+  const bool driven = is_driven_along(world.roads.road(tile.road), tile, side) &&
+                      std::ranges::any_of(free, [](const Free& at) { return at.z_m.has_value(); });
+  constexpr double island_m = 12.0;
+  const bool lawn = columns.data() == town_columns.data();
   for (std::size_t i = 0; i < along.size(); ++i) {
-    const road::RoadExtent extent = road::road_extent(world.roads.road(tile.road), along[i]);
-    const double edge_t = side > 0 ? extent.left_t_m : extent.right_t_m;
+    const std::vector<glm::vec3> here = row_of(world, tile, along[i], side, columns, free[i], among_roads);
     std::uint32_t row = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const std::uint32_t v = builder.vertex(column_point(world, tile, along[i], edge_t, side, columns[k]));
+      const std::uint32_t v = builder.vertex(here[k]);
       if (k == 0) row = v;
     }
     if (i > 0)
       for (std::uint32_t k = 0; k + 1 < columns.size(); ++k) {
-        builder.material = index_of(!near ? Ground::far_verge : k == 0 ? Ground::gravel : Ground::verge);
+        if (among_roads && glm::distance(last[k], last[k + 1]) < 0.02f && glm::distance(here[k], here[k + 1]) < 0.02f)
+          break;
+        builder.material = index_of(!near ? Ground::far_verge : k == 0 && !lawn ? Ground::gravel : Ground::verge);
+        if (driven && among_roads && (free[i - 1].out_m < island_m || free[i].out_m < island_m))
+          builder.material = index_of(Ground::asphalt_plain);
         const auto u0 = static_cast<float>(columns[k].out_m / 3.5), u1 = static_cast<float>(columns[k + 1].out_m / 3.5);
         const auto v0 = static_cast<float>((along[i - 1] - tile.s0_m) / 3.5),
                    v1 = static_cast<float>((along[i] - tile.s0_m) / 3.5);
@@ -85,6 +215,7 @@ void draw_side(const WorldContext& world, const RoadTile& tile, double side, dou
           builder.quad(first + k, first + k + 1, row + k + 1, row + k, {{{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}}});
       }
     first = row;
+    last = here;
   }
 }
 
@@ -99,12 +230,14 @@ bool is_at_mouth(const WorldContext& world, const RoadTile& tile) {
 /// Both sides of a tile; finer in its steps, and further out, at a tunnel's mouth.
 void draw_sides(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m, bool near) {
   if (tile.in_tunnel || tile.on_bridge) return;
-  const bool mouth = is_at_mouth(world, tile);
+  const bool mouth = is_at_mouth(world, tile), among_roads = near && is_among_roads(world, tile);
   std::span<const Column> columns = far_columns;
   if (near) columns = near_columns;
+  if (near && roadside::is_in_town(world.roads.network(), tile.road, tile.middle_m())) columns = town_columns;
   if (mouth) columns = mouth_columns;
-  for (const double side : {1.0, -1.0})
-    draw_side(world, tile, side, mouth ? step_m / 2 : step_m, columns, builder, near);
+  std::vector<double> along = stations(tile, mouth ? step_m / 2 : step_m);
+  if (near && !mouth) along = roadside::close_stations(world.roads, tile, among_roads ? step_m / 4 : step_m);
+  for (const double side : {1.0, -1.0}) draw_side(world, tile, side, along, columns, builder, near, among_roads);
 }
 
 }  // namespace

@@ -11,7 +11,21 @@
 namespace septet::scenery {
 namespace {
 
-enum class Texture { none, asphalt, ground, concrete, leaf, needle, tree, edge, facade, exit, palette };
+enum class Texture {
+  none,
+  asphalt,
+  ground,
+  concrete,
+  leaf,
+  needle,
+  tree,
+  edge,
+  facade,
+  exit,
+  palette,
+  asphalt_plain,
+  paving
+};
 
 struct WorldLook {
   const char* name;
@@ -27,12 +41,18 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 56> ground_looks{{
+constexpr std::array<WorldLook, 62> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
     {"asphalt tunnel", {0.95f, 0.95f, 0.95f}, Texture::asphalt},
-    {"repair", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
+    {"asphalt plain", {0.90f, 0.90f, 0.91f}, Texture::asphalt_plain},
+    {"cycle path", {1.20f, 0.72f, 0.60f}, Texture::asphalt_plain},
+    {"paving", {0.62f, 0.60f, 0.57f}, Texture::paving},
+    {"kerb stone", {0.36f, 0.355f, 0.345f}, Texture::none},
+    {"repair", {0.73f, 0.73f, 0.74f}, Texture::asphalt},
+    {"repair edge", {0.80f, 0.80f, 0.81f}, Texture::asphalt},
+    {"crack", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
     {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"concrete", {0.56f, 0.55f, 0.53f}, Texture::concrete},
@@ -159,8 +179,8 @@ void to_palette(geometry::PolygonMesh& mesh) {
   }
 }
 
-Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
-  std::array<scene::NodeId, 11> bitmaps;
+Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, bool towns) {
+  std::array<scene::NodeId, 13> bitmaps;
   bitmaps.fill(scene::no_node);
   const auto add = [&](Texture texture, const char* name, const image::Image& image) {
     bitmaps[static_cast<std::size_t>(texture)] = builder.add_bitmap(name, image.width, image.height, image.rgba);
@@ -174,6 +194,10 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed) {
   add(Texture::edge, "wood edge", wood_edge_texture(seed + 60));
   add(Texture::facade, "facade", facade_texture(seed + 70));
   add(Texture::exit, "exit sign", exit_sign_texture());
+  if (towns) {
+    add(Texture::asphalt_plain, "asphalt plain", plain_asphalt_texture(seed + 80));
+    add(Texture::paving, "paving", paving_texture(seed + 90));
+  }
   add(Texture::palette, "palette", palette_texture());
   Palette palette;
   for (std::uint32_t i = 0; i < ground_looks.size(); ++i) {

@@ -12,7 +12,13 @@ enum class Ground : std::uint32_t {
   asphalt_fresh,
   asphalt_old,
   asphalt_tunnel,
+  asphalt_plain,  ///< Of junctions, where lanes cross: the same whichever way it is driven.
+  cycle_path,
+  paving,
+  kerb_stone,
   repair,
+  repair_edge,
+  crack,
   mark,
   mark_tunnel,
   concrete,
@@ -76,7 +82,7 @@ Ground far_of(Ground ground);
 /// of their colour in its bitmap, so that a mesh of many colours costs one draw.
 void to_palette(geometry::PolygonMesh& mesh);
 
-/// One material for each, in their order, with their bitmaps.
-Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed);
+/// One material for each, in their order, with their bitmaps; those of junctions and towns only if the world has some.
+Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, bool towns);
 
 }  // namespace septet::scenery

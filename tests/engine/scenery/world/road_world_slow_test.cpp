@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -40,22 +39,6 @@ Encoded encoded(const scene::Store& store) {
   });
   result.hash = hash.value();
   return result;
-}
-
-using Areas = std::map<std::array<float, 3>, double>;  ///< By the materials' colours, m².
-
-/// In every level of detail.
-Areas areas(const scene::ResolvedScene& scene) {
-  Areas sums;
-  for (const scene::SurfaceMesh& mesh : scene.meshes)
-    for (const scene::MeshPart& part : mesh.parts)
-      for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; i += 3) {
-        const auto corner = [&](std::uint32_t k) { return mesh.vertices[mesh.indices[i + k]].position_m; };
-        const glm::vec3 color = scene.materials[part.material].base_color;
-        sums[{color.r, color.g, color.b}] +=
-            0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-      }
-  return sums;
 }
 
 /// An object of the world, with the distances between which it is drawn.
@@ -153,34 +136,6 @@ TEST_CASE("kerbs are drawn from the areas that wheels climb, where they are work
   };
   CHECK(world_from(&with_island) == world_from(nullptr));
   CHECK(world_from(&without) != world_from(nullptr));
-}
-
-TEST_CASE("a lane is covered with what its type is of") {
-  const auto world_with = [](const std::string& type) {
-    const std::string xml =
-        road::SmallRoad{.sections = "<laneSection s=\"0\"><center>" + road::lane(0, 0) + "</center><right>" +
-                                    road::lane(-1, 3.5) + road::lane(-2, 2.5, "", type) + "</right></laneSection>"}
-            .xml();
-    scene::Store store;
-    scene::SceneBuilder builder(store);
-    build_road_world(builder, road::read_or_fail(xml), 3, {.vegetation = false, .buildings = false, .overrun_m = 0.0});
-    return areas(scene::resolve(store));
-  };
-  Areas lane = world_with("driving");
-  CHECK(world_with("border") == lane);
-  std::set<std::array<float, 3>> covers;
-  for (const char* type : {"sidewalk", "none", "rail"}) {
-    CAPTURE(type);
-    double more = 0.0, less = 0.0;
-    for (const auto& [color, area_m2] : world_with(type)) {
-      const double added = area_m2 - lane[color];
-      (added > 0.0 ? more : less) += added;
-      if (added > 1.0) covers.insert(color);
-    }
-    CHECK(more == doctest::Approx(250.0).epsilon(0.01));
-    CHECK(less == doctest::Approx(-250.0).epsilon(0.01));
-  }
-  CHECK(covers.size() == 3);
 }
 
 TEST_CASE("everything of the world is finite and has a material") {

@@ -1,0 +1,21 @@
+#pragma once
+/// What the lanes of a road are covered with, and their surfaces: where wheels find them, with kerbs between lanes of different heights.
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/geometry/polygon_mesh.hpp"
+#include "engine/road/lane.hpp"
+#include "engine/scenery/world/world_context.hpp"
+#include "engine/scenery/world/world_finish.hpp"
+
+namespace septet::scenery {
+
+/// What a lane is covered with at a tile. In a junction lanes of several roads lie on one another, all in one asphalt.
+Ground ground_of(const WorldContext& world, const RoadTile& tile, const road::Lane& lane);
+
+/// The lanes of a tile, each at its height (OpenDRIVE 1.8, §11.7.3), a face wherever two of them differ.
+geometry::PolygonMesh lane_surfaces(const WorldContext& world, const RoadTile& tile);
+
+/// The same from afar: one strip for neighbouring lanes of one colour.
+void draw_far_pavement(geometry::MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m);
+
+}  // namespace septet::scenery
