@@ -1,7 +1,9 @@
 #include "engine/raytrace/ray_tracer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 #include "engine/core/check.hpp"
@@ -69,34 +71,48 @@ ClearBody clear_body(const ice::IceBody& ice) {
   return body;
 }
 
-TracedPixel trace_pixel(const World& world, const Camera& camera, const TraceSettings& settings, std::uint32_t x,
-                        std::uint32_t y) {
-  TracedPixel pixel;
-  double sum = 0.0, squares = 0.0;
-  for (std::uint32_t sample = 0; sample < settings.samples; ++sample) {
-    PathRandom random(settings.seed, x, y, sample);
+/// What a pixel's samples have added up to so far, in their order.
+struct PixelSums {
+  TracedPixel sums;
+  double light = 0.0, squares = 0.0;
+
+  /// Its mean.
+  TracedPixel pixel() const {
+    TracedPixel pixel = sums;
+    const float share = 1.0f / static_cast<float>(std::max(1u, sums.samples));
+    pixel.radiance *= share, pixel.normal *= share, pixel.albedo *= share;
+    if (const double n = sums.samples; n > 1.0)
+      pixel.variance = static_cast<float>(std::max(0.0, squares - light * light / n) / (n * (n - 1.0)));
+    return pixel;
+  }
+};
+
+/// Until the pixel has `samples`.
+void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const TraceSettings& settings,
+                 std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
+  TracedPixel& sums = pixel.sums;
+  for (; sums.samples < samples; ++sums.samples) {
+    PathRandom random(settings.seed, x, y, sums.samples);
     const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
     const Ray ray = camera.ray(at, settings, random);
     FirstSeen first;
     glm::vec3 radiance = trace_path(world, settings.paths, ray, random, &first);
     if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
       radiance = glm::vec3(0.0f);
-      ++pixel.bad_samples;
+      ++sums.bad_samples;
     }
-    pixel.radiance += radiance;
-    pixel.normal += first.normal;
-    pixel.albedo += first.albedo;
-    if (sample == 0)
-      pixel.depth_m = first.distance_m, pixel.object = first.object, pixel.participant = first.participant;
+    sums.radiance += radiance;
+    sums.normal += first.normal;
+    sums.albedo += first.albedo;
+    if (sums.samples == 0)
+      sums.depth_m = first.distance_m, sums.object = first.object, sums.participant = first.participant;
     const double light = luminance(radiance);
-    sum += light, squares += light * light;
+    pixel.light += light, pixel.squares += light * light;
   }
-  const float share = 1.0f / static_cast<float>(std::max(1u, settings.samples));
-  pixel.radiance *= share, pixel.normal *= share, pixel.albedo *= share;
-  if (const double n = settings.samples; n > 1.0)
-    pixel.variance = static_cast<float>(std::max(0.0, squares - sum * sum / n) / (n * (n - 1.0)));
-  return pixel;
 }
+
+constexpr std::int64_t block_side_px = 4;
+constexpr std::uint32_t first_samples = 16;
 
 }  // namespace
 
@@ -121,6 +137,10 @@ std::vector<instant::PixelRectangle> buckets_of(std::uint32_t width, std::uint32
   return buckets;
 }
 
+float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure) {
+  return std::sqrt(pixel.variance) / std::max(luminance(pixel.radiance), 0.1f / exposure.scale());
+}
+
 struct RayTracer::Parts {
   const scene::ResolvedScene& scene;
   Geometry geometry;
@@ -130,7 +150,46 @@ struct RayTracer::Parts {
   std::unique_ptr<World> world{};
   std::vector<Camera> cameras{};
   std::vector<std::uint8_t> cloud_noise = instant::cloud_noise();
+
+  /// Whose pixel it is; a later view lies over an earlier one. Null: of none.
+  const Camera* camera_at(std::int64_t x, std::int64_t y) const {
+    const auto found = std::find_if(cameras.rbegin(), cameras.rend(), [&](const Camera& c) { return c.shows(x, y); });
+    return found == cameras.rend() ? nullptr : &*found;
+  }
+  void refine(PixelSums& pixel, std::int64_t x, std::int64_t y, std::uint32_t samples) const {
+    if (const Camera* camera = camera_at(x, y))
+      add_samples(pixel, *world, *camera, settings, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                  samples);
+  }
+  void trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const;
 };
+
+/// The block whose upper left pixel is told, whole; what the bucket has of it goes there.
+void RayTracer::Parts::trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const {
+  std::array<PixelSums, block_side_px * block_side_px> block{};
+  std::uint32_t samples = std::min(first_samples, settings.samples);
+  while (true) {
+    double squares = 0.0, shown = 0.0;
+    for (std::int64_t n = 0; n < block_side_px * block_side_px; ++n) {
+      PixelSums& pixel = block[static_cast<std::size_t>(n)];
+      refine(pixel, left + n % block_side_px, top + n / block_side_px, samples);
+      if (pixel.sums.samples == 0) continue;
+      const double error = relative_error(pixel.pixel(), instant.exposure);
+      squares += error * error, ++shown;
+    }
+    const double short_by = shown > 0.0 ? squares / shown / (double{settings.error} * settings.error) : 0.0;
+    if (!(short_by > 1.0) || samples >= settings.samples) break;
+    // As many as that estimate asks for, but it may be a bad one: at most twice as many as there are.
+    const double wanted = samples * std::min(short_by, 2.0);
+    samples = std::min(settings.samples, std::max(samples + 4, static_cast<std::uint32_t>(wanted)));
+  }
+  const instant::PixelRectangle& at = bucket.rectangle;
+  for (std::int64_t n = 0; n < block_side_px * block_side_px; ++n) {
+    const std::int64_t x = left + n % block_side_px - at.x, y = top + n / block_side_px - at.y;
+    if (x >= 0 && y >= 0 && x < at.width && y < at.height)
+      bucket.pixels[static_cast<std::size_t>(y * at.width + x)] = block[static_cast<std::size_t>(n)].pixel();
+  }
+}
 
 RayTracer::RayTracer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 RayTracer::RayTracer(RayTracer&&) noexcept = default;
@@ -161,18 +220,22 @@ void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, s
 Bucket RayTracer::trace(const instant::PixelRectangle& rectangle) const {
   const Parts& p = *parts_;
   SEPTET_CHECK(p.world, "no instant was begun");
-  Bucket bucket{rectangle, {}};
-  bucket.pixels.reserve(std::size_t{rectangle.width} * rectangle.height);
-  for (std::uint32_t row = 0; row < rectangle.height; ++row)
-    for (std::uint32_t column = 0; column < rectangle.width; ++column) {
-      const std::int64_t x = std::int64_t{rectangle.x} + column, y = std::int64_t{rectangle.y} + row;
-      // A later view lies over an earlier one.
-      const auto camera =
-          std::find_if(p.cameras.rbegin(), p.cameras.rend(), [&](const Camera& each) { return each.shows(x, y); });
-      bucket.pixels.push_back(camera == p.cameras.rend()
-                                  ? TracedPixel{}
-                                  : trace_pixel(*p.world, *camera, p.settings, static_cast<std::uint32_t>(x),
-                                                static_cast<std::uint32_t>(y)));
+  Bucket bucket{rectangle, std::vector<TracedPixel>(std::size_t{rectangle.width} * rectangle.height)};
+  const std::int64_t right = std::int64_t{rectangle.x} + rectangle.width,
+                     bottom = std::int64_t{rectangle.y} + rectangle.height;
+  if (p.settings.error > 0.0f) {
+    SEPTET_CHECK(rectangle.x >= 0 && rectangle.y >= 0, "{}, {}", rectangle.x, rectangle.y);
+    for (std::int64_t y = rectangle.y / block_side_px * block_side_px; y < bottom; y += block_side_px)
+      for (std::int64_t x = rectangle.x / block_side_px * block_side_px; x < right; x += block_side_px)
+        p.trace_block(x, y, bucket);
+    return bucket;
+  }
+  auto pixel = bucket.pixels.begin();
+  for (std::int64_t y = rectangle.y; y < bottom; ++y)
+    for (std::int64_t x = rectangle.x; x < right; ++x) {
+      PixelSums sums;
+      p.refine(sums, x, y, p.settings.samples);
+      *pixel++ = sums.pixel();
     }
   return bucket;
 }

@@ -21,7 +21,10 @@ namespace septet::raytrace {
 enum class Filter : std::uint8_t { box, tent, quadratic, cubic };
 
 struct TraceSettings {
-  std::uint32_t samples = 64;  ///< Of a pixel.
+  std::uint32_t samples = 64;  ///< Of a pixel; the most of them where an `error` is given.
+  /// Enough of it: blocks of 4 × 4 pixels, the same however the picture is shared out, take no more samples once the root mean square of their
+  /// pixels' errors (relative_error) is estimated to be that. 0: all take all samples.
+  float error = 0.0f;
   PathSettings paths;
   Filter filter = Filter::quadratic;
   std::uint64_t seed = 0;
@@ -40,7 +43,11 @@ struct TracedPixel {
   std::uint32_t object = 0;
   std::uint32_t participant = 0;  ///< Of the first sample; 0: of none.
   std::uint32_t bad_samples = 0;  ///< Not a number, or infinite.
+  std::uint32_t samples = 0;
 };
+
+/// Standard error of a pixel's luminance as a share of it, or, where it is darker than a tenth of white, of that.
+float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure);
 
 /// A rectangle of a picture's pixels, rows from the top.
 struct Bucket {

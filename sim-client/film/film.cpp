@@ -55,6 +55,8 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     return failure("only what is traced has OpenEXR pictures", "--exr", "add --renderer traced, or leave --exr out");
   if (options.exr == ExrNumbers::none && !options.layers.empty())
     return failure("layers lie in OpenEXR pictures alone", "--layers", "add --exr half, or leave --layers out");
+  if (!traced && options.error > 0.0)
+    return failure("only what is traced has an error", "--error", "add --renderer traced, or leave --error out");
   const auto is_file = is_film_file(options.out);
   if (!is_file) return tl::unexpected(is_file.error());
   fs::path ffmpeg, pictures_in = options.out;

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "engine/raytrace/ray_tracer.hpp"
 #include "sim-client/film/camera_path.hpp"
 
 namespace septet::film {
@@ -37,7 +38,9 @@ struct FilmOptions {
   bool software =
       false;  ///< Drawn by the processor even where there is a graphics card: the same pixels as an off-screen screen's.
   FilmRenderer renderer = FilmRenderer::raster;
-  std::uint32_t samples = 64;         ///< Of a pixel, of the ray tracer.
+  std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer; the most of them where there is an `error`.
+  double error = 0.0;          ///< Enough of it: raytrace::TraceSettings::error. 0: all samples are taken.
+  raytrace::Filter filter = raytrace::Filter::quadratic;
   ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
   std::set<Layer> layers;
   std::optional<double> from_s,
@@ -71,6 +74,8 @@ struct FilmMade {
   std::size_t workers = 0;        ///< That trace: programs, this one too.
   std::string notice;             ///< What was noticed last that does not stop the film: who has given up.
   std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.
+  /// Of the pixels that were traced: the root mean square of their errors (raytrace::relative_error), samples of one.
+  double error = 0.0, samples = 0.0;
 };
 
 class Machines;

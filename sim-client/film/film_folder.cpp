@@ -78,6 +78,8 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
                     {"renderer", options.renderer == FilmRenderer::traced ? "traced" : "raster"}};
   if (options.renderer == FilmRenderer::traced) {
     record["samples"] = fmt::format("{}", options.samples);
+    record["error"] = fmt::format("{}", options.error);
+    record["filter"] = fmt::format("{}", static_cast<int>(options.filter));
     record["exr"] = options.exr == ExrNumbers::none             ? "none"
                     : options.exr == ExrNumbers::half_precision ? "half"
                                                                 : "float";

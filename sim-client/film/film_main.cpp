@@ -1,5 +1,6 @@
 /// `septet-film`: a recorded session to the pictures of a film. `septet film` starts it.
 
+#include <cstdint>
 #include <string>
 
 #include <fmt/core.h>
@@ -9,11 +10,15 @@
 #include "sim-client/film/film_program.hpp"
 #include "sim-client/film/traced/layers.hpp"
 
+namespace {
+constexpr std::uint32_t most_samples_for_an_error = 8192;
+}
+
 int main(int argc, char** argv) {
   using namespace septet;
   using program::number_between;
   film::FilmOptions options;
-  std::string renderer = "raster", exr = "none";
+  std::string renderer = "raster", exr = "none", filter = "quadratic";
   CLI::App app{
       "Turn a recorded session into a folder of numbered pictures, or a film, seen by the cameras of a script.\n"
       "Without --shots: the driver's eyes, once round the driver's car, and the eyes of whoever is nearest then.\n"
@@ -47,8 +52,18 @@ int main(int argc, char** argv) {
                  "raster, or traced: light follows paths, on all cores; slow; no smoke, flames, clouds or stars yet")
       ->check(CLI::IsMember({"raster", "traced"}))
       ->capture_default_str();
-  app.add_option("--samples", options.samples, "Of a pixel that is traced: four times as many halve the noise")
+  app.add_option(
+         "--samples", options.samples,
+         "Of a pixel that is traced: four times as many halve the noise. With --error the most of them: 8192 then")
       ->check(CLI::Range(1u, 1u << 20))
+      ->capture_default_str();
+  app.add_option("--error", options.error,
+                 "Enough of it, such as 0.02, as a share of a pixel's light: where it is had no more samples are taken")
+      ->check(number_between(1e-4, 1.0))
+      ->default_str("none");
+  app.add_option("--filter", filter,
+                 "How the light around a pixel's middle is weighed: a B-spline, 1 to 4 pixels across")
+      ->check(CLI::IsMember({"box", "tent", "quadratic", "cubic"}))
       ->capture_default_str();
   app.add_option("--exr", exr, "OpenEXR pictures too, of what is traced: half (16 bits a number) or float (32)")
       ->check(CLI::IsMember({"none", "half", "float"}))
@@ -70,6 +85,11 @@ int main(int argc, char** argv) {
   return film::run_alone_or_by_mpirun([&](film::Machines* others) {
     return program::run("septet", app, argc, argv, [&] {
       options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
+      options.filter = filter == "box"         ? raytrace::Filter::box
+                       : filter == "tent"      ? raytrace::Filter::tent
+                       : filter == "quadratic" ? raytrace::Filter::quadratic
+                                               : raytrace::Filter::cubic;
+      if (options.error > 0.0 && app["--samples"]->empty()) options.samples = most_samples_for_an_error;
       options.exr = exr == "half"    ? film::ExrNumbers::half_precision
                     : exr == "float" ? film::ExrNumbers::single_precision
                                      : film::ExrNumbers::none;

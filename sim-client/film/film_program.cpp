@@ -32,6 +32,7 @@ std::string progress_text(const FilmMade& so_far, double elapsed_s) {
     text += fmt::format(" and {:.1f} in parts", so_far.share_of_next);
   else if (so_far.share_of_next > 0.0)
     text += fmt::format(" and {:.0f} % of the next", 100.0 * so_far.share_of_next);
+  if (so_far.bad_samples > 0) text += fmt::format(", {} samples without light that is a number", so_far.bad_samples);
   if (so_far.workers > 1) text += fmt::format(" by {} programs", so_far.workers);
   const double drawn = done - static_cast<double>(so_far.kept);
   if (!(drawn > 0.0)) return text;
@@ -63,6 +64,8 @@ Expected<int> run_film(FilmOptions options, Machines* others) {
     program::say(fmt::format("septet: {} samples had no light that is a number; they are black", made->bad_samples));
   std::string text =
       fmt::format("{}: {} pictures, {} a second", options.out.string(), made->frames, options.frames_per_second);
+  if (made->samples >= 2.0)
+    text += fmt::format(", an error of {:.2g} by {:.0f} samples a pixel", made->error, made->samples);
   if (made->kept > 0) text += fmt::format(", {} of them drawn before", made->kept);
   if (!made->encoding) text += "; as one film: --out film.mp4";
   program::announce(text);

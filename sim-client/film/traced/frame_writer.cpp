@@ -101,9 +101,9 @@ Expected<void> FrameWriter::wait() {
   return {};
 }
 
-std::uint64_t FrameWriter::bad_samples() {
+FrameWriter::Quality FrameWriter::quality() {
   const std::lock_guard lock(mutex_);
-  return bad_samples_;
+  return quality_;
 }
 
 Expected<void> FrameWriter::write(Job& job) {
@@ -127,8 +127,15 @@ Expected<void> FrameWriter::write(Job& job) {
   }
   if (auto written = write_whole(folder_.picture(job.frame), whole); !written) return written;
   fs::remove(job.kept_in, error);
+  const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
   const std::lock_guard lock(mutex_);
-  bad_samples_ += whole.picture.bad_samples;
+  quality_.bad_samples += whole.picture.bad_samples;
+  for (const raytrace::TracedPixel& pixel : whole.picture.pixels) {
+    const double error_of_pixel = raytrace::relative_error(pixel, exposure);
+    quality_.squared_errors += error_of_pixel * error_of_pixel;
+    quality_.samples += pixel.samples;
+  }
+  quality_.pixels += static_cast<double>(whole.picture.pixels.size());
   return {};
 }
 

@@ -29,7 +29,12 @@ class FrameWriter {
   void show_preview(std::filesystem::path kept_in);
   /// Until everything is written; the preview is gone then. The first failure.
   Expected<void> wait();
-  std::uint64_t bad_samples();
+  /// Of the pictures that are written so far.
+  struct Quality {
+    double pixels = 0.0, samples = 0.0, squared_errors = 0.0;
+    std::uint64_t bad_samples = 0;
+  };
+  Quality quality();
 
  private:
   struct Job {
@@ -50,7 +55,7 @@ class FrameWriter {
   bool writing_ = false, stop_ = false;
   std::optional<Error> error_;
   const std::filesystem::path preview_;
-  std::uint64_t bad_samples_ = 0;
+  Quality quality_;
   std::thread thread_;
 };
 

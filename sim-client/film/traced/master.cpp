@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <map>
@@ -82,6 +83,7 @@ class Master {
   void welcome(int number, ByteReader& reader);
   void send_part(int number, ByteReader& reader);
   void deal();
+  void tell_quality();
   void send(int to, Bytes bytes) {
     if (to == own_worker)
       own_.send_to_worker(std::move(bytes));
@@ -233,6 +235,14 @@ Expected<void> Master::obey(const Mail& mail) {
   return {};
 }
 
+void Master::tell_quality() {
+  const FrameWriter::Quality quality = writer_.quality();
+  made_.bad_samples = quality.bad_samples;
+  if (!(quality.pixels > 0.0)) return;
+  made_.error = std::sqrt(quality.squared_errors / quality.pixels);
+  made_.samples = quality.samples / quality.pixels;
+}
+
 void Master::deal() {
   for (const Worker& each : workers_) {
     if (!schedule_.is_free(each.in_schedule)) continue;
@@ -261,6 +271,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
     now_s_ = program::monotonic_s();
     made_.share_of_next = static_cast<double>(schedule_.tiles_of_begun_frames()) / static_cast<double>(tiles_.size());
     made_.workers = workers_.size();
+    tell_quality();
     if (!go_on(made_)) break;
     bool came = false;
     auto mail = own_.receive_from_worker();
@@ -284,7 +295,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
   own_.send_to_worker(message(Word::end));
   own.join();
   const auto written = writer_.wait();
-  made_.bad_samples += writer_.bad_samples();
+  tell_quality();
   return result ? written : result;
 }
 

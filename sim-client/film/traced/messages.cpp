@@ -100,6 +100,7 @@ Bytes film_message(const FilmTold& told) {
   const FilmOptions& options = told.options;
   writer.put(options.frames_per_second);
   writer.put(options.width_px), writer.put(options.height_px), writer.put(options.samples);
+  writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
   writer.put(static_cast<std::uint8_t>(told.script.has_value()));
   writer.put_string(told.script.value_or(""));
@@ -114,6 +115,8 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.frames_per_second = reader.get_double();
   options.width_px = reader.get<std::uint32_t>(), options.height_px = reader.get<std::uint32_t>();
   options.samples = reader.get<std::uint32_t>();
+  options.error = reader.get_double();
+  options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
   const bool has_script = reader.get<std::uint8_t>() != 0;
   std::string script = reader.get_string(longest_text);

@@ -206,6 +206,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       if (!input) return tl::unexpected(input.error());
       raytrace::TraceSettings settings;
       settings.samples = options.samples;
+      settings.error = static_cast<float>(options.error);
+      settings.filter = options.filter;
       settings.seed = of_film.number;  // Another noise in each frame.
       tracer->begin(instant::describe(std::move(*input), summary), settings);
       frame = wanted->frame;

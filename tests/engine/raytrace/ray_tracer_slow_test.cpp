@@ -1,5 +1,8 @@
 #include "engine/raytrace/ray_tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "tests/engine/raytrace/traced_scenes.hpp"
@@ -34,6 +37,39 @@ TEST_CASE("the error falls with the root of the number of samples") {
   const double few = error(8), many = error(128);
   MESSAGE("from 8 to 128 samples the error falls ", few / many, " times");
   CHECK(few / many == doctest::Approx(4.0).epsilon(0.1));
+}
+
+TEST_CASE("a picture that is told its error has it and tells it") {
+  instant::Instant instant = before_cornell_box(48);
+  instant.exposure = instant::exposure_of_scale(1.0f);
+  TraceSettings settings = cornell_settings(1 << 14, 1);
+  settings.error = 0.06f;
+  const TracedPicture a = traced(cornell_box(), instant, settings);
+  settings.seed = 2;
+  const TracedPicture b = traced(cornell_box(), instant, settings);
+  // What it would have with many more samples.
+  const TracedPicture reference = traced(cornell_box(), instant, cornell_settings(1024, 3));
+  double told = 0.0, found = 0.0, against_reference = 0.0, samples = 0.0, most = 0.0;
+  for (std::size_t n = 0; n < a.pixels.size(); ++n) {
+    const auto relative = [&](float off) { return off / std::max(luminance(reference.pixels[n].radiance), 0.1f); };
+    const double error = relative_error(a.pixels[n], instant.exposure);
+    const double off = relative(luminance(a.pixels[n].radiance - b.pixels[n].radiance));
+    const double from_reference = relative(luminance(a.pixels[n].radiance - reference.pixels[n].radiance));
+    told += error * error, found += 0.5 * off * off, against_reference += from_reference * from_reference;
+    samples += a.pixels[n].samples, most = std::max<double>(most, a.pixels[n].samples);
+  }
+  const double pixels = static_cast<double>(a.pixels.size());
+  told = std::sqrt(told / pixels), found = std::sqrt(found / pixels);
+  against_reference = std::sqrt(against_reference / pixels);
+  MESSAGE("wanted 0.06, told ", told, ", found ", found, ", against the reference ", against_reference, "; ",
+          samples / pixels, " samples a pixel, at most ", most);
+  CHECK(told <= 0.06);
+  CHECK(found / told == doctest::Approx(1.0).epsilon(0.15));
+  CHECK(found < 0.066);
+  CHECK(against_reference < 0.075);
+  CHECK(most < 1 << 14);
+  CHECK(std::abs(mean_of(a).radiance.x - mean_of(reference).radiance.x) <
+        4.0 * std::hypot(mean_of(a).sigma, mean_of(reference).sigma));
 }
 
 TEST_CASE("a white ball under an even sky cannot be told from the sky") {

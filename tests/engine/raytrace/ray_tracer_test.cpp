@@ -38,6 +38,30 @@ TEST_CASE("a picture is the same bit for bit in any order of any buckets on any 
   CHECK_FALSE(same_bits(whole, traced(box, before_cornell_box(40), settings)));
 }
 
+TEST_CASE("a picture that takes samples as it needs them is the same bit for bit however it is shared out") {
+  const scene::ResolvedScene box = cornell_box();
+  auto tracer = RayTracer::create(box);
+  REQUIRE(tracer.has_value());
+  TraceSettings settings = cornell_settings(64);
+  settings.error = 0.12f;
+  instant::Instant instant = before_cornell_box(22);
+  instant.exposure = instant::exposure_of_scale(1.0f);
+  tracer->begin(instant, settings);
+  const TracedPicture whole = whole_picture(*tracer, 22, 22);
+  for (const std::uint32_t side_px : {7u, 22u}) {
+    TracedPicture other(22, 22);
+    auto buckets = buckets_of(22, 22, side_px);
+    std::reverse(buckets.begin(), buckets.end());
+    for (const auto& rectangle : buckets) other.put(tracer->trace(rectangle));
+    CHECK(same_bits(whole, other));
+  }
+  std::uint32_t least = 1000, most = 0;
+  for (const TracedPixel& pixel : whole.pixels)
+    least = std::min(least, pixel.samples), most = std::max(most, pixel.samples);
+  CHECK(least == 16);
+  CHECK(most == 64);
+}
+
 TEST_CASE("a mirrored view is the view with left and right exchanged") {
   const scene::ResolvedScene box = cornell_box();
   instant::Instant plain = before_cornell_box(24), mirrored = plain;
