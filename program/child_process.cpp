@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -135,6 +137,16 @@ void ChildProcess::stop() {
   send_signal(SIGKILL);
   int status = 0;
   if (::waitpid(process_id_, &status, 0) == process_id_) exit_ = ChildExit{-1, SIGKILL};
+}
+
+std::optional<std::filesystem::path> find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::string folder;
+  for (std::istringstream folders(path ? path : "/usr/bin"); std::getline(folders, folder, ':');)
+    if (const auto file = std::filesystem::path(folder) / name;
+        !folder.empty() && ::access(file.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(file))
+      return file;
+  return std::nullopt;
 }
 
 std::filesystem::path own_folder() {

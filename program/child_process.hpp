@@ -50,6 +50,9 @@ class ChildProcess {
   std::optional<ChildExit> exit_;
 };
 
+/// Where the shell would find the program of this name; nothing where it is not installed.
+std::optional<std::filesystem::path> find_program(const std::string& name);
+
 /// The folder of the running program, where its sister programs lie.
 std::filesystem::path own_folder();
 

@@ -1,10 +1,7 @@
 #include "sim-client/film/film_file.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <sstream>
 
 #include <fmt/core.h>
@@ -46,11 +43,7 @@ Expected<bool> is_film_file(const fs::path& name) {
 }
 
 Expected<fs::path> find_ffmpeg() {
-  const char* path = std::getenv("PATH");
-  std::string folder;
-  for (std::istringstream folders(path ? path : "/usr/bin"); std::getline(folders, folder, ':');)
-    if (const fs::path file = fs::path(folder) / "ffmpeg"; !folder.empty() && ::access(file.c_str(), X_OK) == 0)
-      return file;
+  if (auto found = program::find_program("ffmpeg")) return *found;
   return failure("there is no ffmpeg, which makes a film of pictures", "--out",
                  "install the package ffmpeg, or choose a folder for the pictures alone");
 }

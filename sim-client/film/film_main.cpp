@@ -7,8 +7,10 @@
 
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
+#include "program/console.hpp"
 #include "sim-client/film/film_program.hpp"
 #include "sim-client/film/traced/layers.hpp"
+#include "sim-client/film/traced/ranks.hpp"
 
 namespace {
 constexpr std::uint32_t most_samples_for_an_error = 8192;
@@ -18,6 +20,8 @@ int main(int argc, char** argv) {
   using namespace septet;
   using program::number_between;
   film::FilmOptions options;
+  film::RanksOptions ranks;
+  bool one_of_ranks = false;
   std::string renderer = "raster", exr = "none", filter = "quadratic";
   CLI::App app{
       "Turn a recorded session into a folder of numbered pictures, or a film, seen by the cameras of a script.\n"
@@ -82,8 +86,17 @@ int main(int argc, char** argv) {
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
       ->check(number_between(0.0, 1e6));
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
+  CLI::Option* const ranks_option =
+      app.add_option("--ranks", ranks.ranks, "Programs that trace, started by Open MPI; one that dies is done without")
+          ->check(CLI::Range(1u, 4096u))
+          ->default_str("one for each host");
+  CLI::Option* const hosts_option =
+      app.add_option("--hosts", ranks.hosts,
+                     "File with the machines that trace, one a line; changed meanwhile, the film goes on with those")
+          ->default_str("this machine");
+  app.add_flag("--one-of-ranks", one_of_ranks)->group("");  // Said by film_by_ranks alone.
   return film::run_alone_or_by_mpirun([&](film::Machines* others) {
-    return program::run("septet", app, argc, argv, [&] {
+    const int status = program::run("septet", app, argc, argv, [&]() -> Expected<int> {
       options.renderer = renderer == "traced" ? film::FilmRenderer::traced : film::FilmRenderer::raster;
       options.filter = filter == "box"         ? raytrace::Filter::box
                        : filter == "tent"      ? raytrace::Filter::tent
@@ -93,7 +106,17 @@ int main(int argc, char** argv) {
       options.exr = exr == "half"    ? film::ExrNumbers::half_precision
                     : exr == "float" ? film::ExrNumbers::single_precision
                                      : film::ExrNumbers::none;
-      return film::run_film(options, others);
+      if (options.out.empty()) options.out = options.session.parent_path() / "film";
+      if (one_of_ranks || (ranks_option->empty() && hosts_option->empty())) return film::run_film(options, others);
+      if (others)
+        return failure("mpirun has started these programs, and they are to start it", "--ranks, --hosts",
+                       "leave mpirun or these options out");
+      if (options.renderer != film::FilmRenderer::traced)
+        return failure("several programs share out what is traced alone", "--ranks, --hosts", "add --renderer traced");
+      ranks.out = options.out, ranks.resume = options.resume;
+      return film::film_by_ranks(ranks, {argv + 1, argv + argc});
     });
+    if (one_of_ranks) program::announce(film::last_words + std::to_string(status));
+    return status;
   });
 }

@@ -83,7 +83,11 @@ int run_alone_or_by_mpirun(const std::function<int(Machines*)>& work) {
   const int status = *number > 0 ? serve_master(**machines) : work(machines->get());
   (*machines)->will_end_with(status);
   if (*number > 0) return status;
-  for (int other = 1; other < (*machines)->count(); ++other) (*machines)->send(other, message(Word::end));
+  for (int other = 1; other < (*machines)->count(); ++other) {
+    Bytes end = message(Word::end);
+    ByteWriter(end).put(static_cast<std::uint8_t>((*machines)->has_losses()));
+    (*machines)->send(other, std::move(end));
+  }
   return status;
 }
 

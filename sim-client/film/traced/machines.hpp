@@ -29,6 +29,12 @@ class Machines {
   virtual std::optional<Mail> receive() = 0;
   /// The exit status of this program, told before the end: there it may have to leave the others behind.
   virtual void will_end_with(int status) = 0;
+  /// Some are lost: at the end not all will come, and nobody waits for them long.
+  void note_loss() { has_losses_ = true; }
+  bool has_losses() const { return has_losses_; }
+
+ private:
+  bool has_losses_ = false;
 };
 
 using StartMachines = std::unique_ptr<Machines> (*)();

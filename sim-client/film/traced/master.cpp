@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -23,7 +24,7 @@ namespace {
 
 constexpr int own_worker = 0;
 constexpr std::size_t part_bytes = 1 << 20, longest_told_script_bytes = 1 << 22;
-constexpr double still_there_every_s = 1.0, ask_again_after_s = 0.005;
+constexpr double ask_again_after_s = 0.005;
 
 /// The way between the master and the worker that is a thread of the same program.
 class OwnWorkersMail : public Machines {
@@ -75,12 +76,18 @@ class Master {
  private:
   struct Worker {
     int number = 0;
+    Hello hello;
     std::size_t in_schedule = 0;
+    double heard_s = 0.0;
+    bool is_prepared = false, is_lost = false, has_given_up = false;
+    bool traces = false;  ///< As `is_prepared` and the others ask; then it is in the schedule.
   };
 
   Expected<void> obey(const Mail& mail);
   Expected<void> take_tile(const Worker& worker, ByteReader& reader);
   void welcome(int number, ByteReader& reader);
+  void take_in_or_out(Worker& worker);
+  void look_who_is_there();
   void send_part(int number, ByteReader& reader);
   void deal();
   void tell_quality();
@@ -92,7 +99,7 @@ class Master {
   }
   Expected<KeptTiles*> kept(std::size_t frame);
   fs::path kept_file(std::size_t frame) const { return folder_.path() / fmt::format("{:06}.tiles", numbers_[frame]); }
-  const Worker* worker(int number) const {
+  Worker* worker(int number) {
     const auto found =
         std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.number == number; });
     return found == workers_.end() ? nullptr : &*found;
@@ -181,21 +188,42 @@ Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
 }
 
 void Master::welcome(int number, ByteReader& reader) {
-  const auto threads = read_hello(reader);
+  const auto hello = read_hello(reader);
   if (worker(number)) return;
-  if (!threads) {
+  if (!hello) {
     made_.notice = fmt::format("program {} of mpirun is another Septet; it does not help", number);
     send(number, message(Word::end));
     return;
   }
-  workers_.push_back({number, schedule_.add_worker(*threads)});
+  workers_.push_back({number, *hello, 0, now_s_});
   if (number == own_worker) return;
-  FilmTold told{options_, std::nullopt, 0};
+  FilmTold told{options_, std::nullopt, 0, program::own_process_mark()};
   std::error_code ignored;
   told.session_bytes = fs::file_size(options_.session, ignored);
   if (!options_.shots.empty())
     if (const auto text = read_regular_file(options_.shots, longest_told_script_bytes)) told.script = *text;
   send(number, film_message(told));
+}
+
+void Master::take_in_or_out(Worker& worker) {
+  const bool should_trace = worker.is_prepared && !worker.is_lost && !worker.has_given_up;
+  if (std::exchange(worker.traces, should_trace) == should_trace) return;
+  if (should_trace)
+    worker.in_schedule = schedule_.add_worker(worker.hello.threads);
+  else
+    schedule_.remove_worker(worker.in_schedule);
+}
+
+/// A worker that is gone is seen at once on this machine, and by its silence on another. One that speaks again is back.
+void Master::look_who_is_there() {
+  for (Worker& each : workers_) {
+    if (each.number == own_worker || each.is_lost || each.has_given_up) continue;
+    if (now_s_ < each.heard_s + longest_silence_s && program::is_there(each.hello.process).value_or(true)) continue;
+    each.is_lost = true;
+    others_->note_loss();
+    take_in_or_out(each);
+    made_.notice = fmt::format("program {} of mpirun is gone; the film is made without it", each.number);
+  }
 }
 
 void Master::send_part(int number, ByteReader& reader) {
@@ -216,20 +244,25 @@ void Master::send_part(int number, ByteReader& reader) {
 Expected<void> Master::obey(const Mail& mail) {
   ByteReader reader(mail.bytes);
   const auto word = static_cast<Word>(reader.get<std::uint8_t>());
-  const Worker* from = worker(mail.from);
+  Worker* from = worker(mail.from);
+  if (from) {
+    from->heard_s = now_s_;
+    from->is_lost = false;
+    from->is_prepared |= word == Word::prepared;
+    from->has_given_up |= word == Word::failed;
+    take_in_or_out(*from);
+  }
   if (word == Word::hello) {
     welcome(mail.from, reader);
   } else if (word == Word::part_wanted) {
     send_part(mail.from, reader);
-  } else if (word == Word::tile && from) {
+  } else if (word == Word::tile && from && from->traces) {
     return take_tile(*from, reader);
-  } else if (word == Word::ready && from) {
+  } else if (word == Word::ready && from && from->traces) {
     schedule_.was_ready_after(from->in_schedule, reader.get_double());
   } else if (word == Word::failed) {
     const Error error = read_error(reader);
     if (mail.from == own_worker) return tl::unexpected(error);
-    if (from) schedule_.remove_worker(from->in_schedule);
-    std::erase_if(workers_, [&](const Worker& each) { return each.number == mail.from; });
     made_.notice = fmt::format("program {} of mpirun gives up: {}", mail.from, describe(error));
   }
   return {};
@@ -245,12 +278,13 @@ void Master::tell_quality() {
 
 void Master::deal() {
   for (const Worker& each : workers_) {
-    if (!schedule_.is_free(each.in_schedule)) continue;
+    if (!each.traces || !schedule_.is_free(each.in_schedule)) continue;
     const auto deal = schedule_.deal(each.in_schedule, now_s_);
     if (!deal) continue;
     if (deal->shortened) {
-      const auto other = std::find_if(workers_.begin(), workers_.end(),
-                                      [&](const Worker& w) { return w.in_schedule == deal->shortened->worker; });
+      const auto other = std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) {
+        return w.traces && w.in_schedule == deal->shortened->worker;
+      });
       if (other != workers_.end()) send(other->number, shorter_run_message(deal->shortened->run));
     }
     send(each.number, run_message(deal->run));
@@ -262,7 +296,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
   const unsigned threads = others_ ? share_of_processors() : std::max(1u, std::thread::hardware_concurrency());
   own_.send(own_worker, hello_message(threads));
   std::jthread own([&] {
-    if (const auto traced = trace_for_master(own_, frames, options_, threads); !traced)
+    if (const auto traced = trace_for_master(own_, frames, options_, threads, {}); !traced)
       own_.send(own_worker, error_message(traced.error()));
   });
   Expected<void> result;
@@ -270,7 +304,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
   while (result && !schedule_.has_all()) {
     now_s_ = program::monotonic_s();
     made_.share_of_next = static_cast<double>(schedule_.tiles_of_begun_frames()) / static_cast<double>(tiles_.size());
-    made_.workers = workers_.size();
+    made_.workers = static_cast<std::size_t>(std::ranges::count_if(workers_, &Worker::traces));
     tell_quality();
     if (!go_on(made_)) break;
     bool came = false;
@@ -286,12 +320,15 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
     }
     if (others_ && now_s_ > told_s + still_there_every_s) {
       told_s = now_s_;
+      look_who_is_there();
       for (const Worker& each : workers_)
-        if (each.number != own_worker) send(each.number, message(Word::still_there));
+        if (each.number != own_worker && !each.is_lost) send(each.number, message(Word::still_there));
     }
     if (!came) std::this_thread::sleep_for(std::chrono::microseconds(300));
   }
   made_.share_of_next = 0.0;
+  now_s_ = program::monotonic_s();
+  look_who_is_there();
   own_.send_to_worker(message(Word::end));
   own.join();
   const auto written = writer_.wait();

@@ -2,8 +2,8 @@
 /// What master and workers of a film say to each other: one byte for the kind, then what belongs to it. Both are of one build, which
 /// the first message makes sure of; bytes from another program are checked all the same.
 ///
-/// A worker says hello and is told the film; it asks for the session's file, part by part; then it gets runs of tiles, and each
-/// tile goes back as soon as it is traced.
+/// A worker says hello and is told the film; it asks for the session's file, part by part; once it has all that it needs it gets
+/// runs of tiles, and each tile goes back as soon as it is traced. Every second each says that it is still there.
 
 #include <optional>
 #include <span>
@@ -11,22 +11,27 @@
 
 #include "engine/raytrace/bucket_schedule.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
+#include "program/process_mark.hpp"
 #include "sim-client/film/film.hpp"
 
 namespace septet::film {
 
+/// Master and workers say every second that they are there; whoever is silent for a minute is given up.
+inline constexpr double still_there_every_s = 1.0, longest_silence_s = 60.0;
+
 enum class Word : std::uint8_t {
-  hello,        ///< Worker: which Septet it is; threads.
-  film,         ///< Master: what is filmed, and how long the session's file is.
+  hello,        ///< Worker: which Septet it is; threads; its process.
+  film,         ///< Master: what is filmed, how long the session's file is, its process.
   part_wanted,  ///< Worker: from which byte of that file on.
   part,         ///< Master: from which byte on, and bytes.
+  prepared,     ///< Worker: it can trace.
   run,          ///< Master: frame, first tile, end; in the stead of the run before.
   shorter_run,  ///< Master: frame, end. Of the run that it has.
   ready,        ///< Worker: how many seconds it took to begin a frame.
   tile,         ///< Worker: frame, tile, and the tile (encode_tile).
   failed,       ///< Worker: why it gives up.
-  still_there,  ///< Master: nothing new.
-  end,          ///< Master: no more is to be done.
+  still_there,  ///< Both: nothing new.
+  end,          ///< Master: no more is to be done; 1 where some are lost.
 };
 
 /// The tiles of a film's frames: squares of this many pixels, rows from the top.
@@ -53,14 +58,19 @@ std::optional<TracedTile> decode_tile(std::span<const std::byte> bytes, std::siz
 
 Bytes message(Word word);
 Bytes hello_message(unsigned threads);
-/// Threads; nothing where it is another Septet.
-std::optional<unsigned> read_hello(ByteReader& reader);
+struct Hello {
+  unsigned threads = 1;
+  program::ProcessMark process;
+};
+/// Nothing where it is another Septet.
+std::optional<Hello> read_hello(ByteReader& reader);
 
 /// What all that a worker has to know is, but for the session's bytes.
 struct FilmTold {
   FilmOptions options;  ///< Without files.
   std::optional<std::string> script;
   std::uint64_t session_bytes = 0;
+  program::ProcessMark master;
 };
 Bytes film_message(const FilmTold& told);
 std::optional<FilmTold> read_film(ByteReader& reader);

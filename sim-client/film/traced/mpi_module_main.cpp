@@ -21,7 +21,7 @@ namespace {
 
 constexpr int tag = 15;
 constexpr std::size_t most_outgoing = 256;
-constexpr std::chrono::seconds patience{10}, patience_without_all{2};
+constexpr std::chrono::seconds patience{10}, patience_without_all{1};
 
 volatile std::sig_atomic_t exit_status = 0;
 
@@ -38,7 +38,7 @@ class MpiMachines : public Machines {
     // Until all are here what still comes is taken, for whoever has sent it waits for that.
     MPI_Request all_here = MPI_REQUEST_NULL;
     int here = ::MPI_Ibarrier(MPI_COMM_WORLD, &all_here) != MPI_SUCCESS;
-    const auto until = std::chrono::steady_clock::now() + patience;
+    const auto until = std::chrono::steady_clock::now() + (has_losses() ? patience_without_all : patience);
     while (!here && std::chrono::steady_clock::now() < until) {
       while (receive()) {
       }
@@ -66,16 +66,20 @@ class MpiMachines : public Machines {
 
   std::optional<Mail> receive() override {
     forget_sent();
-    int there = 0;
-    MPI_Status status{};
-    if (::MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS || !there)
-      return std::nullopt;
-    int size = 0;
-    ::MPI_Get_count(&status, MPI_BYTE, &size);
-    Mail mail{status.MPI_SOURCE, Bytes(static_cast<std::size_t>(std::max(0, size)))};
-    if (::MPI_Recv(mail.bytes.data(), size, MPI_BYTE, mail.from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE) != MPI_SUCCESS)
-      return std::nullopt;
-    return mail;
+    begin_to_receive();
+    for (auto mail = incoming_.begin(); mail != incoming_.end(); ++mail) {
+      // What came before it from there comes first.
+      if (std::any_of(incoming_.begin(), mail, [&](const Incoming& other) { return other.from == mail->from; }))
+        continue;
+      int came = 0;
+      const bool failed = ::MPI_Test(&mail->request, &came, MPI_STATUS_IGNORE) != MPI_SUCCESS;
+      if (!failed && !came) continue;
+      Mail whole{mail->from, std::move(mail->bytes)};
+      incoming_.erase(mail);
+      if (failed) return std::nullopt;
+      return whole;
+    }
+    return std::nullopt;
   }
 
   void will_end_with(int status) override { exit_status = status; }
@@ -85,6 +89,25 @@ class MpiMachines : public Machines {
     Bytes bytes;
     MPI_Request request;
   };
+  /// Comes piece by piece where it is large; never whole where the sender dies amid it, whom nobody may wait for.
+  struct Incoming {
+    int from;
+    Bytes bytes;
+    MPI_Request request;
+  };
+
+  void begin_to_receive() {
+    int there = 0;
+    MPI_Status status{};
+    while (::MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status) == MPI_SUCCESS && there) {
+      int size = 0;
+      ::MPI_Get_count(&status, MPI_BYTE, &size);
+      incoming_.push_back({status.MPI_SOURCE, Bytes(static_cast<std::size_t>(std::max(0, size))), MPI_REQUEST_NULL});
+      Incoming& mail = incoming_.back();
+      if (::MPI_Irecv(mail.bytes.data(), size, MPI_BYTE, mail.from, tag, MPI_COMM_WORLD, &mail.request) != MPI_SUCCESS)
+        incoming_.pop_back();
+    }
+  }
 
   void forget_sent() {
     for (auto mail = outgoing_.begin(); mail != outgoing_.end();) {
@@ -105,6 +128,7 @@ class MpiMachines : public Machines {
 
   int number_ = 0, count_ = 1;
   std::list<Outgoing> outgoing_;
+  std::list<Incoming> incoming_;
 };
 
 std::unique_ptr<Machines> start() { return std::make_unique<MpiMachines>(); }

@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t master = 0;
-constexpr double longest_silence_s = 120.0;
 constexpr std::chrono::microseconds pause{300};
 
 /// Threads that trace the tiles of a run one by one, in order.
@@ -100,28 +99,41 @@ class TracingThreads {
 /// What the master has said, until it says end.
 class Listening {
  public:
-  explicit Listening(Machines& machines) : machines_(machines), heard_s_(program::monotonic_s()) {}
+  /// `master_process`: who must still be there where that can be seen.
+  explicit Listening(Machines& machines, program::ProcessMark master_process = {})
+      : machines_(machines), master_process_(std::move(master_process)), asked_s_(program::monotonic_s()) {}
 
   /// Calls `obey(word, reader)` with each message. False: it is the end.
   template <class Obey>
   Expected<bool> listen(const Obey& obey) {
-    const double now_s = program::monotonic_s();
     while (auto mail = machines_.receive()) {
-      heard_s_ = now_s;
+      silent_s_ = 0.0;
       ByteReader reader(mail->bytes);
       const auto word = static_cast<Word>(reader.get<std::uint8_t>());
-      if (word == Word::end) return false;
+      if (word == Word::end) {
+        if (reader.get<std::uint8_t>() != 0) machines_.note_loss();
+        return false;
+      }
       obey(word, reader);
     }
-    if (now_s - heard_s_ > longest_silence_s)
-      return failure(fmt::format("nothing has come from the master for {:.0f} s", now_s - heard_s_), "mpirun",
+    const double now_s = program::monotonic_s();
+    if (now_s < asked_s_ + still_there_every_s) return true;
+    // A machine that slept has heard nothing meanwhile, which says nothing.
+    silent_s_ += std::min(now_s - asked_s_, 2.0 * still_there_every_s);
+    asked_s_ = now_s;
+    machines_.send(master, message(Word::still_there));
+    if (silent_s_ > longest_silence_s || !program::is_there(master_process_).value_or(true)) {
+      machines_.note_loss();
+      return failure(fmt::format("nothing has come from the master for {:.0f} s", silent_s_), "mpirun",
                      "start the film again with --resume");
+    }
     return true;
   }
 
  private:
   Machines& machines_;
-  double heard_s_;
+  program::ProcessMark master_process_;
+  double asked_s_, silent_s_ = 0.0;
 };
 
 /// Waits for the film, then for the session's bytes. Nothing: the master has said end before.
@@ -162,7 +174,7 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
   return told;
 }
 
-Expected<void> serve(Machines& machines) {
+Expected<void> serve(Machines& machines, program::ProcessMark& master_process) {
   const unsigned threads = share_of_processors();
   machines.send(master, hello_message(threads));
   auto folder = program::TemporaryFolder::make("septet-film");
@@ -170,14 +182,16 @@ Expected<void> serve(Machines& machines) {
   const auto told = fetch_film(machines, folder->path());
   if (!told) return tl::unexpected(told.error());
   if (!*told) return {};
+  master_process = (*told)->master;
   auto frames = FilmFrames::open((*told)->options);
   if (!frames) return tl::unexpected(frames.error());
-  return trace_for_master(machines, *frames, (*told)->options, threads);
+  return trace_for_master(machines, *frames, (*told)->options, threads, (*told)->master);
 }
 
 }  // namespace
 
-Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads) {
+Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
+                                const program::ProcessMark& master_process) {
   auto tracer = raytrace::RayTracer::create(frames.scene());
   if (!tracer) return tl::unexpected(tracer.error());
   const instant::SceneSummary summary = instant::summarise(frames.scene());
@@ -185,7 +199,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   TracingThreads tracing(*tracer, tiles, threads);
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame;
-  Listening listening(machines);
+  machines.send(master, message(Word::prepared));
+  Listening listening(machines, master_process);
   while (true) {
     const auto goes_on = listening.listen([&](Word word, ByteReader& reader) {
       const auto run = word == Word::run || word == Word::shorter_run ? read_run(reader) : std::nullopt;
@@ -225,11 +240,12 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
 }
 
 int serve_master(Machines& machines) {
-  const auto served = serve(machines);
+  program::ProcessMark master_process;
+  const auto served = serve(machines, master_process);
   if (served) return 0;
   machines.send(master, error_message(served.error()));
   // mpirun ends all where one ends with another status than 0, or before the rest: the film goes on without this one.
-  Listening listening(machines);
+  Listening listening(machines, master_process);
   while (true) {
     const auto goes_on = listening.listen([](Word, ByteReader&) {});
     if (!goes_on) return 1;

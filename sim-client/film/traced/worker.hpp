@@ -2,13 +2,16 @@
 /// A worker of a traced film: traces the runs of tiles that a master deals it, on its share of the machine's processors, until the
 /// master says end.
 
+#include "program/process_mark.hpp"
 #include "sim-client/film/film_frames.hpp"
 #include "sim-client/film/traced/machines.hpp"
 
 namespace septet::film {
 
-/// With the session and its frames at hand. Error: the session cannot be read, or the master is silent for minutes.
-Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads);
+/// With the session and its frames at hand. Error: the session cannot be read, or the master is gone: silent for a minute, or
+/// `master_process` has ended where that can be seen.
+Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
+                                const program::ProcessMark& master_process);
 
 /// The whole of a program that mpirun has started and that is not the master, from whom it gets film and session. The exit
 /// status. Says nothing: the master does.

@@ -1,0 +1,204 @@
+#include "sim-client/film/traced/ranks.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "engine/core/printable.hpp"
+#include "program/child_process.hpp"
+#include "program/clock.hpp"
+#include "program/console.hpp"
+#include "program/run.hpp"
+#include "program/stop_signal.hpp"
+#include "program/temporary_folder.hpp"
+#include "sim-client/film/film_file.hpp"
+
+namespace septet::film {
+namespace fs = std::filesystem;
+namespace {
+
+using namespace std::chrono_literals;
+constexpr double patience_s = 60.0;  ///< For programs to end whose mpirun is gone.
+
+/// Standard error of mpirun: what the programs say, and what it says itself.
+class Said {
+ public:
+  explicit Said(fs::path file) : file_(std::move(file)) {}
+
+  /// Shows what is new.
+  void show(program::ProgressLine& progress) {
+    std::ifstream stream(file_, std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(read_));
+    std::string line;
+    while (std::getline(stream, line) && !stream.eof()) {
+      read_ += line.size() + 1;
+      line = printable(line);
+      if (line.starts_with("septet: "))
+        progress.message(line);
+      else if (!line.empty() && std::isdigit(static_cast<unsigned char>(line.front())) && line.find(" of ") < 12)
+        progress.show(line);
+      else if (first_of_mpirun_.empty() && line.find_first_not_of("- ") != std::string::npos)
+        first_of_mpirun_ = line;
+      says_why_ |= line.starts_with("septet: ");
+    }
+  }
+  const std::string& first_of_mpirun() const { return first_of_mpirun_; }
+  bool says_why() const { return says_why_; }
+
+ private:
+  fs::path file_;
+  std::uint64_t read_ = 0;
+  std::string first_of_mpirun_;
+  bool says_why_ = false;
+};
+
+/// When something in a film's folder was written last.
+std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
+  std::optional<fs::file_time_type> newest;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".png" && entry.path().extension() != ".tiles") continue;
+    const auto time = entry.last_write_time(error);
+    if (!error && (!newest || time > *newest)) newest = time;
+  }
+  return newest;
+}
+
+/// Nobody draws in the folder, or nobody stops to in time.
+void wait_until_free(const fs::path& folder) {
+  const double until_s = program::monotonic_s() + patience_s;
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0 && program::monotonic_s() < until_s && !program::stop_signal())
+    std::this_thread::sleep_for(50ms);
+  ::close(file);
+}
+
+std::vector<std::string> mpirun_arguments(const RanksOptions& options) {
+  std::vector<std::string> arguments{"--enable-recovery", "--oversubscribe", "--bind-to", "none"};
+  if (options.ranks > 0)
+    arguments.insert(arguments.end(), {"-n", fmt::format("{}", options.ranks)});
+  else
+    arguments.insert(arguments.end(), {"--npernode", "1"});
+  if (!options.hosts.empty()) arguments.insert(arguments.end(), {"--hostfile", options.hosts.string()});
+  arguments.push_back((program::own_folder() / "septet-film").string());
+  return arguments;
+}
+
+struct StartEnd {
+  std::optional<int> status;  ///< Of the film's first program; nothing: it was lost.
+  int of_mpirun = 0;
+  bool hosts_changed = false;
+};
+
+Expected<StartEnd> start_once(const fs::path& mpirun, const RanksOptions& options, std::vector<std::string> arguments,
+                              const fs::path& log, Said& said, program::ProgressLine& progress) {
+  std::error_code ignored;
+  const auto hosts_time = fs::last_write_time(options.hosts, ignored);
+  auto child = program::ChildProcess::start({mpirun.string(), std::move(arguments), {}, log});
+  if (!child) return tl::unexpected(child.error());
+  StartEnd end;
+  const auto hear = [&](std::chrono::milliseconds wait) {
+    while (const auto line = child->read_line(wait)) {
+      const std::string_view text = *line, words = last_words;
+      int status = 0;
+      if (!text.starts_with(words))
+        program::announce(text);
+      else if (std::from_chars(text.data() + words.size(), text.data() + text.size(), status).ec == std::errc())
+        end.status = status;
+    }
+  };
+  while (true) {
+    const auto exit = child->poll();
+    hear(exit ? 0ms : 100ms);
+    said.show(progress);
+    if (exit) {
+      end.of_mpirun = exit->code;
+      return end;
+    }
+    std::this_thread::sleep_for(20ms);
+    if (program::should_stop()) break;
+    if (options.hosts.empty() || end.status) continue;
+    const auto time = fs::last_write_time(options.hosts, ignored);
+    if (!ignored && time != hosts_time) {
+      end.hosts_changed = true;
+      break;
+    }
+  }
+  child->stop();
+  hear(0ms);
+  said.show(progress);
+  return end;
+}
+
+}  // namespace
+
+Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string> arguments) {
+  const auto mpirun = program::find_program("mpirun");
+  if (!mpirun)
+    return failure("there is no mpirun, which starts a film's programs", "--ranks",
+                   "install the package openmpi-bin, or leave --ranks and --hosts out");
+  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
+  if (::geteuid() == 0 && !(is_set("OMPI_ALLOW_RUN_AS_ROOT") && is_set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM")))
+    return failure("mpirun does not work for root", "--ranks",
+                   "run it as another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1");
+  if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
+    return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
+  const auto is_file = is_film_file(options.out);
+  if (!is_file) return tl::unexpected(is_file.error());
+  fs::path folder = options.out;
+  if (*is_file) folder += ".pictures";
+  const auto notes = program::TemporaryFolder::make("septet-ranks");
+  if (!notes) return tl::unexpected(notes.error());
+  const fs::path log = notes->path() / "mpirun.txt";
+  std::vector<std::string> all = mpirun_arguments(options);
+  all.insert(all.end(), std::make_move_iterator(arguments.begin()), std::make_move_iterator(arguments.end()));
+  all.push_back("--one-of-ranks");
+  program::catch_stop_signals();
+  program::ProgressLine progress;
+  Said said(log);
+  for (bool first = true;; first = false) {
+    const auto before = newest_in(folder);
+    const auto end = start_once(*mpirun, options, all, log, said, progress);
+    if (!end) return tl::unexpected(end.error());
+    if (end->status && !end->hosts_changed) return *end->status;
+    wait_until_free(folder);
+    if (program::should_stop()) {
+      progress.message(fmt::format("septet: stopped; add --resume to go on with {}", options.out.string()));
+      return program::failed_status;
+    }
+    const bool came = newest_in(folder) > before;
+    if (end->hosts_changed) {
+      progress.message(fmt::format("septet: {} has changed; the film goes on with it", options.hosts.string()));
+    } else if (!came) {
+      progress.close();
+      if (end->status.value_or(end->of_mpirun) > 0 && said.says_why()) return program::failed_status;
+      return failure(
+          fmt::format("mpirun has ended with status {}: {}", end->of_mpirun,
+                      said.first_of_mpirun().empty() ? "it does not say why" : said.first_of_mpirun()),
+          options.hosts.empty() ? "--ranks" : options.hosts.string(),
+          first ? "try the same command after mpirun on its own" : "add --resume to go on: what is finished is kept");
+    } else {
+      progress.message(
+          "septet: the film's first program or mpirun was lost; what is finished is kept and the rest goes on");
+    }
+    if (fs::exists(folder / "film.json") && !options.resume && std::ranges::find(all, "--resume") == all.end())
+      all.push_back("--resume");
+  }
+}
+
+}  // namespace septet::film

@@ -1,0 +1,124 @@
+#include <sys/mount.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "tests/pipeline/ranks/film_of_ranks.hpp"
+
+namespace septet::pipeline {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t number = 0;
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++number;
+  return number;
+}
+
+/// Ends one of the film's programs once tiles have come: mpirun, or the program of a number.
+void kill_amid(program::ChildProcess& launcher, const fs::path& out, std::optional<int> rank) {
+  REQUIRE(becomes_true([&] { return has_tiles(out) || launcher.poll(); }));
+  const auto mpirun = mpirun_of(launcher.process_id());
+  REQUIRE(mpirun.has_value());
+  const auto victim = rank ? rank_of(*mpirun, *rank) : mpirun;
+  REQUIRE(victim.has_value());
+  REQUIRE(::kill(*victim, SIGKILL) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a film is the same bytes by one program and by two and a worker or the master or mpirun may be killed") {
+  const SmallFilm film;
+  const fs::path alone = film.folder / "alone";
+  REQUIRE(film.make(alone).code == 0);
+  const auto pictures = pictures_in(alone);
+  CHECK(pictures.size() == 2);
+  const Ended together = film.make(film.folder / "together", {"--ranks", "2"});
+  INFO(together.error);
+  CHECK(together.code == 0);
+  CHECK(pictures_in(film.folder / "together") == pictures);
+
+  struct Victim {
+    const char* name;
+    std::optional<int> rank;
+    const char* said;
+  };
+  for (const Victim& victim : {Victim{"worker", 1, "program 1 of mpirun is gone"}, Victim{"master", 0, "was lost"},
+                               Victim{"mpirun", std::nullopt, "was lost"}}) {
+    CAPTURE(victim.name);
+    const fs::path out = film.folder / victim.name;
+    auto launcher = film.begin(out, {"--ranks", "2"});
+    kill_amid(launcher, out, victim.rank);
+    CHECK(exit_code(launcher) == 0);
+    const std::string said = text_of(film.log(out));
+    INFO(said);
+    CHECK(count(said, "septet: ") <= 1);
+    // A worker's end is noticed each second; the film may be whole before.
+    if (victim.rank != 1) CHECK(said.find(victim.said) != std::string::npos);
+    CHECK(pictures_in(out) == pictures);
+  }
+}
+
+TEST_CASE("a film whose starter is killed ends with its programs and goes on") {
+  const SmallFilm film;
+  const fs::path out = film.folder / "film";
+  int mpirun = 0;
+  {
+    auto launcher = film.begin(out, {"--ranks", "3"});
+    REQUIRE(becomes_true([&] { return has_tiles(out); }));
+    mpirun = mpirun_of(launcher.process_id()).value_or(0);
+    launcher.send_signal(SIGKILL);
+    CHECK(exit_code(launcher) == -1);
+  }
+  REQUIRE(mpirun > 0);
+  CHECK(becomes_true([&] { return ::kill(mpirun, 0) != 0; }));
+  CHECK(film.make(out).error.find("add --resume") != std::string::npos);
+  // Its programs see that mpirun is gone and leave the folder.
+  CHECK(becomes_true([&] { return film.make(out, {"--resume"}).code == 0; }));
+  REQUIRE(film.make(film.folder / "alone").code == 0);
+  CHECK(pictures_in(out) == pictures_in(film.folder / "alone"));
+}
+
+TEST_CASE("a full disk ends a film with one message and it goes on where there is room") {
+  SmallFilm film;
+  film.samples = "2";
+  REQUIRE(film.make(film.folder / "alone").code == 0);
+  const fs::path disk = film.folder / "disk", out = film.folder / "out";
+  fs::create_directories(disk);
+  const bool is_mounted = ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=300k") == 0;
+  if (!is_mounted) MESSAGE("no permission to mount a small disk: by one program, with a limit of a file's size");
+  const Ended ended = is_mounted ? film.make(disk / "out", {"--ranks", "2"}) : [&] {
+    std::string command = "ulimit -f 300; exec " SEPTET_BINARY_DIR "/septet-film";
+    for (const std::string& argument : film.arguments(disk / "out", {})) command += " '" + argument + "'";
+    return run("/bin/sh", {"-c", command}, film.log(out));
+  }();
+  INFO(ended.error);
+  CHECK(ended.code == 1);
+  CHECK(count(ended.error, "septet: ") == 1);
+  CHECK(ended.error.find("--resume") != std::string::npos);
+  REQUIRE(has_tiles(disk / "out"));
+  fs::copy(disk / "out", out, fs::copy_options::recursive);
+  const Ended resumed = film.make(out, {"--resume"});
+  INFO(resumed.error);
+  CHECK(resumed.code == 0);
+  CHECK(pictures_in(out) == pictures_in(film.folder / "alone"));
+  if (is_mounted) CHECK(::umount2(disk.c_str(), MNT_DETACH) == 0);
+}
+
+TEST_CASE("what mpirun cannot do is said in one line") {
+  const SmallFilm film;
+  const fs::path out = film.folder / "film", err = film.folder / "err";
+  const auto refused = [&](const std::vector<std::string>& more, std::map<std::string, std::string> environment,
+                           const std::vector<std::string>& words) {
+    fs::remove(err);
+    check_refused(run("septet-film", film.arguments(out, more), err, std::move(environment)), words, out);
+  };
+  refused({"--ranks", "2"}, {{"PATH", (film.folder / "none").string()}}, {"mpirun", "openmpi-bin"});
+  refused({"--hosts", (film.folder / "none").string()}, for_mpirun, {"none", "no such file"});
+  refused({"--ranks", "0"}, for_mpirun, {"--ranks", "0"});
+  std::vector<std::string> raster = film.arguments(out, {"--ranks", "2"});
+  std::ranges::replace(raster, "traced", "raster");
+  fs::remove(err);
+  check_refused(run("septet-film", raster, err, for_mpirun), {"--ranks", "--renderer traced"}, out);
+}
+
+}  // namespace septet::pipeline
