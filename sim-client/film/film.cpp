@@ -57,6 +57,11 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     return failure("layers lie in OpenEXR pictures alone", "--layers", "add --exr half, or leave --layers out");
   if (!traced && options.error > 0.0)
     return failure("only what is traced has an error", "--error", "add --renderer traced, or leave --error out");
+  if (options.denoise && !traced)
+    return failure("only what is traced has noise", "--denoise", "add --renderer traced, or leave --denoise out");
+  if (options.denoise && options.samples < 2)
+    return failure("one sample does not tell its noise", "--denoise",
+                   "take two samples a pixel or more with --samples");
   const auto is_file = is_film_file(options.out);
   if (!is_file) return tl::unexpected(is_file.error());
   fs::path ffmpeg, pictures_in = options.out;

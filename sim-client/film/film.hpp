@@ -40,6 +40,7 @@ struct FilmOptions {
   FilmRenderer renderer = FilmRenderer::raster;
   std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer; the most of them where there is an `error`.
   double error = 0.0;          ///< Enough of it: raytrace::TraceSettings::error. 0: all samples are taken.
+  bool denoise = false;        ///< raytrace::denoised.
   raytrace::Filter filter = raytrace::Filter::quadratic;
   ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
   std::set<Layer> layers;

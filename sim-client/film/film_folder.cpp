@@ -79,6 +79,7 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
   if (options.renderer == FilmRenderer::traced) {
     record["samples"] = fmt::format("{}", options.samples);
     record["error"] = fmt::format("{}", options.error);
+    record["denoise"] = options.denoise ? "yes" : "no";
     record["filter"] = fmt::format("{}", static_cast<int>(options.filter));
     record["exr"] = options.exr == ExrNumbers::none             ? "none"
                     : options.exr == ExrNumbers::half_precision ? "half"

@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
                  "How the light around a pixel's middle is weighed: a B-spline, 1 to 4 pixels across")
       ->check(CLI::IsMember({"box", "tent", "quadratic", "cubic"}))
       ->capture_default_str();
+  app.add_flag("--denoise", options.denoise, "Take the noise out of what is traced, guided by normals and colours")
+      ->default_str("");
   app.add_option("--exr", exr, "OpenEXR pictures too, of what is traced: half (16 bits a number) or float (32)")
       ->check(CLI::IsMember({"none", "half", "float"}))
       ->capture_default_str();

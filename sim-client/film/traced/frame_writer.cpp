@@ -6,6 +6,7 @@
 
 #include "engine/core/version.hpp"
 #include "engine/image/png.hpp"
+#include "engine/raytrace/denoise.hpp"
 #include "engine/raytrace/displayed.hpp"
 
 namespace septet::film {
@@ -115,10 +116,13 @@ Expected<void> FrameWriter::write(Job& job) {
       (void)write_whole(preview_, assembled(options_, *kept, tiles_));
     return {};
   }
-  const Assembled whole = assembled(options_, *job.tiles, tiles_);
+  Assembled whole = assembled(options_, *job.tiles, tiles_);
   if (whole.missing > 0)
     return failure("what was written there cannot be read", job.kept_in.string(),
                    "check the disk and add --resume to go on");
+  const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
+  note_quality(whole.picture, exposure);
+  if (options_.denoise) whole.picture = raytrace::denoised(whole.picture, exposure);
   // The picture last: where it is, its frame is whole.
   if (options_.exr != ExrNumbers::none) {
     exr_facts_.frame = job.frame;
@@ -127,16 +131,18 @@ Expected<void> FrameWriter::write(Job& job) {
   }
   if (auto written = write_whole(folder_.picture(job.frame), whole); !written) return written;
   fs::remove(job.kept_in, error);
-  const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
+  return {};
+}
+
+void FrameWriter::note_quality(const raytrace::TracedPicture& picture, const instant::Exposure& exposure) {
   const std::lock_guard lock(mutex_);
-  quality_.bad_samples += whole.picture.bad_samples;
-  for (const raytrace::TracedPixel& pixel : whole.picture.pixels) {
+  quality_.bad_samples += picture.bad_samples;
+  for (const raytrace::TracedPixel& pixel : picture.pixels) {
     const double error_of_pixel = raytrace::relative_error(pixel, exposure);
     quality_.squared_errors += error_of_pixel * error_of_pixel;
     quality_.samples += pixel.samples;
   }
-  quality_.pixels += static_cast<double>(whole.picture.pixels.size());
-  return {};
+  quality_.pixels += static_cast<double>(picture.pixels.size());
 }
 
 void FrameWriter::run() {

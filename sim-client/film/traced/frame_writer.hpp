@@ -44,6 +44,7 @@ class FrameWriter {
   };
   void run();
   Expected<void> write(Job& job);
+  void note_quality(const raytrace::TracedPicture& picture, const instant::Exposure& exposure);
 
   const FilmOptions& options_;
   const FilmFolder& folder_;

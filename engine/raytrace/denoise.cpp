@@ -1,0 +1,147 @@
+#include "engine/raytrace/denoise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/parallel_for.hpp"
+#include "engine/raytrace/directions.hpp"
+
+namespace septet::raytrace {
+namespace {
+
+constexpr int reach_px = 7, patch_px = 1, strip_rows = 16;
+
+constexpr float strictness = 0.55f;  ///< Of the light: smaller keeps more, noise too.
+constexpr float normal_sigma = 0.2f, albedo_sigma = 0.15f;
+constexpr float least_albedo = 0.02f;
+constexpr float even_variance = 1e-9f;  ///< After exposure: far below a display's code.
+
+/// What is compared of a pixel.
+struct Guide {
+  glm::vec3 light{0.0f};  ///< By the albedo, after exposure.
+  glm::vec3 modulation{1.0f};
+  float luminance = 0.0f, variance = 0.0f;
+  glm::vec3 normal{0.0f}, albedo{0.0f};
+};
+
+class Guides {
+ public:
+  Guides(const TracedPicture& picture, float scale)
+      : width_(static_cast<int>(picture.width)), height_(static_cast<int>(picture.height)) {
+    guides_.reserve(picture.pixels.size());
+    for (const TracedPixel& pixel : picture.pixels) {
+      Guide guide;
+      // A pixel is sky by as much as its normals, which the sky has none of, are short of one.
+      const float sky = std::max(0.0f, 1.0f - glm::length(pixel.normal));
+      guide.modulation = glm::max(pixel.albedo + sky, glm::vec3(least_albedo));
+      guide.light = pixel.radiance * scale / guide.modulation;
+      guide.luminance = luminance(guide.light);
+      const float share = scale / luminance(guide.modulation);
+      guide.variance = pixel.variance * share * share;
+      guide.normal = pixel.normal, guide.albedo = pixel.albedo;
+      guides_.push_back(guide);
+    }
+    even_out_variance();
+  }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const Guide& at(int x, int y) const {
+    return guides_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
+  /// Beyond the edge the pixel at the edge.
+  const Guide& near(int x, int y) const { return at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1)); }
+
+ private:
+  /// Of few samples it is a bad estimate, and mostly too small: at least the mean of those around.
+  void even_out_variance() {
+    std::vector<float> means;
+    means.reserve(guides_.size());
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x) {
+        float sum = 0.0f;
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) sum += std::min(near(x + dx, y + dy).variance, 1e12f);
+        means.push_back(sum / 9.0f);
+      }
+    for (std::size_t n = 0; n < guides_.size(); ++n) guides_[n].variance = std::max(guides_[n].variance, means[n]);
+  }
+
+  int width_, height_;
+  std::vector<Guide> guides_;
+};
+
+/// How unlike the light of two pixels is, beyond their noise; 0 and less: alike.
+float distance_of(const Guide& a, const Guide& b) {
+  const float off = a.luminance - b.luminance, both = a.variance + b.variance;
+  return (off * off - (a.variance + std::min(a.variance, b.variance))) /
+         (even_variance + strictness * strictness * both);
+}
+
+float likeness_of_surfaces(const Guide& a, const Guide& b) {
+  const glm::vec3 normal = a.normal - b.normal, albedo = a.albedo - b.albedo;
+  return glm::dot(normal, normal) / (2.0f * normal_sigma * normal_sigma) +
+         glm::dot(albedo, albedo) / (2.0f * albedo_sigma * albedo_sigma);
+}
+
+/// Rows from..end of the filtered light.
+void filter_strip(const Guides& guides, int from, int end, std::vector<glm::vec3>& filtered) {
+  const int width = guides.width(), rows = end - from;
+  const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
+  std::vector<glm::vec3> sums(cells, glm::vec3(0.0f));
+  std::vector<float> weights(cells, 0.0f);
+  // Distances of the strip and of a pixel around it.
+  const int wide = width + 2 * patch_px;
+  std::vector<float> distances(static_cast<std::size_t>(wide) * static_cast<std::size_t>(rows + 2 * patch_px));
+  for (int dy = -reach_px; dy <= reach_px; ++dy)
+    for (int dx = -reach_px; dx <= reach_px; ++dx) {
+      auto distance = distances.begin();
+      for (int y = from - patch_px; y < end + patch_px; ++y)
+        for (int x = -patch_px; x < width + patch_px; ++x)
+          *distance++ = distance_of(guides.near(x, y), guides.near(x + dx, y + dy));
+      std::size_t cell = 0;
+      for (int y = from; y < end; ++y)
+        for (int x = 0; x < width; ++x, ++cell) {
+          if (x + dx < 0 || y + dy < 0 || x + dx >= width || y + dy >= guides.height()) continue;
+          float patch = 0.0f;
+          for (int py = 0; py <= 2 * patch_px; ++py)
+            for (int px = 0; px <= 2 * patch_px; ++px)
+              patch += distances[static_cast<std::size_t>(y - from + py) * static_cast<std::size_t>(wide) +
+                                 static_cast<std::size_t>(x + px)];
+          const Guide &here = guides.at(x, y), &there = guides.at(x + dx, y + dy);
+          const float unlike = std::max(0.0f, patch / 9.0f) + likeness_of_surfaces(here, there);
+          if (!(unlike < 20.0f)) continue;
+          const float weight = std::exp(-unlike);
+          sums[cell] += weight * there.light;
+          weights[cell] += weight;
+        }
+    }
+  for (std::size_t n = 0; n < cells; ++n)
+    if (weights[n] > 0.0f)
+      filtered[static_cast<std::size_t>(from) * static_cast<std::size_t>(width) + n] = sums[n] / weights[n];
+}
+
+}  // namespace
+
+TracedPicture denoised(const TracedPicture& picture, const instant::Exposure& exposure) {
+  TracedPicture result = picture;
+  const float scale = exposure.scale();
+  const Guides guides(picture, scale);
+  std::vector<glm::vec3> filtered;
+  filtered.reserve(picture.pixels.size());
+  for (int y = 0; y < guides.height(); ++y)
+    for (int x = 0; x < guides.width(); ++x) filtered.push_back(guides.at(x, y).light);
+  const auto strips = static_cast<std::size_t>((guides.height() + strip_rows - 1) / strip_rows);
+  parallel_for(strips, [&](std::size_t strip) {
+    const int from = static_cast<int>(strip) * strip_rows;
+    filter_strip(guides, from, std::min(from + strip_rows, guides.height()), filtered);
+  });
+  for (std::size_t n = 0; n < filtered.size(); ++n) {
+    const Guide& guide = guides.at(static_cast<int>(n % picture.width), static_cast<int>(n / picture.width));
+    if (guide.variance > 0.0f) result.pixels[n].radiance = filtered[n] * guide.modulation / scale;
+  }
+  return result;
+}
+
+}  // namespace septet::raytrace
