@@ -1,6 +1,7 @@
 #pragma once
 /// Directions around a normal, and how they are drawn at random.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,10 +36,22 @@ inline glm::vec3 from_angles(float cosine, float azimuth_rad) {
   return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
 }
 
+/// Cosine and sine of a share of the full turn, in [0, 1); within 4e-7, and the same on every machine, which a library's need not be.
+inline glm::vec2 on_circle(float share) {
+  const float eighths = 8.0f * share;
+  const int octant = static_cast<int>(eighths);
+  // Of the angle from the nearest axis, at most an eighth.
+  const float x = (eighths - static_cast<float>((octant + 1) & ~1)) * (0.25f * pi), x2 = x * x;
+  const float sine = x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f))));
+  const float cosine = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 * (1.0f / 40320.0f))));
+  const int quarter = (octant + 1) >> 1;
+  const float a = quarter & 1 ? -sine : cosine, b = quarter & 1 ? cosine : sine;
+  return quarter & 2 ? glm::vec2(-a, -b) : glm::vec2(a, b);
+}
+
 /// About z, with density cosine / π.
 inline glm::vec3 cosine_direction(const glm::vec2& random) {
-  const float radius = std::sqrt(random.x), azimuth_rad = 2.0f * pi * random.y;
-  return {radius * std::cos(azimuth_rad), radius * std::sin(azimuth_rad), std::sqrt(1.0f - random.x)};
+  return {std::sqrt(random.x) * on_circle(random.y), std::sqrt(1.0f - random.x)};
 }
 
 /// Weight of a sample of density `pdf` where another strategy would have drawn it with density `other`: Veach's power heuristic.

@@ -1,5 +1,6 @@
 #include "engine/raytrace/geometry.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -38,7 +39,7 @@ struct Query {
 };
 
 std::uint32_t place_of(const RTCFilterFunctionNArguments* args) {
-  // A mesh that stands as it is lies in the scene itself, under the number of its place.
+  // A mesh that was moved lies in the scene itself, under the number of its place.
   const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
   return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
 }
@@ -60,11 +61,16 @@ void weaken_light(const RTCFilterFunctionNArguments* args) {
   if (query->let_through > 1e-3f) args->valid[0] = 0;
 }
 
-RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh) {
+/// `moved`: its vertices' positions, if not where the mesh has them. Both outlive the geometry.
+RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, std::span<const glm::vec3> moved = {}) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
-                             offsetof(scene::SurfaceVertex, position_m), sizeof(scene::SurfaceVertex),
-                             mesh.vertices.size());
+  if (moved.empty())
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
+                               offsetof(scene::SurfaceVertex, position_m), sizeof(scene::SurfaceVertex),
+                               mesh.vertices.size());
+  else
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, moved.data(), 0,
+                               sizeof(glm::vec3), mesh.vertices.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
   if (mesh.open) {
@@ -75,14 +81,17 @@ RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh) {
   return geometry;
 }
 
-bool stands_as_it_is(const Place& place) { return place.origin_m == glm::vec3(0.0f) && place.turn == glm::mat3(1.0f); }
+/// What stands alone and is not turned is moved, not placed: a ray that need not be taken into an instance's frame is a sixth cheaper.
+/// But a hierarchy of it all is made for each instant, so only of so many triangles.
+constexpr std::size_t most_moved_of_mesh = 8'000, most_moved = 100'000;
 
 }  // namespace
 
 struct Geometry::Parts {
   Device device;
   std::vector<Mesh> meshes;
-  Scene seen, shadows;  ///< Shadows are thrown by more than is seen.
+  Scene seen, shadows;                          ///< Shadows are thrown by more than is seen.
+  std::vector<std::vector<glm::vec3>> moved{};  ///< By place: its vertices, if they were moved.
   const Openings* openings = nullptr;
 
   void build(Mesh& mesh) {
@@ -93,6 +102,26 @@ struct Geometry::Parts {
     rtcCommitScene(mesh.scene.get());
   }
 
+  void move(std::span<const Place> places) {
+    std::vector<std::uint32_t> times(meshes.size());
+    for (const Place& place : places) ++times[place.mesh];
+    moved.clear();
+    moved.resize(places.size());
+    std::size_t triangles = 0;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const Mesh& mesh = meshes[places[n].mesh];
+      const std::size_t here = mesh.indices.size() / 3;
+      if (times[places[n].mesh] > 1 || places[n].turn != glm::mat3(1.0f) || here > most_moved_of_mesh ||
+          triangles + here > most_moved)
+        continue;
+      triangles += here;
+      moved[n].reserve(mesh.vertices.size() + 1);
+      for (const scene::SurfaceVertex& vertex : mesh.vertices)
+        moved[n].push_back(vertex.position_m + places[n].origin_m);
+      moved[n].emplace_back();  // Embree reads a vertex as four numbers.
+    }
+  }
+
   Scene build(std::span<const Place> places, bool with_unseen) {
     Scene scene(rtcNewScene(device.get()));
     for (std::size_t n = 0; n < places.size(); ++n) {
@@ -100,8 +129,8 @@ struct Geometry::Parts {
       Mesh& mesh = meshes[places[n].mesh];
       if (mesh.indices.empty()) continue;
       RTCGeometry geometry = nullptr;
-      if (stands_as_it_is(places[n])) {
-        geometry = triangles_of(device.get(), mesh);
+      if (!moved[n].empty()) {
+        geometry = triangles_of(device.get(), mesh, moved[n]);
       } else {
         if (!mesh.scene) build(mesh);
         geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
@@ -151,8 +180,16 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   for (const Place& place : places)
     SEPTET_CHECK(place.mesh < parts_->meshes.size(), "mesh {} of {}", place.mesh, parts_->meshes.size());
   parts_->openings = openings;
+  parts_->seen.reset();
+  parts_->shadows.reset();
+  parts_->move(places);
   parts_->seen = parts_->build(places, false);
-  parts_->shadows = parts_->build(places, true);
+  if (std::ranges::all_of(places, &Place::seen)) {
+    rtcRetainScene(parts_->seen.get());
+    parts_->shadows.reset(parts_->seen.get());
+  } else {
+    parts_->shadows = parts_->build(places, true);
+  }
 }
 
 bool Geometry::intersect(const Ray& ray, Hit& hit) const {

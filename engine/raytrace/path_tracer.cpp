@@ -25,8 +25,8 @@ constexpr float evenly_per_sr = 0.25f / pi;
 /// In smoke, to all sides alike.
 Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
   const glm::vec2 u = random.pair();
-  const float up = 1.0f - 2.0f * u.x, across = std::sqrt(std::max(0.0f, 1.0f - up * up)), azimuth_rad = 2.0f * pi * u.y;
-  return {glm::vec3(across * std::cos(azimuth_rad), across * std::sin(azimuth_rad), up), albedo, evenly_per_sr};
+  const float up = 1.0f - 2.0f * u.x, across = std::sqrt(std::max(0.0f, 1.0f - up * up));
+  return {glm::vec3(across * on_circle(u.y), up), albedo, evenly_per_sr};
 }
 
 /// One thread's walk along one path.
@@ -72,6 +72,7 @@ class Path {
   float lamp_weights_ = 0.0f;       ///< Of all lamps, from there.
   std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
   bool scattered_ = false;          ///< It has been at a surface that scatters.
+  bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
 };
 
 void Path::meet_sky(const glm::vec3& direction) {
@@ -128,8 +129,8 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
   const glm::vec3 at = (1.0f - u - v) * c[0] + u * c[1] + v * c[2];
   const glm::vec3 way = at - from_m;
   distance_m = glm::length(way);
-  const glm::vec3 direction = way / distance_m, normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-  const float cosine = -glm::dot(normal, direction);
+  const glm::vec3 direction = way / distance_m;
+  const float cosine = -glm::dot(lamp.normals[triangle], direction);
   if (!(cosine > 1e-6f)) return {};
   glm::vec3 emission = lamp.emission;
   if (lamp.textured) {
@@ -189,7 +190,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   }
   if (scattered.value == glm::vec3(0.0f)) return;
   const float pdf = light.pdf * chance(kind);
-  const bool also_by_chance = kind != Kind::headlight;
+  const bool also_by_chance = kind != Kind::headlight && !looks_alone_;
   const glm::vec3 estimate =
       throughput_ * scattered.value * light.radiance * ((also_by_chance ? mis_weight(pdf, scattered.pdf) : 1.0f) / pdf);
   Ray shadow;
@@ -200,7 +201,8 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   shadow.to_m = std::max(0.0f, distance_m - 3.0f * margin);
   const float let_through = world_.geometry().unshadowed(shadow);
   if (let_through <= 0.0f) return;
-  light_ += estimate * (let_through * std::exp(-world_.smoke().optical_depth(shadow)));
+  const float clear = world_.smoke().empty() ? 1.0f : std::exp(-world_.smoke().optical_depth(shadow));
+  light_ += estimate * (let_through * clear);
 }
 
 /// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
@@ -220,11 +222,9 @@ void Path::choose_chances(const SurfacePoint& point) {
   for (const float weight : chances_) sum += weight;
   if (!(sum > 0.0f)) return;
   int count = 0;
-  for (float& weight : chances_) {
-    weight /= sum;
-    if (weight > 0.01f) ++count;
-  }
-  for (float& weight : chances_) weight = 0.5f * weight + (weight > 0.01f ? 0.5f / static_cast<float>(count) : 0.0f);
+  for (const float weight : chances_) count += weight > 0.01f * sum;
+  const float share = 0.5f / sum, evenly = 0.5f / static_cast<float>(count);
+  for (float& weight : chances_) weight = share * weight + (weight > 0.01f * sum ? evenly : 0.0f);
 }
 
 void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer) {
@@ -329,7 +329,12 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     }
     const glm::vec3 to_viewer = -ray.direction;
     choose_chances(point);
+    // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
+    // than it costs.
+    looks_alone_ =
+        edge > 2 && edge + 1 == settings_.longest && is_rough(point.surface) && world_.all_light_can_be_drawn();
     look_at_a_light(point, to_viewer);
+    if (looks_alone_) break;
     const Scattered scattered =
         point.in_smoke ? scatter_evenly(point.surface.diffuse, random_) : scatter(point.surface, to_viewer, random_);
     throughput_ *= scattered.weight;

@@ -19,6 +19,11 @@ struct Surface {
   float coat_alpha = 0.001f;
 };
 
+/// A diffuse base alone.
+inline bool is_rough(const Surface& surface) {
+  return surface.coat <= 0.0f && surface.f0.x + surface.f0.y + surface.f0.z <= 0.0f;
+}
+
 struct Scattering {
   glm::vec3 value{0.0f};  ///< Bidirectional reflectance times the cosine, 1/sr.
   float pdf = 0.0f;       ///< With which `scatter` would have drawn the direction, 1/sr.

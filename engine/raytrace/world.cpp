@@ -103,6 +103,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      placed.snowed_on,
                      placed.number,
                      stands,
+                     std::ranges::is_sorted(mesh.parts, {}, &scene::MeshPart::first_index),
                      {},
                      nullptr,
                      static_cast<std::uint32_t>(object)});
@@ -182,7 +183,10 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     low = glm::min(low, lower), high = glm::max(high, upper);
     const float before = lamp.triangle_count > 0 ? lamp.cumulative_area.back() : 0.0f;
     lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
-    lamp.cumulative_area.push_back(before + 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])));
+    const glm::vec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const float twice_area = glm::length(across);
+    lamp.cumulative_area.push_back(before + 0.5f * twice_area);
+    lamp.normals.push_back(across / std::max(twice_area, 1e-30f));
     ++lamp.triangle_count;
   }
   finish();
@@ -195,7 +199,8 @@ void World::add_lamps(const std::vector<Place>& places) {
   // The others are met by chance alone; where there are so many they are far or weak.
   const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
   std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
-  if (lamps_.size() > most_lamps) lamps_.resize(most_lamps);
+  all_lamps_are_drawn_ = lamps_.size() <= most_lamps;
+  if (!all_lamps_are_drawn_) lamps_.resize(most_lamps);
   for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
 }
 
@@ -206,10 +211,21 @@ World::Corners World::corners(const PlacedSurface& placed, std::uint32_t triangl
 
 const scene::SurfaceMaterial& World::material_of(const PlacedSurface& placed, std::uint32_t triangle) const {
   const std::uint32_t index = 3 * triangle;
-  for (const scene::MeshPart& part : placed.parts)
-    if (index >= part.first_index && index < part.first_index + part.index_count)
-      return part.material < scene_.materials.size() ? scene_.materials[part.material] : no_material_;
-  return no_material_;
+  const auto holds = [&](const scene::MeshPart& part) { return index - part.first_index < part.index_count; };
+  std::size_t n = 0;
+  if (placed.parts_in_row) {
+    // The last that begins before it.
+    for (std::size_t count = placed.parts.size(); count > 1;) {
+      const std::size_t half = count / 2;
+      n += placed.parts[n + half].first_index <= index ? half : 0;
+      count -= half;
+    }
+  } else {
+    while (n < placed.parts.size() && !holds(placed.parts[n])) ++n;
+  }
+  if (n >= placed.parts.size() || !holds(placed.parts[n]) || placed.parts[n].material >= scene_.materials.size())
+    return no_material_;
+  return scene_.materials[placed.parts[n].material];
 }
 
 /// Between four texels; the image repeats.
@@ -244,7 +260,6 @@ glm::vec4 World::texel(const scene::SurfaceMaterial& material, const glm::vec2& 
 /// Share of a surface's light that the soot on it takes, between the eight cells around.
 float World::soot(const glm::vec3& position_m) const {
   const instant::SootField& field = instant_.soot;
-  if (field.cover.empty()) return 0.0f;
   const glm::vec3 at((inverse(field.world_from_field) * (origin_m_ + Vec3(position_m))) / field.cell_m - 0.5);
   const glm::vec3 low = glm::floor(at), share = at - low;
   const glm::vec3 end(field.nx - 1, field.ny - 1, field.nz - 1);
@@ -273,11 +288,13 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   point.place = hit.place;
   const glm::vec3 &a = at.a->position_m, &b = at.b->position_m, &c = at.c->position_m;
   // From the corners, not along the ray: a far hit's distance has fewer digits.
-  point.position_m = placed.origin_m + placed.turn * (w * a + hit.u * b + hit.v * c);
-  point.flat_normal = placed.normal_turn * glm::cross(b - a, c - a);
+  point.position_m = placed.origin_m + placed.turned(w * a + hit.u * b + hit.v * c);
+  const glm::vec3 across = glm::cross(b - a, c - a);
+  point.flat_normal = placed.is_turned ? placed.normal_turn * across : across;
   const float area = glm::length(point.flat_normal);
   point.flat_normal = area > 0.0f ? point.flat_normal / area : -ray.direction;
-  glm::vec3 normal = placed.normal_turn * (w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal);
+  glm::vec3 normal = w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal;
+  if (placed.is_turned) normal = placed.normal_turn * normal;
   const float length = glm::length(normal);
   normal = length > 1e-12f ? normal / length : point.flat_normal;
   point.from_front = glm::dot(point.flat_normal, ray.direction) < 0.0f;
@@ -296,8 +313,9 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
     return point;
   }
 
-  const glm::vec2 uv = in_image(placed, material, w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv);
   const bool textured = material.base_color_image >= 0;
+  glm::vec2 uv = w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
+  if (material.picture_columns > 1 || material.picture_rows > 1) uv = in_image(placed, material, uv);
   glm::vec3 base = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
   glm::vec3 image(1.0f);
   point.opacity = material.opacity;
@@ -312,10 +330,10 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   const glm::vec3 color = base;
   const float share_of_sky = point.share_of_sky = material.share_of_sky * placed.share_of_sky;
   const Environment& weather = instant_.environment;
-  lay_snow(placed, material, uv, normal.z, share_of_sky, base);
+  if (weather.snow_cover > 0.0) lay_snow(placed, material, uv, normal.z, share_of_sky, base);
   const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
   base *= 1.0f - 0.55f * wet;
-  base *= 1.0f - soot(point.position_m);
+  if (!instant_.soot.cover.empty()) base *= 1.0f - soot(point.position_m);
 
   point.retroreflection = color * (material.retroreflection * (material.stripe ? 1.0f - 0.8f * wet : 1.0f));
   Surface& surface = point.surface;
@@ -356,7 +374,6 @@ glm::vec3 World::fog_radiance(const glm::vec3& direction) const {
 void World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
                      float share_of_sky, glm::vec3& albedo) const {
   const auto cover = static_cast<float>(instant_.environment.snow_cover);
-  if (!(cover > 0.0f)) return;
   float snow = step_between(0.35f, 0.8f, up);
   if (&material != &no_material_ && cut_[static_cast<std::size_t>(&material - scene_.materials.data())]) {
     albedo = glm::mix(albedo, glm::vec3(0.11f, 0.09f, 0.07f) * (0.4f + 2.0f * albedo.g), 0.9f * cover);

@@ -43,6 +43,7 @@ struct Lamp {
   std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
   std::vector<glm::vec3> corners_m;    ///< Three a triangle.
   std::vector<float> cumulative_area;  ///< m².
+  std::vector<glm::vec3> normals;      ///< One a triangle.
   glm::vec3 middle_m{0.0f};
   float radius_m = 0.0f;
   float power = 0.0f;        ///< Area times luminance.
@@ -78,6 +79,8 @@ class World : public Openings {
   }
   const instant::Instant& instant() const { return instant_; }
   const std::vector<Lamp>& lamps() const { return lamps_; }
+  /// Nothing shines that can only be met by chance.
+  bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
   const Smoke& smoke() const { return smoke_; }
   const Vec3& origin_m() const { return origin_m_; }  ///< World.
@@ -107,9 +110,13 @@ class World : public Openings {
     bool snowed_on = true;
     std::uint32_t number = 0;          ///< Of its participant.
     bool stands = false;               ///< An instance of the scene: not a part of a participant, nor loose.
+    bool parts_in_row = true;          ///< Each begins behind the one before.
     std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
     const ClearBody* body = nullptr;
     std::uint32_t object = 0;  ///< TracedPixel::object.
+    bool is_turned = turn != glm::mat3(1.0f);
+
+    glm::vec3 turned(const glm::vec3& way) const { return is_turned ? turn * way : way; }
   };
   struct Corners {
     const scene::SurfaceVertex *a, *b, *c;
@@ -141,6 +148,7 @@ class World : public Openings {
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<Lamp> lamps_;
+  bool all_lamps_are_drawn_ = true;
   std::vector<bool> cut_;  ///< For each material, whether its image has holes.
   scene::SurfaceMaterial no_material_;
 };
