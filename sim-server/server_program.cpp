@@ -24,6 +24,7 @@
 #include "program/stop_signal.hpp"
 #include "sim-server/drive/can_seat.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/drive_sound.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/operator_desk.hpp"
@@ -335,6 +336,9 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     if (desk) desk->tell(text);
   };
   environment.show = [&](const std::string& text) { progress.message(text); };
+  if (rig.sound && !options.lockstep && !options.no_screens)
+    environment.hear = drive_sound(rig, drive.live ? &drive.loaded.model->car : nullptr,
+                                   drive.session ? &*drive.session : nullptr, drive.store, environment.message);
   ServeResult result;
   std::vector<HostedScreen> screens;
   if (!endpoint) {

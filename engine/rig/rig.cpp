@@ -199,6 +199,16 @@ Can read_can(const toml::table& table, std::string_view file, Error& error) {
   return can;
 }
 
+Sound read_sound(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "sound", error);
+  Sound sound;
+  sound.device = reader.get_string("device", "");
+  sound.speakers = static_cast<Sound::Speakers>(reader.get_choice("speakers", 0, {"stereo", "5.1", "headphones"}));
+  sound.volume_db = reader.get_double("volume_db", sound.volume_db, -60.0, 40.0);
+  reader.finish(documented_in);
+  return sound;
+}
+
 /// Somebody's keyboard must reach the car, where the rig says that one does.
 void check_keyboard(const Rig& rig, TableReader& reader) {
   const std::string& name = rig.car.keyboard_screen;
@@ -251,6 +261,7 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   if (const auto* table = reader.get_table("network")) rig.network = read_network(*table, name, error);
   if (const auto* table = reader.get_table("car")) rig.car = read_car(*table, name, error);
   if (const auto* table = reader.get_table("can")) rig.can = read_can(*table, name, error);
+  if (const auto* table = reader.get_table("sound")) rig.sound = read_sound(*table, name, error);
   if (rig.car.source == CarSource::can && (!rig.can || !rig.car.machine.empty()))
     reader.report("car", "car.source is \"can\", and the rig has no CAN bus at the server's own machine",
                   "add a [can] table, and leave car.machine out");

@@ -115,6 +115,13 @@ struct Can {
   std::vector<CanSignal> signals;
 };
 
+/// Where the driver hears the drive, at the server's own machine.
+struct Sound {
+  std::string device;  ///< OpenAL's name of it; empty: the usual one.
+  enum class Speakers : std::uint8_t { stereo, surround_51, headphones } speakers = Speakers::stereo;
+  double volume_db = 0.0;  ///< 0: full scale is a pressure of 1 Pa.
+};
+
 struct Rig {
   std::string name;
   Vec3 eye_point_m{0.0};
@@ -122,6 +129,7 @@ struct Rig {
   Network network;
   Car car;
   std::optional<Can> can;
+  std::optional<Sound> sound;
 };
 
 /// The screens whose keyboard or gamepad drives: none unless the rig's car is driven so.

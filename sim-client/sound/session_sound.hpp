@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/audio/heard.hpp"
-#include "engine/instant/scene_summary.hpp"
 #include "logging/session_reader.hpp"
 
 namespace septet::sound {
@@ -13,7 +12,6 @@ namespace septet::sound {
 audio::CarSound car_sound_of(const logging::SessionInfo& info);
 
 /// The tunnels: boxes of the scene that see no sky.
-std::vector<audio::EchoBox> echo_boxes(const instant::SceneSummary& scene);
 Expected<std::vector<audio::EchoBox>> echo_boxes_of(const logging::SessionReader& session);
 
 }  // namespace septet::sound

@@ -52,6 +52,8 @@ struct ServeEnvironment {
   /// Called again and again, also while the world stands still, with the newest tick (null before the first) and what is going on: for
   /// whoever looks on. It never waits.
   std::function<void(const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what)> attend;
+  /// Each tick as it is taken, for whoever makes it heard. It never waits.
+  std::function<void(const std::shared_ptr<const TakenSnapshot>&)> hear;
   /// Whether the operator wants the world to stand still; asked after `attend`.
   std::function<bool()> is_paused;
   /// The list of allowed clients, where it has changed.

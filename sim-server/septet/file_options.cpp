@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "car-io/devices/device_list.hpp"
 #include "program/command_line.hpp"
 #include "sim-server/command/list_command.hpp"
 #include "sim-server/command/rig_command.hpp"
@@ -30,6 +31,15 @@ void add_file_commands(CLI::App& app, Options& options) {
   auto* list_command = app.add_subcommand("list", "What there is to choose from, a line each");
   list_command->add_option("kind", options.kind, "What of")->required()->check(CLI::IsMember(listed_kinds()));
   list_command->callback([&] { options.work = [&] { return run_list(options.kind); }; });
+
+  auto* devices_command =
+      app.add_subcommand("devices", "What is connected that a rig may use, and what to do where it may not be opened");
+  devices_command->callback([&] {
+    options.work = []() -> Expected<int> {
+      std::cout << car_io::device_table(car_io::list_devices("/sys", "/dev")) << std::flush;
+      return 0;
+    };
+  });
 
   auto* check_command = app.add_subcommand("check", "Say what is wrong with files; exit status 1: a file has an error");
   check_command

@@ -44,6 +44,6 @@ void add_drive_commands(CLI::App& app, Options& options);       ///< drive, repl
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
 void add_session_commands(CLI::App& app, Options& options);     ///< session.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.
-void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, check.
+void add_file_commands(CLI::App& app, Options& options);        ///< road, rig, list, devices, check.
 
 }  // namespace septet::server

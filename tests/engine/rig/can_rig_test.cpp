@@ -41,4 +41,15 @@ TEST_CASE("a CAN bus that cannot be is refused with its place") {
   }
 }
 
+TEST_CASE("a rig says whether and where its drive is heard") {
+  CHECK_FALSE(read_rig(with(""), "r")->sound.has_value());
+  const auto usual = read_rig(with("[sound]\n"), "r");
+  CHECK((usual->sound->device.empty() && usual->sound->speakers == Sound::Speakers::stereo));
+  const auto car = read_rig(with("[sound]\ndevice = \"hw\"\nspeakers = \"5.1\"\nvolume_db = -6\n"), "r");
+  CHECK((car->sound->device == "hw" && car->sound->speakers == Sound::Speakers::surround_51 &&
+         car->sound->volume_db == -6.0));
+  CHECK(read_rig(with("[sound]\nspeakers = \"7.1\"\n"), "r").error().remedy ==
+        "choose one of: stereo, 5.1, headphones");
+}
+
 }  // namespace septet::rig

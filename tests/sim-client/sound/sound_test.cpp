@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "sim-client/frame/car_sound.hpp"
 #include "sim-client/sound/session_sound.hpp"
 #include "sim-client/sound/sound_program.hpp"
 #include "sim-client/sound/wav_file.hpp"
@@ -106,7 +107,7 @@ TEST_CASE("What cannot be heard is refused with a word and leaves no file") {
 TEST_CASE("Only what lets less than half of the sky in echoes") {
   instant::SceneSummary scene;
   scene.roofs = {{{}, {0, 0, 0}, {10, 10, 6}, 0.0f}, {{}, {0, 0, 0}, {10, 10, 6}, 0.8f}};
-  CHECK(echo_boxes(scene).size() == 1);
+  CHECK(frame::echo_boxes(scene).size() == 1);
 }
 
 }  // namespace septet::sound

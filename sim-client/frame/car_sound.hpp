@@ -1,0 +1,18 @@
+#pragma once
+/// What sound needs to know besides the ticks: the driver's car, and where it echoes.
+
+#include <vector>
+
+#include "engine/audio/heard.hpp"
+#include "engine/instant/scene_summary.hpp"
+#include "engine/physics/vehicle/vehicle_parameters.hpp"
+
+namespace septet::frame {
+
+/// `ear_m`: vehicle frame.
+audio::CarSound car_sound(const vehicle::VehicleParameters& vehicle, const Vec3& ear_m);
+
+/// The tunnels: boxes of the scene that see no sky.
+std::vector<audio::EchoBox> echo_boxes(const instant::SceneSummary& scene);
+
+}  // namespace septet::frame

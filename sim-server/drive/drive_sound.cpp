@@ -1,0 +1,33 @@
+#include "sim-server/drive/drive_sound.hpp"
+
+#include <utility>
+
+#include "engine/instant/scene_summary.hpp"
+#include "engine/physics/vehicle/read_vehicle.hpp"
+#include "engine/scene/resolve.hpp"
+#include "sim-client/frame/car_sound.hpp"
+#include "sim-server/host/live_sound.hpp"
+
+namespace septet::server {
+
+std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
+    const rig::Rig& rig, const vehicle::VehicleParameters* car, const logging::SessionReader* session,
+    const scene::Store& store, std::function<void(const std::string&)> message) {
+  audio::CarSound sound{.ear_m = rig.eye_point_m};
+  if (car) sound = frame::car_sound(*car, rig.eye_point_m);
+  if (session)
+    for (const auto& source : session->info().files) {
+      if (source.role != "vehicle") continue;
+      const auto driven = vehicle::read_vehicle(source.content, source.name);
+      if (driven) sound = frame::car_sound(*driven, rig.eye_point_m);
+    }
+  auto boxes = frame::echo_boxes(instant::summarise(scene::resolve(store)));
+  const auto live = std::make_shared<LiveSound>(
+      SoundFeeder(device_opener(rig.sound.value_or(rig::Sound{})), sound, std::move(boxes)));
+  return [live, message = std::move(message)](const std::shared_ptr<const TakenSnapshot>& tick) {
+    live->add(tick);
+    while (const auto text = live->take_message()) message(*text);
+  };
+}
+
+}  // namespace septet::server

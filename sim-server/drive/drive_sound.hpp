@@ -1,0 +1,22 @@
+#pragma once
+/// The sound of a drive, or of a session that is shown again, as the rig's [sound] asks for it.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/physics/vehicle/vehicle_parameters.hpp"
+#include "engine/rig/rig.hpp"
+#include "engine/scene/store.hpp"
+#include "engine/world/taken_snapshot.hpp"
+#include "logging/session_reader.hpp"
+
+namespace septet::server {
+
+/// Hands each tick to a thread that plays (host/live_sound.hpp). `car`: that is driven, or null; then `session` says which one it was. The
+/// scene says where it echoes. `message`: is there a device, is it lost.
+std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
+    const rig::Rig& rig, const vehicle::VehicleParameters* car, const logging::SessionReader* session,
+    const scene::Store& store, std::function<void(const std::string&)> message);
+
+}  // namespace septet::server

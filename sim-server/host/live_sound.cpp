@@ -1,0 +1,219 @@
+#include "sim-server/host/live_sound.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <dlfcn.h>
+#include <fmt/core.h>
+
+#include "engine/audio/sound_stage.hpp"
+
+namespace septet::server {
+namespace {
+
+// A block is a tick, 8.3 ms.
+constexpr std::size_t blocks_kept_ahead = 3;
+constexpr std::size_t most_waiting = 6;
+constexpr double silent_after_s = 0.1;
+constexpr double stalled_after_s = 0.25;
+constexpr double retry_s = 2.0, check_every_s = 1.0;
+
+class StageOutput final : public SoundOutput {
+ public:
+  explicit StageOutput(audio::SoundStage stage) : stage_(std::move(stage)) {}
+  void put(std::span<const audio::Voice> voices, double tunnel) override { stage_.put(voices, tunnel); }
+  std::size_t blocks_ahead() override { return stage_.blocks_ahead(); }
+  bool is_connected() override { return stage_.is_connected(); }
+  std::uint64_t starved() const override { return stage_.starved(); }
+  const std::string& name() const override { return stage_.name(); }
+
+ private:
+  audio::SoundStage stage_;
+};
+
+void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+
+/// What there is to say of a missing device is said by us, once; ALSA and OpenAL print a page at every try. ALSA is loaded by OpenAL, not
+/// linked. Called before the thread that plays begins.
+void quiet_sound_libraries() {
+  setenv("ALSOFT_LOGLEVEL", "0", 0);
+  void* alsa = dlopen("libasound.so.2", RTLD_NOW);  // Kept: the handler is its own.
+  using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
+  if (void* set = alsa ? dlsym(alsa, "snd_lib_error_set_handler") : nullptr)
+    reinterpret_cast<int (*)(Handler)>(set)(say_nothing);
+}
+
+}  // namespace
+
+OpenSoundOutput device_opener(const rig::Sound& sound) {
+  quiet_sound_libraries();
+  using Speakers = rig::Sound::Speakers;
+  const audio::StageOptions options{
+      .speakers = sound.speakers == Speakers::surround_51 ? audio::Speakers::surround_51 : audio::Speakers::stereo,
+      .headphones = sound.speakers == Speakers::headphones,
+      .volume_db = sound.volume_db};
+  return [options, device = sound.device]() -> Expected<std::unique_ptr<SoundOutput>> {
+    auto stage = audio::SoundStage::open_device(options, device);
+    if (!stage) return tl::unexpected(stage.error());
+    return std::make_unique<StageOutput>(std::move(*stage));
+  };
+}
+
+SoundFeeder::SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes)
+    : open_(std::move(open)), state_(audio::start(car, Random(1))), boxes_(std::move(boxes)) {}
+
+void SoundFeeder::tell(std::string text) {
+  if (text == last_told_) return;
+  last_told_ = text;
+  if (messages_.size() < 16) messages_.push_back(std::move(text));
+}
+
+std::optional<std::string> SoundFeeder::take_message() {
+  if (messages_.empty()) return std::nullopt;
+  std::string text = std::move(messages_.front());
+  messages_.pop_front();
+  return text;
+}
+
+SoundFeeder::Counts SoundFeeder::counts() const {
+  Counts counts = counts_;
+  if (output_) counts.starved += output_->starved();
+  return counts;
+}
+
+void SoundFeeder::add(std::shared_ptr<const TakenSnapshot> tick, double now_s) {
+  came_s_ = now_s;
+  waiting_.push_back(std::move(tick));
+  for (; waiting_.size() > most_waiting; waiting_.pop_front()) ++counts_.left_out;
+}
+
+bool SoundFeeder::is_open(double now_s) {
+  if (output_) return true;
+  if (next_try_s_ && now_s < *next_try_s_) return false;
+  next_try_s_ = now_s + retry_s;
+  auto opened = open_();
+  if (!opened) {
+    tell("no sound: " + describe(opened.error()));
+    return false;
+  }
+  output_ = std::move(*opened);
+  played_s_ = checked_s_ = now_s;
+  ahead_ = 0;
+  tell("sound: " + output_->name());
+  return true;
+}
+
+void SoundFeeder::lose(double now_s, const std::string& why) {
+  counts_.starved += output_->starved();
+  ++counts_.lost;
+  tell(fmt::format("no sound: {} {}; it is opened again by itself", output_->name(), why));
+  output_.reset();
+  next_try_s_ = now_s + retry_s;
+}
+
+void SoundFeeder::feed(double now_s) {
+  if (!waiting_.empty()) {
+    HeardTick now{std::move(waiting_.front()), {}};
+    waiting_.pop_front();
+    // What comes from a log has its participants as integers.
+    if (now.tick->snapshot().participants.empty()) now.decoded = from_wire(now.tick->wire());
+    // Behind a gap nothing is told from the step between two ticks.
+    const bool follows = before_.tick && now.snapshot().tick == before_.snapshot().tick + 1;
+    heard_ = audio::hear(now.snapshot(), follows ? &before_.snapshot() : nullptr, state_.car, boxes_);
+    before_ = std::move(now);
+  } else {
+    ++counts_.repeated;
+    if (!came_s_ || now_s - *came_s_ > silent_after_s) heard_ = {};
+    heard_.car.blow_mps = 0.0;
+    heard_.car.pieces = 0;
+    for (auto& other : heard_.others) other.blow_mps = 0.0;
+  }
+  audio::render(state_, heard_, voices_);
+  output_->put(voices_, heard_.car.tunnel);
+  ++counts_.blocks;
+}
+
+void SoundFeeder::pump(double now_s) {
+  if (!is_open(now_s)) return waiting_.clear();
+  if (now_s - checked_s_ > check_every_s) {
+    checked_s_ = now_s;
+    if (!output_->is_connected()) return lose(now_s, "was disconnected");
+  }
+  std::size_t ahead = output_->blocks_ahead();
+  if (ahead < ahead_ || ahead == 0) played_s_ = now_s;
+  if (now_s - played_s_ > stalled_after_s) return lose(now_s, "plays nothing any more");
+  for (; ahead < blocks_kept_ahead; ++ahead) feed(now_s);
+  ahead_ = ahead;
+}
+
+struct LiveSound::State {
+  explicit State(SoundFeeder taken) : feeder(std::move(taken)) {}
+
+  static double now_s() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+  void run() {
+    std::unique_lock lock(mutex);
+    std::deque<std::shared_ptr<const TakenSnapshot>> taken;
+    while (!stopping) {
+      taken.swap(arrived);
+      // Opening a device may take seconds: nobody who adds a tick waits for it.
+      lock.unlock();
+      for (auto& tick : taken) feeder.add(std::move(tick), now_s());
+      taken.clear();
+      feeder.pump(now_s());
+      auto message = feeder.take_message();
+      lock.lock();
+      counts = feeder.counts();
+      if (message) messages.push_back(std::move(*message));
+      changed.wait_for(lock, std::chrono::milliseconds(4), [&] { return stopping; });
+    }
+  }
+
+  SoundFeeder feeder;  ///< Of the thread alone.
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  bool stopping = false;
+  std::deque<std::shared_ptr<const TakenSnapshot>> arrived;
+  std::deque<std::string> messages;
+  SoundFeeder::Counts counts;
+  std::thread thread;
+};
+
+LiveSound::LiveSound(SoundFeeder feeder) : state_(std::make_unique<State>(std::move(feeder))) {
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+LiveSound::~LiveSound() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->stopping = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+void LiveSound::add(std::shared_ptr<const TakenSnapshot> tick) {
+  const std::lock_guard lock(state_->mutex);
+  state_->arrived.push_back(std::move(tick));
+  if (state_->arrived.size() > most_waiting) state_->arrived.pop_front();
+}
+
+std::optional<std::string> LiveSound::take_message() {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->messages.empty()) return std::nullopt;
+  std::string text = std::move(state_->messages.front());
+  state_->messages.pop_front();
+  return text;
+}
+
+SoundFeeder::Counts LiveSound::counts() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->counts;
+}
+
+}  // namespace septet::server

@@ -1,0 +1,97 @@
+#pragma once
+/// The drive's sound while it is driven: ticks in, blocks of sound to a device out, one each.
+///
+/// A tick that is late is heard as the one before; where none has come for 100 ms (a pause, a server that hangs) the sound fades. Ticks that
+/// come faster than the device plays are left out, which is not heard: what goes on from block to block is the synthesis' own. A device that
+/// is not there, is lost, or plays nothing any more although it says that it is there is told once and opened again every two seconds;
+/// the drive goes on without sound.
+///
+/// `SoundFeeder` has no thread and no clock; `LiveSound` runs one in a thread of its own. OpenAL has one current context a process.
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/audio/soundtrack.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/rig/rig.hpp"
+#include "engine/world/taken_snapshot.hpp"
+
+namespace septet::server {
+
+/// What plays: an audio::SoundStage on a device, or a test.
+class SoundOutput {
+ public:
+  virtual ~SoundOutput() = default;
+  virtual void put(std::span<const audio::Voice> voices, double tunnel) = 0;
+  virtual std::size_t blocks_ahead() = 0;
+  virtual bool is_connected() = 0;
+  virtual std::uint64_t starved() const = 0;
+  virtual const std::string& name() const = 0;
+};
+using OpenSoundOutput = std::function<Expected<std::unique_ptr<SoundOutput>>()>;
+
+OpenSoundOutput device_opener(const rig::Sound& sound);
+
+class SoundFeeder {
+ public:
+  SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes);
+
+  void add(std::shared_ptr<const TakenSnapshot> tick, double now_s);
+  /// Keeps the device fed; call it every few milliseconds.
+  void pump(double now_s);
+  /// What a person should know since the last call.
+  std::optional<std::string> take_message();
+
+  struct Counts {
+    std::uint64_t blocks = 0, repeated = 0, left_out = 0, starved = 0, lost = 0;
+  };
+  Counts counts() const;
+
+ private:
+  bool is_open(double now_s);
+  void lose(double now_s, const std::string& why);
+  void feed(double now_s);
+  void tell(std::string text);
+
+  OpenSoundOutput open_;
+  audio::State state_;
+  std::vector<audio::EchoBox> boxes_;
+  std::unique_ptr<SoundOutput> output_;
+  std::optional<double> next_try_s_, came_s_;
+  double played_s_ = 0.0;  ///< When the device last took a block from its queue.
+  std::size_t ahead_ = 0;  ///< Blocks in its queue when it was last looked at.
+  double checked_s_ = 0.0;
+  std::deque<std::shared_ptr<const TakenSnapshot>> waiting_;
+  struct HeardTick {
+    std::shared_ptr<const TakenSnapshot> tick;
+    std::optional<Snapshot> decoded;
+    const Snapshot& snapshot() const { return decoded ? *decoded : tick->snapshot(); }
+  };
+  HeardTick before_;
+  audio::Heard heard_;
+  std::vector<audio::Voice> voices_;
+  Counts counts_;
+  std::deque<std::string> messages_;
+  std::string last_told_;
+};
+
+class LiveSound {
+ public:
+  explicit LiveSound(SoundFeeder feeder);
+  ~LiveSound();
+  void add(std::shared_ptr<const TakenSnapshot> tick);
+  std::optional<std::string> take_message();
+  SoundFeeder::Counts counts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::server

@@ -1,0 +1,168 @@
+#include "sim-server/host/live_sound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+namespace septet::server {
+namespace {
+
+/// A loudspeaker on simulated time: it plays a block every 1/120 s while it is well.
+struct Loudspeaker {
+  std::size_t queued = 0;
+  std::uint64_t starved = 0;
+  double loudest_pa = 0.0;  ///< Of the last block.
+  bool is_there = true, is_connected = true, is_playing = true;
+  int opened = 0;
+
+  OpenSoundOutput opener() {
+    return [this]() -> Expected<std::unique_ptr<SoundOutput>> {
+      if (!is_there) return failure("there is no sound device that can be opened", "the usual one", "connect one");
+      ++opened;
+      queued = 0;
+      return std::make_unique<Output>(*this);
+    };
+  }
+  void play_block() {
+    if (!is_playing) return;
+    if (queued == 0)
+      ++starved;
+    else
+      --queued;
+  }
+
+ private:
+  struct Output final : SoundOutput {
+    explicit Output(Loudspeaker& of) : speaker(of) {}
+    void put(std::span<const audio::Voice> voices, double) override {
+      ++speaker.queued;
+      speaker.loudest_pa = 0.0;
+      for (const auto& voice : voices)
+        for (const float sample : voice.samples)
+          speaker.loudest_pa = std::max(speaker.loudest_pa, std::abs(static_cast<double>(sample)));
+    }
+    std::size_t blocks_ahead() override { return speaker.queued; }
+    bool is_connected() override { return speaker.is_connected; }
+    std::uint64_t starved() const override { return speaker.starved; }
+    const std::string& name() const override { return label; }
+    Loudspeaker& speaker;
+    std::string label = "test speaker";
+  };
+};
+
+constexpr double tick_s = 1.0 / 120.0;
+
+/// A second of feeder, device and, where they go on, ticks of a car at 30 m/s.
+struct Drive {
+  explicit Drive(Loudspeaker& of) : speaker(of), feeder(of.opener(), {}, {}) {}
+
+  void run(double seconds, int ticks_each = 1) {
+    const auto count = static_cast<int>(std::lround(seconds / tick_s));
+    for (int i = 0; i < count; ++i, now_s += tick_s) {
+      for (int t = 0; t < ticks_each; ++t) {
+        Snapshot snapshot;
+        snapshot.tick = ++tick;
+        snapshot.simulated_time_s = static_cast<double>(tick) * tick_s;
+        snapshot.driver_car = {.participant = 1, .speed_mps = 30.0, .engine_radps = 300.0, .gear = 4};
+        snapshot.participants.push_back({.id = 1, .velocity_mps = Vec3(30.0, 0.0, 0.0), .wheel_spin_radps = 90.0});
+        feeder.add(std::make_shared<const TakenSnapshot>(std::move(snapshot)), now_s);
+      }
+      feeder.pump(now_s);
+      speaker.play_block();
+    }
+  }
+
+  Loudspeaker& speaker;
+  SoundFeeder feeder;
+  double now_s = 0.0;
+  Tick tick = 0;
+};
+
+}  // namespace
+
+TEST_CASE("every block that the device plays is of a tick and none is missing") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(2.0);
+  CHECK(drive.feeder.take_message() == "sound: test speaker");
+  CHECK_FALSE(drive.feeder.take_message().has_value());
+  CHECK(speaker.starved == 0);
+  CHECK(speaker.loudest_pa > 0.01);
+  const auto counts = drive.feeder.counts();
+  CHECK(counts.blocks >= 240);
+  CHECK(counts.repeated <= 3);  // To begin with.
+  CHECK(counts.left_out == 0);
+}
+
+TEST_CASE("ticks that come faster than they are played are left out and the sound stays close behind") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(1.0, 2);
+  CHECK(drive.feeder.counts().left_out > 100);
+  CHECK(speaker.queued <= 3);
+}
+
+TEST_CASE("a pause fades the sound and the next tick brings it back") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(1.0);
+  drive.run(0.05, 0);
+  CHECK(speaker.loudest_pa > 0.01);
+  drive.run(2.0, 0);
+  CHECK(speaker.loudest_pa < 0.002);
+  CHECK(speaker.starved == 0);
+  drive.run(0.5);
+  CHECK(speaker.loudest_pa > 0.01);
+}
+
+TEST_CASE("without a device the drive goes on and that is said once and a device that comes plays") {
+  Loudspeaker speaker;
+  speaker.is_there = false;
+  Drive drive(speaker);
+  drive.run(10.0);
+  CHECK(drive.feeder.take_message().value().starts_with("no sound: the usual one"));
+  CHECK_FALSE(drive.feeder.take_message().has_value());
+  speaker.is_there = true;
+  drive.run(2.5);
+  CHECK(drive.feeder.take_message() == "sound: test speaker");
+  CHECK(speaker.loudest_pa > 0.01);
+}
+
+TEST_CASE("a device that is pulled out is told and opened again within two seconds or so") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(1.0);
+  drive.feeder.take_message();
+  speaker.is_connected = false;
+  drive.run(1.1);
+  CHECK(drive.feeder.take_message() == "no sound: test speaker was disconnected; it is opened again by itself");
+  speaker.is_connected = true;
+  drive.run(2.1);
+  CHECK(drive.feeder.take_message() == "sound: test speaker");
+  CHECK(speaker.opened == 2);
+}
+
+TEST_CASE("a device whose callback has stopped is noticed within 300 ms although it says that it is there") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(1.0);
+  drive.feeder.take_message();
+  speaker.is_playing = false;
+  drive.run(0.2);
+  CHECK_FALSE(drive.feeder.take_message().has_value());
+  drive.run(0.1);
+  CHECK(drive.feeder.take_message() == "no sound: test speaker plays nothing any more; it is opened again by itself");
+  CHECK(drive.feeder.counts().lost == 1);
+  speaker.is_playing = true;
+  drive.run(2.2);
+  CHECK(speaker.opened == 2);
+}
+
+}  // namespace septet::server
