@@ -12,6 +12,7 @@
 #include "engine/roadside/buildings.hpp"
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
+#include "engine/roadside/signals.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 
 namespace septet::roadside {
@@ -50,6 +51,8 @@ Make make_of(ObstacleKind kind) {
       return {0.80, endless_m, 0.20, 40.0};
     case ObstacleKind::house:
       return {0.05, endless_m, 0.45, 0.0};
+    case ObstacleKind::post:
+      return {signal_post_radius_m, 4.0, 0.30, 0.0};
   }
   return {0.1, 1.0, 0.4, 0.0};
 }
@@ -201,6 +204,12 @@ void add_gantries(const RoadShape& roads, Builder& builder) {
     }
 }
 
+void add_signals(const RoadShape& roads, Builder& builder) {
+  for (const StandingSignal& standing : standing_signals(roads))
+    if (standing.has_post)
+      builder.point(ObstacleKind::post, standing.world_from_signal.position_m, make_of(ObstacleKind::post).radius_m);
+}
+
 void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
   for (const Tree& tree : planted_trees(terrain, seed))
     builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
@@ -238,6 +247,7 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
   add_walls_and_posts(roads, tiles, builder);
   add_tunnels(roads, tiles, builder);
   add_gantries(roads, builder);
+  add_signals(roads, builder);
   add_land(roads, terrain_, seed, builder);
   close_ends();
   index();

@@ -26,6 +26,8 @@ std::string_view name_of(ObstacleKind kind) {
       return "bush";
     case ObstacleKind::house:
       return "house";
+    case ObstacleKind::post:
+      return "post";
   }
   return "";
 }

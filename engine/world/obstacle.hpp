@@ -24,6 +24,7 @@ enum class ObstacleKind : std::uint8_t {
   tree,
   bush,
   house,
+  post,  ///< Of a sign, a traffic light or a lamp.
 };
 
 /// "guard rail", "tree", …: for the log.

@@ -6,6 +6,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/roadside/obstacles.hpp"
+#include "engine/roadside/signals.hpp"
 #include "engine/scenery/world/sign_faces.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
@@ -157,7 +158,7 @@ void build_gantries(const WorldContext& world) {
       ++number;
     }
     for (const road::Signal& signal : road.signals) {
-      if (signal.name != "speed_display" && signal.type != "274") continue;
+      if (roadside::form_of(signal) != roadside::SignalForm::display) continue;
       const auto limit = static_cast<int>(std::lround(signal.value));
       const RigidTransform at = pose(signal.s_m, signal.t_m, signal.z_offset_m);
       const RigidTransform facing = signal.orientation == road::Orientation::against ? turned_round(at) : at;

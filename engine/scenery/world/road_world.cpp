@@ -39,6 +39,8 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   build_bridges(world);
   build_tunnels(world);
   build_gantries(world);
+  build_signals(world);
+  build_road_paint(world);
   if (options.vegetation) build_trees(world);
   if (options.buildings) build_buildings(world);
 }

@@ -41,7 +41,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 62> ground_looks{{
+constexpr std::array<WorldLook, 67> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -55,6 +55,7 @@ constexpr std::array<WorldLook, 62> ground_looks{{
     {"crack", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
     {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
+    {"paint", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"concrete", {0.56f, 0.55f, 0.53f}, Texture::concrete},
     {"concrete dark", {0.34f, 0.34f, 0.33f}, Texture::concrete},
     {"concrete tunnel", {0.42f, 0.42f, 0.42f}, Texture::concrete},
@@ -63,6 +64,9 @@ constexpr std::array<WorldLook, 62> ground_looks{{
     {"exit sign", {0.9f, 0.9f, 0.9f}, Texture::exit, 0.7f, 0.0f, {1.3f, 1.3f, 1.3f}},
     {"metal", {0.46f, 0.47f, 0.48f}, Texture::none, 0.62f},
     {"metal dark", {0.20f, 0.21f, 0.22f}, Texture::none, 0.65f},
+    {"lamp red", {0.10f, 0.010f, 0.008f}, Texture::none, 0.4f},
+    {"lamp amber", {0.40f, 0.20f, 0.02f}, Texture::none, 0.4f, 0.0f, {3.0f, 1.3f, 0.10f}},
+    {"lamp green", {0.008f, 0.055f, 0.040f}, Texture::none, 0.4f},
     {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f, 0.0f, {}, sheeting},
     {"post", {0.68f, 0.68f, 0.66f}, Texture::none, 0.7f},
     {"verge", {0.27f, 0.30f, 0.105f}, Texture::ground},
@@ -213,7 +217,8 @@ Palette add_world_finishes(scene::SceneBuilder& builder, std::uint64_t seed, boo
     material.metallic = look.metallic;
     material.emission = look.emission;
     material.retroreflection = look.retroreflection;
-    material.wettable = i <= index_of(Ground::mark) || i == index_of(Ground::far_asphalt);
+    material.wettable =
+        i <= index_of(Ground::mark) || i == index_of(Ground::paint) || i == index_of(Ground::far_asphalt);
     material.stripe = i == index_of(Ground::mark) || i == index_of(Ground::mark_tunnel);
     material.share_of_sky = is_in_tunnel(static_cast<Ground>(i)) ? 0.0f : 1.0f;
     palette.push_back(builder.add_material(std::string("world/") + look.name, material));

@@ -21,6 +21,7 @@ enum class Ground : std::uint32_t {
   crack,
   mark,
   mark_tunnel,
+  paint,  ///< As marks, for shapes that are no stripes.
   concrete,
   concrete_dark,
   concrete_tunnel,
@@ -29,6 +30,9 @@ enum class Ground : std::uint32_t {
   exit_sign,
   metal,
   metal_dark,
+  lamp_red,
+  lamp_amber,
+  lamp_green,
   reflector,
   post,
   verge,

@@ -11,7 +11,7 @@ namespace septet::scenery {
 namespace {
 
 // The motorway's 11 km take 110 squares, 173 km of lanes, 4,500 dashes and 10 MB on the wire.
-constexpr std::size_t most_squares = 1500, most_structures = 2000;
+constexpr std::size_t most_squares = 1500, most_structures = 2000, most_signals = 20'000;
 constexpr double most_lane_m = 2e7, most_dashes = 5e5;
 
 tl::unexpected<Error> too_large(std::string what) {
@@ -44,10 +44,11 @@ double dashes_of(const road::RoadMark& mark, double section_m) {
 }  // namespace
 
 Expected<void> check_world_size(const road::RoadNetwork& network, const RoadWorldOptions& options) {
-  std::size_t structures = 0;
+  std::size_t structures = 0, signals = 0;
   double lane_m = 0.0, dashes = 0.0;
   for (const road::Road& road : network.roads) {
     structures += road.structures.size();
+    signals += road.signals.size();
     for (const road::LaneSection& section : road.sections) {
       const double length = section.s_end_m - section.s_m;
       lane_m += length * static_cast<double>(section.lanes.size());
@@ -61,6 +62,7 @@ Expected<void> check_world_size(const road::RoadNetwork& network, const RoadWorl
     return too_large(fmt::format("its lines have {:.0f} dashes, more than {:.0f}", dashes, most_dashes));
   if (structures > most_structures)
     return too_large(fmt::format("it has {} bridges and tunnels, more than {}", structures, most_structures));
+  if (signals > most_signals) return too_large(fmt::format("it has {} signals, more than {}", signals, most_signals));
   if (count_squares(RoadShape(network, options.overrun_m)) > most_squares)
     return too_large(fmt::format("the land around it is larger than {:.0f} km²",
                                  static_cast<double>(most_squares) * land_tile_m * land_tile_m / 1e6));

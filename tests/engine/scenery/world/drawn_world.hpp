@@ -31,6 +31,9 @@ inline road::RoadNetwork third_party_road(const std::string& name) {
   return road::read_or_fail({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
+/// The road and what belongs to it alone.
+inline constexpr RoadWorldOptions bare{.vegetation = false, .buildings = false, .overrun_m = 0.0};
+
 struct DrawnTriangle {
   std::array<Vec3, 3> corners_m;
   std::string material;

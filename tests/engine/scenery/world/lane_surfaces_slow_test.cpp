@@ -18,8 +18,6 @@
 namespace septet::scenery {
 namespace {
 
-constexpr RoadWorldOptions bare{.vegetation = false, .buildings = false, .overrun_m = 0.0};
-
 scene::Store built(const road::RoadNetwork& network) {
   scene::Store store;
   scene::SceneBuilder builder(store);

@@ -26,7 +26,7 @@ TEST_CASE("the motorway's world can be built") {
   CHECK(check_world_size(read_or_fail(SmallRoad{}.xml())).has_value());
 }
 
-TEST_CASE("a network with more land, lanes, dashes or structures than a region is refused") {
+TEST_CASE("a network with more land, lanes, dashes, structures or signals than a region is refused") {
   CHECK(refusal(SmallRoad{.length_m = 1e6}.xml()) == "the land around it is larger than 6291 km²");
 
   std::string lanes;
@@ -48,6 +48,11 @@ TEST_CASE("a network with more land, lanes, dashes or structures than a region i
   for (int i = 0; i < 2001; ++i) tunnels += "<tunnel id=\"1\" s=\"1\" length=\"2\"/>";
   CHECK(refusal(replaced(SmallRoad{}.xml(), "</road>", "<objects>" + tunnels + "</objects></road>")) ==
         "it has 2001 bridges and tunnels, more than 2000");
+
+  std::string signals;
+  for (int i = 0; i < 20001; ++i) signals += "<signal id=\"1\" type=\"206\" s=\"1\" t=\"-5\"/>";
+  CHECK(refusal(replaced(SmallRoad{}.xml(), "</lanes>", "</lanes><signals>" + signals + "</signals>")) ==
+        "it has 20001 signals, more than 20000");
 }
 
 }  // namespace septet::scenery
