@@ -89,6 +89,7 @@ struct FrameInput {
   std::vector<DynamicMesh> meshes;
   std::vector<ice::IceBody> ice;           ///< To see through; a mesh of its shape that is not `seen` casts its shadow.
   std::uint32_t ice_surroundings_px = 64;  ///< Side of each of the six pictures of what lies around it.
+  bool ice_surroundings_kept = false;      ///< Those of the frame before do, where there are any: nothing has moved.
   std::vector<SmokePuff> smoke;
   SootField soot;
   std::vector<OverlayText> overlay;

@@ -78,6 +78,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
     instant.ice.push_back(std::move(body));
   }
   instant.ice_surroundings_px = input.ice_surroundings_px;
+  instant.ice_surroundings_kept = input.ice_surroundings_kept;
   instant.views = std::move(input.views);
   instant.smoke = std::move(input.smoke);
   instant.soot = std::move(input.soot);

@@ -45,6 +45,7 @@ struct Instant {
   std::vector<LooseMesh> loose;
   std::vector<ice::IceBody> ice;  ///< None without vertices.
   std::uint32_t ice_surroundings_px = 64;
+  bool ice_surroundings_kept = false;
   std::vector<LampGlow> lamps;  ///< That shine and are seen, for the glow around them.
   /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
   /// exposure there is less than a camera's. None whose pool cannot be seen.

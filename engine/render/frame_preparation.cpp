@@ -104,7 +104,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
-  frame.ice = ice_tiles(instant.ice, instant.views, width, height);
+  frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {
     frame.ice_upload = upload_ice(context, instant.ice);
     frame.around = surrounding_views(middle_of_ice(instant.ice, eye_m), instant.ice_surroundings_px);

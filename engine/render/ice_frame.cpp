@@ -5,15 +5,10 @@
 #include <vector>
 
 namespace septet::render {
+namespace {
 
-IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
-                            const Instant& instant, const IceFrame& frame) {
-  constexpr std::array<const char*, ice_image_count> names{
-      "ice front", "ice back",     "ice beyond",         "ice beyond back",  "ice inside",
-      "ice depth", "surroundings", "surroundings depth", "surroundings cube"};
-  IceResources resources{};
-  for (std::size_t i = 0; i < ice_image_count; ++i)
-    resources[i] = frame.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);
+void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, const IceResources& resources,
+                      const IceFrame& frame) {
   const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
   graph.add_pass("surroundings",
                  {frame.view_reads,
@@ -24,6 +19,21 @@ IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& cont
                  {{{resource(IceImage::around), Access::transfer_source}},
                   {{resource(IceImage::cube), Access::transfer_destination}}},
                  [&pass, &context] { copy_surroundings(pass, context); });
+}
+
+}  // namespace
+
+IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
+                            const Instant& instant, const IceFrame& frame) {
+  constexpr std::array<const char*, ice_image_count> names{
+      "ice front", "ice back",     "ice beyond",         "ice beyond back",  "ice inside",
+      "ice depth", "surroundings", "surroundings depth", "surroundings cube"};
+  IceResources resources{};
+  for (std::size_t i = 0; i < ice_image_count; ++i)
+    resources[i] = frame.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);
+  const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
+  const bool kept = instant.ice_surroundings_kept && pass.targets.accesses[std::size_t(IceImage::cube)] != Access::none;
+  if (!kept) add_surroundings(graph, pass, context, resources, frame);
   std::vector<ResourceUse> reads = frame.view_reads;
   const auto add_layer = [&](const char* name, IceImage layer) {
     std::vector<ResourceUse> writes{{resource(layer), Access::color_attachment}};

@@ -11,6 +11,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/effects/ice/air_pattern.hpp"
 #include "engine/instant/clouds.hpp"
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/graph/render_graph.hpp"
@@ -113,9 +114,10 @@ void Renderer::State::create(const RendererOptions& wanted) {
   sky_table = create_image(memory, table);
   vulkan::Upload upload(device, memory);
   constexpr std::uint32_t side = instant::cloud_noise_side;
-  std::vector<std::uint8_t> grey;
-  for (const std::uint8_t rank : instant::cloud_noise()) grey.insert(grey.end(), 4, rank);
-  noise = create_texture(upload, texture_levels(side, side, grey, false));
+  const std::vector<std::uint8_t> ranks = instant::cloud_noise(), air = ice::air_pattern(ranks, side);
+  std::vector<std::uint8_t> texels;
+  for (std::size_t i = 0; i < ranks.size(); ++i) texels.insert(texels.end(), {ranks[i], air[i], ranks[i], ranks[i]});
+  noise = create_texture(upload, texture_levels(side, side, texels, false));
   upload.finish();
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_glow_pass(glow_pass, device, layout, formats);
@@ -224,7 +226,8 @@ void Renderer::State::draw(const Instant& instant) {
   const PreparedFrame frame = prepare_frame(context, scene, instant, targets.width, targets.height);
   const bool new_text = lay_out(*overlay_pass, instant.overlay);
   const bool icy = !frame.ice.list.empty();
-  const IceTargetSizes ice_sizes{targets.width, targets.height, instant.ice_surroundings_px, frame.ice.beyond};
+  const IceTargetSizes ice_sizes{layer_px(targets.width), layer_px(targets.height), instant.ice_surroundings_px,
+                                 frame.ice.beyond};
   if (icy && !ice_targets_fit(ice_pass, ice_sizes)) {
     wait_for_frames(ring, device);
     prepare_ice_targets(ice_pass, context, ice_sizes);

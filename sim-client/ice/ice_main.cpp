@@ -45,6 +45,8 @@ int main(int argc, char** argv) {
       ->check(number_between(0.001, 10.0));
   app.add_option("--frost", options.look.roughness, "How white the cold has made the surface, 0: wet and clear")
       ->check(number_between(0.0, 1.0));
+  app.add_option("--wet", options.look.wetness, "How wet it is: what it mirrors is sharp, and frost is gone")
+      ->check(number_between(0.0, 1.0));
   double absorption = 1.0;
   app.add_option("--absorption", absorption, "Of clear ice's absorption, which makes it blue; 0: none")
       ->check(number_between(0.0, 1000.0));
@@ -56,7 +58,11 @@ int main(int argc, char** argv) {
   app.add_option("--pictures", options.pictures, "Of one turn")->check(CLI::Range(1u, 10000u));
   app.add_option("--surroundings-size", options.surroundings_px, "Side of each face of the cube map, pixels")
       ->check(CLI::Range(8u, 2048u));
+  app.add_flag("--still-surroundings", options.surroundings_kept,
+               "The cube map is drawn once and not for every picture");
   app.add_flag("--software", options.software, "Draw without a graphics card");
+  app.add_flag("--window", options.window, "In a window until Escape; its keys switch each part on and off");
+  app.add_option("--turn", options.turn_deg, "Of the first picture, degrees")->check(number_between(-360.0, 360.0));
   app.add_option("--out", options.out, "Folder for the pictures; those that are there are replaced");
   app.add_option("--reference", options.reference, "Folder for what a path tracer needs to draw the same")
       ->default_str("");

@@ -11,6 +11,7 @@
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
 #include "program/console.hpp"
+#include "sim-client/ice/ice_window.hpp"
 #include "sim-client/ice/reference_files.hpp"
 
 namespace septet::ice_viewer {
@@ -69,6 +70,7 @@ instant::FrameInput frame_of(const ice::Surface& surface, const IceOptions& opti
     input.ice.back().origin_m = Vec3(second_place_m);
   }
   input.ice_surroundings_px = options.surroundings_px;
+  input.ice_surroundings_kept = options.surroundings_kept;
   return input;
 }
 
@@ -78,6 +80,7 @@ Expected<int> run_ice(const IceOptions& options) {
   if (!options.reference.empty()) {
     if (const auto written = write_reference_files(*surface, options); !written) return tl::unexpected(written.error());
   }
+  if (options.window) return show_in_window(*surface, options);
   std::error_code problem;
   std::filesystem::create_directories(options.out, problem);
   if (problem) return failure(problem.message(), options.out.string(), "name a folder that can be made");
@@ -89,7 +92,7 @@ Expected<int> run_ice(const IceOptions& options) {
   if (const auto uploaded = renderer->upload(scene_around(options.surroundings)); !uploaded)
     return tl::unexpected(uploaded.error());
   for (std::uint32_t i = 0; i < options.pictures; ++i) {
-    const double turn = 2.0 * std::numbers::pi * i / options.pictures;
+    const double turn = std::numbers::pi * (2.0 * i / options.pictures + options.turn_deg / 180.0);
     if (const auto drawn = renderer->draw(frame_of(*surface, options, turn)); !drawn)
       return tl::unexpected(drawn.error());
     const auto picture = renderer->read_back();

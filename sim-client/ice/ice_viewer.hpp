@@ -23,7 +23,10 @@ struct IceOptions {
   std::uint32_t width_px = 800, height_px = 600;
   std::uint32_t pictures = 8;  ///< Of one turn.
   std::uint32_t surroundings_px = 256;
-  double share_of_picture = 0.2;  ///< That the object covers, about; more: the camera is nearer.
+  bool surroundings_kept = false;  ///< Those of the first picture do for all.
+  double share_of_picture = 0.2;   ///< That the object covers, about; more: the camera is nearer.
+  double turn_deg = 0.0;           ///< Of the first picture.
+  bool window = false;             ///< Instead of pictures.
   bool software = false;
   std::filesystem::path out = "ice";
   std::filesystem::path reference;  ///< Folder for what a path tracer needs to draw the same; empty: none.
@@ -40,7 +43,7 @@ inline constexpr glm::vec3 second_place_m{1.15f, 0.22f, -0.1f};
 /// How the object is seen: from the front, a little from above.
 instant::FrameInput frame_of(const ice::Surface& surface, const IceOptions& options, double turn_rad);
 
-/// Draws the pictures of one turn into the folder, 000.png and so on. The exit status.
+/// Draws the pictures of one turn into the folder, 000.png and so on, or shows it in a window. The exit status.
 Expected<int> run_ice(const IceOptions& options);
 
 }  // namespace septet::ice_viewer

@@ -10,7 +10,15 @@
 namespace septet::ice_viewer {
 namespace {
 
-enum Parts : unsigned { nothing = 0, body = 1, two_sided = 2, inside = 4, quality = 8 };
+enum Parts : unsigned {
+  nothing = 0,
+  body = 1,
+  two_sided = 2,
+  cracks = 4,
+  air = 8,
+  inside = cracks | air,
+  quality = 16
+};
 
 void ice_frame(benchmark::State& state, double share_of_picture, unsigned parts) {
   IceOptions options;
@@ -19,7 +27,8 @@ void ice_frame(benchmark::State& state, double share_of_picture, unsigned parts)
   options.share_of_picture = share_of_picture;
   options.look.two_sided = parts & two_sided;
   options.look.mode = parts & quality ? ice::Mode::quality : ice::Mode::paper;
-  if (!(parts & inside)) options.cracks = options.air_planes = 0;
+  if (!(parts & cracks)) options.cracks = 0;
+  if (!(parts & air)) options.air_planes = 0;
   const ice::Surface surface = ice::cube();
   auto renderer = render::Renderer::create({options.width_px, options.height_px, render::DevicePreference::software,
                                             false, render::Antialiasing::none, nullptr});
@@ -49,11 +58,15 @@ constexpr double fifth = 0.33, full = 4.0;  // The cube covers less than its bal
 SEPTET_ICE_FRAME(fifth, fifth, body | two_sided | inside);
 SEPTET_ICE_FRAME(fifth_one_sided, fifth, body | inside);
 SEPTET_ICE_FRAME(fifth_clear, fifth, body | two_sided);
+SEPTET_ICE_FRAME(fifth_no_cracks, fifth, body | two_sided | air);
+SEPTET_ICE_FRAME(fifth_no_air, fifth, body | two_sided | cracks);
 SEPTET_ICE_FRAME(fifth_quality, fifth, body | two_sided | inside | quality);
 SEPTET_ICE_FRAME(fifth_no_ice, fifth, nothing);
 SEPTET_ICE_FRAME(full, full, body | two_sided | inside);
 SEPTET_ICE_FRAME(full_one_sided, full, body | inside);
 SEPTET_ICE_FRAME(full_clear, full, body | two_sided);
+SEPTET_ICE_FRAME(full_no_cracks, full, body | two_sided | air);
+SEPTET_ICE_FRAME(full_no_air, full, body | two_sided | cracks);
 SEPTET_ICE_FRAME(full_quality, full, body | two_sided | inside | quality);
 #undef SEPTET_ICE_FRAME
 

@@ -27,6 +27,7 @@ struct Look {
   float bump = 0.12f;         ///< Slope of the unevenness; 0: as smooth as its mesh.
   float bump_size_m = 0.05f;  ///< Length of its longest waves.
   float roughness = 0.0f;     ///< Share of the surface that crystals of frost make white.
+  float wetness = 0.0f;       ///< 1: a film of water lies over bumps and crystals, and what it mirrors is sharp.
   float share_of_sky = 1.0f;  ///< Of the sun's light that reaches it.
   glm::vec3 absorption_per_m{clear_ice_absorption_per_m};
 };

@@ -69,7 +69,7 @@ VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, st
   VkPipeline& pipeline = pass.insides[std::uint32_t{quality} | kind << 1];
   if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
-  description.vertex_code = shaders::ice_layer_vert();
+  description.vertex_code = shaders::ice_inside_vert();
   description.fragment_code = shaders::ice_inside_frag();
   description.vertex_input = vulkan::VertexInput::ice;
   description.color_format = inside_format;
@@ -110,7 +110,9 @@ void begin_layer(PassContext& context, const IceTargets& targets, IceImage layer
   depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
   VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-  rendering.renderArea = {{0, 0}, {tiles.used_width, tiles.used_height}};
+  const std::uint32_t coarser = layer == IceImage::inside ? 2 : 1;
+  rendering.renderArea = {{0, 0},
+                          {(tiles.used_width + coarser - 1) / coarser, (tiles.used_height + coarser - 1) / coarser}};
   rendering.layerCount = 1;
   rendering.colorAttachmentCount = 1;
   rendering.pColorAttachments = &color;
@@ -120,8 +122,14 @@ void begin_layer(PassContext& context, const IceTargets& targets, IceImage layer
   vkCmdSetFrontFace(context.slot.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
-void begin_tile(PassContext& context, const IceTile& tile) {
-  const VkRect2D scissor{{tile.rectangle.x, tile.rectangle.y}, {tile.rectangle.width, tile.rectangle.height}};
+/// `coarser`: pixels of the other layers that a pixel of this one is wide.
+void begin_tile(PassContext& context, const IceTile& tile, std::int32_t coarser = 1) {
+  const auto& [x, y, width, height] = tile.rectangle;
+  const std::int32_t left = x / coarser, top = y / coarser;
+  const auto past = [&](std::int32_t low, std::uint32_t size) {
+    return (low + std::int32_t(size) + coarser - 1) / coarser;
+  };
+  const VkRect2D scissor{{left, top}, {std::uint32_t(past(x, width) - left), std::uint32_t(past(y, height) - top)}};
   vkCmdSetScissor(context.slot.commands, 0, 1, &scissor);
   push_constants(context, std::as_bytes(std::span(&tile.constants, 1)));
 }
@@ -139,7 +147,7 @@ void draw_inside(IcePass& pass, PassContext& context, const IceTiles& tiles, std
     const IceUpload::Vertices& vertices = upload.bodies[tile.body];
     if (vertices.inside_count == 0) continue;
     const bool quality = bodies[tile.body].look.mode == ice::Mode::quality;
-    begin_tile(context, tile);
+    begin_tile(context, tile, 2);
     bind(context, inside_pipeline(pass, context, quality, vertices.mixed ? 0 : 1));
     draw_vertices(context, vertices.inside, vertices.first_air);
     bind(context, inside_pipeline(pass, context, quality, 2));
@@ -230,7 +238,11 @@ void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSiz
   make(IceImage::front), make(IceImage::back);
   if (sizes.beyond) make(IceImage::beyond), make(IceImage::beyond_back);
   description.format = inside_format;
+  description.width = sizes.width / 2;
+  description.height = sizes.height / 2;
   make(IceImage::inside);
+  description.width = sizes.width;
+  description.height = sizes.height;
   description.format = context.formats.depth;
   description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
   description.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;

@@ -63,7 +63,7 @@ struct IceUpload {
 
 IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// Sizes of the target and of the surroundings; whether there are layers of what is beyond.
+/// Sizes of the layers, even, and of the surroundings; whether there are layers of what is beyond.
 struct IceTargetSizes {
   std::uint32_t width = 0, height = 0, surroundings_px = 0;
   bool beyond = false;

@@ -1,7 +1,9 @@
 #include "engine/render/passes/ice_tiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -68,6 +70,17 @@ float waves_per_m(const ice::Look& look) {
   return 2.0f * std::numbers::pi_v<float> / std::max(look.bump_size_m, 1e-3f);
 }
 
+/// Of what water leaves of it: a film fills crystals wholly, waves by half.
+float drawn_bump(const ice::Look& look) { return look.bump * (1.0f - 0.5f * std::clamp(look.wetness, 0.0f, 1.0f)); }
+
+float drawn_frost(const ice::Look& look) { return look.roughness * (1.0f - std::clamp(look.wetness, 0.0f, 1.0f)); }
+
+/// Exponent of the sun's highlight: wide over crystals, narrow over water.
+float highlight_exponent(const ice::Look& look) {
+  const float frost = std::clamp(drawn_frost(look), 0.0f, 1.0f), wetness = std::clamp(look.wetness, 0.0f, 1.0f);
+  return 220.0f * std::exp2(2.0f * wetness - 3.0f * frost);
+}
+
 IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std::uint32_t y, float scale,
                 std::uint32_t width, std::uint32_t height) {
   const float wide = std::max(1.0f, std::floor(seen.wide_px * scale)),
@@ -82,13 +95,14 @@ IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std
   const float x0 = float(x) + rim_px - seen.left * per_x, y0 = float(y) + rim_px + seen.top * per_y;
   const ice::Look& look = body.look;
   IceConstants& constants = tile.constants;
-  constants.u = glm::vec4((seen.right * per_x + seen.forward * x0) / float(width), look.bump);
+  constants.u = glm::vec4((seen.right * per_x + seen.forward * x0) / float(width), drawn_bump(look));
   constants.v = glm::vec4((seen.forward * y0 - seen.up * per_y) / float(height), waves_per_m(look));
   constants.forward = glm::vec4(seen.forward, 0.98f * seen.nearest);
   constants.origin = glm::vec4(seen.origin, look.share_of_sky);
-  constants.blend = glm::vec4(1.0f - look.back_share, float(look.back_sign) * look.back_share, look.roughness,
+  constants.blend = glm::vec4(1.0f - look.back_share, float(look.back_sign) * look.back_share, drawn_frost(look),
                               look.reflects ? 1.0f : 0.0f);
   constants.absorption = glm::vec4(look.absorption_per_m, seen.extent_m);
+  constants.beyond.w = highlight_exponent(look);
   constants.rectangle =
       glm::vec4(tile.rectangle.x, tile.rectangle.y, float(tile.rectangle.x) + float(tile.rectangle.width),
                 float(tile.rectangle.y) + float(tile.rectangle.height));
@@ -100,7 +114,7 @@ void find_beyond(IceTile& tile, std::span<const IceTile> further) {
   const glm::vec3 at(tile.constants.origin), forward(tile.constants.forward);
   const float extent_m = tile.constants.absorption.w, nearest_m = tile.constants.forward.w;
   glm::vec4& beyond = tile.constants.beyond;
-  beyond = {extent_m, extent_m, nearest_m + 1.02f * extent_m, 0.0f};
+  beyond = {extent_m, extent_m, nearest_m + 1.02f * extent_m, beyond.w};
   for (auto other = further.rbegin(); other != further.rend() && tile.beyond.size() < most_beyond; ++other) {
     if (other->view != tile.view) continue;
     const glm::vec3 there(other->constants.origin);
@@ -119,7 +133,7 @@ void find_beyond(IceTile& tile, std::span<const IceTile> further) {
 IceConstants constants_beyond(const IceTile& tile, const ice::IceBody& own, const ice::IceBody& other) {
   IceConstants constants = tile.constants;
   constants.origin += glm::vec4(other.origin_m - own.origin_m, 0.0f);
-  constants.u.w = other.look.bump;
+  constants.u.w = drawn_bump(other.look);
   constants.v.w = waves_per_m(other.look);
   return constants;
 }

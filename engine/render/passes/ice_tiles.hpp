@@ -32,6 +32,9 @@ struct IceTile {
 /// Of such bodies.
 inline constexpr std::size_t most_beyond = 4;
 
+/// Of the layers for a target: even, since one layer is half as wide as the others.
+constexpr std::uint32_t layer_px(std::uint32_t target_px) { return target_px + (target_px & 1u); }
+
 struct IceTiles {
   std::vector<IceTile> list;  ///< Nearest body last.
   bool beyond = false;        ///< Some body is looked through to what lies behind it.

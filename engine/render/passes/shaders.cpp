@@ -63,6 +63,9 @@ constexpr std::uint32_t ice_vert_code[] = {
 constexpr std::uint32_t ice_frag_code[] = {
 #include "engine/render/shaders/ice.frag.inc"
 };
+constexpr std::uint32_t ice_inside_vert_code[] = {
+#include "engine/render/shaders/ice_inside.vert.inc"
+};
 constexpr std::uint32_t ice_layer_vert_code[] = {
 #include "engine/render/shaders/ice_layer.vert.inc"
 };
@@ -104,6 +107,7 @@ std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_co
 std::span<const std::uint32_t> tone_mapping_samples_frag() { return tone_mapping_samples_frag_code; }
 std::span<const std::uint32_t> ice_vert() { return ice_vert_code; }
 std::span<const std::uint32_t> ice_frag() { return ice_frag_code; }
+std::span<const std::uint32_t> ice_inside_vert() { return ice_inside_vert_code; }
 std::span<const std::uint32_t> ice_layer_vert() { return ice_layer_vert_code; }
 std::span<const std::uint32_t> ice_layer_frag() { return ice_layer_frag_code; }
 std::span<const std::uint32_t> ice_crack_frag() { return ice_crack_frag_code; }

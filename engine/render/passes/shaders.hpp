@@ -26,6 +26,7 @@ std::span<const std::uint32_t> tone_mapping_frag();
 std::span<const std::uint32_t> tone_mapping_samples_frag();
 std::span<const std::uint32_t> ice_vert();
 std::span<const std::uint32_t> ice_frag();
+std::span<const std::uint32_t> ice_inside_vert();
 std::span<const std::uint32_t> ice_layer_vert();
 std::span<const std::uint32_t> ice_layer_frag();
 std::span<const std::uint32_t> ice_crack_frag();

@@ -146,7 +146,7 @@ void main() {
   vec3 radiance = mix(seen, around(reflect(eye, facing)), share);
   vec3 h = normalize(view.light_direction.xyz - eye);
   vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;
-  radiance += sunlight * (pow(max(dot(n, h), 0.0), 220.0) * 1.5 * ice.blend.w);
+  radiance += sunlight * (pow(max(dot(n, h), 0.0), ice.beyond.w) * (ice.beyond.w * (1.5 / 220.0)) * ice.blend.w);
   if (frosted != 0) {
     vec3 light = sunlight * max(dot(n, view.light_direction.xyz), 0.0) / pi + 0.5 * (around(n) + around(vec3(0.0, 0.0, 1.0)));
     // The noise holds ranks, as square roots: a crust that is thick here and thin there.

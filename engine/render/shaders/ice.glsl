@@ -11,7 +11,7 @@ layout(push_constant) uniform Ice {
   vec4 blend;       // x: share of the front face's normal, y: of the back face's, signed. z: frost, w: 1 it reflects.
   vec4 absorption;  // rgb: per metre. w: the body's largest extent, m.
   vec4 rectangle;   // In the layers, texels: first and last corner.
-  vec4 beyond;      // Of what lies behind it. x: how far light is followed, m; 0: not. y: the largest extent, m. z: behind its far end.
+  vec4 beyond;      // Of what lies behind it. x: how far light is followed, m; 0: not. y: the largest extent, m. z: behind its far end. w: the highlight's exponent.
 } ice;
 
 layout(set = 0, binding = 6) uniform sampler2D ice_front;   // Normal, distance along forward; 0: nothing is there.

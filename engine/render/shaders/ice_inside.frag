@@ -3,7 +3,8 @@
 #include "view.glsl"
 #include "ice.glsl"
 
-// Cracks and planes of air, clipped between the body's front and back faces (section 3.3 of the paper).
+// Cracks and planes of air, clipped between the body's front and back faces (section 3.3 of the paper), at half of the resolution
+// of these, as the paper's textures are coarser than its window.
 
 layout(constant_id = 0) const uint quality = 0;
 // A software rasteriser runs both sides of a branch: 1 cracks alone, 2 air alone, 0 either.
@@ -12,12 +13,11 @@ layout(constant_id = 1) const uint kind = 0;
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 place;  // Texture coordinates, and 1 for air, 2 for a mark.
+layout(location = 3) flat in vec3 haze;
 layout(location = 0) out vec4 result;
 
-float random(vec2 cell) { return fract(sin(dot(cell, vec2(12.9898, 78.233))) * 43758.5453); }
-
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 at = 2 * ivec2(gl_FragCoord.xy);
   float front = texelFetch(ice_front, at, 0).w, back = texelFetch(ice_back, at, 0).w;
   float depth = dot(relative, ice.forward.xyz);
   if (front == 0.0 || depth < front || depth > back) discard;
@@ -28,19 +28,10 @@ void main() {
   vec3 n = normalize(normal), eye = normalize(relative);
   vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;
   if (kind == 2 || (kind == 0 && place.z > 0.5)) {
-    // Haze where the noise is high, and bubbles: one at most in each cell.
-    float rank = textureLod(noise, place.xy * 1.7, 0.0).r;
-    vec2 cell = floor(place.xy * 22.0), off = place.xy * 22.0 - cell - 0.5;
-    float size = random(cell), bubble = 0.0;
-    if (size > 0.72) {
-      off -= 0.5 * (vec2(random(cell + 7.1), random(cell + 3.7)) - 0.5);
-      float radius = 0.06 + 0.5 * (size - 0.72);
-      bubble = 0.35 * (1.0 - smoothstep(0.6 * radius, radius, length(off)));
-    }
-    // Seen along its edge a plane would show what it is.
-    float alpha = (0.07 * smoothstep(0.55, 1.0, rank * rank) + bubble) * smoothstep(0.1, 0.5, abs(dot(n, eye)));
-    vec3 light = around(vec3(0.0, 0.0, 1.0));
-    result = vec4(0.8 * (light + 0.12 * sunlight) * alpha, alpha);
+    // Half of what the pattern of haze and bubbles holds (engine/effects/ice/air_pattern.hpp). Seen along its edge a plane would
+    // show what it is.
+    float alpha = 0.5 * textureLod(noise, place.xy * 1.7, 0.0).g * smoothstep(0.1, 0.5, abs(dot(n, eye)));
+    result = vec4(haze * alpha, alpha);
     return;
   }
   // Uneven as a broken face is.

@@ -14,6 +14,7 @@
 
 #include "engine/document/chart_page.hpp"
 #include "engine/document/text_file.hpp"
+#include "tests/benchmarks/figures/ice_figures.hpp"
 #include "tests/benchmarks/figures/swinging_cube.hpp"
 #include "tests/engine/physics/elastic/beam.hpp"
 
@@ -212,9 +213,16 @@ int main(int argc, char** argv) {
   CLI::App app{"Draws figures 3, 8, 9, 10 and 11 of the paper on elastic materials as SVG"};
   std::string folder;
   app.add_option("folder", folder, "where the files go")->required();
+  bool ice_alone = false;
+  app.add_flag("--ice", ice_alone, "those of the paper on ice alone");
   CLI11_PARSE(app, argc, argv);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
+  if (const auto drawn = draw_ice_times(folder); !drawn) {
+    fmt::print(stderr, "{}\n", describe(drawn.error()));
+    return 1;
+  }
+  if (ice_alone) return 0;
   for (const auto& [name, make] :
        {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},
         std::pair{"elastic-9-twist", &twist_figure}, std::pair{"elastic-10-energy", &energy_figure},

@@ -179,6 +179,38 @@ TEST_CASE("in quality mode cracks bend what is seen, absorption takes red before
   CHECK(differing(both, either) == 0);
 }
 
+TEST_CASE("the sun's highlight is brighter and smaller on wet ice than on dry, and water takes frost away") {
+  constexpr std::uint32_t width = 200, height = 150;
+  Renderer renderer = ice_renderer(width, height);
+  FrameInput input = seen_ahead(width, height);
+  input.environment.sun_azimuth_rad = 3.1;
+  const auto light_of = [&](float wetness, float frost) {
+    ice::IceBody body = body_of(ice::sphere(), {1.9, 0.0, 0.0});
+    body.look.bump = 0.0f;
+    body.look.wetness = wetness;
+    body.look.roughness = frost;
+    input.ice = {body};
+    check_valid(renderer, input);
+    return *renderer.read_radiance();
+  };
+  const auto brightest = [](const RadianceImage& light) {
+    float most = 0.0f;
+    for (const glm::vec3& r : light.radiance) most = std::max(most, r.g);
+    return most;
+  };
+  const auto mean_difference = [](const RadianceImage& a, const RadianceImage& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i) sum += std::abs(a.radiance[i].g - b.radiance[i].g);
+    return sum / static_cast<double>(a.radiance.size());
+  };
+  const RadianceImage dry = light_of(0.0f, 0.0f), wet = light_of(1.0f, 0.0f), frosted = light_of(0.0f, 0.8f),
+                      thawed = light_of(1.0f, 0.8f);
+  CHECK(brightest(wet) > 1.5f * brightest(dry));
+  CHECK(brightest(frosted) < brightest(dry));
+  CHECK(mean_difference(frosted, dry) > 0.01);
+  CHECK(mean_difference(thawed, wet) < 1e-6);
+}
+
 TEST_CASE("two screens of one eye show the same ice on both sides of their edge") {
   constexpr std::uint32_t width = 320, height = 200;
   Renderer renderer = ice_renderer(width, height);

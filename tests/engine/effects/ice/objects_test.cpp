@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/effects/ice/air_pattern.hpp"
 #include "engine/effects/ice/objects.hpp"
 
 namespace septet::ice {
@@ -145,6 +148,22 @@ TEST_CASE("cells above each other have cracks of their own") {
   CHECK(shifted_by_a_cell({1, 0, 0}) == 0);
   CHECK(shifted_by_a_cell({0, 1, 0}) == 0);
   CHECK(shifted_by_a_cell({0, 0, 1}) == 0);
+}
+
+TEST_CASE("the pattern of air has haze where the noise is high and separate bubbles that are denser than it") {
+  constexpr std::uint32_t side = 256;
+  std::vector<std::uint8_t> clear(side * side, 0), high(side * side, 255);
+  const std::vector<std::uint8_t> bubbles = air_pattern(clear, side), hazy = air_pattern(high, side);
+  const auto full = static_cast<std::size_t>(std::ranges::count_if(bubbles, [](int a) { return a > 170; }));
+  const auto none = static_cast<std::size_t>(std::ranges::count(bubbles, 0));
+  CHECK(full > 200);
+  CHECK(full < side * side / 20);
+  CHECK(none > side * side * 4 / 5);
+  // 0.07 of 0.5.
+  CHECK(int{*std::ranges::min_element(hazy)} == 36);
+  for (std::size_t i = 0; i < bubbles.size(); ++i) REQUIRE(hazy[i] >= bubbles[i]);
+  // It repeats: no bubble is cut at the edge.
+  for (std::size_t i = 0; i < side; ++i) CHECK(bubbles[i] + bubbles[(side - 1) * side + i] + bubbles[i * side] == 0);
 }
 
 }  // namespace septet::ice
