@@ -1,5 +1,7 @@
 #include "engine/film_script/film_script.hpp"
 
+#include <cmath>
+
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
@@ -76,6 +78,10 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   shot.pitch_rad = get_angle(reader, "pitch_deg", 0.0, 90.0);
   shot.field_of_view_rad =
       radians * reader.get_double("field_of_view_deg", shot.field_of_view_rad / radians, 1.0, 150.0);
+  shot.f_number = reader.get_double("f_number", 0.0, 0.5, 128.0);
+  shot.focus_m = reader.get_double("focus_m", shot.distance_m > 0.0 ? shot.distance_m : shot.focus_m, 0.1, 1e5);
+  if (table.contains("focus_m") && !table.contains("f_number"))
+    reader.report("focus_m", "a pinhole is sharp everywhere", "add f_number, or leave focus_m out");
   shot.interior = reader.get_bool("interior", shot.interior);
   Turn before{shot.from_s, shot.heading_rad, shot.pitch_rad, 0.0};
   const auto turns = reader.get_tables("turn");
@@ -127,6 +133,11 @@ Script default_script(double from_s, double to_s, double frames_per_second) {
                   {at(0.75), -90.0 * radians, -8.0 * radians, -1.0}};
   Shot nearest{.from_s = around.to_s, .to_s = to_s, .participant = "nearest", .where = where};
   return {{eyes, around, nearest}};
+}
+
+double lens_radius_m(const Shot& shot) {
+  constexpr double half_film_m = 0.018;
+  return shot.f_number > 0.0 ? half_film_m / std::tan(0.5 * shot.field_of_view_rad) / (2.0 * shot.f_number) : 0.0;
 }
 
 }  // namespace septet::film

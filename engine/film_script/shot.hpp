@@ -38,9 +38,15 @@ struct Shot {
   double heading_rad = 0.0, pitch_rad = 0.0;  ///< At the beginning.
   std::vector<Turn> turns;                    ///< Ascending `until_s`; after the last one the camera holds still.
   double field_of_view_rad = std::numbers::pi / 3.0;  ///< Across the picture's width.
+  /// Of a lens before a film 36 mm wide: its focal length, which the field of view tells, over its opening. 0: a pinhole, all is sharp.
+  double f_number = 0.0;
+  double focus_m = 10.0;  ///< Distance before the camera at which a lens is sharp.
   bool interior = false;  ///< Through a participant's eyes: the car's inside is drawn, where there is a model of it.
   std::string where;      ///< For messages: "shots.toml, shot 2".
 };
+
+/// Radius of the lens' opening; 0 of a pinhole.
+double lens_radius_m(const Shot& shot);
 
 struct Script {
   std::vector<Shot> shots;

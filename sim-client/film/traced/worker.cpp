@@ -224,6 +224,9 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       settings.error = static_cast<float>(options.error);
       settings.filter = options.filter;
       settings.seed = of_film.number;  // Another noise in each frame.
+      const Shot& shot = frames.plan().script.shots[of_film.shot];
+      settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
+      settings.focus_m = static_cast<float>(shot.focus_m);
       tracer->begin(instant::describe(std::move(*input), summary), settings);
       frame = wanted->frame;
       tracing.begin_frame(*frame, facts_of(tracer->instant()));

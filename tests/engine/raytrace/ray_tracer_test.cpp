@@ -137,6 +137,40 @@ TEST_CASE(
   check();
 }
 
+TEST_CASE("a point that is out of focus is a disc as wide as its circle of confusion and evenly bright") {
+  // A small bright ball before black; the lens is sharp nearer, or further away, or there.
+  scene::SurfaceMaterial bright;
+  bright.emission = glm::vec3(1.0f);
+  bright.base_color = glm::vec3(0.0f);
+  scene::ResolvedScene scene = ball_scene(bright, 3);
+  const double distance_m = 8.0, angle_rad = 0.2, lens_radius_m = 0.1;
+  scene.instances.front().scale = glm::vec3(0.03f);
+  const std::uint32_t side_px = 64;
+  const instant::Instant instant = instant_from({-distance_m, 0.0, 0.0}, angle_rad, side_px, even_sky(0.0f));
+  for (const double focus_m : {4.0, 16.0, 6.0, distance_m}) {
+    CAPTURE(focus_m);
+    const TracedPicture picture = traced(scene, instant,
+                                         {.samples = 128,
+                                          .filter = Filter::box,
+                                          .lens_radius_m = static_cast<float>(lens_radius_m),
+                                          .focus_m = static_cast<float>(focus_m)});
+    // Moments of the light: a disc of radius r has r²/2 around its middle.
+    double light = 0.0, moment = 0.0;
+    for (std::uint32_t y = 0; y < side_px; ++y)
+      for (std::uint32_t x = 0; x < side_px; ++x) {
+        const double dx = x + 0.5 - 0.5 * side_px, dy = y + 0.5 - 0.5 * side_px, here = picture.at(x, y).radiance.x;
+        light += here, moment += here * (dx * dx + dy * dy);
+      }
+    const double px_of_slope = side_px / (2.0 * std::tan(0.5 * angle_rad));
+    const double confusion_px = lens_radius_m * std::abs(1.0 / focus_m - 1.0 / distance_m) * px_of_slope;
+    const double ball_px = 0.03 / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
+    const double expected = 0.5 * (confusion_px * confusion_px + ball_px * ball_px) + pixel_moment;
+    CHECK(moment / light == doctest::Approx(expected).epsilon(0.06));
+    // Whatever the focus, as much light comes.
+    CHECK(light == doctest::Approx(pi * ball_px * ball_px).epsilon(0.06));
+  }
+}
+
 TEST_CASE("what the sun gives and what the sky gives add up whichever is looked at") {
   // Which kind of light is looked at is a matter of chance; what is found is not.
   scene::SurfaceMaterial white;
