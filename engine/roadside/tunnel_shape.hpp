@@ -9,6 +9,7 @@ inline constexpr double middle_wall_m = 0.35;  ///< Half the thickness of the wa
 /// Heights over the road: of the ceiling, and of its lower edge along the wall; the ceiling slopes over `haunch_width_m`.
 inline constexpr double ceiling_m = 6.6, haunch_m = 5.0, haunch_width_m = 1.9;
 
-inline constexpr double portal_out_m = 46.0;  ///< How far a portal's wing walls reach beyond the asphalt.
+inline constexpr double portal_before_m = 0.25;  ///< The portal's face before the mouth.
+inline constexpr double portal_out_m = 46.0;     ///< How far a portal's wing walls reach beyond the asphalt.
 
 }  // namespace septet::roadside::tunnel_shape

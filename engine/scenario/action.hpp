@@ -136,16 +136,21 @@ struct SirenAction {
   bool on = false;
 };
 
-/// UserDefinedActions for what the standard has no action for. Type "septet:spill", content "ENTITY PART [X Y SLIDE]":
+/// UserDefinedActions for what the standard has no action for. Type "septet:spill", content "ENTITY PART [X Y SLIDE [SIDE]]":
 /// a breakable part (debris/breakable_part.hpp: "ice-slab", "traffic-cone", …) appears on the entity's roof at (X, Y) of its
-/// frame and slides backwards with SLIDE m/s. Type "septet:ignite" or "septet:extinguish", content "ENTITY": it begins or
+/// frame and slides backwards with SLIDE m/s, and to the left with SIDE m/s if there is a fifth number; an ice slab lies there from the
+/// start of the drive. Type "septet:black-ice", content "ROAD LANE S LENGTH MM": that stretch of a lane is under
+/// ice, so thick. Type "septet:ignite" or "septet:extinguish", content "ENTITY": it begins or
 /// ceases to burn.
 struct EffectAction {
-  enum class Kind : std::uint8_t { spill, ignite, extinguish };
+  enum class Kind : std::uint8_t { spill, ignite, extinguish, freeze };
   Kind kind = Kind::spill;
   EntityIndex entity = no_entity;
   std::string part;
-  double x_m = 0.0, y_m = 0.0, slide_mps = 0.0;
+  double x_m = 0.0, y_m = 0.0, slide_mps = 0.0, side_mps = 0.0;
+  std::string road;  ///< To be frozen: id of the file.
+  int lane = 0;
+  double s_m = 0.0, length_m = 0.0, thickness_m = 0.0;
 };
 
 /// TrafficSwarmAction: keep `vehicle_count` vehicles around the central entity, within the ellipse

@@ -1,5 +1,8 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -225,9 +228,10 @@ ActionVariant read_effect_command(Reading& reading, const Element& element, Effe
   effect.entity = command.entity;
   bool good = effect.entity != no_entity;
   if (kind == EffectAction::Kind::spill) {
-    good = good && (command.words.size() == 1 || command.words.size() == 4);
+    const std::size_t count = command.words.size();
+    good = good && (count == 1 || count == 4 || count == 5);
     if (good) effect.part = command.words.front();
-    double* numbers[] = {&effect.x_m, &effect.y_m, &effect.slide_mps};
+    double* numbers[] = {&effect.x_m, &effect.y_m, &effect.slide_mps, &effect.side_mps};
     for (std::size_t i = 1; good && i < command.words.size(); ++i) {
       char* end = nullptr;
       *numbers[i - 1] = std::strtod(command.words[i].c_str(), &end);
@@ -239,9 +243,43 @@ ActionVariant read_effect_command(Reading& reading, const Element& element, Effe
   if (good) return effect;
   element.error("it does not say what happens to whom",
                 kind == EffectAction::Kind::spill
-                    ? "write an entity's name, a part, and perhaps x, y (m) and a speed (m/s)"
+                    ? "write an entity's name, a part, and perhaps x, y (m) and one or two speeds (m/s)"
                     : "write an entity's name");
   return {};
+}
+
+/// The last words are numbers, those before them the road's id.
+ActionVariant read_black_ice(const Element& element) {
+  constexpr std::size_t count = 4;
+  constexpr double most_mm = 1000.0;
+  std::string id = element.content();
+  std::array<double, count> numbers{};
+  bool good = true;
+  for (std::size_t i = count; i-- > 0 && good;) {
+    const auto space = id.rfind(' ');
+    good = space != std::string::npos && space + 1 < id.size();
+    if (!good) break;
+    char* end = nullptr;
+    numbers[i] = std::strtod(id.c_str() + space + 1, &end);
+    good = *end == 0 && std::abs(numbers[i]) < 1e6;
+    id.resize(space);
+  }
+  const auto [lane, s_m, length_m, thickness_mm] = numbers;
+  good = good && !id.empty() && lane != 0.0 && lane == std::trunc(lane) && s_m >= 0.0 && length_m > 0.0 &&
+         length_m <= 255.0 && thickness_mm > 0.0 && thickness_mm < most_mm;
+  if (!good) {
+    element.error("it does not say what lies under ice",
+                  "write a road's id, a lane, a station (m), a length (m, at most 255) and a thickness (mm)");
+    return {};
+  }
+  EffectAction effect;
+  effect.kind = EffectAction::Kind::freeze;
+  effect.road = std::move(id);
+  effect.lane = static_cast<int>(lane);
+  effect.s_m = s_m;
+  effect.length_m = length_m;
+  effect.thickness_m = thickness_mm / 1000.0;
+  return effect;
 }
 
 }  // namespace
@@ -251,11 +289,12 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (!command) return {};
   const std::string type = command.text("type");
   if (type == "septet:spill") return read_effect_command(reading, command, EffectAction::Kind::spill);
+  if (type == "septet:black-ice") return read_black_ice(command);
   if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
   if (type != "septet:siren") {
     command.warning("this command is not known and has no effect",
-                    "Septet knows septet:siren, septet:spill, septet:ignite, septet:extinguish");
+                    "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish");
     return {};
   }
   const std::string content = command.content();

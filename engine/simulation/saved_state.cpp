@@ -20,8 +20,18 @@ namespace septet::debris {
 SEPTET_MEMBERS(GroundPoint, height_m, normal, friction_factor)
 }
 
+namespace septet::ice {
+SEPTET_MEMBERS(LyingSlab, vehicle, foot_m, size_m)
+SEPTET_MEMBERS(IcicleRow, from_m, to_m, longest_m, seed)
+SEPTET_MEMBERS(Sheet, left_m, right_m, thickness_m)
+// Where icicles hang follows from roads and seed, and sheets from the black ice.
+SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_kh))
+}  // namespace septet::ice
+
 namespace septet::simulation {
 
+SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
+SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(keyframe))
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
@@ -33,8 +43,8 @@ SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
 SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires), kept(keyframes))
 // Debris and fires have readers of their own; of debris what moved is in the chained hash. What is published follows from them, and the
 // rest remembers where something was found.
-SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(random), kept(published),
-                     hashed(hash), left_out(surface_memory), kept(surface_hint))
+SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(ice, random),
+                     kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
 // Storyboard, traffic and effects have readers of their own. What the input did is in the car.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
                      left_out(scenario, traffic, effects), kept(input), hashed(diagnostics, touching))
@@ -108,6 +118,8 @@ void restore_effects(const Model& model, StateReader& reader, EffectsState& stat
   reader.require(std::ranges::equal(state.published.keyframes, state.published.channels, {}, &EffectKeyframe::id,
                                     &PublishedEffect::id),
                  wrong);
+  reader.require(state.ice.black.size() == state.ice.still.sheets.size(), wrong);
+  for (const BlackIce& black : state.ice.black) reader.require(black.road < model.roads.roads.size(), wrong);
   if (state.surface_hint) road::require_on_roads(reader, model.roads, *state.surface_hint);
   for (const auto& [vehicle, parts] : state.crashes.parts)
     for (const debris::MountedPart& part : parts)

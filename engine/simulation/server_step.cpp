@@ -101,6 +101,8 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
   const Participant car = driven_car(model, state).participant;
   apply_swarms(model, init, car, state);
   state.effects = initial_effects(model.scenario, state.scenario, model.seed);
+  state.effects.ice = initial_ice(model.roads, model.scenario, state.scenario, model.driver_entity, driver_participant,
+                                  first_scripted_participant, model.seed);
   apply_effects(model, init, car, state);
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   return state;

@@ -53,12 +53,16 @@ void apply_swarms(const Model& model, const scenario::StepResult& step, const Pa
 void apply_effects(const Model& model, const scenario::StepResult& step, const Participant& car, State& state) {
   using Kind = scenario::EffectAction::Kind;
   for (const scenario::EffectAction& action : step.effects) {
-    if (action.kind == Kind::spill) {
-      spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], state.effects);
+    if (action.kind == Kind::freeze) {
+      freeze(model.roads, action, state.effects.ice);
       continue;
     }
     const ParticipantId id =
         action.entity == model.driver_entity ? driver_participant : first_scripted_participant + action.entity;
+    if (action.kind == Kind::spill) {
+      spill(action, model.scenario.entities[action.entity], state.scenario.entities[action.entity], id, state.effects);
+      continue;
+    }
     if (action.kind == Kind::extinguish) extinguish(id, state.effects.fires);
     if (action.kind != Kind::ignite) continue;
     std::vector<Participant> participants{car};

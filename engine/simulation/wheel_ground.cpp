@@ -1,5 +1,6 @@
 #include "engine/simulation/wheel_ground.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include <glm/geometric.hpp>
@@ -45,6 +46,9 @@ bool find_wheel_ground(const road::RoadNetwork& roads, const roadside::RaisedAre
   wheel.point_m = {centre_m.x, centre_m.y, ground_height_m(raised, centre_m, surface->height_m)};
   wheel.normal = surface->normal;
   wheel.friction = surface_friction(road::material_at(roads, place), weather);
+  const auto covers = [&](const BlackIce& ice) { return is_iced(roads, ice, weather.thawed_kh, place); };
+  if (std::ranges::any_of(weather.black_ice, covers))
+    wheel.friction = weather.friction_scale * vehicle::peak_friction(vehicle::SurfaceKind::ice, weather.temperature_k);
   return true;
 }
 

@@ -3,12 +3,15 @@
 ///
 /// Friction comes from the weather (wetness, snow and temperature of the scenario's environment), from the material of the lane,
 /// and from patches on it (OpenDRIVE; their surface "wet", "snow" or "ice" goes with temperature, any other is paved and goes with
-/// the weather, too); RoadCondition's frictionScaleFactor multiplies all of it.
+/// the weather, too); what is left of the black ice on a lane lies over them. RoadCondition's frictionScaleFactor multiplies all of it.
+
+#include <span>
 
 #include "engine/physics/vehicle/ground.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/road/road_position.hpp"
 #include "engine/roadside/raised_areas.hpp"
+#include "engine/simulation/effects/black_ice.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::simulation {
@@ -17,6 +20,8 @@ namespace septet::simulation {
 struct RoadWeather {
   double wetness = 0.0, snow_cover = 0.0, temperature_k = 288.15;
   double friction_scale = 1.0;
+  std::span<const BlackIce> black_ice;
+  double thawed_kh = 0.0;
 };
 
 /// Under a wheel whose centre is at `centre_m`. `place` is where the wheel was (read where `has_place`) and becomes where it is.

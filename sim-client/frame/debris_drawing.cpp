@@ -7,6 +7,8 @@
 #include <glm/matrix.hpp>
 
 #include "engine/effects/ice/cracks.hpp"
+#include "engine/effects/ice/still_ice.hpp"
+#include "sim-client/frame/ice_looks.hpp"
 
 namespace septet::frame {
 namespace {
@@ -62,34 +64,6 @@ std::optional<DebrisInstant> debris_instant(const TimedDebris& earlier, const Ti
 
 namespace {
 
-/// How large the pieces between the cracks of a slab are, about.
-constexpr float crack_cell_m = 0.45f;
-
-/// Cracks of the field that reach into what lies between these places.
-std::vector<ice::IceVertex> cracks_between(std::span<const Vec3> rest_m) {
-  std::vector<ice::IceVertex> inside;
-  if (rest_m.empty()) return inside;
-  Vec3 low(INFINITY), high(-INFINITY);
-  for (const Vec3& place : rest_m) low = glm::min(low, place), high = glm::max(high, place);
-  // Every third holds air: ice from a roof is milky with it.
-  const auto cracks = ice::cracks_in({glm::vec3(low), glm::vec3(high)}, crack_cell_m);
-  for (const bool airy : {false, true})
-    for (const ice::Crack& crack : cracks)
-      if (airy == (crack.seed < 0.35f))
-        ice::append_crack(inside, crack, airy ? ice::InsideKind::air : ice::InsideKind::crack, 3);
-  return inside;
-}
-
-/// Snow that was pressed and has frozen: uneven, with a crust.
-ice::Look slab_look() {
-  ice::Look look;
-  look.mode = ice::Mode::quality;
-  look.bump = 0.10f;
-  look.bump_size_m = 0.16f;
-  look.roughness = 0.4f;
-  return look;
-}
-
 /// Axes through three points: from the first to the second, and in their plane.
 glm::dmat3 axes_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 x = glm::normalize(b - a), z = glm::normalize(glm::cross(x, c - a));
@@ -111,6 +85,28 @@ std::optional<glm::dmat3> turn_from_rest(std::span<const Vec3> rest_m, std::span
   return axes_of(places[0], places[b], places[c]) * glm::transpose(axes_of(rest_m[0], rest_m[b], rest_m[c]));
 }
 
+/// Faces that have parted in part: they go with the body however it bends.
+void add_cracks(std::span<const debris::Keyframe::Crack> cracks, std::span<const Vec3> rest_m,
+                std::span<const Vec3> places, std::vector<ice::IceVertex>& inside) {
+  for (const debris::Keyframe::Crack& crack : cracks) {
+    const double reach = crack.reach / 255.0;
+    std::array<ice::IceVertex, 3> corners;
+    const std::uint16_t a = crack.corners[0], b = crack.corners[1], c = crack.corners[2];
+    const Vec3 normal = glm::cross(places[b] - places[a], places[c] - places[a]);
+    if (!(glm::length(normal) > 1e-9)) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint16_t corner = crack.corners[i];
+      const auto between = [&](std::span<const Vec3> of) { return of[a] + reach * (of[corner] - of[a]); };
+      corners[i].position_m = glm::vec3(between(places));
+      corners[i].normal = glm::vec3(glm::normalize(normal));
+      const Vec3 rest = between(rest_m);
+      corners[i].rest_m = {static_cast<float>(rest.x - 0.7 * rest.y), static_cast<float>(rest.y + 2.0 * rest.z),
+                           static_cast<float>(ice::InsideKind::crack)};
+    }
+    inside.insert(inside.end(), corners.begin(), corners.end());
+  }
+}
+
 }  // namespace
 
 DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
@@ -119,7 +115,8 @@ DebrisWay::DebrisWay(const debris::Keyframe& from, const debris::Keyframe& to)
       both_sides_(to.shards),
       rest_m_(to.rest_m.size() == std::max(from.vertices_m.size(), to.vertices_m.size()) ? to.rest_m
                                                                                          : std::vector<Vec3>()),
-      inside_(cracks_between(rest_m_)),
+      inside_(cracks_between(rest_m_, slab_crack_cell_m)),
+      cracks_(to.cracks),
       from_m_(places_of(from, to)),
       step_m_(places_of(to, from)),
       triangles_(to.triangles),
@@ -154,11 +151,11 @@ instant::DynamicMesh DebrisWay::at(double share) const {
   return mesh;
 }
 
-std::optional<ice::IceBody> DebrisWay::ice_of(const instant::DynamicMesh& mesh) const {
+std::optional<ice::IceBody> DebrisWay::ice_of(const instant::DynamicMesh& mesh, float film) const {
   if (rest_m_.empty() || mesh.vertices.size() != 3 * triangles_.size()) return std::nullopt;
   ice::IceBody body;
   body.origin_m = mesh.origin_m;
-  body.look = slab_look();
+  body.look = slab_look(film);
   body.vertices.reserve(mesh.vertices.size());
   std::vector<Vec3> places(rest_m_.size(), Vec3(0.0));
   Vec3 rest_middle(0.0), middle(0.0);
@@ -169,14 +166,15 @@ std::optional<ice::IceBody> DebrisWay::ice_of(const instant::DynamicMesh& mesh) 
     rest_middle += rest_m_[vertex], middle += places[vertex], count += 1.0;
     body.vertices.push_back({mesh.vertices[i].position_m, mesh.vertices[i].normal, glm::vec3(rest_m_[vertex])});
   }
+  add_cracks(cracks_, rest_m_, places, body.inside);
   const auto turn = turn_from_rest(rest_m_, places);
   if (!turn) return body;
   rest_middle /= count, middle /= count;
   const glm::mat3 turned(*turn);
-  body.inside = inside_;
-  for (ice::IceVertex& vertex : body.inside) {
+  for (ice::IceVertex vertex : inside_) {
     vertex.position_m = glm::vec3(middle + *turn * (Vec3(vertex.position_m) - rest_middle));
     vertex.normal = turned * vertex.normal;
+    body.inside.push_back(vertex);
   }
   return body;
 }
@@ -211,7 +209,8 @@ TimedDebris DebrisDrawing::decoded(const EffectKeyframe* effect) {
   return {entry.keyframe ? &*entry.keyframe : nullptr, effect->tick};
 }
 
-DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene) {
+DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene,
+                                double temperature_k) {
   DrawnDebris drawn;
   std::vector<instant::DynamicMesh>& meshes = drawn.meshes;
   for (auto& [key, entry] : decoded_) entry.used = false;
@@ -234,7 +233,7 @@ DrawnDebris DebrisDrawing::draw(std::span<const EffectMoment> moments, double ti
     if (look == scene.prototypes.end()) continue;
     meshes.push_back(way.at(instant->share));
     meshes.back().prototype = static_cast<std::uint32_t>(look - scene.prototypes.begin());
-    if (auto body = way.ice_of(meshes.back())) {
+    if (auto body = way.ice_of(meshes.back(), static_cast<float>(ice::film(temperature_k)))) {
       meshes.back().seen = false;
       drawn.ice.push_back(std::move(*body));
     }

@@ -45,8 +45,8 @@ class DebrisWay {
   debris::Part part() const { return part_; }
   debris::Material material() const { return material_; }
   /// The same triangles as ice to see through, with the cracks of the field that they lie in; nothing where they are of
-  /// something else. `mesh` is what `at` gave.
-  std::optional<ice::IceBody> ice_of(const instant::DynamicMesh& mesh) const;
+  /// something else. `mesh` is what `at` gave; `film`: ice_looks.hpp.
+  std::optional<ice::IceBody> ice_of(const instant::DynamicMesh& mesh, float film) const;
 
  private:
   debris::Part part_;
@@ -54,7 +54,8 @@ class DebrisWay {
   bool both_sides_;
   std::vector<Vec3> rest_m_;            ///< Of each vertex; only of ice.
   std::vector<ice::IceVertex> inside_;  ///< In the frame at rest.
-  std::vector<Vec3> from_m_, step_m_;   ///< World; each vertex' place and the way to its next.
+  std::vector<debris::Keyframe::Crack> cracks_;
+  std::vector<Vec3> from_m_, step_m_;  ///< World; each vertex' place and the way to its next.
   std::vector<std::array<std::uint16_t, 3>> triangles_;
   TemporalNormals normals_;
 };
@@ -71,7 +72,8 @@ struct DrawnDebris {
 class DebrisDrawing {
  public:
   /// All debris of the moments, ready for a frame.
-  DrawnDebris draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene);
+  DrawnDebris draw(std::span<const EffectMoment> moments, double tick, const scene::ResolvedScene& scene,
+                   double temperature_k = 268.15);
   /// Keyframes that could not be read.
   std::uint32_t refused() const { return refused_; }
   /// Pairs of keyframes whose normals were worked out so far.

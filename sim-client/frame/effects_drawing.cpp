@@ -5,7 +5,9 @@ namespace septet::frame {
 void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, double tick_s,
                           const scene::ResolvedScene& scene) {
   const double simulated_time_s = instant.simulated_time_s;
-  debris_shown_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene);
+  debris_shown_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene,
+                               instant.environment.temperature_k);
+  ice_.show(instant, scene);
   puffs_ = smoke_.draw(instant.effects, simulated_time_s);
   soot_.draw(instant.effects);
 }
@@ -13,6 +15,7 @@ void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, d
 void EffectsDrawing::add_to(instant::FrameInput& frame) const {
   frame.meshes = debris_shown_.meshes;
   frame.ice = debris_shown_.ice;
+  ice_.add_to(frame);
   frame.ice_surroundings_px = 32;  // Uneven ice under a crust shows no more of them.
   frame.smoke = puffs_;
   frame.soot = soot_.field();

@@ -1,7 +1,8 @@
 #pragma once
-/// Debris, smoke and soot of an instant, as a screen or a film draws them. One thread.
+/// Debris, still ice, smoke and soot of an instant, as a screen or a film draws them. One thread.
 
 #include "sim-client/frame/debris_drawing.hpp"
+#include "sim-client/frame/ice_drawing.hpp"
 #include "sim-client/frame/smoke_drawing.hpp"
 #include "sim-client/frame/soot_drawing.hpp"
 
@@ -11,11 +12,12 @@ class EffectsDrawing {
  public:
   /// What `instant` shows, by the keyframes around it in `history`.
   void show(const Snapshot& instant, const TickHistory& history, double tick_s, const scene::ResolvedScene& scene);
-  /// What was shown last: also where its ticks have gone with a lost server.
+  /// What was shown last, also where its ticks have gone with a lost server; of still ice what is near the frame's eye.
   void add_to(instant::FrameInput& frame) const;
 
  private:
   DebrisDrawing debris_;
+  IceDrawing ice_;
   SmokeDrawing smoke_;
   SootDrawing soot_;
   DrawnDebris debris_shown_;

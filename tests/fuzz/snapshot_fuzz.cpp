@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/ice/ice_keyframe.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/effects/smoke/soot_keyframe.hpp"
 #include "engine/world/wire_snapshot.hpp"
@@ -55,11 +56,19 @@ void feed_soot(std::span<const std::byte> bytes) {
   for (const std::uint8_t level : keyframe->level) require(level < smoke::soot_levels);
 }
 
+void feed_ice(std::span<const std::byte> bytes) {
+  const auto ice = ice::decode(bytes);
+  if (!ice) return;
+  require(ice::decode(ice::encode(*ice)).has_value());
+  for (const ice::IcicleRow& row : ice->rows)
+    for (const ice::Icicle& icicle : ice::icicles_of(row, ice->thawed_kh)) require(icicle.length_m >= 0.0);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ByteReader input(std::as_bytes(std::span(data, size)));
-  switch (input.get<std::uint8_t>() % 4) {
+  switch (input.get<std::uint8_t>() % 5) {
     case 0:
       feed_snapshots(input);
       break;
@@ -69,8 +78,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 2:
       feed_smoke(input.take(input.remaining()));
       break;
-    default:
+    case 3:
       feed_soot(input.take(input.remaining()));
+      break;
+    default:
+      feed_ice(input.take(input.remaining()));
       break;
   }
   return 0;

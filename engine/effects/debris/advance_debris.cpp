@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -197,8 +198,11 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
                 std::vector<Piece>& done) {
   for (int k = first; k < count; ++k) {
     const Blow blow = elastic_substep(piece, world, k * substep_s, substep_s, report);
-    FractureResult result = fracture(piece, blow);
-    if (result.opened_faces == 0) continue;
+    FractureResult result = fracture(piece, blow, substep_s);
+    if (result.opened_faces == 0) {
+      piece.cracks = std::move(result.cracks);
+      continue;
+    }
     report.fractures += result.opened_faces;
     // The largest part keeps the id, so that a screen goes on with what it shows.
     std::ranges::stable_sort(result.pieces, std::ranges::greater{},
@@ -213,8 +217,8 @@ void step_piece(Piece piece, ContactWorld& world, int first, int count, double s
 }  // namespace
 
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
-                         const Vec3& angular_velocity_radps, Random& random) {
-  Piece piece = make_part(part, world_from_part, velocity_mps, angular_velocity_radps, random);
+                         const Vec3& angular_velocity_radps, Random& random, double height_left) {
+  Piece piece = make_part(part, world_from_part, velocity_mps, angular_velocity_radps, random, height_left);
   piece.id = state.next_id++;
   state.pieces.push_back(std::move(piece));
   return state.pieces.back().id;

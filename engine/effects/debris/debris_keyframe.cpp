@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <tuple>
 
 #include "engine/core/check.hpp"
 #include "engine/effects/debris/piece.hpp"
@@ -10,8 +12,8 @@
 namespace septet::debris {
 namespace {
 
-/// Whether the places at rest follow.
-constexpr std::uint8_t without_rest = 1, with_rest = 2;
+/// Whether the places at rest follow, and cracks.
+constexpr std::uint8_t without_rest = 1, with_rest = 2, with_cracks = 3;
 /// A coordinate of the first vertex, and a difference between vertices, in quanta.
 constexpr std::int64_t furthest = 1'000'000'000, widest = 1'000'000;
 
@@ -98,6 +100,26 @@ Keyframe keyframe_of(const Piece& piece) {
     }
     keyframe.triangles.push_back(corners);
   }
+  if (keyframe.material == Material::ice)
+    for (const FaceCrack& crack : piece.cracks) {
+      if (keyframe.cracks.size() == max_cracks) break;
+      const auto &a = piece.body.elements[static_cast<std::size_t>(crack.first)].nodes,
+                 &b = piece.body.elements[static_cast<std::size_t>(crack.second)].nodes;
+      std::vector<int> nodes;
+      std::ranges::copy_if(a, std::back_inserter(nodes),
+                           [&](int node) { return std::ranges::find(b, node) != b.end(); });
+      // Nodes are numbered anew at each break; places at rest are not.
+      std::ranges::sort(nodes, [&](int m, int n) {
+        const auto &p = piece.body.rest_position_m[m], &q = piece.body.rest_position_m[n];
+        return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
+      });
+      Keyframe::Crack told;
+      const auto known = [&](int node) { return place.contains(node); };
+      if (nodes.size() != 3 || !std::ranges::all_of(nodes, known)) continue;  // Deep inside, where nobody sees it.
+      for (std::size_t c = 0; c < 3; ++c) told.corners[c] = place.at(nodes[c]);
+      told.reach = static_cast<std::uint8_t>(std::clamp(std::lround(255.0 * crack.reach), 0L, 255L));
+      if (told.reach > 0) keyframe.cracks.push_back(told);
+    }
   SEPTET_CHECK(keyframe.vertices_m.size() <= max_vertices && keyframe.triangles.size() <= max_triangles, "{} vertices",
                keyframe.vertices_m.size());
   return keyframe;
@@ -106,7 +128,8 @@ Keyframe keyframe_of(const Piece& piece) {
 Bytes encode(const Keyframe& keyframe) {
   Bytes bytes;
   ByteWriter writer(bytes);
-  writer.put(keyframe.rest_m.empty() ? without_rest : with_rest);
+  SEPTET_CHECK(keyframe.cracks.empty() || !keyframe.rest_m.empty(), "{} cracks of nothing", keyframe.cracks.size());
+  writer.put(!keyframe.cracks.empty() ? with_cracks : keyframe.rest_m.empty() ? without_rest : with_rest);
   writer.put(static_cast<std::uint8_t>(keyframe.part));
   writer.put(static_cast<std::uint8_t>(keyframe.material));
   writer.put(static_cast<std::uint8_t>((keyframe.shards ? 1 : 0) | (keyframe.asleep ? 2 : 0)));
@@ -117,11 +140,19 @@ Bytes encode(const Keyframe& keyframe) {
   if (!keyframe.rest_m.empty()) put_places(writer, keyframe.rest_m);
   writer.put_varint(keyframe.triangles.size());
   std::int64_t last_index = 0;
-  for (const auto& triangle : keyframe.triangles)
-    for (const std::uint16_t index : triangle) {
+  const auto put_corners = [&](const std::array<std::uint16_t, 3>& corners) {
+    for (const std::uint16_t index : corners) {
       writer.put_signed_varint(index - last_index);
       last_index = index;
     }
+  };
+  for (const auto& triangle : keyframe.triangles) put_corners(triangle);
+  if (keyframe.cracks.empty()) return bytes;
+  writer.put_varint(keyframe.cracks.size());
+  for (const Keyframe::Crack& crack : keyframe.cracks) {
+    put_corners(crack.corners);
+    writer.put(crack.reach);
+  }
   return bytes;
 }
 
@@ -132,7 +163,7 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
     return failure(what, "debris keyframe", "send what the same version of Septet wrote");
   };
   const auto version = reader.get<std::uint8_t>();
-  if (version != without_rest && version != with_rest) return refuse("unknown version");
+  if (version < without_rest || version > with_cracks) return refuse("unknown version");
   const auto part = reader.get<std::uint8_t>(), material = reader.get<std::uint8_t>(),
              flags = reader.get<std::uint8_t>();
   if (!reader.ok() || part >= part_count || material >= material_count || flags > 3)
@@ -143,21 +174,30 @@ Expected<Keyframe> decode(std::span<const std::byte> bytes) {
   keyframe.asleep = (flags & 2) != 0;
   const std::size_t vertices = reader.get_count(std::min(max_vertices, reader.remaining() / 3));
   if (!read_places(reader, vertices, keyframe.vertices_m)) return refuse("coordinate out of bounds");
-  if (version == with_rest && (vertices == 0 || !read_places(reader, vertices, keyframe.rest_m)))
+  if (version >= with_rest && (vertices == 0 || !read_places(reader, vertices, keyframe.rest_m)))
     return refuse("place at rest out of bounds");
   const std::size_t triangles = reader.get_count(std::min(max_triangles, reader.remaining() / 3));
   keyframe.triangles.reserve(triangles);
   std::int64_t index = 0;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    std::array<std::uint16_t, 3> corners{};
+  const auto read_corners = [&](std::array<std::uint16_t, 3>& corners) {
     for (auto& corner : corners) {
       const std::int64_t step = reader.get_signed_varint();
-      if (!reader.ok() || step < -65536 || step > 65536) return refuse("index out of bounds");
+      if (!reader.ok() || step < -65536 || step > 65536) return false;
       index += step;
-      if (index < 0 || index >= static_cast<std::int64_t>(vertices)) return refuse("index out of bounds");
+      if (index < 0 || index >= static_cast<std::int64_t>(vertices)) return false;
       corner = static_cast<std::uint16_t>(index);
     }
-    keyframe.triangles.push_back(corners);
+    return true;
+  };
+  for (std::size_t t = 0; t < triangles; ++t)
+    if (!read_corners(keyframe.triangles.emplace_back())) return refuse("index out of bounds");
+  if (version == with_cracks) {
+    keyframe.cracks.resize(reader.get_count(std::min(max_cracks, reader.remaining() / 4)));
+    for (Keyframe::Crack& crack : keyframe.cracks) {
+      if (!read_corners(crack.corners)) return refuse("index out of bounds");
+      crack.reach = reader.get<std::uint8_t>();
+    }
+    if (keyframe.cracks.empty()) return refuse("no cracks where some were announced");
   }
   if (!reader.ok() || !reader.at_end()) return refuse("length does not fit");
   return keyframe;

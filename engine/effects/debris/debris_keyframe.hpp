@@ -18,7 +18,7 @@ inline constexpr std::uint16_t keyframe_kind = 2;
 inline constexpr std::uint32_t first_effect_id = 0x02000000;
 /// Positions on the wire are multiples of this; the error of a coordinate is at most half of it.
 inline constexpr double position_quantum_m = 1e-3;
-inline constexpr std::size_t max_vertices = 4096, max_triangles = 8192;
+inline constexpr std::size_t max_vertices = 4096, max_triangles = 8192, max_cracks = 4096;
 
 /// What a screen draws of one piece: triangles, counter-clockwise from outside. Shards are drawn
 /// from both sides.
@@ -31,6 +31,12 @@ struct Keyframe {
   /// Of ice, of each vertex: where it lay in the whole part, before anything moved or broke. What is inside keeps to it.
   std::vector<Vec3> rest_m;
   std::vector<std::array<std::uint16_t, 3>> triangles;
+  /// Of ice: what has cracked and not yet opened; it grows from its first corner.
+  struct Crack {
+    std::array<std::uint16_t, 3> corners{};
+    std::uint8_t reach = 0;  ///< Of its edges, in 1/255.
+  };
+  std::vector<Crack> cracks;
 };
 
 /// The outer surface of a piece.

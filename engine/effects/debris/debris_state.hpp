@@ -74,13 +74,14 @@ struct StepReport {
   int bad_numbers = 0;
 };
 
-/// A part in one piece, without an id; the splinters are drawn from `random`.
+/// A part in one piece, without an id; the splinters are drawn from `random`. `height_left`: of its size along z, where it has
+/// melted.
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
-                const Vec3& angular_velocity_radps, Random& random);
+                const Vec3& angular_velocity_radps, Random& random, double height_left = 1.0);
 
 /// Adds a part in one piece; the splinters are drawn from `random`. Answers its id.
 std::uint32_t spawn_part(State& state, Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
-                         const Vec3& angular_velocity_radps, Random& random);
+                         const Vec3& angular_velocity_radps, Random& random, double height_left = 1.0);
 
 StepReport advance_debris(State& state, ContactWorld& world, double step_s);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -51,9 +52,12 @@ std::vector<InnerFace> inner_faces(const elastic::ElasticBody& body) {
   return result;
 }
 
-/// By how much a stress passes the strength of a face with this normal; below one it holds.
-double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
-  if (stress.norm() < strength_pa) return 0.0;
+bool cracks_slowly(const Piece& piece) { return part_recipe(piece.part).material == Material::ice; }
+
+/// By how much a stress passes the strength of a face with this normal; below one it holds. Less than `least` may be 0.
+double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal,
+                        double least) {
+  if (stress.norm() < least * strength_pa) return 0.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(stress, Eigen::EigenvaluesOnly);
   const double greatest = eigen.eigenvalues()[2];
@@ -61,8 +65,9 @@ double tensile_overload(const Eigen::Matrix3d& stress, double strength_pa, const
   return across ? greatest / strength_pa : 0.0;
 }
 
-double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal) {
-  if (stress.norm() < strength_pa) return 0.0;
+double splitting_overload(const Eigen::Matrix3d& stress, double strength_pa, const Eigen::Vector3d& normal,
+                          double least) {
+  if (stress.norm() < least * strength_pa) return 0.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(stress);
   const double along = normal.dot(eigen.eigenvectors().col(0));
@@ -95,20 +100,21 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
                      const std::vector<Eigen::Matrix3d>& at_nodes_pa, const Eigen::Vector3d& normal) {
   Overload most;
   const auto& m = piece.material;
+  const double least = cracks_slowly(piece) ? least_cracking_share : 1.0;
   // Pressure splits a brittle material where it bulges by more than its strength allows.
   const double splitting_pa = m.yield_pa > 0.0
                                   ? m.compressive_strength_pa
                                   : std::min(m.compressive_strength_pa, m.strength_pa / m.elastic.poisson_ratio);
   const auto struck = [&](const Eigen::Matrix3d& peak) {
-    most.blow = std::max(
-        {most.blow, tensile_overload(peak, m.strength_pa, normal), splitting_overload(peak, splitting_pa, normal)});
+    most.blow = std::max({most.blow, tensile_overload(peak, m.strength_pa, normal, least),
+                          splitting_overload(peak, splitting_pa, normal, least)});
   };
   for (const int element : {face.first, face.second}) {
-    most.lasting =
-        std::max(most.lasting, tensile_overload(elastic::cauchy_stress_pa(piece.body, element), m.strength_pa, normal));
+    most.lasting = std::max(
+        most.lasting, tensile_overload(elastic::cauchy_stress_pa(piece.body, element), m.strength_pa, normal, least));
     if (piece.body.step_stress_pa.empty()) continue;
     const Eigen::Matrix3d& carried = piece.body.step_stress_pa[element];
-    most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal));
+    most.lasting = std::max(most.lasting, tensile_overload(carried, m.strength_pa, normal, least));
     if (blow.lost_j > 0.0) struck(blow.stress_factor * carried);
   }
   if (blow.lost_j > 0.0) {
@@ -119,37 +125,73 @@ Overload overload_of(const Piece& piece, const InnerFace& face, const Blow& blow
   return most;
 }
 
-/// Which of the inner faces open, and what the cracks leave of the energy that the blow lost.
-std::vector<bool> opened_faces(const Piece& piece, const std::vector<InnerFace>& faces, const Blow& blow,
-                               double& left_j) {
+/// What becomes of each inner face.
+struct FaceFates {
+  std::vector<bool> opened;
+  std::vector<double> reach;  ///< Of its crack.
+  double left_j = 0.0;        ///< What the cracks leave of the energy that the blow lost.
+};
+
+/// How far each face has cracked before.
+std::vector<double> reach_before(const Piece& piece, const std::vector<InnerFace>& faces) {
+  std::vector<double> reach(faces.size(), 0.0);
+  if (piece.cracks.empty()) return reach;
+  std::map<std::pair<int, int>, double> of;
+  for (const FaceCrack& crack : piece.cracks) of[{crack.first, crack.second}] = crack.reach;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (const auto found = of.find({faces[k].first, faces[k].second}); found != of.end()) reach[k] = found->second;
+  return reach;
+}
+
+FaceFates fates_of(const Piece& piece, const std::vector<InnerFace>& faces, const Blow& blow, double step_s) {
   const auto& x = piece.body.position_m;
-  std::vector<bool> opened(faces.size(), false);
+  FaceFates fates{std::vector<bool>(faces.size(), false), reach_before(piece, faces), 0.0};
   struct Candidate {
     double overload, cost_j;
     std::size_t face;
   };
   std::vector<Candidate> candidates;
+  const bool slowly = cracks_slowly(piece);
   // Only a blow is judged by the mean around a face, and most steps have none.
   const auto at_nodes_pa = blow.lost_j > 0.0 ? stress_at_nodes_pa(piece.body) : std::vector<Eigen::Matrix3d>{};
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
     if (piece.splinter[face.first] == piece.splinter[face.second]) continue;
     const Eigen::Vector3d normal = (x[face.nodes[1]] - x[face.nodes[0]]).cross(x[face.nodes[2]] - x[face.nodes[0]]);
-    const double area = 0.5 * normal.norm();
-    const Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
-    opened[k] = overload.lasting >= 1.0;
-    if (!opened[k] && overload.blow >= 1.0)
-      candidates.push_back({overload.blow, area * piece.material.fracture_energy_jpm2, k});
+    const double area = 0.5 * normal.norm(), whole = 1.0 - fates.reach[k];
+    Overload overload = overload_of(piece, face, blow, at_nodes_pa, normal.normalized());
+    overload.lasting /= whole, overload.blow /= whole;
+    fates.opened[k] = overload.lasting >= 1.0;
+    if (fates.opened[k]) continue;
+    if (overload.blow >= 1.0)
+      candidates.push_back({overload.blow, whole * area * piece.material.fracture_energy_jpm2, k});
+    if (slowly && overload.lasting >= least_cracking_share) {
+      fates.reach[k] += step_s / crack_time_s * std::pow(overload.lasting, crack_exponent);
+      fates.opened[k] = fates.reach[k] >= 1.0;
+    }
   }
   std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::overload);
-  left_j = blow.lost_j + blow.pressed_j;
+  fates.left_j = blow.lost_j + blow.pressed_j;
   for (const Candidate& c : candidates) {
-    if (c.cost_j > left_j) break;
-    left_j -= c.cost_j;
-    opened[c.face] = true;
+    if (c.cost_j > fates.left_j) {
+      if (!slowly || fates.opened[c.face]) break;
+      fates.reach[c.face] += (1.0 - fates.reach[c.face]) * fates.left_j / c.cost_j;
+      fates.left_j = 0.0;
+      break;
+    }
+    fates.left_j -= c.cost_j;
+    fates.opened[c.face] = true;
   }
-  left_j = std::min(left_j, blow.lost_j);
-  return opened;
+  fates.left_j = std::min(fates.left_j, blow.lost_j);
+  return fates;
+}
+
+std::vector<FaceCrack> cracks_of(const std::vector<InnerFace>& faces, const FaceFates& fates) {
+  std::vector<FaceCrack> cracks;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (!fates.opened[k] && fates.reach[k] > 0.0) cracks.push_back({faces[k].first, faces[k].second, fates.reach[k]});
+  std::ranges::sort(cracks, {}, [](const FaceCrack& crack) { return std::pair{crack.first, crack.second}; });
+  return cracks;
 }
 
 /// The part of the rest shape that has flowed: edges(rest) · rest_inverse = Fp⁻¹.
@@ -160,7 +202,7 @@ Eigen::Matrix3d inverse_flow(const elastic::ElasticBody& body, const Element& e)
 }
 
 /// The elements of one island as a piece of its own.
-Piece cut_out(const Piece& from, const std::vector<int>& elements,
+Piece cut_out(const Piece& from, const std::vector<int>& elements, const std::vector<FaceCrack>& cracks,
               const std::vector<std::array<int, 4>>& corner_group) {
   const auto& old = from.body;
   elastic::TetrahedralMesh mesh;
@@ -196,6 +238,14 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements,
     piece.splinter.push_back(from.splinter[elements[k]]);
     piece.plastic_strain.push_back(from.plastic_strain[elements[k]]);
   }
+  // Elements ascend, so that those of a crack do as well.
+  const auto now = [&](int element) {
+    const auto found = std::ranges::lower_bound(elements, element);
+    return found != elements.end() && *found == element ? static_cast<int>(found - elements.begin()) : -1;
+  };
+  for (const FaceCrack& crack : cracks)
+    if (now(crack.first) >= 0 && now(crack.second) >= 0)
+      piece.cracks.push_back({now(crack.first), now(crack.second), crack.reach});
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (const auto& e : piece.body.elements) tetrahedra.push_back(e.nodes);
   piece.surface = elastic::surface_triangles(piece.body.rest_position_m, tetrahedra);
@@ -204,11 +254,12 @@ Piece cut_out(const Piece& from, const std::vector<int>& elements,
 
 }  // namespace
 
-FractureResult fracture(const Piece& piece, const Blow& blow) {
+FractureResult fracture(const Piece& piece, const Blow& blow, double step_s) {
   FractureResult result;
+  result.cracks = piece.cracks;
   const auto& body = piece.body;
   const auto strained = [&](int e) {
-    const double strength = piece.material.strength_pa;
+    const double strength = (cracks_slowly(piece) ? least_cracking_share : 1.0) * piece.material.strength_pa;
     return elastic::cauchy_stress_pa(body, e).norm() >= strength ||
            (!body.step_stress_pa.empty() && blow.stress_factor * body.step_stress_pa[e].norm() >= strength);
   };
@@ -218,11 +269,11 @@ FractureResult fracture(const Piece& piece, const Blow& blow) {
   const auto faces = inner_faces(body);
   const std::size_t count = body.elements.size();
   DisjointSets islands(count), corners(4 * count);
-  double left_j = 0.0;
-  const auto opened = opened_faces(piece, faces, blow, left_j);
+  const FaceFates fates = fates_of(piece, faces, blow, step_s);
+  result.cracks = cracks_of(faces, fates);
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const InnerFace& face = faces[k];
-    if (opened[k]) {
+    if (fates.opened[k]) {
       ++result.opened_faces;
       continue;
     }
@@ -242,8 +293,9 @@ FractureResult fracture(const Piece& piece, const Blow& blow) {
     for (int a = 0; a < 4; ++a) group[e][a] = corners.find(4 * e + a);
     members[islands.find(e)].push_back(e);
   }
-  for (const auto& [representative, elements] : members) result.pieces.push_back(cut_out(piece, elements, group));
-  scatter(result.pieces, blow.normal, scatter_share * left_j);
+  for (const auto& [representative, elements] : members)
+    result.pieces.push_back(cut_out(piece, elements, result.cracks, group));
+  scatter(result.pieces, blow.normal, scatter_share * fates.left_j);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace septet::debris {
 constexpr std::size_t tetrahedra_per_cube = 5;  // One after the other in lattice_mesh.
 
 Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& velocity_mps,
-                const Vec3& angular_velocity_radps, Random& random) {
+                const Vec3& angular_velocity_radps, Random& random, double height_left) {
   const PartRecipe& recipe = part_recipe(part);
   elastic::TetrahedralMesh mesh =
       elastic::lattice_mesh({recipe.cells.x, recipe.cells.y, recipe.cells.z}, to_eigen(recipe.size_m));
@@ -21,6 +21,7 @@ Piece make_part(Part part, const RigidTransform& world_from_part, const Vec3& ve
     const double width = 1.0 + (recipe.taper - 1.0) * (x.z() / recipe.size_m.z + 0.5);
     x.x() *= width;
     x.y() *= width;
+    x.z() *= height_left;
   }
   Piece piece;
   piece.part = part;

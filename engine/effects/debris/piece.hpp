@@ -15,6 +15,12 @@
 
 namespace septet::debris {
 
+/// A crack in the face between two elements: how much of it has parted, 0 to 1. At 1 it has opened.
+struct FaceCrack {
+  int first = 0, second = 0;  ///< Elements, ascending.
+  double reach = 0.0;
+};
+
 struct Piece {
   std::uint32_t id = 0;
   Part part = Part::bumper;
@@ -22,6 +28,7 @@ struct Piece {
   elastic::ElasticBody body;
   std::vector<int> splinter;           ///< Of each element; faces between two may open.
   std::vector<double> plastic_strain;  ///< Accumulated, of each element.
+  std::vector<FaceCrack> cracks;       ///< Of ice; ascending.
   std::vector<elastic::SurfaceTriangle> surface;
   double calm_s = 0.0;  ///< For how long it has hardly moved.
   bool asleep = false;  ///< Neither stepped nor broken until something touches it.

@@ -10,8 +10,9 @@ namespace septet::debris {
 
 SEPTET_MEMBERS(Shard, position_m, velocity_mps, angular_velocity_radps, orientation, size_m, mass_kg)
 
+SEPTET_MEMBERS(FaceCrack, first, second, reach)
 // Left out are what is its part's, what is drawn of it, and its body, which has a reader of its own.
-SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), left_out(material, body), kept(splinter), hashed(plastic_strain),
+SEPTET_MEMBER_GROUPS(Piece, hashed(id, part), left_out(material, body), kept(splinter), hashed(plastic_strain, cracks),
                      left_out(surface), hashed(calm_s, asleep))
 // Pieces and, in the hash, shards are taken one by one.
 SEPTET_MEMBER_GROUPS(State, left_out(pieces), kept(shards), hashed(next_id, bad_numbers))
@@ -34,6 +35,10 @@ void restore_piece(StateReader& reader, Piece& piece) {
   const std::size_t elements = piece.body.elements.size();
   reader.require(piece.splinter.size() == elements && piece.plastic_strain.size() == elements, wrong);
   for (const int splinter : piece.splinter) reader.require(splinter >= 0 && splinter < recipe.splinters, wrong);
+  for (const FaceCrack& crack : piece.cracks)
+    reader.require(crack.first >= 0 && crack.first < crack.second &&
+                       static_cast<std::size_t>(crack.second) < elements && crack.reach > 0.0 && crack.reach < 1.0,
+                   wrong);
   if (!reader.ok()) return;
   std::vector<elastic::Tetrahedron> tetrahedra;
   for (const auto& element : piece.body.elements) tetrahedra.push_back(element.nodes);

@@ -4,6 +4,7 @@
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/bridge_shape.hpp"
 #include "engine/scenery/world/world_context.hpp"
 #include "engine/scenery/world/world_finish.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using geometry::MeshBuilder;
 
-constexpr double overhang_m = 1.4;  ///< Of the deck beyond the asphalt.
+using namespace roadside::bridge_shape;
 
 /// The deck's edge beams, its underside with two box girders, seen from below and from afar.
 void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile) {
@@ -25,7 +26,7 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
     const std::array<std::pair<double, double>, 14> section{{{extent.left_t_m, 0.0},
                                                              {extent.left_t_m, 0.12},
                                                              {left, 0.12},
-                                                             {left, -0.45},
+                                                             {left, edge_foot_m},
                                                              {left - 2.6, -0.8},
                                                              {left - 4.2, -2.6},
                                                              {left - 12.0, -2.6},
@@ -34,7 +35,7 @@ void add_deck(MeshBuilder& builder, const WorldContext& world, const RoadTile& t
                                                              {right + 12.0, -2.6},
                                                              {right + 4.2, -2.6},
                                                              {right + 2.6, -0.8},
-                                                             {right, -0.45},
+                                                             {right, edge_foot_m},
                                                              {right, 0.12}}};
     auto& row = rows.emplace_back();
     for (const auto& [t, up] : section) row.push_back(builder.vertex(world.roads.local(tile, s, t, up)));

@@ -107,7 +107,7 @@ void add_portal(MeshBuilder& builder, const WorldContext& world, const RoadTile&
     const double edge = t > 0 ? left_wall - t : t - right_wall;
     return edge < 0.01 ? haunch_m : ceiling_m;
   };
-  const double face = mouth_s + outwards * 0.25;
+  const double face = mouth_s + outwards * portal_before_m;
   for (std::size_t k = 0; k + 1 < columns.size(); ++k) {
     const double t0 = columns[k], t1 = columns[k + 1], middle = 0.5 * (t0 + t1);
     const bool open = lintel(middle) > 0.0;

@@ -75,20 +75,26 @@ EffectsState initial_effects(const scenario::Scenario& scenario, const scenario:
 }
 
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
-           EffectsState& state) {
+           ParticipantId vehicle, EffectsState& state) {
   const auto part = part_of_name(action.part);
   if (!part || !from.active) return;
-  const double roof = entity.box.centre_m.z + 0.5 * entity.box.height_m,
-               half = 0.5 * debris::part_recipe(*part).size_m.z;
+  const double whole_m = debris::part_recipe(*part).size_m.z, roof = entity.box.centre_m.z + 0.5 * entity.box.height_m;
+  double left = 1.0;
+  if (*part == debris::Part::ice_slab) left = release_slab(vehicle, {action.x_m, action.y_m}, whole_m, state.ice);
+  constexpr double least_left = 0.1;  // Thinner, it runs off as water.
+  if (left < least_left) return;
+  const double half = 0.5 * left * whole_m;
   const Quat& turn = from.world_from_entity.orientation;
   const Vec3 place = from.world_from_entity * Vec3(action.x_m, action.y_m, roof + half + 0.02);
-  debris::spawn_part(state.debris, *part, {place, turn}, from.velocity_mps - turn * Vec3(action.slide_mps, 0.0, 0.0),
-                     from.angular_velocity_radps, state.random);
+  debris::spawn_part(state.debris, *part, {place, turn},
+                     from.velocity_mps + turn * Vec3(-action.slide_mps, action.side_mps, 0.0),
+                     from.angular_velocity_radps, state.random, left);
 }
 
 bool effects_are_still(const EffectsState& state) {
   return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
-         state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke;
+         state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke &&
+         state.ice.still.empty() && state.ice.keyframe.data.empty();
 }
 
 EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
@@ -114,6 +120,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s,
                 step_s, state.fires);
 
+  advance_ice(world.environment.temperature_k, step_s, world.tick + effects_step_ticks, state.ice);
+
   StateHash hash;
   hash.add(state.hash);
   // What is new of the smoke; its keyframes follow wholly from it.
@@ -130,6 +138,7 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
 std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state) {
   std::vector<EffectKeyframe> keyframes = state.fires.keyframes;
   keyframes.insert(keyframes.end(), state.published.keyframes.begin(), state.published.keyframes.end());
+  if (!state.ice.keyframe.data.empty()) keyframes.push_back(state.ice.keyframe);
   return keyframes;
 }
 

@@ -33,9 +33,10 @@ EffectsState initial_effects(const scenario::Scenario& scenario, const scenario:
 /// "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab".
 std::optional<debris::Part> part_of_name(std::string_view name);
 
-/// Puts a part on the roof of a vehicle: see scenario::EffectAction.
+/// Puts a part on the roof of a vehicle, which is `vehicle` among the participants: see scenario::EffectAction. Of a slab of ice
+/// comes what has not melted.
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
-           EffectsState& state);
+           ParticipantId vehicle, EffectsState& state);
 
 /// Nothing would change: the stage may be skipped.
 bool effects_are_still(const EffectsState& state);

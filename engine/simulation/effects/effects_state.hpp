@@ -12,6 +12,7 @@
 #include "engine/roadside/obstacles.hpp"
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/simulation/effects/fire_stage.hpp"
+#include "engine/simulation/effects/ice_stage.hpp"
 #include "engine/simulation/effects/keyframe_schedule.hpp"
 #include "engine/world/snapshot.hpp"
 
@@ -25,6 +26,7 @@ struct EffectsState {
   debris::State debris;
   CrashMemory crashes;
   FireState fires;
+  IceState ice;
   Random random{0};
   PublishedEffects published;
   std::uint64_t hash =

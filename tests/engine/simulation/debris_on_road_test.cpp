@@ -134,7 +134,7 @@ TEST_CASE("what slides off a roof leaves it backwards") {
   scenario::EffectAction action;
   action.part = "ice-slab";
   action.slide_mps = 3.0;
-  spill(action, lorry, from, state);
+  spill(action, lorry, from, 2, state);
   REQUIRE(state.debris.pieces.size() == 1);
   const auto& slab = state.debris.pieces.front().body;
   const Vec3 mps = debris::from_eigen(elastic::momentum_ns(slab)) / elastic::total_mass_kg(slab);

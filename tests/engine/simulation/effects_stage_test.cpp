@@ -59,7 +59,7 @@ EffectsState slab_from_a_lorry(std::uint64_t seed) {
   action.part = "ice-slab";
   action.x_m = -2.6;
   action.slide_mps = 3.0;
-  spill(action, lorry, where, state);
+  spill(action, lorry, where, 2, state);
   return state;
 }
 

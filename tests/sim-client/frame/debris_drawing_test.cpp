@@ -165,7 +165,7 @@ ice::IceBody ice_of(const debris::Keyframe& keyframe) {
   const auto sent = debris::decode(debris::encode(keyframe));
   REQUIRE(sent.has_value());
   const DebrisWay way(*sent, *sent);
-  const auto body = way.ice_of(way.at(0.0));
+  const auto body = way.ice_of(way.at(0.0), 0.0f);
   REQUIRE(body.has_value());
   return *body;
 }

@@ -1,0 +1,44 @@
+#pragma once
+/// Still ice as a screen draws it: slabs go with the vehicle that they lie on; icicles and sheets are made once a keyframe, and
+/// those near the eye are drawn. One thread.
+
+#include <optional>
+#include <vector>
+
+#include "engine/effects/ice/ice_keyframe.hpp"
+#include "engine/instant/frame_input.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::frame {
+
+/// A slab of ice as it lies on its vehicle, as thick as it is now: like the piece of debris that it will be, with the same cracks
+/// in the same places.
+ice::IceBody slab_body(const ice::LyingSlab& slab, double thawed_kh, const RigidTransform& world_from_vehicle,
+                       float film);
+/// All icicles of a row in one body; one without vertices where none is left.
+ice::IceBody row_body(const ice::IcicleRow& row, double thawed_kh, float film);
+/// A sheet in bodies of some metres each.
+std::vector<ice::IceBody> sheet_bodies(const ice::Sheet& sheet, double thawed_kh, float film);
+
+class IceDrawing {
+ public:
+  void show(const Snapshot& instant, const scene::ResolvedScene& scene);
+  void add_to(instant::FrameInput& frame) const;
+  /// Keyframes that could not be read.
+  std::uint32_t refused() const { return refused_; }
+
+ private:
+  struct Standing {
+    ice::IceBody body;
+    double reach_m = 0.0;  ///< From how far it is worth drawing.
+  };
+  Tick tick_ = 0;  ///< Of the keyframe that was read last.
+  float film_ = 0.0f;
+  std::optional<ice::StillIce> ice_;
+  std::vector<Standing> standing_;
+  std::vector<ice::IceBody> slabs_;
+  std::vector<instant::DynamicMesh> shadows_;  ///< Of the slabs.
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace septet::frame
