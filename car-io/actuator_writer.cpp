@@ -9,6 +9,8 @@
 
 #include <fmt/core.h>
 
+#include "car-io/actuator_guard.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -21,23 +23,19 @@ Clock::duration duration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-Actuators scaled(Actuators actuators, double share) {
-  actuators.fan *= share;
-  actuators.vibration *= share;
-  actuators.steering *= share;
-  return actuators;
-}
-
 }  // namespace
 
 struct ActuatorWriter::State {
-  State(OpenHidDevice opener, const ActuatorWriterOptions& chosen) : open(std::move(opener)), options(chosen) {}
+  State(OpenHidDevice opener, const ActuatorWriterOptions& chosen) : open(std::move(opener)), options(chosen) {
+    guard.fall_s = options.silent_after_s;
+    guard.rise_s = options.rise_s;
+  }
 
   void run() {
     std::unique_lock lock(mutex);
     for (auto due = Clock::now(); !stopping; due = std::max(due + duration(options.period_s), Clock::now())) {
       if (changed.wait_until(lock, due, [&] { return stopping; })) break;
-      const Actuators wanted = scaled(newest, share_now());
+      const Actuators wanted = guarded();
       lock.unlock();
       auto error = write(wanted);
       lock.lock();
@@ -51,10 +49,16 @@ struct ActuatorWriter::State {
     }
   }
 
-  /// 1 while somebody sets, then down to 0.
-  double share_now() const {
-    const double silent_s = std::chrono::duration<double>(Clock::now() - set_at).count();
-    return std::clamp(2.0 - silent_s / options.silent_after_s, 0.0, 1.0);
+  /// All of it while somebody sets, then down to nothing.
+  Actuators guarded() {
+    const auto now = Clock::now();
+    const bool is_silent = now - set_at > duration(options.silent_after_s) && !is_rest(newest);
+    if (!is_silent && !options.sticky) guard.rearm();
+    if (guard.trip(is_silent) && options.sticky)
+      problem = Error{fmt::format("fan, shaker and wheel force are cut, for the simulation was silent for {:.0f} ms",
+                                  options.silent_after_s * 1000.0),
+                      "the car's device", "look why; pausing the drive and going on lets them run again"};
+    return guard.pass(newest, std::chrono::duration<double>(now - std::exchange(guarded_at, now)).count());
   }
 
   std::optional<Error> write(const Actuators& actuators) {
@@ -115,7 +119,8 @@ struct ActuatorWriter::State {
   std::condition_variable changed;
   bool stopping = false;
   Actuators newest;
-  Clock::time_point set_at = Clock::now();
+  Clock::time_point set_at = Clock::now(), guarded_at = Clock::now();
+  ActuatorGuard guard;
   std::optional<Error> problem;
   std::thread thread;
 };
@@ -141,6 +146,7 @@ void ActuatorWriter::set(const Actuators& actuators) {
   const std::lock_guard lock(state_->mutex);
   state_->newest = actuators;
   state_->set_at = Clock::now();
+  if (is_rest(actuators)) state_->guard.rearm();
 }
 
 std::optional<Error> ActuatorWriter::take_error() {

@@ -5,7 +5,8 @@
 /// The thread opens the device for itself (a HID device may be open several times) and opens it
 /// again after an unplug. What was set last is written every `period_s`; where nobody has set
 /// anything for `silent_after_s`, everything fades to 0 in as long again: a simulation that hangs
-/// does not leave a fan blowing. The destructor writes zeros. For the case that nothing can be
+/// does not leave a fan blowing. A `sticky` writer then stays at 0 until what is at rest is set
+/// (actuator_guard.hpp), which is what a pause does: an operator confirms. The destructor writes zeros. For the case that nothing can be
 /// written any more, the device's own watchdog is set whenever it is opened, and read back.
 ///
 /// Threads: `set` and `take_error` from any; neither waits for the device.
@@ -25,6 +26,8 @@ struct ActuatorWriterOptions {
   double period_s = 0.01;
   double silent_after_s = 0.2;
   double retry_s = 0.5;
+  bool sticky = false;
+  double rise_s = 0.0;  ///< Of what comes back after a fault.
 };
 
 class ActuatorWriter {
@@ -34,7 +37,7 @@ class ActuatorWriter {
   ~ActuatorWriter();
 
   void set(const Actuators& actuators);
-  /// A device that is there and takes no output reports, or whose watchdog does not hold, once;
+  /// A device that is there and takes no output reports, or whose watchdog does not hold, once; that a sticky writer was cut;
   /// that it is away is for who reads it to say.
   std::optional<Error> take_error();
 

@@ -24,7 +24,9 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
   const double speed_mps = std::abs(finite(motion.speed_mps));
   Actuators result;
   if (speed_mps > 0.5) {
-    const double share = std::min(speed_mps / limits.fan_full_speed_mps, 1.0);
+    // The force of a jet of air grows with the square of its speed.
+    const double speed_share = std::min(speed_mps / limits.fan_full_speed_mps, 1.0);
+    const double share = limits.fan_follows == rig::CarActuators::Wind::force ? std::sqrt(speed_share) : speed_share;
     result.fan = std::min(limits.fan_least + (1.0 - limits.fan_least) * share, 1.0) * limits.fan_most;
   }
 

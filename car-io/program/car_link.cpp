@@ -73,7 +73,10 @@ void CarLink::take_rig(const std::string& text) {
   connection_ = std::make_unique<CarConnection>(
       open, CarConnectionOptions{.layout = *layout, .calibration = rig->car.calibration});
   writer_ = std::make_unique<ActuatorWriter>(
-      open, ActuatorWriterOptions{.layout = *layout, .has_steering_force = rig->car.actuators.steering_most > 0.0});
+      open, ActuatorWriterOptions{.layout = *layout,
+                                  .has_steering_force = rig->car.actuators.steering_most > 0.0,
+                                  .sticky = true,
+                                  .rise_s = 1.0});
   was_connected_ = false;
   problem_.clear();
 }

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   car_io::DriveOptions drive;
   car_io::CalibrateOptions calibrate;
   car_io::ActuateOptions actuate;
+  car_io::TrialOptions all;
   CLI::App app{
       "septet-car: carries the car's controls to the server, and fan, vibration and steering force "
       "to the car. Run it on the machine that the rig's [car] machine names."};
@@ -32,6 +33,9 @@ int main(int argc, char** argv) {
   trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")->check(number_between(0.0, 255.0));
   trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
       ->check(number_between(-1.0, 1.0));
+  CLI::App* test = app.add_subcommand("test", "Try each actuator that the rig has, gently, one after the other");
+  test->add_option("--rig", all.rig, "Rig file")->required();
+  test->add_option("--seconds", all.seconds, "How long each")->check(number_between(0.1, 60.0));
   app.require_subcommand(0, 1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
@@ -39,6 +43,7 @@ int main(int argc, char** argv) {
   return program::run("septet-car", app, argc, argv, [&] {
     const auto done = calibration->parsed() ? car_io::run_calibration(calibrate)
                       : trial->parsed()     ? car_io::run_actuators(actuate)
+                      : test->parsed()      ? car_io::run_trial(all)
                                             : car_io::run_car(drive);
     return done.map([] { return 0; });
   });

@@ -1,8 +1,12 @@
 #include "car-io/program/car_program.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -97,6 +101,61 @@ Expected<void> run_calibration(const CalibrateOptions& options) {
   const auto recorded = calibration_of(record, here->car.calibration);
   if (!recorded.unmoved.empty()) say(fmt::format("not moved, and left as the rig has it: {}", recorded.unmoved));
   std::fputs(calibration_toml(recorded.calibration).c_str(), stdout);
+  return {};
+}
+
+namespace {
+
+struct Trial {
+  std::string what;
+  Actuators actuators;
+};
+
+std::vector<Trial> trials_of(const rig::CarActuators& limits) {
+  std::vector<Trial> trials;
+  const double fan = std::min(0.5, limits.fan_most), shake = std::min(0.3, limits.vibration_most),
+               force = std::min(0.2, limits.steering_most);
+  if (fan > 0.0) trials.push_back({fmt::format("fan at {:.0f} %: air should come", fan * 100.0), {.fan = fan}});
+  for (const double hz : {20.0, 40.0, 80.0})
+    if (shake > 0.0)
+      trials.push_back({fmt::format("shaker at {:.0f} % and {:.0f} Hz: the seat should shake, and higher each time",
+                                    shake * 100.0, hz),
+                        {.vibration = shake, .vibration_hz = hz}});
+  if (force > 0.0) {
+    trials.push_back(
+        {fmt::format("hand wheel, {:.0f} % to the left: let it turn", force * 100.0), {.steering = force}});
+    trials.push_back({fmt::format("hand wheel, {:.0f} % to the right", force * 100.0), {.steering = -force}});
+  }
+  return trials;
+}
+
+}  // namespace
+
+Expected<void> run_trial(const TrialOptions& options) {
+  program::catch_stop_signals();
+  auto here = open_car(options.rig);
+  if (!here) return tl::unexpected(here.error());
+  if (!here->layout->has_actuators)
+    return failure(fmt::format("the layout {} has no actuators", here->layout->name), options.rig.string(),
+                   "choose another layout in [car]");
+  ActuatorWriter writer(find_device(here->car),
+                        {.layout = here->layout, .has_steering_force = here->car.actuators.steering_most > 0.0});
+  std::optional<Error> fault;
+  const auto hold = [&](const Actuators& actuators, double seconds) {
+    for (const double end_s = program::monotonic_s() + seconds;
+         program::monotonic_s() < end_s && !program::should_stop() && !fault; sleep_s(0.02)) {
+      writer.set(actuators);
+      fault = writer.take_error();
+    }
+  };
+  for (const Trial& trial : trials_of(here->car.actuators)) {
+    if (program::should_stop() || fault) break;
+    say(trial.what);
+    hold(trial.actuators, options.seconds);
+    hold({}, 0.5);
+  }
+  if (fault) return tl::unexpected(std::move(*fault));
+  if (!program::should_stop()) say("all is off again; the device keeps its watchdog");
   return {};
 }
 

@@ -32,4 +32,11 @@ struct ActuateOptions {
 /// Sets fan, shaker and hand wheel to what a person chose, to try them.
 Expected<void> run_actuators(const ActuateOptions& options);
 
+struct TrialOptions {
+  std::filesystem::path rig;
+  double seconds = 2.0;  ///< Of each.
+};
+/// Tries each actuator that the rig has, one after the other and gently, within its limits, and says what should be felt.
+Expected<void> run_trial(const TrialOptions& options);
+
 }  // namespace septet::car_io

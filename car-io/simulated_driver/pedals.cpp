@@ -17,7 +17,7 @@ constexpr double hardest_mps2 = -9.0;
 constexpr double least_gap_m = 0.5;
 constexpr double braking_lasts_s = 1.0;  ///< For so long braking ahead is expected to go on.
 
-double approach(double value, double target, double step) { return value + std::clamp(target - value, -step, step); }
+double approached(double value, double target, double step) { return value + std::clamp(target - value, -step, step); }
 
 double expected_speed_mps(const Obstacle& obstacle) {
   return std::max(obstacle.speed_mps + std::min(obstacle.acceleration_mps2, 0.0) * braking_lasts_s, 0.0);
@@ -67,7 +67,7 @@ void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKn
   const double wish = wished_acceleration_mps2(speed, own.speed_mps * (1.0 + speed_error), desired_speed_mps, obstacle);
   const bool emergency = obstacle && heuristic_acceleration_mps2(own.speed_mps, *obstacle) < emergency_mps2;
   const double jerk_mps3 = emergency ? emergency_jerk_mps3 : speed.largest_jerk_mps3;
-  state.wish_mps2 = approach(state.wish_mps2, wish, jerk_mps3 * dt_s);
+  state.wish_mps2 = approached(state.wish_mps2, wish, jerk_mps3 * dt_s);
 
   const double v = std::max(0.0, own.speed_mps);
   const double drag_mps2 = car.rolling_drag_mps2 + car.drag_per_speed2_pm * v * v;
@@ -93,9 +93,9 @@ void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKn
       accelerator = std::clamp((state.wish_mps2 + drag_mps2) / full_mps2 + state.seat_correction, 0.0, 1.0);
     }
   }
-  state.accelerator = approach(state.accelerator, accelerator,
-                               (accelerator > state.accelerator ? accelerator_rate_ps : release_rate_ps) * dt_s);
-  state.brake = approach(state.brake, brake, (brake > state.brake ? brake_rate_ps : release_rate_ps) * dt_s);
+  state.accelerator = approached(state.accelerator, accelerator,
+                                 (accelerator > state.accelerator ? accelerator_rate_ps : release_rate_ps) * dt_s);
+  state.brake = approached(state.brake, brake, (brake > state.brake ? brake_rate_ps : release_rate_ps) * dt_s);
 }
 
 }  // namespace septet::car_io

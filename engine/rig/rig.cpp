@@ -18,6 +18,11 @@ using document::TableReader;
 
 constexpr const char* documented_in = "rigs/README.md";
 
+constexpr std::string_view joystick_controls[] = {
+    "steering", "accelerator", "brake",     "clutch",        "indicator_left", "indicator_right", "hazard_lights",
+    "horn",     "low_beam",    "high_beam", "parking_brake", "reverse",        "gear_1",          "gear_2",
+    "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse"};
+
 void read_window(TableReader& reader, Window& window) {
   window.lower_left_m = reader.get_point("lower_left_m");
   window.lower_right_m = reader.get_point("lower_right_m");
@@ -139,20 +144,53 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
   TableReader reader(table, file, "car.actuators", error);
   CarActuators actuators;
   actuators.fan_full_speed_mps = reader.get_double("fan_full_speed_mps", actuators.fan_full_speed_mps, 1.0, 200.0);
+  actuators.fan_follows = static_cast<CarActuators::Wind>(reader.get_choice("fan_follows", 0, {"air-speed", "force"}));
   actuators.fan_least = reader.get_double("fan_least", actuators.fan_least, 0.0, 1.0);
   actuators.fan_most = reader.get_double("fan_most", actuators.fan_most, 0.0, 1.0);
   actuators.vibration_most = reader.get_double("vibration_most", actuators.vibration_most, 0.0, 1.0);
+  actuators.vibration_full_mps2 = reader.get_double("vibration_full_mps2", actuators.vibration_full_mps2, 0.0, 100.0);
+  actuators.vibration_dose_mps2 = reader.get_double("vibration_dose_mps2", actuators.vibration_dose_mps2, 0.01, 1.15);
   actuators.steering_full_nm = reader.get_double("steering_full_nm", actuators.steering_full_nm, 0.1, 100.0);
   actuators.steering_most = reader.get_double("steering_most", actuators.steering_most, 0.0, 1.0);
   reader.finish(documented_in);
   return actuators;
 }
 
+std::vector<JoystickControl> read_joystick(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "car.joystick", error);
+  std::vector<JoystickControl> controls;
+  for (const std::string_view name : joystick_controls) {
+    const toml::table* found = reader.get_table(name);
+    if (!found) continue;
+    TableReader control(*found, file, fmt::format("car.joystick.{}", name), error);
+    JoystickControl result{.name = std::string(name)};
+    result.is_axis = found->contains("axis");
+    constexpr std::int64_t most_axes = 63, most_keys = 767;  // Linux' ABS_MAX and KEY_MAX.
+    result.code = static_cast<std::uint16_t>(result.is_axis ? control.get_integer("axis", 0, 0, most_axes)
+                                                            : control.get_integer("button", 0, 1, most_keys));
+    if (!result.is_axis && !found->contains("button"))
+      control.report("button", fmt::format("{} is given neither an axis nor a button", name),
+                     "let septet-car learn find it");
+    if (result.is_axis) {
+      constexpr double most = 2147483648.0;
+      result.at_zero = control.get_double("at_zero", 0.0, -most, most);
+      result.at_one = control.get_double("at_one", 1.0, -most, most);
+      result.dead_zone = control.get_double("dead_zone", 0.0, 0.0, 0.5);
+      if (result.at_zero == result.at_one)
+        control.report("at_one", "both ends of the axis are one", "let septet-car learn find them");
+    }
+    control.finish(documented_in);
+    controls.push_back(std::move(result));
+  }
+  reader.finish(documented_in);
+  return controls;
+}
+
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
   car.source = static_cast<CarSource>(
-      reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic", "can"}));
+      reader.get_choice("source", 0, {"simulated-driver", "hid", "keyboard", "automatic", "can", "joystick"}));
   car.vendor_id = static_cast<std::uint16_t>(reader.get_integer("vendor_id", car.vendor_id, 0, 65535));
   car.product_id = static_cast<std::uint16_t>(reader.get_integer("product_id", car.product_id, 0, 65535));
   car.serial = reader.get_string("serial", car.serial);
@@ -164,6 +202,10 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   if (const auto* calibration = reader.get_table("calibration"))
     car.calibration = read_calibration(*calibration, file, error);
   if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
+  if (const auto* joystick = reader.get_table("joystick")) car.joystick = read_joystick(*joystick, file, error);
+  if (car.source == CarSource::joystick && car.joystick.empty())
+    reader.report("source", "car.source is \"joystick\", and no control of it is known",
+                  "add the [car.joystick] that septet-car learn prints");
   reader.finish(documented_in);
   return car;
 }

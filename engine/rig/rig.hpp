@@ -59,7 +59,8 @@ struct Network {
 };
 
 /// `automatic`: the HID device where it is plugged in, else the keyboard (or gamepad) of a screen's window. `can`: the rig's CAN bus.
-enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard, automatic, can };
+/// `joystick`: any input device of Linux, by [car.joystick].
+enum class CarSource : std::uint8_t { simulated_driver, hid, keyboard, automatic, can, joystick };
 
 /// How one axis of a particular device differs from its report layout: readings on the layout's own scale (hand wheel: −1 full
 /// right to 1 full left; pedal: 0 released to 1 floored). `septet-car calibrate` records and prints them.
@@ -80,12 +81,27 @@ struct CarCalibration {
 
 /// What the car's fan, shaker and steering motor may do; outputs are shares of what the device can, 0 to 1.
 struct CarActuators {
-  double fan_full_speed_mps = 41.7;  ///< The fan is linear in the car's speed up to here (150 km/h).
-  double fan_least = 0.2;            ///< Share at which the fan just turns.
+  double fan_full_speed_mps = 41.7;  ///< The fan is full from here on (150 km/h).
+  /// What of the wind is linear in the car's speed: the air's speed, or its force, which grows with the square of that.
+  enum class Wind : std::uint8_t { air_speed, force } fan_follows = Wind::air_speed;
+  double fan_least = 0.2;  ///< Share at which the fan just turns.
   double fan_most = 1.0;
   double vibration_most = 0.6;
-  double steering_full_nm = 8.0;  ///< Torque at the hand wheel that full force means.
-  double steering_most = 0.0;     ///< 0: the hand wheel has no motor.
+  double vibration_full_mps2 =
+      0.0;  ///< Measured at the seat with the shaker at its full, root mean square; 0: not measured, no dose.
+  double vibration_dose_mps2 = 0.5;  ///< Daily exposure A(8) at which the shaker is cut.
+  double steering_full_nm = 8.0;     ///< Torque at the hand wheel that full force means.
+  double steering_most = 0.0;        ///< 0: the hand wheel has no motor.
+};
+
+/// What one control of the car is on an input device (evdev): an axis with its values at both ends, or a button.
+struct JoystickControl {
+  std::string name;  ///< "steering", "accelerator", …, "horn", "gear_1": as `septet-car learn` prints them.
+  bool is_axis = false;
+  std::uint16_t code = 0;  ///< Linux' ABS_ or BTN_ number.
+  double at_zero = 0.0,
+         at_one = 1.0;     ///< Of an axis: straight and full left; released and floored. Either may be the greater.
+  double dead_zone = 0.0;  ///< Share of the travel that reads as 0.
 };
 
 struct Car {
@@ -99,6 +115,7 @@ struct Car {
   std::string driver = "plain";       ///< Which simulated driver.
   CarCalibration calibration;
   CarActuators actuators;
+  std::vector<JoystickControl> joystick;
 };
 
 /// What one signal of the DBC file carries, where its own name does not say so.

@@ -61,15 +61,18 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     error.remedy += "; or set [car] source = \"automatic\", then a keyboard drives";
     return tl::unexpected(error);
   }
-  sit_at_device(seat, open, options);
+  sit_at_device(seat, open, options, true);
   return seat;
 }
 
-void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options) {
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options,
+                   bool sticky) {
   seat.car = std::make_unique<car_io::CarConnection>(open, options);
   const auto writer = std::make_shared<car_io::ActuatorWriter>(
       open, car_io::ActuatorWriterOptions{.layout = options.layout,
-                                          .has_steering_force = seat.actuators.steering_most > 0.0});
+                                          .has_steering_force = seat.actuators.steering_most > 0.0,
+                                          .sticky = sticky,
+                                          .rise_s = sticky ? 1.0 : 0.0});
   seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
     writer->set(actuators);
     return writer->take_error();

@@ -17,7 +17,8 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
                                       const std::shared_ptr<const simulation::Model>& model,
                                       const car_io::OpenHidDevice& controls = {});
 
-/// Reads a device here and moves its actuators, within the seat's limits.
-void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options);
+/// Reads a device here and moves its actuators, within the seat's limits. `sticky`: once cut, they wait for a pause.
+void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options,
+                   bool sticky = false);
 
 }  // namespace septet::server

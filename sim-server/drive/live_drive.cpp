@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "car-io/can/instruments.hpp"
 #include "engine/core/printable.hpp"
 #include "engine/simulation/saved_state.hpp"
@@ -66,6 +68,8 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     // The device's clock is simulated time, so that a slow machine does not see a stale driver.
     const auto reading = seat_.car->poll(waited_s_ + state_.time_s());
     if (reading.is_stale) ++state_.diagnostics.input_stale_ticks;
+    was_fresh_ = was_fresh_ || !reading.is_stale;
+    is_stale_ = was_fresh_ && reading.is_stale;
     record.input = reading.input;
     record.report = reading.report;
     if (const auto error = seat_.car->take_error()) tell(describe(*error));
@@ -99,9 +103,27 @@ void LiveDrive::tell(const std::string& what) {
 
 void LiveDrive::move_actuators() {
   if (!seat_.actuate) return;
+  constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
+  if (guard_.trip(is_stale_))
+    tell(
+        "fan, shaker and wheel force are cut, for the controls have stopped; pausing the drive and going on lets them "
+        "run again");
   const auto motion = car_motion(*model_, state_);
-  if (const auto error = seat_.actuate(state_.tick, car_io::actuators_for(motion, seat_.actuators)))
-    tell(describe(*error));
+  const auto wanted = guard_.pass(car_io::actuators_for(motion, seat_.actuators), tick_s);
+  if (const auto error = seat_.actuate(state_.tick, within_dose(wanted, tick_s))) tell(describe(*error));
+}
+
+/// A shaker that has shaken for a day rests until the next drive.
+car_io::Actuators LiveDrive::within_dose(car_io::Actuators wanted, double dt_s) {
+  const rig::CarActuators& limits = seat_.actuators;
+  dose_.add(dose_is_full_ ? car_io::Actuators{} : wanted, limits.vibration_full_mps2, dt_s);
+  if (!dose_is_full_ && dose_.a8_mps2() > limits.vibration_dose_mps2) {
+    dose_is_full_ = true;
+    tell(fmt::format("the shaker is cut: the driver has had {:.2f} m/s2 over eight hours' time (2002/44/EC)",
+                     dose_.a8_mps2()));
+  }
+  if (dose_is_full_) wanted.vibration = 0.0;
+  return wanted;
 }
 
 void LiveDrive::show_instruments(const DriverInput& input) {
@@ -132,6 +154,7 @@ Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
 
 void LiveDrive::stand_still() {
   if (!seat_.actuate) return;
+  guard_.rearm();
   if (const auto error = seat_.actuate(state_.tick, {})) tell(describe(*error));
 }
 

@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "car-io/actuator_guard.hpp"
 #include "car-io/actuators.hpp"
 #include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
+#include "car-io/vibration_dose.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/simulation/operator_command.hpp"
@@ -63,6 +65,7 @@ class LiveDrive final : public TickSource {
   LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
   void move_actuators();
+  car_io::Actuators within_dose(car_io::Actuators wanted, double dt_s);
   void show_instruments(const DriverInput& input);
   void keep_state();
   void tell(const std::string& what);
@@ -78,6 +81,10 @@ class LiveDrive final : public TickSource {
   SnapshotMemory memory_;
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
+  bool was_fresh_ = false, is_stale_ = false;  ///< Whether the controls have ever come, and whether they have stopped.
+  car_io::ActuatorGuard guard_;
+  car_io::VibrationDose dose_;
+  bool dose_is_full_ = false;
   std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
   double waited_s_ = 0.0;             ///< For the driver, before the first tick.
   std::optional<logging::DriveEnd> end_;

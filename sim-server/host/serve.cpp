@@ -153,12 +153,14 @@ void stand_still(ScreenLoop& loop) {
   loop.source.stand_still();
   const double begun_s = loop.environment.now_s();
   say();
-  loop.pump_until([&] { return !loop.is_paused(); }, std::numeric_limits<double>::infinity(), 0.1,
-                  [&] {
-                    loop.show_messages();
-                    if (loop.newest) loop.host.repeat_newest();
-                    say();
-                  });
+  loop.pump_until(
+      [&] { return !loop.is_paused(); }, std::numeric_limits<double>::infinity(), 0.1,
+      [&] {
+        loop.show_messages();
+        if (loop.newest) loop.host.repeat_newest();
+        loop.source.stand_still();  // The word that says so may be lost on its way to a car on another machine.
+        say();
+      });
   const double stood_s = loop.environment.now_s() - begun_s;
   loop.environment.message(fmt::format("the world stood still for {:.1f} s", stood_s));
   loop.host.give_notice(before);

@@ -27,6 +27,7 @@ class TickSource {
   /// Whether the driver has taken the controls, `waited_s` after the world began to wait for that.
   virtual bool driver_is_ready(const std::optional<DriverInput>& /*controls*/, double /*waited_s*/) { return true; }
   /// The world stands still from here to the next tick: whatever moves in the driver's seat is to rest.
+  /// Called again and again meanwhile.
   virtual void stand_still() {}
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.

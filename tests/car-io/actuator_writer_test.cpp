@@ -3,6 +3,8 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -52,6 +54,31 @@ TEST_CASE("where nobody sets anything the fan fades to zero by itself") {
   writer.set({.fan = 1.0});
   double fan = -1.0;
   CHECK(comes_true([&] { return (fan = newest_fan(port, fan)) == 0.0; }));
+}
+
+TEST_CASE("a sticky writer that was left alone stays at zero until what is at rest is set") {
+  SimulatedHidPort port;
+  port.plug();
+  ActuatorWriter writer(port.opener(), {.period_s = 0.001, .silent_after_s = 0.05, .sticky = true});
+  double fan = -1.0;
+  std::optional<Error> error;
+  REQUIRE(comes_true([&] {
+    writer.set({.fan = 0.5, .vibration_hz = 20.0});
+    return (fan = newest_fan(port, fan)) > 0.49;
+  }));
+  REQUIRE(comes_true([&] { return (error = writer.take_error()).has_value(); }));
+  CHECK(error->what.find("are cut, for the simulation was silent") != std::string::npos);
+  REQUIRE(comes_true([&] { return (fan = newest_fan(port, fan)) == 0.0; }));
+  for (int i = 0; i < 20; ++i) {
+    writer.set({.fan = 0.5, .vibration_hz = 20.0});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK((fan = newest_fan(port, fan)) == 0.0);
+  }
+  CHECK(comes_true([&] {
+    writer.set({});  // Again and again: a machine that is busy may cut it once more meanwhile.
+    writer.set({.fan = 0.5, .vibration_hz = 20.0});
+    return (fan = newest_fan(port, fan)) > 0.49;
+  }));
 }
 
 TEST_CASE("a device that takes no output delays neither who sets nor who reads") {

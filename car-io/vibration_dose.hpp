@@ -1,0 +1,22 @@
+#pragma once
+/// How much the shaker has shaken the driver: the daily exposure of Directive 2002/44/EC, Annex B, by ISO 2631-1.
+///
+/// a_w is the root mean square of the frequency-weighted acceleration at the seat; A(8) = √(∫ a_w² dt / 8 h). The directive asks for action
+/// from 0.5 m/s² and allows 1.15 m/s². What the shaker does at its full is measured once at the seat and stands in the rig
+/// (vibration_full_mps2); without that there is no dose.
+
+#include "car-io/car_report.hpp"
+
+namespace septet::car_io {
+
+/// Weight of a vertical acceleration of this frequency, 0 to 1.05: Wk of ISO 2631-1:1997, 5.1, as its transfer function gives it.
+double vertical_weight(double frequency_hz);
+
+struct VibrationDose {
+  double exposure_m2ps3 = 0.0;  ///< ∫ a_w² dt.
+
+  void add(const Actuators& actuators, double full_mps2, double dt_s);
+  double a8_mps2() const;
+};
+
+}  // namespace septet::car_io

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "car-io/simulated_hid_device.hpp"
+#include "sim-server/drive/live_drive.hpp"
+#include "tests/sim-server/shipped_drive.hpp"
+
+namespace septet::server {
+namespace {
+
+/// A person's car in a drive on simulated time, and what its actuators are told.
+struct SeatedDrive {
+  explicit SeatedDrive(const rig::CarActuators& limits) {
+    port.plug();
+    DriverSeat seat;
+    seat.actuators = limits;
+    seat.car = std::make_unique<car_io::CarConnection>(port.opener(), car_io::CarConnectionOptions{});
+    seat.actuate = [this](Tick, const car_io::Actuators& actuators) -> std::optional<Error> {
+      told = actuators;
+      return std::nullopt;
+    };
+    const LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
+    live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(seat)).value();
+  }
+  void drive(int ticks, bool sends) {
+    for (int i = 0; i < ticks; ++i) {
+      input.sequence = static_cast<std::uint8_t>(input.sequence + (sends ? 1 : 0));
+      port.send(car_io::encode_controls(input));
+      REQUIRE(live->next(std::nullopt).has_value());
+    }
+  }
+  bool is_off() const { return told.fan == 0.0 && told.vibration == 0.0 && told.steering == 0.0; }
+
+  car_io::SimulatedHidPort port;
+  DriverInput input{.accelerator = 0.5};
+  car_io::Actuators told;
+  std::unique_ptr<LiveDrive> live;
+};
+
+long messages_with(LiveDrive& live, const std::string& words) {
+  return std::ranges::count_if(live.take_messages(),
+                               [&](const std::string& text) { return text.find(words) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("controls that stand still cut fan and shaker within 300 ms and they wait for a pause") {
+  SeatedDrive seated({});
+  seated.drive(60, true);
+  CHECK_FALSE(seated.is_off());
+  CHECK(messages_with(*seated.live, "are cut") == 0);
+  seated.drive(36, false);  // 100 ms until they are stale, 200 ms to fall.
+  seated.drive(1, false);
+  CHECK(seated.is_off());
+  seated.drive(120, true);
+  CHECK(seated.is_off());
+  CHECK(messages_with(*seated.live, "are cut, for the controls have stopped") == 1);
+  seated.live->stand_still();
+  CHECK(car_io::is_rest(seated.told));
+  seated.drive(1, true);
+  CHECK(seated.told.fan < 0.02);
+  seated.drive(120, true);
+  CHECK(seated.told.fan > 0.19);
+}
+
+TEST_CASE("a car that is pulled out and plugged in again has still fan and shaker until a pause") {
+  SeatedDrive seated({});
+  seated.drive(30, true);
+  seated.port.unplug();
+  seated.drive(25, true);
+  CHECK(seated.is_off());
+  seated.port.plug();
+  seated.drive(120, true);
+  CHECK(seated.is_off());
+  seated.live->stand_still();
+  seated.drive(121, true);
+  CHECK(seated.told.fan > 0.19);
+}
+
+TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {
+  SeatedDrive seated({.vibration_full_mps2 = 100.0, .vibration_dose_mps2 = 0.01});
+  seated.drive(240, true);
+  CHECK(seated.told.vibration == 0.0);
+  CHECK(seated.told.fan > 0.19);
+  CHECK(messages_with(*seated.live, "the shaker is cut") == 1);
+}
+
+}  // namespace septet::server
