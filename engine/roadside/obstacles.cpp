@@ -13,6 +13,7 @@
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/signals.hpp"
+#include "engine/roadside/street.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 
 namespace septet::roadside {
@@ -208,23 +209,30 @@ void add_signals(const RoadShape& roads, Builder& builder) {
   for (const StandingSignal& standing : standing_signals(roads))
     if (standing.has_post)
       builder.point(ObstacleKind::post, standing.world_from_signal.position_m, make_of(ObstacleKind::post).radius_m);
+  for (const StreetLamp& lamp : street_lamps(roads))
+    builder.point(ObstacleKind::post, lamp.world_from_lamp.position_m, 0.07);
+}
+
+void add_house(const RigidTransform& world_from_house, const HouseBlock& block, Builder& builder) {
+  const auto corner = [&](double x, double y) {
+    return world_from_house * Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
+  };
+  const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  for (std::size_t i = 0; i < corners.size();
+       ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
+    builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
 }
 
 void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
-  for (const Tree& tree : planted_trees(terrain, seed))
+  for (const Tree& tree : planted_trees(roads, terrain, seed))
     builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
                   trunk_radius_m(tree.kind) * tree.size);
   for (const Building& building : placed_buildings(roads, terrain, seed))
-    for (const HouseBlock& block : house_blocks(building.kind)) {
-      const auto corner = [&](double x, double y) {
-        return building.world_from_building *
-               Vec3(block.x_m + x * block.length_m / 2, block.y_m + y * block.width_m / 2, 0.0);
-      };
-      const std::array<Vec3, 4> corners{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-      for (std::size_t i = 0; i < corners.size();
-           ++i)  // Each wall is a thing of its own: two are met at once without one hiding the other.
-        builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
-    }
+    for (const HouseBlock& block : house_blocks(building.kind)) add_house(building.world_from_building, block, builder);
+  for (const TownHouse& house : town_houses(roads, seed)) {
+    const TownHouseSize size = size_of(house.kind);
+    add_house(house.world_from_house, {size.length_m, size.depth_m, 0.0, 0.0}, builder);
+  }
 }
 
 double distance_m(const Obstacle& obstacle, const Vec2& p) {

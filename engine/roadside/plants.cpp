@@ -8,6 +8,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/roadside/street.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -76,7 +77,7 @@ double trunk_radius_m(TreeKind kind) {
   return 0.2;
 }
 
-std::vector<Tree> planted_trees(const Terrain& terrain, std::uint64_t seed) {
+std::vector<Tree> planted_trees(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed) {
   std::vector<Tree> trees;
   Random random(seed, 2);
   constexpr double side = 256.0, reach = 650.0, margin = 350.0;
@@ -86,6 +87,8 @@ std::vector<Tree> planted_trees(const Terrain& terrain, std::uint64_t seed) {
     if (at.x < first.x || at.y < first.y || at.x >= end.x || at.y >= end.y) continue;
     if (terrain.distance_m(corner + Vec2(side / 2)) < reach) plant_tile(terrain, seed, corner, side, random, trees);
   }
+  const std::vector<TownHouse> houses = town_houses(roads, seed);
+  std::erase_if(trees, [&](const Tree& tree) { return is_in_house(houses, Vec2(tree.foot_m), 3.5); });
   return trees;
 }
 

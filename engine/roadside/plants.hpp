@@ -25,8 +25,8 @@ struct Tree {
 /// Radius at a car's height of a tree of size 1; of a bush, what of it holds a car.
 double trunk_radius_m(TreeKind kind);
 
-/// Singles and groups on meadows, bushes along the verges, the fringe of woods.
-std::vector<Tree> planted_trees(const Terrain& terrain, std::uint64_t seed);
+/// Singles and groups on meadows, bushes along the verges, the fringe of woods; none in a house.
+std::vector<Tree> planted_trees(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed);
 
 /// Sides of the land's tiles and of the cells in them, coarser further from the roads.
 inline constexpr double land_tile_m = 512.0, middle_land_tile_m = 1024.0, far_land_tile_m = 2048.0;

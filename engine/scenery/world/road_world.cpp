@@ -42,7 +42,9 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   build_signals(world);
   build_road_paint(world);
   if (options.vegetation) build_trees(world);
-  if (options.buildings) build_buildings(world);
+  if (!options.buildings) return;
+  build_buildings(world);
+  build_streets(world);
 }
 
 }  // namespace septet::scenery

@@ -158,7 +158,7 @@ class TreePen {
 
 void build_trees(const WorldContext& world) {
   TreePen pen(world);
-  for (const Tree& tree : roadside::planted_trees(world.terrain, world.seed)) pen.draw(tree);
+  for (const Tree& tree : roadside::planted_trees(world.roads, world.terrain, world.seed)) pen.draw(tree);
 }
 
 }  // namespace septet::scenery

@@ -54,6 +54,7 @@ void build_kerbs(const WorldContext& world, const roadside::RaisedAreas& raised)
 void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);    ///< With signs and speed displays.
+void build_streets(const WorldContext& world);     ///< Houses and lamps of towns.
 void build_signals(const WorldContext& world);     ///< Boards on posts, traffic lights.
 void build_road_paint(const WorldContext& world);  ///< Crossings, stop lines, arrows.
 void build_trees(const WorldContext& world);

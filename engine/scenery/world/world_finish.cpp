@@ -41,7 +41,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 67> ground_looks{{
+constexpr std::array<WorldLook, 70> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -50,8 +50,8 @@ constexpr std::array<WorldLook, 67> ground_looks{{
     {"cycle path", {1.20f, 0.72f, 0.60f}, Texture::asphalt_plain},
     {"paving", {0.62f, 0.60f, 0.57f}, Texture::paving},
     {"kerb stone", {0.36f, 0.355f, 0.345f}, Texture::none},
-    {"repair", {0.73f, 0.73f, 0.74f}, Texture::asphalt},
-    {"repair edge", {0.80f, 0.80f, 0.81f}, Texture::asphalt},
+    {"repair", {0.79f, 0.79f, 0.80f}, Texture::asphalt},
+    {"repair edge", {0.83f, 0.83f, 0.84f}, Texture::asphalt},
     {"crack", {0.52f, 0.52f, 0.54f}, Texture::asphalt},
     {"mark", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
     {"mark tunnel", {0.72f, 0.72f, 0.70f}, Texture::none, 0.75f, 0.0f, {}, beads},
@@ -67,6 +67,7 @@ constexpr std::array<WorldLook, 67> ground_looks{{
     {"lamp red", {0.10f, 0.010f, 0.008f}, Texture::none, 0.4f},
     {"lamp amber", {0.40f, 0.20f, 0.02f}, Texture::none, 0.4f, 0.0f, {3.0f, 1.3f, 0.10f}},
     {"lamp green", {0.008f, 0.055f, 0.040f}, Texture::none, 0.4f},
+    {"lamp street", {0.7f, 0.7f, 0.7f}, Texture::none, 0.5f, 0.0f, {0.9f, 0.8f, 0.62f}},
     {"reflector", {0.75f, 0.75f, 0.72f}, Texture::none, 0.5f, 0.0f, {}, sheeting},
     {"post", {0.68f, 0.68f, 0.66f}, Texture::none, 0.7f},
     {"verge", {0.27f, 0.30f, 0.105f}, Texture::ground},
@@ -91,6 +92,8 @@ constexpr std::array<WorldLook, 67> ground_looks{{
     {"water", {0.035f, 0.055f, 0.060f}, Texture::none, 0.08f},
     {"facade red", {0.52f, 0.095f, 0.060f}, Texture::facade},
     {"facade white", {0.82f, 0.80f, 0.72f}, Texture::facade},
+    {"facade yellow", {0.72f, 0.52f, 0.25f}, Texture::facade},
+    {"facade grey", {0.46f, 0.47f, 0.46f}, Texture::facade},
     {"roof tiles", {0.34f, 0.13f, 0.080f}, Texture::none},
     {"roof dark", {0.085f, 0.085f, 0.090f}, Texture::none},
     {"planks", {0.30f, 0.055f, 0.040f}, Texture::none},

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -12,8 +10,8 @@
 
 #include "engine/road/lane_geometry.hpp"
 #include "engine/roadside/obstacles.hpp"
-#include "tests/conformance/conformance_data.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/road/third_party_road.hpp"
 
 namespace septet::roadside {
 namespace {
@@ -26,11 +24,6 @@ road::RoadNetwork with_signals(const std::string& signals) {
 std::string signal(const std::string& type, double s, double t, const std::string& more) {
   return "<signal id=\"1\" type=\"" + type + "\" s=\"" + std::to_string(s) + "\" t=\"" + std::to_string(t) + "\" " +
          more + "/>";
-}
-
-road::RoadNetwork crossings() {
-  std::ifstream file(conformance_data("roads") / "multi_intersections.xodr");
-  return road::read_or_fail({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
 }
 
 }  // namespace
@@ -57,7 +50,7 @@ TEST_CASE("a signal is a board, a light, a display or paint by its type, and of 
 }
 
 TEST_CASE("signals at one place hang over one another") {
-  const road::RoadNetwork network = crossings();
+  const road::RoadNetwork network = road::third_party_road("multi_intersections");
   const RoadShape roads(network, 0.0);
   const std::vector<StandingSignal> all = standing_signals(roads);
   CHECK(std::ranges::count(all, SignalForm::light, &StandingSignal::form) == 34);

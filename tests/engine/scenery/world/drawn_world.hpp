@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -21,15 +19,12 @@
 #include "engine/scene/builder.hpp"
 #include "engine/scene/store.hpp"
 #include "engine/scenery/world/road_world.hpp"
-#include "tests/conformance/conformance_data.hpp"
 #include "tests/engine/road/road_files.hpp"
+#include "tests/engine/road/third_party_road.hpp"
 
 namespace septet::scenery {
 
-inline road::RoadNetwork third_party_road(const std::string& name) {
-  std::ifstream file(conformance_data("roads") / (name + ".xodr"));
-  return road::read_or_fail({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
-}
+using road::third_party_road;
 
 /// The road and what belongs to it alone.
 inline constexpr RoadWorldOptions bare{.vegetation = false, .buildings = false, .overrun_m = 0.0};

@@ -1,0 +1,189 @@
+#include "engine/roadside/street.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/core/random.hpp"
+#include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
+#include "engine/roadside/plane_cells.hpp"
+#include "engine/roadside/town.hpp"
+
+namespace septet::roadside {
+namespace {
+
+constexpr std::size_t most_houses = 6000, most_lamps = 12000;
+constexpr double house_clear_m = 2.0, signal_clear_m = 3.0, least_gap_m = 2.5;
+constexpr PlaneCells house_cells{32.0};
+
+/// How far p lies from the nearest road's lanes; `far` where there is none near.
+double off_roads_m(const road::RoadNetwork& network, const Vec2& p) {
+  const auto found = road::locate(network, p, nullptr, 8.0);
+  return found ? found->lanes.outside_m : 8.0;
+}
+
+bool is_in(const TownHouse& house, const Vec2& p, double margin_m) {
+  const TownHouseSize size = size_of(house.kind);
+  const Vec2 middle(house.world_from_house.position_m);
+  if (glm::distance(middle, p) > 0.5 * std::hypot(size.length_m, size.depth_m) + margin_m) return false;
+  const Vec3 local = inverse(house.world_from_house) * Vec3(p, 0.0);
+  return std::abs(local.x) < 0.5 * size.length_m + margin_m && std::abs(local.y) < 0.5 * size.depth_m + margin_m;
+}
+
+class LotBuilder {
+ public:
+  LotBuilder(const RoadShape& roads, std::vector<TownHouse>& houses) : roads_(roads), houses_(houses) {
+    for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index)
+      for (const road::Signal& signal : roads.road(index).signals) {
+        const Vec2 p(roads.point(index, signal.s_m, signal.t_m));
+        signals_[house_cells.key_at(p)].push_back(p);
+      }
+  }
+
+  void line(road::RoadIndex index, double side, Random& random) {
+    const road::Road& road = roads_.road(index);
+    // From one lot to the next; one that is not clear is left empty.
+    double s = random.uniform(4.0, 10.0);
+    while (s < road.length_m && houses_.size() < most_houses) {
+      const double choice = random.uniform(), gap = random.uniform(5.0, 12.0), back = random.uniform(4.0, 7.0);
+      const auto colour = static_cast<int>(random.below(town_house_colour_count));
+      const TownHouseKind kind = choice < 0.45   ? TownHouseKind::house
+                                 : choice < 0.75 ? TownHouseKind::cottage
+                                                 : TownHouseKind::block;
+      const TownHouseSize size = size_of(kind);
+      const double middle_s = s + 0.5 * size.length_m;
+      s += size.length_m + gap;
+      if (s - gap > road.length_m || !is_in_town(roads_.network(), index, middle_s) || is_on_structure(index, middle_s))
+        continue;
+      place({kind, colour, {}}, index, middle_s, side, back + 0.5 * size.depth_m);
+    }
+  }
+
+ private:
+  bool is_on_structure(road::RoadIndex index, double s_m) const {
+    return std::ranges::any_of(roads_.road(index).structures, [&](const road::RoadStructure& structure) {
+      return s_m > structure.s_m - 20.0 && s_m < structure.s_m + structure.length_m + 20.0;
+    });
+  }
+
+  void place(TownHouse house, road::RoadIndex index, double s, double side, double out_m) {
+    const road::RoadExtent extent = road::road_extent(roads_.road(index), s);
+    const double edge_t = side > 0 ? extent.left_t_m : extent.right_t_m;
+    const road::RoadPoint edge = roads_.at(index, s, edge_t);
+    const Vec2 out = Vec2(-std::sin(edge.heading_rad), std::cos(edge.heading_rad)) * side;
+    house.world_from_house = {
+        Vec3(Vec2(edge.position_m) + out * out_m, edge.position_m.z - 0.1),
+        orientation_from_angles(edge.heading_rad + (side > 0 ? 0.0 : std::numbers::pi), 0.0, 0.0)};
+    if (!is_clear(house)) return;
+    const TownHouseSize size = size_of(house.kind);
+    const Vec2 middle(house.world_from_house.position_m), reach(0.5 * std::hypot(size.length_m, size.depth_m));
+    const auto number = static_cast<std::uint32_t>(houses_.size());
+    house_cells.for_each(middle - reach, middle + reach, [&](std::uint64_t key) { cells_[key].push_back(number); });
+    houses_.push_back(house);
+  }
+
+  bool is_clear(const TownHouse& house) const {
+    const TownHouseSize size = size_of(house.kind);
+    const Vec2 half(0.5 * size.length_m, 0.5 * size.depth_m), middle(house.world_from_house.position_m);
+    std::vector<Vec2> places;
+    for (int y = -2; y <= 2; ++y)
+      for (int x = -3; x <= 3; ++x)
+        places.emplace_back(house.world_from_house * Vec3(half.x * x / 3.0, half.y * y / 2.0, 0.0));
+    for (const Vec2& p : places)
+      if (off_roads_m(roads_.network(), p) < house_clear_m) return false;
+    const Vec2 reach(glm::length(half) + least_gap_m);
+    bool clear = true;
+    house_cells.for_each(middle - reach, middle + reach, [&](std::uint64_t key) {
+      if (const auto cell = cells_.find(key); cell != cells_.end())
+        for (const std::uint32_t number : cell->second)
+          clear &= std::ranges::none_of(places, [&](const Vec2& p) { return is_in(houses_[number], p, least_gap_m); });
+      if (const auto cell = signals_.find(key); cell != signals_.end())
+        clear &= std::ranges::none_of(cell->second, [&](const Vec2& p) { return is_in(house, p, signal_clear_m); });
+    });
+    return clear;
+  }
+
+  const RoadShape& roads_;
+  std::vector<TownHouse>& houses_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::unordered_map<std::uint64_t, std::vector<Vec2>> signals_;
+};
+
+/// Beside the outermost lane that somebody walks or drives on.
+double lamp_t(const road::Road& road, double s_m, double side) {
+  const road::LaneSection& section = road::section_at(road, s_m);
+  const int count = side > 0 ? section.left_count : section.right_count;
+  double t = road::outer_border_t_m(road, section, 0, s_m);
+  for (int i = 1; i <= count; ++i) {
+    const int lane = side > 0 ? i : -i;
+    if (section.lane(lane).type != road::LaneType::none) t = road::outer_border_t_m(road, section, lane, s_m);
+  }
+  return t + side * 0.45;
+}
+
+}  // namespace
+
+TownHouseSize size_of(TownHouseKind kind) {
+  switch (kind) {
+    case TownHouseKind::cottage:
+      return {10.0, 8.0};
+    case TownHouseKind::house:
+      return {12.0, 9.0};
+    case TownHouseKind::block:
+      return {20.0, 11.0};
+  }
+  return {10.0, 8.0};
+}
+
+std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed) {
+  std::vector<TownHouse> houses;
+  LotBuilder builder(roads, houses);
+  for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
+    if (roads.road(index).junction != road::no_index) continue;
+    for (const double side : {1.0, -1.0}) {
+      Random random(seed, 1000 + 2 * static_cast<std::uint64_t>(index) + (side > 0 ? 1 : 0));
+      builder.line(index, side, random);
+    }
+  }
+  return houses;
+}
+
+std::vector<StreetLamp> street_lamps(const RoadShape& roads) {
+  constexpr double spacing_m = 32.0, clear_of_signal_m = 4.0;
+  std::vector<StreetLamp> lamps;
+  for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
+    const road::Road& road = roads.road(index);
+    if (road.junction != road::no_index) continue;
+    double side = 1.0;
+    for (double s = 0.5 * std::min(spacing_m, road.length_m); s < road.length_m && lamps.size() < most_lamps;
+         s += spacing_m) {
+      side = -side;  // On one side and the other by turns.
+      if (!is_in_town(roads.network(), index, s) || roads.structure_at(index, s, road::RoadStructure::Kind::tunnel))
+        continue;
+      const double t = lamp_t(road, s, side);
+      const road::RoadPoint at = roads.at(index, s, t);
+      const bool signal_near = std::ranges::any_of(road.signals, [&](const road::Signal& signal) {
+        return std::abs(signal.s_m - s) < clear_of_signal_m && (signal.t_m > 0.0) == (side > 0.0);
+      });
+      bool taken = signal_near;
+      for (const road::Location& location : road::roads_holding(roads.network(), Vec2(at.position_m)))
+        taken |= road::lane_type(roads.network(), location.position.road, location.lanes.lane_any_type,
+                                 location.position.s_m) != road::LaneType::none;
+      if (!taken)
+        lamps.push_back(
+            {{at.position_m, orientation_from_angles(at.heading_rad - side * 0.5 * std::numbers::pi, 0.0, 0.0)}});
+    }
+  }
+  return lamps;
+}
+
+bool is_in_house(const std::vector<TownHouse>& houses, const Vec2& p, double margin_m) {
+  return std::ranges::any_of(houses, [&](const TownHouse& house) { return is_in(house, p, margin_m); });
+}
+
+}  // namespace septet::roadside

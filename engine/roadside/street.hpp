@@ -1,0 +1,39 @@
+#pragma once
+/// What a town's streets are lined with: houses and lamps. What the scenery draws and what cars run against.
+///
+/// The same network and seed give the same streets. Nothing of them stands on a lane of any road (a lawn excepted), in a junction or before a
+/// signal. World frame, metres.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/roadside/road_shape.hpp"
+
+namespace septet::roadside {
+
+enum class TownHouseKind : std::uint8_t { cottage, house, block };
+inline constexpr int town_house_kind_count = 3, town_house_colour_count = 4;
+
+/// Along the street and away from it.
+struct TownHouseSize {
+  double length_m, depth_m;
+};
+TownHouseSize size_of(TownHouseKind kind);
+
+struct TownHouse {
+  TownHouseKind kind = TownHouseKind::house;
+  int colour = 0;
+  RigidTransform world_from_house;  ///< Its middle at the ground; x along the street, which lies towards −y.
+};
+std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed);
+
+struct StreetLamp {
+  RigidTransform world_from_lamp;  ///< Its foot; x towards the road.
+};
+inline constexpr double street_lamp_height_m = 6.0, street_lamp_arm_m = 1.1;
+std::vector<StreetLamp> street_lamps(const RoadShape& roads);
+
+/// Whether p lies in a house or within `margin_m` of it.
+bool is_in_house(const std::vector<TownHouse>& houses, const Vec2& p, double margin_m);
+
+}  // namespace septet::roadside

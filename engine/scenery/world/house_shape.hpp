@@ -1,0 +1,18 @@
+#pragma once
+/// A house: walls with windows, a saddle roof with eaves, its chimney.
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/roadside/buildings.hpp"
+#include "engine/scenery/world/world_finish.hpp"
+
+namespace septet::scenery {
+
+struct HouseLook {
+  float eaves, ridge;  ///< Heights over the ground.
+  Ground wall, roof;
+};
+
+/// In the block's place; the walls reach 1.5 m into the ground.
+void add_house(geometry::MeshBuilder& builder, const roadside::HouseBlock& block, const HouseLook& look);
+
+}  // namespace septet::scenery
