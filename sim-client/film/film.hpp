@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "engine/raytrace/bucket_schedule.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
 #include "sim-client/film/camera_path.hpp"
 
@@ -44,6 +45,8 @@ struct FilmOptions {
   raytrace::Filter filter = raytrace::Filter::quadratic;
   ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
   std::set<Layer> layers;
+  raytrace::BucketScheduleOptions schedule;  ///< Of what is traced; the pictures are the same.
+  std::filesystem::path statistics;          ///< File that tells who traced what (traced/statistics.hpp); empty: none.
   std::optional<double> from_s,
       to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
 };

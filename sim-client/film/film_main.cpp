@@ -88,6 +88,18 @@ int main(int argc, char** argv) {
   app.add_option("--from", options.from_s, "Simulated second: leave out what is earlier")
       ->check(number_between(0.0, 1e6));
   app.add_option("--to", options.to_s, "Simulated second: leave out what is later")->check(number_between(0.0, 1e6));
+  std::string schedule = "ours";
+  app.add_option("--schedule", schedule,
+                 "How tiles are dealt to programs: by speed, splitting what is late; or in equal buckets, to whoever "
+                 "is free, as a\n"
+                 "paper has it, or in turn. The pictures are the same")
+      ->check(CLI::IsMember({"ours", "paper", "round-robin"}))
+      ->capture_default_str();
+  app.add_option("--buckets", options.schedule.equal_buckets, "Of a frame, where they are equal")
+      ->check(CLI::Range(1u, 1u << 20))
+      ->capture_default_str();
+  app.add_option("--statistics", options.statistics, "JSON file that tells who traced what, when and at what cost")
+      ->default_str("");
   CLI::Option* const ranks_option =
       app.add_option("--ranks", ranks.ranks, "Programs that trace, started by Open MPI; one that dies is done without")
           ->check(CLI::Range(1u, 4096u))
@@ -108,6 +120,9 @@ int main(int argc, char** argv) {
       options.exr = exr == "half"    ? film::ExrNumbers::half_precision
                     : exr == "float" ? film::ExrNumbers::single_precision
                                      : film::ExrNumbers::none;
+      options.schedule.dealing = schedule == "paper"         ? raytrace::Dealing::equal
+                                 : schedule == "round-robin" ? raytrace::Dealing::round_robin
+                                                             : raytrace::Dealing::split;
       if (options.out.empty()) options.out = options.session.parent_path() / "film";
       if (one_of_ranks || (ranks_option->empty() && hosts_option->empty())) return film::run_film(options, others);
       if (others)

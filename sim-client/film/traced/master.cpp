@@ -16,6 +16,7 @@
 #include "program/clock.hpp"
 #include "sim-client/film/traced/frame_writer.hpp"
 #include "sim-client/film/traced/kept_tiles.hpp"
+#include "sim-client/film/traced/statistics.hpp"
 #include "sim-client/film/traced/worker.hpp"
 
 namespace septet::film {
@@ -65,7 +66,7 @@ class Master {
         others_(others),
         made_(made),
         tiles_(raytrace::buckets_of(options.width_px, options.height_px, tile_side_px)),
-        schedule_(frames.plan().frames.size(), static_cast<std::uint32_t>(tiles_.size())),
+        schedule_(frames.plan().frames.size(), static_cast<std::uint32_t>(tiles_.size()), options.schedule),
         writer_(options, folder, frames.session(), tiles_) {
     for (const FilmFrame& frame : frames.plan().frames) numbers_.push_back(frame.number);
   }
@@ -95,7 +96,7 @@ class Master {
     if (to == own_worker)
       own_.send_to_worker(std::move(bytes));
     else
-      others_->send(to, std::move(bytes));
+      statistics_.sent_bytes += bytes.size(), others_->send(to, std::move(bytes));
   }
   Expected<KeptTiles*> kept(std::size_t frame);
   fs::path kept_file(std::size_t frame) const { return folder_.path() / fmt::format("{:06}.tiles", numbers_[frame]); }
@@ -116,6 +117,7 @@ class Master {
   std::vector<Worker> workers_;
   std::map<std::size_t, KeptTiles> kept_;
   OwnWorkersMail own_;
+  FilmStatistics statistics_;
   std::ifstream session_;
   double now_s_ = 0.0;
   double shown_ = 0.0;  ///< Tiles until the last preview.
@@ -161,18 +163,25 @@ Expected<KeptTiles*> Master::kept(std::size_t frame) {
 Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
   const auto frame = reader.get<std::uint64_t>();
   const auto tile = reader.get<std::uint32_t>();
+  const double cpu_s = reader.get_double();
   const auto encoded = reader.take(reader.remaining());
   if (!reader.ok() || frame >= numbers_.size() || tile >= tiles_.size() ||
       encoded.size() != encoded_tile_size(std::size_t{tiles_[tile].width} * tiles_[tile].height))
     return {};
+  const auto finished = [&] {
+    const bool counts = schedule_.finish(from.in_schedule, frame, tile, now_s_);
+    if (!options_.statistics.empty())
+      statistics_.tiles.push_back({numbers_[frame], tile, from.number, cpu_s, now_s_, counts});
+    return counts;
+  };
   if (schedule_.has_frame(frame)) {
-    schedule_.finish(from.in_schedule, frame, tile, now_s_);
+    finished();
     return {};
   }
   const auto tiles = kept(frame);
   if (!tiles) return tl::unexpected(tiles.error());
   if (auto put = (*tiles)->put(tile, encoded); !put) return put;
-  if (!schedule_.finish(from.in_schedule, frame, tile, now_s_)) return {};
+  if (!finished()) return {};
   ++came_;
   if (schedule_.has_frame(frame)) {
     auto queued = writer_.finish(numbers_[frame], std::move(**tiles), kept_file(frame));
@@ -277,6 +286,10 @@ void Master::tell_quality() {
 }
 
 void Master::deal() {
+  // Where speeds are measured, those of all: reading a session takes programs that share a machine far longer than machines.
+  if (others_ && pace_of_test() && std::ranges::count_if(workers_, &Worker::traces) < others_->count() &&
+      statistics_.begun_s == 0.0)
+    return;
   for (const Worker& each : workers_) {
     if (!each.traces || !schedule_.is_free(each.in_schedule)) continue;
     const auto deal = schedule_.deal(each.in_schedule, now_s_);
@@ -287,6 +300,7 @@ void Master::deal() {
       });
       if (other != workers_.end()) send(other->number, shorter_run_message(deal->shortened->run));
     }
+    if (statistics_.begun_s == 0.0) statistics_.begun_s = now_s_;
     send(each.number, run_message(deal->run));
   }
 }
@@ -300,6 +314,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
       own_.send(own_worker, error_message(traced.error()));
   });
   Expected<void> result;
+  const double begun_cpu_s = thread_cpu_s();
   double told_s = 0.0, asked_s = 0.0;
   while (result && !schedule_.has_all()) {
     now_s_ = program::monotonic_s();
@@ -312,6 +327,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
     if (!mail && others_) mail = others_->receive();
     if (mail) {
       came = true;
+      if (mail->from != own_worker) statistics_.received_bytes += mail->bytes.size();
       result = obey(*mail);
     }
     if (came || now_s_ > asked_s + ask_again_after_s) {
@@ -333,7 +349,11 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
   own.join();
   const auto written = writer_.wait();
   tell_quality();
-  return result ? written : result;
+  if (!result) return result;
+  if (!written || options_.statistics.empty()) return written;
+  statistics_.master_cpu_s = thread_cpu_s() - begun_cpu_s;
+  statistics_.splits = schedule_.splits();
+  return write_statistics(options_.statistics, statistics_, tiles_);
 }
 
 }  // namespace

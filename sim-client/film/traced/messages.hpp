@@ -28,7 +28,7 @@ enum class Word : std::uint8_t {
   run,          ///< Master: frame, first tile, end; in the stead of the run before.
   shorter_run,  ///< Master: frame, end. Of the run that it has.
   ready,        ///< Worker: how many seconds it took to begin a frame.
-  tile,         ///< Worker: frame, tile, and the tile (encode_tile).
+  tile,         ///< Worker: frame, tile, seconds of a processor that it took, and the tile (encode_tile).
   failed,       ///< Worker: why it gives up.
   still_there,  ///< Both: nothing new.
   end,          ///< Master: no more is to be done; 1 where some are lost.

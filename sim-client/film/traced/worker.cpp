@@ -1,17 +1,24 @@
 #include "sim-client/film/traced/worker.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <fstream>
 #include <mutex>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "program/clock.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-client/film/traced/messages.hpp"
+#include "sim-client/film/traced/statistics.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -23,8 +30,9 @@ constexpr std::chrono::microseconds pause{300};
 /// Threads that trace the tiles of a run one by one, in order.
 class TracingThreads {
  public:
-  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles, unsigned threads)
-      : tracer_(tracer), tiles_(tiles) {
+  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles, unsigned threads,
+                 std::optional<double> pace)
+      : tracer_(tracer), tiles_(tiles), pace_(pace) {
     for (unsigned n = 0; n < threads; ++n) threads_.emplace_back([this] { work(); });
   }
   ~TracingThreads() {
@@ -65,16 +73,26 @@ class TracingThreads {
  private:
   void work() {
     std::unique_lock lock(mutex_);
+    std::chrono::steady_clock::time_point due;
     while (true) {
+      if (next_ >= end_) due = {};
       changed_.wait(lock, [&] { return stop_ || next_ < end_; });
       if (stop_) return;
       const std::uint32_t tile = next_++;
       ++busy_;
       lock.unlock();
+      if (due == std::chrono::steady_clock::time_point()) due = std::chrono::steady_clock::now();
+      const double begun_s = thread_cpu_s();
       const raytrace::Bucket bucket = tracer_.trace(tiles_[tile]);
+      const double cpu_s = thread_cpu_s() - begun_s;
+      if (pace_) {
+        due += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+            std::chrono::duration<double>(cpu_s / *pace_));
+        std::this_thread::sleep_until(due);
+      }
       Bytes bytes = message(Word::tile);
       ByteWriter writer(bytes);
-      writer.put(std::uint64_t{frame_}), writer.put(tile);
+      writer.put(std::uint64_t{frame_}), writer.put(tile), writer.put(cpu_s);
       writer.put_bytes(encode_tile(facts_, bucket.pixels));
       lock.lock();
       --busy_;
@@ -85,6 +103,7 @@ class TracingThreads {
 
   const raytrace::RayTracer& tracer_;
   std::span<const instant::PixelRectangle> tiles_;
+  std::optional<double> pace_;
   std::mutex mutex_;
   std::condition_variable changed_, came_;
   std::size_t frame_ = 0;  ///< Written while nothing is in any hands.
@@ -190,13 +209,23 @@ Expected<void> serve(Machines& machines, program::ProcessMark& master_process) {
 
 }  // namespace
 
+std::optional<double> pace_of_test() {
+  const char* text = std::getenv("SEPTET_FILM_PACES");
+  if (!text) return std::nullopt;
+  std::istringstream paces(text);
+  std::string pace;
+  for (int n = 0; std::getline(paces, pace, ','); ++n)
+    if (n == number_by_mpirun().value_or(0)) return std::clamp(std::atof(pace.c_str()), 0.001, 1.0);
+  return std::nullopt;
+}
+
 Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const FilmOptions& options, unsigned threads,
                                 const program::ProcessMark& master_process) {
   auto tracer = raytrace::RayTracer::create(frames.scene());
   if (!tracer) return tl::unexpected(tracer.error());
   const instant::SceneSummary summary = instant::summarise(frames.scene());
   const auto tiles = raytrace::buckets_of(options.width_px, options.height_px, tile_side_px);
-  TracingThreads tracing(*tracer, tiles, threads);
+  TracingThreads tracing(*tracer, tiles, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame;
   machines.send(master, message(Word::prepared));

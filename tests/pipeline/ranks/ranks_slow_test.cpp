@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <csignal>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/pipeline/ranks/film_of_ranks.hpp"
 
@@ -55,6 +60,32 @@ TEST_CASE("a film is the same bytes by one program and by two and a worker or th
     // A worker's end is noticed each second; the film may be whole before.
     if (victim.rank != 1) CHECK(said.find(victim.said) != std::string::npos);
     CHECK(pictures_in(out) == pictures);
+  }
+}
+
+TEST_CASE("how tiles are dealt changes no picture and every tile counts once") {
+  const SmallFilm film;
+  REQUIRE(film.make(film.folder / "alone").code == 0);
+  const auto pictures = pictures_in(film.folder / "alone");
+  for (const char* schedule : {"paper", "round-robin"}) {
+    CAPTURE(schedule);
+    const fs::path out = film.folder / schedule, statistics = film.folder / "statistics.json";
+    auto launcher =
+        film.begin(out, {"--ranks", "3", "--schedule", schedule, "--buckets", "9", "--statistics", statistics});
+    // Nobody takes over what is late there: who is gone must be missed.
+    kill_amid(launcher, out, 2);
+    CHECK(exit_code(launcher) == 0);
+    INFO(text_of(film.log(out)));
+    CHECK(pictures_in(out) == pictures);
+    const auto json = nlohmann::json::parse(text_of(statistics), nullptr, false);
+    REQUIRE(json.is_object());
+    std::map<std::vector<int>, int> counted;
+    for (const auto& tile : json.at("tiles")) {
+      CHECK(tile.at(6).get<double>() > 0.0);
+      if (tile.at(8).get<bool>()) ++counted[{tile.at(0).get<int>(), tile.at(1).get<int>(), tile.at(2).get<int>()}];
+    }
+    CHECK(counted.size() == 2 * 10 * 7);
+    CHECK(std::ranges::all_of(counted, [](const auto& tile) { return tile.second == 1; }));
   }
 }
 

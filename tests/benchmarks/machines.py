@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""How well machines of unequal speed are used by a traced film: measured, not simulated.
+
+machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--json FILE]
+
+Drives a second on the shipped scenario, then traces one picture and a film with N programs of one thread each under mpirun, whose speeds go from 1 to
+9 (SEPTET_FILM_PACES: a program sleeps after each tile until it has used its share of a processor), with Septet's schedule, the paper's 81 equal
+buckets and the same in turn. All speeds together are 1.3 processors, so that two are enough for them.
+
+Efficiency: the processor time of all tiles that count, over the speeds' sum, over the time from the first tile that was dealt to the last that came.
+No tile is dealt before all programs have read the session, which fifteen programs that share two processors do for longer than machines of their own.
+"""
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ALL_PACES = 1.3  # Of processors, unless --processors says otherwise.
+
+
+def paces(programs, processors=ALL_PACES):
+    """Speeds from 1 to 9, mixed, the first program's in the middle."""
+    speeds = [1.0 + 8.0 * (n * 7 % programs) / max(1, programs - 1) for n in range(programs)]
+    speeds[0], middle = 5.0, speeds[0]
+    if programs > 1 and middle < min(speeds):
+        speeds[1] = middle
+    return [processors * speed / sum(speeds) for speed in speeds]
+
+
+def run(build, session, folder, schedule, shares, arguments, buckets=81):
+    out = folder / f"{schedule}-{buckets}"
+    number = 0
+    while out.exists():
+        number += 1
+        out = folder / f"{schedule}-{buckets}-{number}"
+    statistics = folder / (out.name + ".json")
+    environment = dict(os.environ, SEPTET_FILM_PACES=",".join(f"{share:.5f}" for share in shares),
+                       OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    command = ["mpirun", "-n", str(len(shares)), "--oversubscribe", "--bind-to", "none", str(build / "septet-film"), str(session),
+               "--renderer", "traced", "--schedule", schedule, "--buckets", str(buckets), "--statistics", str(statistics), "--out", str(out), *arguments]
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True)
+    if ended.returncode != 0:
+        sys.exit(f"{' '.join(command)}\n{ended.stderr}")
+    made = json.loads(statistics.read_text())
+    made["pictures"] = {picture.name: picture.read_bytes() for picture in sorted(out.glob("*.png"))}
+    rows = [dict(zip(made["columns"], row)) for row in made.pop("tiles")]
+    made["rows"], made["shares"] = rows, shares
+    made["time_s"] = max(row["came_s"] for row in rows if row["counts"])
+    made["work_s"] = sum(row["cpu_s"] for row in rows if row["counts"])
+    made["efficiency"] = made["work_s"] / sum(shares) / made["time_s"]
+    return made
+
+
+def drive(build, folder, seconds=1.2):
+    subprocess.run([str(build / "septet"), "drive", "--virtual", "--seconds", str(seconds), "--out", str(folder / "drive")],
+                   check=True, capture_output=True)
+    return folder / "drive" / "session.sqlite"
+
+
+def report(name, made, frames):
+    count = sum(row["counts"] for row in made["rows"])
+    return (f"{name:<24} {100 * made['efficiency']:6.1f} % of ideal, {made['time_s']:6.1f} s, "
+            f"{made['splits']} splits, {len(made['rows']) - count} of {count} tiles twice, "
+            f"{(made['sent_bytes'] + made['received_bytes']) / frames / 1e6:.2f} MB and {made['master_cpu_s'] / frames:.3f} s of the master a frame")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
+    parser.add_argument("--programs", type=int, default=15)
+    parser.add_argument("--size", default="320x240")
+    parser.add_argument("--samples", default="64")
+    parser.add_argument("--frames", type=int, default=30, help="of the film")
+    parser.add_argument("--processors", type=float, default=ALL_PACES, help="all speeds together; less on a machine that is busy with other things")
+    parser.add_argument("--json", type=pathlib.Path)
+    given = parser.parse_args()
+    build = given.build.resolve()
+    shares = paces(given.programs, given.processors)
+    print(f"{given.programs} programs, speeds 1 : {max(shares) / min(shares):.1f}, together {sum(shares):.2f} processors; load {os.getloadavg()[0]:.1f}")
+    results = {}
+    with tempfile.TemporaryDirectory(prefix="septet-machines-") as name:
+        folder = pathlib.Path(name)
+        session = drive(build, folder)
+        for frames, what in ((1, "one picture"), (given.frames, f"a film of {given.frames}")):
+            if frames < 1:
+                continue
+            samples = given.samples if frames == 1 else str(max(1, int(given.samples) // 8))
+            (folder / "shots.toml").write_text(f"[[shot]]\nfrom_s = 0.5\nto_s = {0.5 + frames / 60}\n")
+            arguments = ["--shots", str(folder / "shots.toml"), "--fps", "60", "--size", given.size, "--samples", samples]
+            pictures = None
+            for schedule in ("ours", "paper", "round-robin"):
+                made = run(build, session, folder, schedule, shares, arguments)
+                print(report(f"{what}, {schedule}", made, frames), flush=True)
+                if pictures is not None and made["pictures"] != pictures:
+                    sys.exit("the pictures differ")
+                pictures = made.pop("pictures")
+                results[f"{what}, {schedule}"] = {key: value for key, value in made.items() if key != "rows"}
+    if given.json:
+        given.json.write_text(json.dumps(results, indent=1))
+
+
+if __name__ == "__main__":
+    main()
