@@ -92,8 +92,9 @@ TEST_CASE("a car that was unplugged mid-drive is told once and the drive goes on
   CHECK(live->newest().diagnostics.input_stale_ticks == 0);
   port.unplug();
   const auto lost = drive_for(30);
-  REQUIRE(lost.size() == 1);
+  REQUIRE(lost.size() == 2);
   CHECK(lost[0].find("no such device") != std::string::npos);
+  CHECK(lost[1].find("are cut") != std::string::npos);
   CHECK(live->newest().diagnostics.input_stale_ticks == 30);
   port.plug();
   const auto back = drive_for(120);
