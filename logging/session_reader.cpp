@@ -181,7 +181,7 @@ Expected<std::pair<double, double>> SessionReader::shown_span_s() const {
   if (log != state_->info.other.end() && log->second == "samples")
     return failure("the session was logged without snapshots (--log samples): it can be measured, and not shown again",
                    state_->path.string(), "drive it again with the same options and --log whole");
-  return failure("the session holds no tick", state_->path.string(), "record a longer drive");
+  return failure("the session holds no snapshots", state_->path.string(), "record a longer drive");
 }
 
 Expected<SnapshotCursor> SessionReader::snapshots_from(double simulated_time_s) const {

@@ -172,6 +172,8 @@ def _decode(data, baseline):
 
 # Position, and which component of the orientation is the largest, and the others: they go on going wrong as they did (FORMAT.md).
 _LASTING = slice(3, 10)
+_LASTING_HIGH = np.array([_POSITION_LIMIT] * 3 + [3] + [int(_ORIENTATION_STEPS)] * 3)
+_LASTING_LOW = np.array([-_POSITION_LIMIT] * 3 + [0] + [-int(_ORIENTATION_STEPS)] * 3)
 _ESCAPE = 255
 
 
@@ -205,7 +207,7 @@ def _unpack(data, baseline):
             continue
         fields[row] = moved_on[number]
         if number in went_wrong:
-            fields[row, _LASTING] += went_wrong[number]
+            fields[row, _LASTING] = (fields[row, _LASTING] + went_wrong[number]).clip(_LASTING_LOW, _LASTING_HIGH)
     fields += differences
     for row, number in enumerate(ids):
         if number in moved_on:
