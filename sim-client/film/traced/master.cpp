@@ -334,11 +334,11 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
       asked_s = now_s_;
       deal();
     }
-    if (others_ && now_s_ > told_s + still_there_every_s) {
+    if (now_s_ > told_s + still_there_every_s) {
       told_s = now_s_;
       look_who_is_there();
       for (const Worker& each : workers_)
-        if (each.number != own_worker && !each.is_lost) send(each.number, message(Word::still_there));
+        if (!each.is_lost) send(each.number, message(Word::still_there));
     }
     if (!came) std::this_thread::sleep_for(std::chrono::microseconds(300));
   }
