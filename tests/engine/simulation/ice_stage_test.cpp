@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/road/road_locate.hpp"
 #include "engine/simulation/wheel_ground.hpp"
 #include "tests/engine/road/road_files.hpp"
 
