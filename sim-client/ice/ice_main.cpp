@@ -28,6 +28,10 @@ int main(int argc, char** argv) {
   app.add_option("--surroundings", surroundings,
                  "outdoors: sun, field and columns. room: a panorama, as references have it")
       ->check(CLI::IsMember({"outdoors", "room"}));
+  std::string shown = "all";
+  app.add_option("--show", shown,
+                 "all; or the depth of the faces in front or behind, as figure 5 of the paper shows them")
+      ->check(CLI::IsMember({"all", "front-depth", "back-depth"}));
   bool one_sided = false, as_a_lens = false, no_reflection = false, straight_cracks = false, alone = false;
   app.add_flag("--one-sided", one_sided, "The front face alone refracts");
   app.add_flag("--as-a-lens", as_a_lens, "Equation 1 with the back face's normal added, not taken away as printed");
@@ -70,6 +74,9 @@ int main(int argc, char** argv) {
     options.look.mode = mode == "quality" ? ice::Mode::quality : ice::Mode::paper;
     options.surroundings = surroundings == "room" ? ice_viewer::Surroundings::room : ice_viewer::Surroundings::outdoors;
     options.look.two_sided = !one_sided;
+    options.look.shown = shown == "front-depth"  ? ice::Shown::front_depth
+                         : shown == "back-depth" ? ice::Shown::back_depth
+                                                 : ice::Shown::all;
     options.look.absorption_per_m *= static_cast<float>(absorption);
     options.look.back_sign = as_a_lens ? ice::BackSign::as_a_lens : ice::BackSign::as_printed;
     options.look.reflects = !no_reflection;

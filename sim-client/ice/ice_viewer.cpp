@@ -1,13 +1,13 @@
 #include "sim-client/ice/ice_viewer.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <cstddef>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
 #include "program/console.hpp"
@@ -21,10 +21,11 @@ Expected<ice::Surface> read_surface(const std::string& object, const std::functi
   if (object.find('.') == std::string::npos && object.find('/') == std::string::npos) {
     surface = ice::object(object);
   } else {
-    std::ifstream file(object, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) return failure("it cannot be read", object, "name an OBJ file, or sphere, cube, peanut or teapot");
-    surface = ice::read_object(text, object);
+    // Two million triangles.
+    constexpr std::size_t largest_bytes = std::size_t{1} << 28;
+    const Expected<std::string> text = read_regular_file(object, largest_bytes);
+    if (!text) return tl::unexpected(text.error());
+    surface = ice::read_object(*text, object);
   }
   if (surface)
     if (const std::string faults = told(ice::faults(*surface)); !faults.empty()) say(object + ": " + faults);

@@ -15,8 +15,12 @@ enum class Mode : std::uint8_t {
   quality,  ///< Light is followed from face to face: two interfaces, total reflection, absorption.
 };
 
+/// What is drawn of it: all, or the depth of a layer between its nearest (white) and its furthest place (figure 5 a, b).
+enum class Shown : std::uint8_t { all, front_depth, back_depth };
+
 struct Look {
   Mode mode = Mode::paper;
+  Shown shown = Shown::all;
   bool two_sided = true;  ///< Off: the front face alone refracts.
   BackSign back_sign = BackSign::as_printed;
   float back_share = static_cast<float>(paper_back_share);

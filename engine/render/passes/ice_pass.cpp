@@ -35,9 +35,9 @@ void draw_vertices(PassContext& context, const FrameData& vertices, std::uint32_
   ++context.statistics.draws;
 }
 
-/// `peel` as in shaders/ice_layer.frag.
-VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t peel) {
-  VkPipeline& pipeline = pass.layers[peel];
+/// `peel` and `followed` as in shaders/ice_layer.frag.
+VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t peel, bool followed) {
+  VkPipeline& pipeline = pass.layers[2 * peel + std::uint32_t{followed}];
   if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::ice_layer_vert();
@@ -46,7 +46,7 @@ VkPipeline layer_pipeline(IcePass& pass, PassContext& context, std::uint32_t pee
   description.color_format = layer_format;
   description.depth_format = context.formats.depth;
   description.blend = vulkan::Blend::data;
-  description.constants = {peel};
+  description.constants = {peel, followed};
   return pipeline = create_pipeline(context.device, context.layout, description);
 }
 
@@ -81,8 +81,12 @@ VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, st
 
 VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBody& body) {
   const bool quality = body.look.mode == ice::Mode::quality;
-  const std::array<std::uint32_t, 5> constants{quality, body.look.two_sided, !body.inside.empty(),
-                                               body.look.roughness > 0.0f, quality && body.look.seen_beyond};
+  const std::array<std::uint32_t, 6> constants{quality,
+                                               body.look.two_sided,
+                                               !body.inside.empty(),
+                                               body.look.roughness > 0.0f,
+                                               quality && body.look.seen_beyond,
+                                               std::uint32_t(body.look.shown)};
   std::uint32_t variant = 0;
   for (std::uint32_t i = 0; i < constants.size(); ++i) variant |= constants[i] << i;
   VkPipeline& pipeline = pass.fronts[variant];
@@ -155,10 +159,11 @@ void draw_inside(IcePass& pass, PassContext& context, const IceTiles& tiles, std
   }
 }
 
-void draw_faces(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles, const IceUpload& upload) {
+void draw_faces(IcePass& pass, PassContext& context, IceImage layer, const IceTiles& tiles,
+                std::span<const ice::IceBody> bodies, const IceUpload& upload) {
   vkCmdSetCullMode(context.slot.commands, layer == IceImage::front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);
-  bind(context, layer_pipeline(pass, context, 0));
   for (const IceTile& tile : tiles.list) {
+    bind(context, layer_pipeline(pass, context, 0, bodies[tile.body].look.mode == ice::Mode::quality));
     begin_tile(context, tile);
     draw_vertices(context, upload.bodies[tile.body].surface, upload.bodies[tile.body].surface_count);
   }
@@ -185,7 +190,7 @@ void draw_beyond(IcePass& pass, PassContext& context, IceImage layer, const IceT
   else
     push_layer(context, vulkan::binding_ice_beyond, pass.targets[IceImage::beyond].view);
   vkCmdSetCullMode(context.slot.commands, front ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT);
-  bind(context, layer_pipeline(pass, context, front ? 1 : 2));
+  bind(context, layer_pipeline(pass, context, front ? 1 : 2, true));
   for (const IceTile& tile : tiles.list) {
     if (tile.constants.beyond.x == 0.0f) continue;
     begin_tile(context, tile);
@@ -268,8 +273,9 @@ void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::Memor
   for (const auto& pipelines : {pass.fronts, pass.insides})
     for (const auto& [key, pipeline] : pipelines)
       if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
-  for (const VkPipeline pipeline : {pass.layers[0], pass.layers[1], pass.layers[2], pass.cracks})
+  for (const VkPipeline pipeline : pass.layers)
     if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
+  if (pass.cracks) vkDestroyPipeline(device.device, pass.cracks, nullptr);
   pass = {};
 }
 
@@ -290,7 +296,7 @@ void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const I
       draw_beyond(pass, context, layer, tiles, bodies, upload);
       break;
     default:
-      draw_faces(pass, context, layer, tiles, upload);
+      draw_faces(pass, context, layer, tiles, bodies, upload);
       if (layer == IceImage::back) draw_bending_cracks(pass, context, tiles, bodies, upload);
   }
   vkCmdEndRendering(context.slot.commands);

@@ -46,7 +46,7 @@ struct IceTargets {
 struct IcePass {
   IceTargets targets;
   std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< By variant.
-  std::array<VkPipeline, 3> layers{};                   ///< By what is left out of them.
+  std::array<VkPipeline, 6> layers{};                   ///< By variant.
   VkPipeline cracks = VK_NULL_HANDLE;
 };
 

@@ -11,6 +11,7 @@ layout(constant_id = 1) const uint two_sided = 0;
 layout(constant_id = 2) const uint filled = 0;  // Cracks or air are inside.
 layout(constant_id = 3) const uint frosted = 0;
 layout(constant_id = 4) const uint beyond = 0;  // What of ice lies behind is looked through, too.
+layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 the depth of front faces, 2 of back faces.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -119,9 +120,14 @@ vec3 followed(vec3 way) {
 
 void main() {
   vec3 eye = normalize(relative);
-  vec3 n = bumped(normalize(normal), relative, rest);
+  vec3 n = bumped(normalize(normal), relative, rest, 1.0);
   float cosine = abs(dot(eye, n));
   vec2 at = vec2(dot(relative, ice.u.xyz), dot(relative, ice.v.xyz)) / dot(relative, ice.forward.xyz);
+  if (shown != 0) {
+    float depth = shown == 1 ? textureLod(ice_front, at, 0.0).w : textureLod(ice_back, at, 0.0).w;
+    result = vec4(vec3(1.0 - clamp((depth - ice.forward.w) / ice.absorption.w, 0.0, 1.0)), 1.0);
+    return;
+  }
   // A bump may turn away from the eye; it is seen all the same.
   vec3 facing = dot(eye, n) < -0.02 ? n : normalize(n - (dot(eye, n) + 0.02) * eye);
 

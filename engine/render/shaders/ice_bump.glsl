@@ -1,6 +1,6 @@
 // A surface that is uneven in waves that keep to the ice at rest, after Mikkelsen, "Bump Mapping Unparametrized Surfaces on
 // the GPU" (2010); the waves' slopes are exact, so that neighbouring pixels agree.
-vec3 bumped(vec3 n, vec3 place, vec3 rest) {
+vec3 bumped(vec3 n, vec3 place, vec3 rest, float share) {
   vec3 across = dFdx(place), down = dFdy(place), rest_across = dFdx(rest), rest_down = dFdy(rest);
   if (ice.u.w == 0.0) return n;
   vec3 q = rest * ice.v.w;
@@ -9,7 +9,7 @@ vec3 bumped(vec3 n, vec3 place, vec3 rest) {
                               vec3(1.31, -1.07, 0.77), vec3(-0.93, 1.21, 1.43));
   vec3 slope = vec3(0.0);
   for (int i = 0; i < 5; ++i) slope += ways[i] * cos(dot(ways[i], q) + float(i) * 1.9);
-  slope *= ice.u.w * 0.5;
+  slope *= ice.u.w * 0.5 * share;
   vec3 a = cross(down, n), b = cross(n, across);
   float area = dot(across, a);
   vec3 gradient = sign(area) * (dot(slope, rest_across) * a + dot(slope, rest_down) * b);

@@ -5,6 +5,8 @@
 
 // 0: the nearest faces. 1: front faces behind the back face. 2: back faces behind those.
 layout(constant_id = 0) const uint peel = 0;
+// Light that is followed to these faces spreads over many of their waves between one pixel and the next: they count by half.
+layout(constant_id = 1) const uint followed = 0;
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -13,7 +15,7 @@ layout(location = 0) out vec4 result;
 
 void main() {
   float depth = dot(relative, ice.forward.xyz);
-  result = vec4(bumped(normalize(normal), relative, rest), depth);
+  result = vec4(bumped(normalize(normal), relative, rest, followed != 0 ? 0.5 : 1.0), depth);
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (peel == 1) {
     float back = texelFetch(ice_back, at, 0).w;

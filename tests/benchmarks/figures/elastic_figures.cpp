@@ -218,10 +218,11 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (const auto drawn = draw_ice_times(folder); !drawn) {
-    fmt::print(stderr, "{}\n", describe(drawn.error()));
-    return 1;
-  }
+  for (const auto& draw_ice : {draw_ice_pictures, draw_ice_times})
+    if (const auto drawn = draw_ice(folder); !drawn) {
+      fmt::print(stderr, "{}\n", describe(drawn.error()));
+      return 1;
+    }
   if (ice_alone) return 0;
   for (const auto& [name, make] :
        {std::pair{"elastic-3-swinging-cube", &swinging_cube_figure}, std::pair{"elastic-8-pull", &pull_figure},

@@ -11,4 +11,7 @@ namespace septet::figures {
 /// processor, the lower quartile of frames that the compared ways of drawing take in turn, so that what else runs there disturbs all of them.
 Expected<void> draw_ice_times(const std::filesystem::path& folder);
 
+/// Figures 1, 4 and 5 and the three objects as PNG, each as the paper shows it and where it adds something in the quality mode, too.
+Expected<void> draw_ice_pictures(const std::filesystem::path& folder);
+
 }  // namespace septet::figures
