@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   car_io::CalibrateOptions calibrate;
   car_io::ActuateOptions actuate;
   car_io::TrialOptions all;
+  car_io::LearnOptions learn;
   CLI::App app{
       "septet-car: carries the car's controls to the server, and fan, vibration and steering force "
       "to the car. Run it on the machine that the rig's [car] machine names."};
@@ -33,6 +34,12 @@ int main(int argc, char** argv) {
   trial->add_option("--hz", actuate.actuators.vibration_hz, "Frequency")->check(number_between(0.0, 255.0));
   trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
       ->check(number_between(-1.0, 1.0));
+  CLI::App* lesson = app.add_subcommand("learn", "Find out a joystick's axes and buttons and print [car.joystick]");
+  std::string device;
+  lesson->add_option("device", device, "VENDOR:PRODUCT as septet devices shows it, such as 046d:c24f")->required();
+  lesson->add_option("--serial", learn.serial, "Where there are several");
+  lesson->add_option("--seconds", learn.seconds, "For each control")->check(number_between(0.1, 60.0));
+
   CLI::App* test = app.add_subcommand("test", "Try each actuator that the rig has, gently, one after the other");
   test->add_option("--rig", all.rig, "Rig file")->required();
   test->add_option("--seconds", all.seconds, "How long each")->check(number_between(0.1, 60.0));
@@ -44,6 +51,7 @@ int main(int argc, char** argv) {
     const auto done = calibration->parsed() ? car_io::run_calibration(calibrate)
                       : trial->parsed()     ? car_io::run_actuators(actuate)
                       : test->parsed()      ? car_io::run_trial(all)
+                      : lesson->parsed()    ? car_io::run_lesson(device, learn)
                                             : car_io::run_car(drive);
     return done.map([] { return 0; });
   });

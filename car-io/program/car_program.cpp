@@ -1,15 +1,22 @@
 #include "car-io/program/car_program.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "car-io/joystick/joystick_controls.hpp"
+#include "car-io/joystick/joystick_lesson.hpp"
 #include "car-io/program/calibration.hpp"
 #include "car-io/program/car_link.hpp"
 #include "engine/core/regular_file.hpp"
@@ -24,9 +31,7 @@ namespace {
 
 void say(const std::string& what) { program::say("septet-car: " + what); }
 
-OpenHidDevice find_device(const rig::Car& car) {
-  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] { return open_hid_device(address); };
-}
+OpenHidDevice find_device(const rig::Car& car) { return car_opener(car); }
 
 /// The rig's car with its layout and its device.
 struct CarHere {
@@ -40,7 +45,7 @@ Expected<CarHere> open_car(const std::filesystem::path& file) {
   if (!text) return tl::unexpected(text.error());
   auto rig = rig::read_rig(*text, file.string());
   if (!rig) return tl::unexpected(rig.error());
-  const auto layout = find_car_layout(rig->car.layout);
+  const auto layout = find_car_layout(rig->car.source == rig::CarSource::joystick ? "septet-car" : rig->car.layout);
   if (!layout) return tl::unexpected(layout.error());
   auto device = find_device(rig->car)();
   if (!device) return tl::unexpected(device.error());
@@ -156,6 +161,68 @@ Expected<void> run_trial(const TrialOptions& options) {
   }
   if (fault) return tl::unexpected(std::move(*fault));
   if (!program::should_stop()) say("all is off again; the device keeps its watchdog");
+  return {};
+}
+
+Expected<void> run_lesson(const std::string& name, LearnOptions options) {
+  const auto colon = name.find(':');
+  const auto read = [](std::string_view text, std::uint16_t& id) {
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), id, 16);
+    return problem == std::errc() && end == text.data() + text.size();
+  };
+  if (colon == std::string::npos || !read(std::string_view(name).substr(0, colon), options.vendor_id) ||
+      !read(std::string_view(name).substr(colon + 1), options.product_id))
+    return failure("it is not of the form VENDOR:PRODUCT", name,
+                   "write it as septet devices shows it, such as 046d:c24f");
+  program::catch_stop_signals();
+  auto device = open_input_device({options.vendor_id, options.product_id, options.serial});
+  if (!device) return tl::unexpected(device.error());
+  constexpr std::pair<const char*, const char*> questions[] = {
+      {"steering", "turn the wheel fully to the left and back"},
+      {"accelerator", "press the accelerator down and let go"},
+      {"brake", "press the brake down and let go"},
+      {"clutch", "press the clutch down and let go (wait, where there is none; likewise below)"},
+      {"indicator_left", "press what shall indicate to the left"},
+      {"indicator_right", "press what shall indicate to the right"},
+      {"horn", "press the horn"},
+      {"high_beam", "press what shall be the high beam"},
+      {"parking_brake", "press what shall be the parking brake"},
+      {"reverse", "press what shall switch between forwards and backwards (where there is no lever)"},
+      {"gear_1", "put the lever into gear 1 and out again"},
+      {"gear_2", "the same with gear 2"},
+      {"gear_3", "gear 3"},
+      {"gear_4", "gear 4"},
+      {"gear_5", "gear 5"},
+      {"gear_6", "gear 6"},
+      {"gear_reverse", "reverse"}};
+  std::vector<rig::JoystickControl> controls;
+  for (const auto& question : questions) {
+    JoystickLesson lesson;
+    const auto watch = [&](double seconds, const std::function<void(const InputState&)>& show) -> Expected<void> {
+      for (const double end_s = program::monotonic_s() + seconds;
+           program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.005)) {
+        const auto state = (*device)->read();
+        if (!state) return tl::unexpected(state.error());
+        show(**state);
+      }
+      return {};
+    };
+    say("hands and feet off");
+    auto seen = watch(1.0, [&](const InputState& state) { lesson.show_rest(state); });
+    if (seen && !program::should_stop()) {
+      say(fmt::format("now, within {:.0f} s: {}", options.seconds, question.second));
+      seen = watch(options.seconds, [&](const InputState& state) { lesson.show(state); });
+    }
+    if (!seen) return seen;
+    if (program::should_stop()) return {};
+    if (auto control = lesson.learnt(question.first))
+      controls.push_back(std::move(*control));
+    else
+      say(fmt::format("nothing moved: {} is left out", question.first));
+  }
+  if (controls.empty())
+    return failure("nothing has moved", name, "check that it is the one (septet devices), and its power");
+  std::fputs(joystick_toml(controls).c_str(), stdout);
   return {};
 }
 

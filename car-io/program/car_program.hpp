@@ -2,6 +2,7 @@
 /// What `septet-car` does: drive, calibrate, try the actuators. Each ends with an error or with
 /// nothing to say; Ctrl-C ends it, too.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -23,6 +24,14 @@ struct CalibrateOptions {
 };
 /// Records the axes for a while and prints the rig's [car.calibration] on standard output.
 Expected<void> run_calibration(const CalibrateOptions& options);
+
+struct LearnOptions {
+  std::uint16_t vendor_id = 0, product_id = 0;
+  std::string serial;
+  double seconds = 4.0;  ///< For each control.
+};
+/// Asks for each control of a joystick in turn and prints the rig's [car.joystick] on standard output. `device`: "046d:c24f".
+Expected<void> run_lesson(const std::string& device, LearnOptions options);
 
 struct ActuateOptions {
   std::filesystem::path rig;

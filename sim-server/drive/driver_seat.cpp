@@ -1,6 +1,7 @@
 #include "sim-server/drive/driver_seat.hpp"
 
 #include "car-io/actuator_writer.hpp"
+#include "car-io/joystick/joystick_controls.hpp"
 #include "car-io/simulated_driver/simulated_driver.hpp"
 #include "sim-server/host/remote_car.hpp"
 
@@ -35,10 +36,14 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
         car_io::CarConnectionOptions{.calibration = {.steering_lock_rad = car.calibration.steering_lock_rad}});
     return seat;
   }
-  const auto layout = car_io::find_car_layout(car.layout);
+  // A joystick is read as Septet's own car.
+  const bool is_joystick = car.source == rig::CarSource::joystick;
+  const auto layout = car_io::find_car_layout(is_joystick ? "septet-car" : car.layout);
   if (!layout) return tl::unexpected(layout.error());
   car_io::CarConnectionOptions options{.layout = *layout, .calibration = car.calibration};
+  if (is_joystick) options.calibration = {.steering_lock_rad = car.calibration.steering_lock_rad};
   seat.actuators = car.actuators;
+  seat.steering_lock_rad = car.calibration.steering_lock_rad;
   if (!car.machine.empty()) {
     seat.remote = std::make_shared<RemoteCar>();
     options.repeats = true;
@@ -52,8 +57,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     };
     return seat;
   }
-  const car_io::HidAddress address{car.vendor_id, car.product_id, car.serial};
-  const auto open = [address] { return car_io::open_hid_device(address); };
+  const auto open = car_io::car_opener(car);
   // A missing device is noticed before the drive begins; one that is lost during it is opened again.
   if (const auto device = open(); !device) {
     if (car.source == rig::CarSource::automatic) return DriverSeat{};

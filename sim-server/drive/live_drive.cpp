@@ -108,7 +108,13 @@ void LiveDrive::move_actuators() {
     tell(
         "fan, shaker and wheel force are cut, for the controls have stopped; pausing the drive and going on lets them "
         "run again");
-  const auto motion = car_motion(*model_, state_);
+  auto motion = car_motion(*model_, state_);
+  motion.steering_torque_nm = car_io::wheel_torque_nm(wheel_torque_,
+                                                      {.column_torque_nm = motion.steering_torque_nm,
+                                                       .wheel_rad = state_.input.steering_wheel_rad,
+                                                       .speed_mps = motion.speed_mps,
+                                                       .lock_rad = seat_.steering_lock_rad},
+                                                      seat_.actuators.steering_full_nm, tick_s);
   const auto wanted = guard_.pass(car_io::actuators_for(motion, seat_.actuators), tick_s);
   if (const auto error = seat_.actuate(state_.tick, within_dose(wanted, tick_s))) tell(describe(*error));
 }

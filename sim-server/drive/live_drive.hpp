@@ -13,6 +13,7 @@
 #include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
 #include "car-io/vibration_dose.hpp"
+#include "car-io/wheel_torque.hpp"
 #include "engine/core/message_limit.hpp"
 #include "engine/rig/rig.hpp"
 #include "engine/simulation/operator_command.hpp"
@@ -30,7 +31,8 @@ struct DriverSeat {
   std::unique_ptr<car_io::CarConnection> car;  ///< Null: only a screen's keyboard or gamepad.
   /// Moves fan, shaker and hand wheel; empty: there are none. Never waits for the device. Answers what is wrong with them, once.
   std::function<std::optional<Error>(Tick, const car_io::Actuators&)> actuate;
-  rig::CarActuators actuators;  ///< Their limits.
+  rig::CarActuators actuators;      ///< Their limits.
+  double steering_lock_rad = 7.85;  ///< Where the hand wheel ends.
   /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
   std::function<std::optional<Error>(const car_io::Instruments&)> show;
   std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
@@ -84,6 +86,7 @@ class LiveDrive final : public TickSource {
   bool was_fresh_ = false, is_stale_ = false;  ///< Whether the controls have ever come, and whether they have stopped.
   car_io::ActuatorGuard guard_;
   car_io::VibrationDose dose_;
+  car_io::WheelTorqueState wheel_torque_;
   bool dose_is_full_ = false;
   std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
   double waited_s_ = 0.0;             ///< For the driver, before the first tick.

@@ -41,6 +41,26 @@ TEST_CASE("a CAN bus that cannot be is refused with its place") {
   }
 }
 
+TEST_CASE("a joystick's controls are axes with two ends or buttons and nothing else") {
+  const std::string car = "[car]\nsource = \"joystick\"\n";
+  const auto rig = read_rig(
+      with(car + "[car.joystick]\nbrake = { axis = 5, at_zero = 255, at_one = 0 }\nhorn = { button = 288 }\n"), "r");
+  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE(rig->car.joystick.size() == 2);
+  CHECK(
+      (rig->car.joystick[0].name == "brake" && rig->car.joystick[0].is_axis && rig->car.joystick[0].at_zero == 255.0));
+  CHECK((rig->car.joystick[1].name == "horn" && !rig->car.joystick[1].is_axis && rig->car.joystick[1].code == 288));
+  for (const char* table :
+       {"", "[car.joystick]\n", "[car.joystick]\nbrake = { at_zero = 1 }\n", "[car.joystick]\nbrake = { axis = 64 }\n",
+        "[car.joystick]\nbrake = { axis = 1, at_zero = 3, at_one = 3 }\n", "[car.joystick]\nbrakes = { axis = 1 }\n",
+        "[car.joystick]\nhorn = { button = 0 }\n", "[car.joystick]\nbrake = { axis = 1, at_one = nan }\n"}) {
+    CAPTURE(table);
+    const auto refused = read_rig(with(car + table), "bad.toml");
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().where.starts_with("bad.toml:"));
+  }
+}
+
 TEST_CASE("a rig says whether and where its drive is heard") {
   CHECK_FALSE(read_rig(with(""), "r")->sound.has_value());
   const auto usual = read_rig(with("[sound]\n"), "r");

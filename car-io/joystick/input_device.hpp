@@ -1,0 +1,45 @@
+#pragma once
+/// An input device of Linux (evdev): any wheel, joystick or set of pedals that the kernel has a driver for, behind a seam that tests fill.
+///
+/// Threads: one at a time. Errors: a device that was unplugged returns an Error from every call; close it and open it anew.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "engine/core/expected.hpp"
+
+namespace septet::car_io {
+
+struct InputAxis {
+  std::int32_t value = 0, low = 0, high = 0;
+};
+
+/// Everything as it stands now: axes by their ABS_ number, buttons that are down by their BTN_ number.
+struct InputState {
+  std::map<std::uint16_t, InputAxis> axes;
+  std::set<std::uint16_t> down;
+};
+
+class InputDevice {
+ public:
+  virtual ~InputDevice() = default;
+  /// Takes what has happened since the last call. Never waits.
+  virtual Expected<const InputState*> read() = 0;
+  /// Turns the wheel: −1 (right) to 1 (left) of what its motor can, for 250 ms unless it is told again: the driver's own watchdog, for a
+  /// program that hangs. False: it has no constant force.
+  virtual Expected<bool> set_force(double force) = 0;
+};
+
+struct InputAddress {
+  std::uint16_t vendor_id = 0, product_id = 0;
+  std::string serial;  ///< Empty: any.
+};
+Expected<std::unique_ptr<InputDevice>> open_input_device(const InputAddress& address,
+                                                         const std::filesystem::path& sys = "/sys",
+                                                         const std::filesystem::path& dev = "/dev");
+
+}  // namespace septet::car_io
