@@ -18,6 +18,7 @@ constexpr std::array rows{
     Row{DriveEnd::stop_trigger, "stop_trigger", "the scenario's StopTrigger fired", finished_status},
     Row{DriveEnd::time_over, "time_over", "the time that it was given is over", finished_status},
     Row{DriveEnd::road_end, "road_end", "the driver's car is beyond the end of the road", finished_status},
+    Row{DriveEnd::game_over, "game_over", "the game is over", finished_status},
     Row{DriveEnd::session_end, "session_end", "the session is over", finished_status},
     Row{DriveEnd::window_closed, "window_closed", "a screen's window was closed", stopped_status},
     Row{DriveEnd::escape, "escape", "the driver left it by Escape", stopped_status},

@@ -11,6 +11,7 @@ enum class DriveEnd : std::uint8_t {
   stop_trigger,   ///< The storyboard's StopTrigger.
   time_over,      ///< The simulated seconds that were asked for.
   road_end,       ///< The driver's car is beyond the end of the road.
+  game_over,      ///< The game that the scenario is.
   session_end,    ///< Of a replay: the session holds no more.
   window_closed,  ///< By the person at a screen.
   escape,         ///< Pressed at a screen.

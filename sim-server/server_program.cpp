@@ -247,6 +247,9 @@ void finish_log(const ServerOptions& options, Drive& drive, ServeResult& result,
   if (const auto finished = log.finish(log.outcome(result, screens)); !finished) failed(finished.error());
   if (const auto written = write_results(drive.loaded, options, log.outcome(result, screens)); !written)
     failed(written.error());
+  const auto lines = write_standing(drive.loaded, options, log.game());
+  if (!lines) return failed(lines.error());
+  for (const std::string& line : *lines) progress.message(line);
 }
 
 void show(const Progress& now, program::ProgressLine& progress) {

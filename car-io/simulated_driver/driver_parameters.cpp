@@ -1,5 +1,6 @@
 #include "car-io/simulated_driver/driver_parameters.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 
 #include <fmt/core.h>
@@ -67,6 +68,20 @@ std::vector<NamedDriver> simulated_drivers() {
   std::vector<NamedDriver> drivers;
   for (const Kind& kind : kinds) drivers.push_back(kind.driver);
   return drivers;
+}
+
+DriverParameters playing(DriverParameters driver) {
+  driver.lanes.follow_ambulance_mps2 *= 2.0;
+  driver.lanes.threshold_mps2 *= 0.6;
+  driver.lanes.keep_out_mps2 = 0.0;
+  driver.lanes.pause_s = 1.5;
+  driver.lanes.accepted_gap *= 0.5;
+  driver.lanes.safe_braking_mps2 *= 2.0;
+  driver.lanes.signal_s *= 0.6;
+  driver.lanes.duration_s *= 0.8;
+  driver.speed.time_gap_s *= 0.75;
+  driver.speed.limit_factor = std::max(driver.speed.limit_factor, 1.1);
+  return driver;
 }
 
 Expected<DriverParameters> find_driver(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "car-io/car_report.hpp"
 #include "engine/road/lane_geometry.hpp"
@@ -115,6 +116,7 @@ DriverInput stop_off_road(SimulatedDriver& driver, double dt_s) {
 DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, const Snapshot& snapshot, double dt_s) {
   driver.now_s += dt_s;
   ++driver.sequence;
+  if (snapshot.game && !std::exchange(driver.plays, true)) driver.parameters = playing(driver.parameters);
   if (!driver.corridor) driver.corridor = find_corridor(network, snapshot);
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   const auto own = driver.corridor ? see_own_place(network, *driver.corridor, snapshot, driver.place) : std::nullopt;

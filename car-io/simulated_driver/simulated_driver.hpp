@@ -48,6 +48,7 @@ struct SimulatedDriver {
   MirrorState mirrors;
   LaneState lanes;
   TracksState tracks;
+  bool plays = false;  ///< Has seen that this is a game.
   std::uint8_t sequence = 0;
 };
 

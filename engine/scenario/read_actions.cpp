@@ -292,9 +292,14 @@ ActionVariant read_user_defined_action(Reading& reading, const Element& action) 
   if (type == "septet:black-ice") return read_black_ice(command);
   if (type == "septet:ignite") return read_effect_command(reading, command, EffectAction::Kind::ignite);
   if (type == "septet:extinguish") return read_effect_command(reading, command, EffectAction::Kind::extinguish);
+  if (type == "septet:game") {
+    read_game(reading, command);
+    return {};
+  }
   if (type != "septet:siren") {
-    command.warning("this command is not known and has no effect",
-                    "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish");
+    command.warning(
+        "this command is not known and has no effect",
+        "Septet knows septet:siren, septet:spill, septet:black-ice, septet:ignite, septet:extinguish, septet:game");
     return {};
   }
   const std::string content = command.content();

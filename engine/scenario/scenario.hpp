@@ -14,6 +14,7 @@
 #include "engine/scenario/action.hpp"
 #include "engine/scenario/condition.hpp"
 #include "engine/scenario/entity.hpp"
+#include "engine/scenario/game_settings.hpp"
 
 namespace septet::scenario {
 
@@ -87,6 +88,7 @@ struct Scenario {
   std::vector<InitAction> init;
   std::vector<Story> stories;
   Trigger stop;
+  std::optional<GameSettings> game;  ///< It is played as one.
   ElementIndex storyboard_element = 0;
   std::uint32_t element_count = 1;
   std::uint32_t condition_count = 0;

@@ -89,6 +89,8 @@ ActionVariant read_synchronize(Reading& reading, const Element& action);
 ActionVariant read_private_action(Reading& reading, const Element& action);
 ActionVariant read_global_action(Reading& reading, const Element& action);
 ActionVariant read_user_defined_action(Reading& reading, const Element& action);
+/// The rules of a game; a mistake is an error of `command`.
+void read_game(Reading& reading, const Element& command);
 EnvironmentAction read_environment_action(Reading& reading, const Element& action);
 EnvironmentAction read_environment(const Element& environment);
 TrafficSwarmAction read_traffic_swarm(Reading& reading, const Element& action);

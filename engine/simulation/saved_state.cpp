@@ -35,6 +35,7 @@ SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(keyframe))
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
+SEPTET_MEMBERS(GameState, standing, next_move_s, random)
 SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
 SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
 SEPTET_MEMBERS(PublishedEffects, keyframes, channels)
@@ -45,9 +46,9 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // rest remembers where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. What the input did is in the car.
+// Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game is hashed where there is one.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
-                     left_out(scenario, traffic, effects), kept(input), hashed(diagnostics, touching))
+                     left_out(scenario, traffic, effects), kept(game, input), hashed(diagnostics, touching))
 
 namespace {
 
@@ -134,6 +135,8 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   for (const auto& place : state.wheel_roads) road::require_on_roads(reader, model.roads, place);
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
+  reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
+  if (state.game) reader.require(state.game->standing.end <= GameEnd::time, wrong);
 }
 
 Expected<State> refused(const std::string& what, std::string_view where, const char* remedy) {
@@ -148,6 +151,7 @@ std::uint64_t hash_state(const State& state) {
   scenario::add_to_hash(state.scenario, hash);
   state.traffic->add_to_hash(hash);
   hash_members(hash, state.effects, state.effects.fires);
+  if (state.game) hash_members(hash, *state.game);
   return hash.value();
 }
 

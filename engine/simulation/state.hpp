@@ -13,6 +13,7 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
+#include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/traffic/traffic_engine.hpp"
 #include "engine/world/driver_input.hpp"
@@ -43,7 +44,8 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
-  DriverInput input;  ///< Of the last step.
+  std::optional<GameState> game;  ///< Where the scenario is played as one.
+  DriverInput input;              ///< Of the last step.
   Diagnostics diagnostics;
   std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.
 
@@ -52,7 +54,7 @@ struct State {
 
 /// Something that happened in a step, for the log.
 struct Event {
-  std::string kind;  ///< "scenario", "collision", "kerb", "wheel_damage", "bad_number".
+  std::string kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number".
   std::optional<ParticipantId> participant;
   std::string detail;
 };

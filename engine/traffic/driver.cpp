@@ -30,6 +30,18 @@ Driver with_temperament(const Driver& middle, double u) {
   return driver;
 }
 
+Driver with_worse_manners(const Driver& before) {
+  Driver driver = before;
+  driver.following.time_gap_s *= 0.94;
+  LaneChangeParameters& change = driver.lane_change;
+  change.politeness *= 0.6;
+  change.threshold_mps2 *= 0.8;
+  change.keep_right_mps2 *= 0.7;
+  change.largest_braking_mps2 *= 1.12;
+  driver.reaction_s *= 1.35;
+  return driver;
+}
+
 FollowingLaw::FollowingLaw(const FollowingParameters& driver)
     : inverse_desired_speed(1.0 / driver.desired_speed_mps),
       time_gap_s(driver.time_gap_s),

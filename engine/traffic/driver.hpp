@@ -42,6 +42,10 @@ struct Driver {
 /// being one.
 Driver with_temperament(const Driver& middle, double temperament);
 
+/// The same driver with worse manners, by a step: follows closer, cuts in where others have to brake, keeps right less and makes way later.
+/// Six steps stay within what `FollowingLaw` and lane changes take.
+Driver with_worse_manners(const Driver& driver);
+
 /// The hardest braking of any vehicle.
 inline constexpr double hardest_braking_mps2 = 9.0;
 inline constexpr double no_leader = std::numeric_limits<double>::infinity();

@@ -18,6 +18,7 @@ class OwnTraffic final : public TrafficEngine {
   void advance(std::span<const ForeignVehicle> foreign, double dt_s) override {
     traffic::advance(parameters_, network_, foreign, dt_s, random_, state_);
   }
+  void worsen(std::uint32_t more_vehicles) override { traffic::worsen(parameters_, more_vehicles, random_, state_); }
   std::uint32_t take_bad_numbers() override { return std::exchange(state_.bad_numbers, 0); }
   void append_participants(std::vector<Participant>& participants) const override {
     traffic::append_participants(state_, network_, participants);

@@ -198,6 +198,27 @@ TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwo
   return state;
 }
 
+void worsen(TrafficParameters& parameters, std::uint32_t more, Random& random, TrafficState& state) {
+  if (state.corridors.empty()) return;
+  ++parameters.worsened;
+  ParticipantId next_id = parameters.first_id;
+  for (CorridorTraffic& traffic : state.corridors)
+    for (std::size_t i = 0; i < traffic.size(); ++i) {
+      next_id = std::max(next_id, traffic.id[i] + 1);
+      if (traffic.emergency[i] != 0) continue;
+      traffic.driver[i] = with_worse_manners(traffic.driver[i]);
+      traffic.law[i] = FollowingLaw(traffic.driver[i].following);
+    }
+  CorridorTraffic& traffic = state.corridors.front();
+  for (std::uint32_t k = 0; k < more; ++k) {
+    add_random_vehicle(parameters, traffic, next_id++, random);
+    for (std::uint32_t step = 0; step < parameters.worsened; ++step)
+      traffic.driver.back() = with_worse_manners(traffic.driver.back());
+    traffic.law.back() = FollowingLaw(traffic.driver.back().following);
+  }
+  parameters.count += more;
+}
+
 void show_across_rims(const TrafficParameters& parameters, double middle_m, const CorridorTraffic& traffic,
                       ForeignTraffic& seen) {
   if (traffic.corridor.closed) return;

@@ -46,6 +46,7 @@ struct TrafficParameters {
   double exit_share = 0.1;           ///< Of those who come past an exit: they take it.
   double decision_interval_s = 0.5;  ///< A driver thinks about changing lanes this often; drivers take turns.
   ParticipantId first_id = 1000;
+  std::uint32_t worsened = 0;  ///< So many steps of worse manners (with_worse_manners) everybody has taken.
 };
 
 /// The plain mix of a motorway: hatchbacks, saloons, estates, SUVs, motorcycles, vans and lorries.
@@ -137,6 +138,10 @@ struct TrafficState {
 /// all around it.
 TrafficState populate(const TrafficParameters& parameters, const road::RoadNetwork& network,
                       std::span<const ForeignVehicle> foreign, Random& random);
+
+/// More vehicles in the direction of the first foreign vehicle, who come in at the swarm's rims as they find room, and everybody's manners
+/// worse by a step.
+void worsen(TrafficParameters& parameters, std::uint32_t more, Random& random, TrafficState& state);
 
 /// One tick on. `foreign` has the same vehicles in the same order each time; the first one is the
 /// swarm's middle.

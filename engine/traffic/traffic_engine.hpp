@@ -34,6 +34,8 @@ class TrafficEngine {
   virtual void stop() = 0;
   /// One tick on. `foreign` has the same vehicles in the same order each time.
   virtual void advance(std::span<const ForeignVehicle> foreign, double dt_s) = 0;
+  /// More vehicles on the driver's side, and everybody's manners worse by a step (traffic.hpp). Who cannot do that does nothing.
+  virtual void worsen(std::uint32_t /*more_vehicles*/) {}
   virtual void append_participants(std::vector<Participant>& participants) const = 0;
   /// Everything that decides how the traffic goes on.
   virtual void add_to_hash(StateHash& hash) const = 0;

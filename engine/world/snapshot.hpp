@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,19 @@ struct Diagnostics {
   bool operator==(const Diagnostics&) const = default;
 };
 
+enum class GameEnd : std::uint8_t { none, lost, crash, time };
+
+/// How a game stands (engine/simulation/game.hpp).
+struct GameStanding {
+  std::uint32_t level = 1;
+  GameEnd end = GameEnd::none;
+  double points = 0.0;
+  double survived_s = 0.0;
+  double leader_m = 0.0;  ///< From the driver's car to whom it follows.
+  double away_s = 0.0;    ///< How long it has been too far away.
+  bool operator==(const GameStanding&) const = default;
+};
+
 struct Snapshot {
   Tick tick = 0;
   double simulated_time_s = 0.0;
@@ -99,6 +113,7 @@ struct Snapshot {
   std::vector<Participant> participants;  ///< Ascending id.
   std::vector<EffectKeyframe> effects;    ///< Ascending id.
   Diagnostics diagnostics;
+  std::optional<GameStanding> game;  ///< Where the scenario is played as one.
 };
 
 /// The participant with this id, or null. Logarithmic time.

@@ -12,7 +12,7 @@ namespace septet {
 namespace {
 
 constexpr std::uint8_t format_version = 2;
-enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2 };
+enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2, flag_game = 4 };
 
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
 template <class Env, class Visit>
@@ -49,6 +49,20 @@ double get_finite(ByteReader& reader) {
   const double value = reader.get_double();
   if (!std::isfinite(value)) reader.fail();
   return value;
+}
+
+void put_game(ByteWriter& writer, const GameStanding& game) {
+  writer.put_varint(game.level);
+  writer.put(static_cast<std::uint8_t>(game.end));
+  for (const double value : {game.points, game.survived_s, game.leader_m, game.away_s}) writer.put(value);
+}
+GameStanding get_game(ByteReader& reader) {
+  GameStanding game;
+  game.level = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+  game.end = static_cast<GameEnd>(reader.get<std::uint8_t>());
+  if (game.end > GameEnd::time) reader.fail();
+  for (double* value : {&game.points, &game.survived_s, &game.leader_m, &game.away_s}) *value = get_finite(reader);
+  return game;
 }
 
 /// Ascending ids as first id, then gaps.
@@ -240,7 +254,7 @@ void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects, Tick
 SnapshotHeader read_header(ByteReader& reader, std::uint8_t& flags) {
   if (reader.get<std::uint8_t>() != format_version) reader.fail();
   flags = reader.get<std::uint8_t>();
-  if (flags & ~(flag_has_baseline | flag_environment)) reader.fail();
+  if (flags & ~(flag_has_baseline | flag_environment | flag_game)) reader.fail();
   SnapshotHeader header;
   header.tick = reader.get_varint();
   if (flags & flag_has_baseline) {
@@ -278,6 +292,7 @@ WireSnapshot to_wire(const Snapshot& snapshot, WireSnapshot old) {
                  effect.tick, snapshot.tick);
   wire.rest.effects = snapshot.effects;
   wire.rest.diagnostics = snapshot.diagnostics;
+  wire.rest.game = snapshot.game;
   return wire;
 }
 
@@ -289,7 +304,6 @@ Snapshot from_wire(const WireSnapshot& wire) {
 }
 
 namespace {
-
 enum class Participants : std::uint8_t { told, as_expected };
 
 void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants participants, Bytes& out) {
@@ -299,7 +313,8 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   const bool environment = !baseline || !(baseline->rest.environment == rest.environment);
   ByteWriter writer(out);
   writer.put(format_version);
-  writer.put(static_cast<std::uint8_t>((baseline ? flag_has_baseline : 0) | (environment ? flag_environment : 0)));
+  writer.put(static_cast<std::uint8_t>((baseline ? flag_has_baseline : 0) | (environment ? flag_environment : 0) |
+                                       (rest.game ? flag_game : 0)));
   writer.put_varint(rest.tick);
   if (baseline) writer.put_varint(rest.tick - baseline->rest.tick);
   writer.put(rest.simulated_time_s);
@@ -315,17 +330,15 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   writer.put_varint(rest.diagnostics.bad_numbers);
   writer.put_varint(rest.diagnostics.collisions);
   writer.put_varint(rest.diagnostics.input_stale_ticks);
+  if (rest.game) put_game(writer, *rest.game);
 
-  if (participants == Participants::told) {
+  if (participants == Participants::told)
     put_participants(writer, baseline, wire);
-  } else {
-    put_ids(writer, {});
-    writer.put_varint(0);
-  }
+  else
+    writer.put_bytes(std::array<std::byte, 2>{});  // None has gone, none has changed.
   static const std::vector<EffectKeyframe> no_effects;
   put_effects(writer, baseline ? baseline->rest.effects : no_effects, rest.effects, rest.tick);
 }
-
 }  // namespace
 
 void encode_snapshot(const WireSnapshot& wire, const WireSnapshot* baseline, Bytes& out) {
@@ -373,6 +386,7 @@ Expected<WireSnapshot> decode_snapshot(std::span<const std::byte> bytes, const W
   rest.diagnostics.bad_numbers = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
   rest.diagnostics.collisions = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
   rest.diagnostics.input_stale_ticks = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
+  if (flags & flag_game) rest.game = get_game(reader);
 
   wire.participants = expected_participants(baseline, rest.simulated_time_s);
   read_participants(reader, wire.participants);

@@ -13,6 +13,7 @@ SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, sele
                horn, low_beam, high_beam, parking_brake, gaze_heading_rad, sequence)
 SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover,
                rain_mm_per_h, road_wetness, snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
+SEPTET_MEMBERS(GameStanding, level, end, points, survived_s, leader_m, away_s)
 SEPTET_MEMBERS(EffectKeyframe, id, kind, data, tick)
 // How late input came is not said by the input, from which a drive is run again.
 SEPTET_MEMBER_GROUPS(Diagnostics, hashed(bad_numbers, collisions), kept(input_stale_ticks))

@@ -104,7 +104,7 @@ class _Bytes:
 class Snapshot:
     """One tick as it lies in the file: `fields` has a row of integers for each participant of `ids`, ascending."""
 
-    __slots__ = ("tick", "time_s", "state_hash", "environment", "car", "ids", "fields", "went_wrong")
+    __slots__ = ("tick", "time_s", "state_hash", "environment", "car", "game", "ids", "fields", "went_wrong")
 
 
 def _rounded(values):
@@ -128,7 +128,7 @@ def _decode(data, baseline):
     """The snapshot in `data`, a difference to `baseline` where it names one."""
     read = _Bytes(data)
     version, flags = read.u8(), read.u8()
-    if version != SNAPSHOT_VERSION or flags & ~3:
+    if version != SNAPSHOT_VERSION or flags & ~7:
         raise SessionError(f"snapshot of version {version}, flags {flags}: this reader knows version {SNAPSHOT_VERSION}")
     snapshot = Snapshot()
     snapshot.tick = read.varint()
@@ -143,6 +143,7 @@ def _decode(data, baseline):
     snapshot.environment = read.doubles(len(_ENVIRONMENT)) if flags & 2 else baseline.environment
     ids = (read.varint(), read.signed(), read.varint(), read.signed())
     snapshot.car = ids + read.doubles(len(_DRIVER_CAR)) + tuple(read.varint() for _ in _DIAGNOSTICS)
+    snapshot.game = (read.varint(), read.u8(), *read.doubles(4)) if flags & 4 else None
 
     ids, fields = np.empty(0, np.int64), np.empty((0, len(_FIELDS)), np.int64)
     if baseline is not None:
@@ -327,6 +328,11 @@ class Session:
         columns = ["tick", "simulated_time_s", "participant", "gear", "road", "lane", *_DRIVER_CAR, *_DIAGNOSTICS]
         rows = [(s.tick, s.time_s, *s.car) for s in self.snapshots() if s.tick % every == 0]
         return pandas.DataFrame(rows, columns=columns)
+
+    def game(self, every=12):
+        """How a game stands, ten times a second unless told otherwise; no row where the scenario is none."""
+        rows = [(s.tick, s.time_s, *s.game) for s in self.snapshots() if s.tick % every == 0 and s.game is not None]
+        return pandas.DataFrame(rows, columns=["tick", "simulated_time_s", "level", "end", "points", "survived_s", "leader_m", "away_s"])
 
     def environment(self, every=120):
         """Weather and light, once a second unless told otherwise."""

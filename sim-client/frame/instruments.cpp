@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include <fmt/format.h>
@@ -52,6 +53,39 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
   if (lamps.has(Lamp::indicator_right)) add("▶", half_width_px - 0.5 * height_px, y, height_px, green);
   const double below_px = screen.height_px - 0.6 * small_px;
   if (car.engine_radps < stalled_below_radps) add("engine stalled", 0.0, below_px, small_px, red);
+  return texts;
+}
+
+std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
+  if (!shown.game || &screen != &rig::screen_ahead(rig)) return texts;
+  const GameStanding& game = *shown.game;
+  const double height_px = std::max(12.0, std::round(screen.height_px / 20.0));
+  const auto ahead = rig::point_ahead(rig, screen);
+  const auto add = [&](std::string text, double y_px, const glm::vec4& color) {
+    texts.push_back(line(std::move(text), (ahead ? ahead->x : 0.5) * screen.width_px, y_px, height_px, color));
+    texts.back().background = panel;
+    texts.back().centered = true;
+  };
+  const auto seconds = static_cast<std::int64_t>(std::clamp(game.survived_s, 0.0, 1e6));
+  const double first_px = std::round(0.18 * screen.height_px),  // Below the inside mirror of rigs that draw it there.
+      second_px = first_px + height_px + 6.0;
+  add(fmt::format("level {}   {:.0f} points   {}:{:02}", game.level, game.points, seconds / 60, seconds % 60), first_px,
+      white);
+  switch (game.end) {
+    case GameEnd::none:
+      if (game.away_s > 0.0) add("the ambulance is getting away", second_px, red);
+      break;
+    case GameEnd::lost:
+      add("game over: the ambulance is gone", second_px, amber);
+      break;
+    case GameEnd::crash:
+      add("game over: you have hit somebody", second_px, amber);
+      break;
+    case GameEnd::time:
+      add("you have come through", second_px, green);
+      break;
+  }
   return texts;
 }
 

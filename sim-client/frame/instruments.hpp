@@ -16,6 +16,10 @@ namespace septet::frame {
 /// does not ask for it.
 std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
+/// How a game stands, high on the screen ahead: level, points, time; that the leader gets away; how it ended. Nothing where the
+/// scenario is no game.
+std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
+
 /// The table of keys in the middle of the screen, under a headline ("Press any key to start"; empty: none).
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 

@@ -167,6 +167,7 @@ void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snaps
     input.overlay.insert(input.overlay.end(), texts.begin(), texts.end());
   };
   add(frame::instruments(snapshot, rig_, *screen_));
+  add(frame::game_standing(snapshot, rig_, *screen_));
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe")))
       input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));

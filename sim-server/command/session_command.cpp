@@ -11,6 +11,7 @@
 #include "engine/core/regular_file.hpp"
 #include "engine/document/json.hpp"
 #include "engine/document/text_file.hpp"
+#include "logging/best_list.hpp"
 #include "logging/questionnaire.hpp"
 #include "logging/report/report.hpp"
 #include "logging/session_editor.hpp"
@@ -104,7 +105,7 @@ Expected<void> delete_drives(const std::vector<fs::path>& sessions) {
   }
   for (const fs::path& session : sessions) {
     fs::remove(hidden(session), error);
-    for (const char* beside : {"summary.json", "report.html", "panorama.png"})
+    for (const char* beside : {"summary.json", "report.html", "debrief.html", "panorama.png"})
       fs::remove(session.parent_path() / beside, error);
     fs::remove_all(session.parent_path() / "screens", error);
     fs::remove(session.parent_path(), error);  // Only where nothing else is in it.
@@ -219,6 +220,11 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
                    options.places.front().string(), "check the code and the folders");
   const auto done = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
   if (!done) return tl::unexpected(done.error());
+  for (const fs::path& session : theirs) {
+    const auto list = fs::absolute(session).parent_path().parent_path() / "best-list.json";
+    if (const auto gone = logging::forget_in_best_list(list, options.participant); !gone)
+      return tl::unexpected(gone.error());
+  }
   rename_folders(theirs, options.participant);
   program::announce(fmt::format("{} of {} sessions {}; make pooled reports and tables anew", theirs.size(),
                                 found->size(),

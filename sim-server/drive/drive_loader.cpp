@@ -12,6 +12,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "logging/lesson/lesson.hpp"
 #include "program/resources.hpp"
 
 namespace septet::server {
@@ -30,13 +31,13 @@ scenario::EntityIndex driver_entity(const scenario::Scenario& scenario) {
   return scenario::no_entity;
 }
 
-/// Of all that the simulation depends on: the rig it does not.
+/// Of all that the simulation depends on: rig and lesson it does not.
 std::uint64_t hash_of(const std::vector<logging::SourceFile>& sources,
                       std::vector<scenario::ParameterValue> parameters) {
   StateHash hash;
   const auto add = [&](const std::string& text) { hash.add_bytes(std::as_bytes(std::span(text))); };
   for (const auto& source : sources) {
-    if (source.role == "rig") continue;
+    if (source.role == "rig" || source.role == logging::lesson_role) continue;
     add(source.role);
     add(source.content);
   }
@@ -136,9 +137,26 @@ std::string LoadedDrive::vehicle_name() const {
   return found == sources.end() ? "" : fs::path(found->name).stem().string();
 }
 
+namespace {
+
+/// What is marked, where the scenario has that beside it.
+Expected<void> add_lesson(const fs::path& scenario, LoadedDrive& drive) {
+  const fs::path path = fs::path(scenario).replace_extension(".lesson.toml");
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  auto source = from_disk(std::string(logging::lesson_role), path);
+  if (!source) return tl::unexpected(source.error());
+  if (const auto lesson = logging::read_lesson(source->content, source->name); !lesson)
+    return tl::unexpected(lesson.error());
+  drive.sources.push_back(std::move(*source));
+  return {};
+}
+
+}  // namespace
+
 Expected<LoadedDrive> load_drive(const DriveFiles& files) {
   const fs::path scenario_folder = fs::path(files.scenario).parent_path();
-  return load(
+  auto drive = load(
       [&](const std::string& role, const std::string& name) -> Expected<logging::SourceFile> {
         if (role == "rig") return from_disk(role, files.rig);
         if (role == "scenario") return from_disk(role, files.scenario);
@@ -160,6 +178,9 @@ Expected<LoadedDrive> load_drive(const DriveFiles& files) {
         return from_disk(role, scenario_folder / name);
       },
       files.seed, files.vehicle, files.parameters);
+  if (!drive) return drive;
+  if (auto added = add_lesson(files.scenario, *drive); !added) return tl::unexpected(added.error());
+  return drive;
 }
 
 Expected<LoadedDrive> load_drive(const logging::SessionInfo& session) {

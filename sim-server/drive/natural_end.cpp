@@ -8,6 +8,7 @@ constexpr double beyond_m = 10.0;  // A car's length and more: nobody is on the 
 }
 
 std::optional<logging::DriveEnd> natural_end(const simulation::Model& model, const simulation::State& state) {
+  if (state.game && state.game->standing.end != GameEnd::none) return logging::DriveEnd::game_over;
   if (state.scenario.finished) return logging::DriveEnd::stop_trigger;
   if (state.car_road && is_beyond_road_end(model.roads, *state.car_road, state.car.world_from_body.position_m))
     return logging::DriveEnd::road_end;

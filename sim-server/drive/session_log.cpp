@@ -12,7 +12,9 @@
 #include "engine/road/lane_links.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/scene/command_codec.hpp"
+#include "logging/best_list.hpp"
 #include "logging/input_hash.hpp"
+#include "logging/lesson/debrief.hpp"
 #include "logging/report/report.hpp"
 #include "logging/report/summary.hpp"
 #include "logging/session_reader.hpp"
@@ -79,6 +81,7 @@ void SessionLog::record_tick(std::shared_ptr<const TakenSnapshot> taken, const s
   tick_ = snapshot.tick;
   simulated_time_s_ = snapshot.simulated_time_s;
   bad_numbers_ = snapshot.diagnostics.bad_numbers;
+  game_ = snapshot.game;
   for (const auto& event : events)
     writer_.record(logging::Event{tick_, simulated_time_s_, event.kind, event.participant, event.detail});
   // The leader is looked for only where a sample wants it: ten times a second.
@@ -193,6 +196,32 @@ std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road:
     leader = logging::Leader{other.id, gap, gap + model.length_m, glm::length(other.velocity_mps)};
   }
   return leader;
+}
+
+Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, const ServerOptions& options,
+                                                  const std::optional<GameStanding>& game) {
+  std::vector<std::string> lines;
+  const auto session = logging::SessionReader::open(options.out / "session.sqlite");
+  if (!session) return tl::unexpected(session.error());
+  const std::string screen = options.no_screens ? "" : "screens/" + rig::screen_ahead(drive.rig).name;
+  const auto debrief = logging::write_debrief(*session, options.out, screen);
+  if (!debrief) return tl::unexpected(debrief.error());
+  if (*debrief) lines.push_back(fmt::format("{}: {}", (options.out / "debrief.html").string(), **debrief));
+  // Who has left in the middle has no place.
+  if (!game || game->end == GameEnd::none) return lines;
+  const char* const ends[] = {"", "lost", "crash", "time"};
+  const auto list = std::filesystem::absolute(options.out).parent_path() / "best-list.json";
+  const auto place = logging::enter_best_list(
+      list, {std::filesystem::path(options.scenario).stem().string(), options.participant, game->points,
+             game->survived_s, game->level, ends[static_cast<std::size_t>(game->end)], session->info().started_utc});
+  const std::string played =
+      fmt::format("{:.0f} points, level {}, {:.0f} s", game->points, game->level, game->survived_s);
+  if (!place) {
+    lines.push_back(played + "; " + describe(place.error()));
+    return lines;
+  }
+  lines.push_back(fmt::format("{}: {}; place {} of those who played here", list.string(), played, *place));
+  return lines;
 }
 
 Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/core/hash.hpp"
@@ -41,6 +42,8 @@ class SessionLog {
   std::optional<Error> take_error() { return writer_.take_error(); }
   /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
   std::optional<std::string> take_warning();
+  /// How the game stands, where the scenario is one.
+  const std::optional<GameStanding>& game() const { return game_; }
   double waited_s() const { return writer_.waited_s(); }
 
   /// What is known of the drive now that it has ended.
@@ -63,12 +66,18 @@ class SessionLog {
   logging::DriveObserver observer_;
   StateHash inputs_hash_;
   std::uint32_t bad_numbers_ = 0;  ///< Of the last tick's diagnostics.
+  std::optional<GameStanding> game_;
   Tick tick_ = 0;
   double simulated_time_s_ = 0.0;
 };
 
 /// The nearest participant ahead in the driver's lane, within 250 m.
 std::optional<logging::Leader> find_leader(const Snapshot& snapshot, const road::RoadNetwork& roads);
+
+/// What whoever drove reads at the end of a game or a lesson, a line each; debrief.html lies in the drive's folder then, and the game stands in
+/// best-list.json of the folder around that.
+Expected<std::vector<std::string>> write_standing(const LoadedDrive& drive, const ServerOptions& options,
+                                                  const std::optional<GameStanding>& game);
 
 /// summary.json and report.html beside the session file. The summary is written also where the session cannot be read.
 Expected<void> write_results(const LoadedDrive& drive, const ServerOptions& options,

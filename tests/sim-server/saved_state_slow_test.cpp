@@ -130,12 +130,18 @@ TEST_CASE("a drive that is saved in the middle of breaking ice goes on as if not
   for (const SavedDrive& saved : drives) check_that_it_goes_on("winter-lorry", 1, saved);
 }
 
+TEST_CASE("a game that is saved after its second level has begun goes on as if nothing had been") {
+  for (const SavedDrive& saved : drive_and_save("ambulance-game", "experienced", 1, {5500}))
+    check_that_it_goes_on("ambulance-game", 1, saved);
+}
+
 TEST_CASE("no shipped scenario is without a drive that is saved") {
   std::set<std::string> shipped;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEPTET_SOURCE_DIR) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
-  CHECK(shipped == std::set<std::string>{"motorway-ambulance", "rescue-lane", "tunnel-fire", "winter-lorry"});
+  CHECK(shipped ==
+        std::set<std::string>{"ambulance-game", "motorway-ambulance", "rescue-lane", "tunnel-fire", "winter-lorry"});
 }
 
 TEST_CASE(

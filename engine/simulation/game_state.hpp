@@ -1,0 +1,15 @@
+#pragma once
+/// What changes during a game (game.hpp).
+
+#include "engine/core/random.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::simulation {
+
+struct GameState {
+  GameStanding standing;
+  double next_move_s = 0.0;  ///< When the leader next thinks of another lane, in seconds survived.
+  Random random{1};
+};
+
+}  // namespace septet::simulation

@@ -1,0 +1,168 @@
+#include "logging/lesson/debrief.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "engine/document/markup.hpp"
+#include "engine/document/text_file.hpp"
+#include "logging/report/report_style.hpp"
+
+namespace septet::logging {
+namespace {
+
+using document::escaped;
+
+constexpr double picture_every_s = 1.0;  ///< As a screen keeps them.
+
+std::string mark_text(const std::optional<double>& mark) { return mark ? fmt::format("{:.1f}", *mark) : "not seen"; }
+
+std::string value_text(const LessonTask& task, double value) {
+  return task.measure == LessonMeasure::collision ? fmt::format("{:.0f}", value)
+                                                  : fmt::format("{:.1f} {}", value, unit_of(task.measure));
+}
+
+/// The worst first; not more than a person takes home.
+std::vector<std::size_t> worst_tasks(const Lesson& lesson, const LessonMarks& marks) {
+  constexpr std::size_t most = 3;
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < lesson.tasks.size(); ++i)
+    if (marks.tasks[i].severity != Severity::none) order.push_back(i);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return std::pair(-static_cast<int>(marks.tasks[i].severity), *marks.tasks[i].mark);
+  });
+  order.resize(std::min(order.size(), most));
+  return order;
+}
+
+/// The route from above with a number where each task went worst.
+std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
+  constexpr double width = 960.0, height = 300.0, rim = 24.0;
+  if (samples.size() < 2) return "";
+  double low_x = samples[0].x_m, high_x = low_x, low_y = samples[0].y_m, high_y = low_y;
+  for (const Sample& sample : samples) {
+    low_x = std::min(low_x, sample.x_m), high_x = std::max(high_x, sample.x_m);
+    low_y = std::min(low_y, sample.y_m), high_y = std::max(high_y, sample.y_m);
+  }
+  const double scale = std::min((width - 2.0 * rim) / std::max(high_x - low_x, 1.0),
+                                (height - 2.0 * rim) / std::max(high_y - low_y, 1.0));
+  if (!std::isfinite(scale)) return "";
+  const auto at = [&](const Sample& sample) {
+    return std::array{rim + scale * (sample.x_m - low_x), height - rim - scale * (sample.y_m - low_y)};
+  };
+  std::string svg = fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\"><polyline class=\"line\" points=\"", width, height);
+  for (std::size_t i = 0; i < samples.size(); i += 5) {
+    const auto point = at(samples[i]);
+    svg += fmt::format("{:.1f},{:.1f} ", point[0], point[1]);
+  }
+  svg += "\"/>";
+  std::map<double, std::string> numbers;  // Of one moment together.
+  for (std::size_t i = 0; i < marks.tasks.size(); ++i)
+    if (marks.tasks[i].severity != Severity::none)
+      numbers[marks.tasks[i].worst_s] +=
+          fmt::format("{}{}", numbers[marks.tasks[i].worst_s].empty() ? "" : ", ", i + 1);
+  for (const auto& [time_s, text] : numbers) {
+    const auto found = std::ranges::lower_bound(samples, time_s, {}, &Sample::simulated_time_s);
+    const auto point = at(found == samples.end() ? samples.back() : *found);
+    svg += fmt::format("<circle class=\"bar strong\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>", point[0], point[1]);
+    svg +=
+        fmt::format("<text class=\"mark-label\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", point[0], point[1] - 9.0, text);
+  }
+  return "<figure>" + svg +
+         "</svg><figcaption>Your way from above; the numbers are the tasks, where each went "
+         "worst.</figcaption></figure>\n";
+}
+
+/// What the screen ahead showed last before that moment.
+std::string picture(double time_s, const DebriefPlace& place) {
+  if (place.picture_folder.empty() || !(time_s >= 0.0 && time_s < 1e7)) return "";
+  const double second = std::max(picture_every_s, std::floor(time_s / picture_every_s) * picture_every_s);
+  const auto tick = static_cast<std::int64_t>(std::llround(second * place.ticks_per_second));
+  return fmt::format("<img src=\"{}/{}.png\" alt=\"The screen ahead {:.0f} s after the start\" style=\"width:100%\"/>",
+                     escaped(place.picture_folder), tick, second);
+}
+
+std::string why(const LessonTask& task, const TaskMark& mark) {
+  return fmt::format("{} at {:.1f} s; bound {}; {} of {} occasions beyond it", value_text(task, mark.worst),
+                     mark.worst_s, value_text(task, task.bound), mark.faults, mark.occasions);
+}
+
+}  // namespace
+
+Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
+                                                   const std::string& picture_folder) {
+  const auto& files = session.info().files;
+  const auto source = std::ranges::find(files, lesson_role, &SourceFile::role);
+  if (source == files.end()) return std::optional<std::string>();
+  const auto lesson = read_lesson(source->content, source->name);
+  if (!lesson) return tl::unexpected(lesson.error());
+  const auto samples = session.samples();
+  if (!samples) return tl::unexpected(samples.error());
+  const auto events = session.events();
+  if (!events) return tl::unexpected(events.error());
+  const LessonMarks marks = mark_lesson(*lesson, *samples, *events);
+  const auto page = debrief_page(*lesson, marks, *samples, {picture_folder, session.info().ticks_per_second});
+  if (auto written = document::write_text_file(folder / "debrief.html", page); !written)
+    return tl::unexpected(written.error());
+  return std::optional(marks_in_a_line(*lesson, marks));
+}
+
+std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks) {
+  std::string text = marks.mark
+                         ? fmt::format("mark {:.1f} of 10, {}", *marks.mark, marks.passed ? "passed" : "not passed")
+                         : std::string("nothing that the lesson marks was seen");
+  if (const auto worst = worst_tasks(lesson, marks); !worst.empty())
+    text += fmt::format("; worst: {} ({})", lesson.tasks[worst[0]].says,
+                        why(lesson.tasks[worst[0]], marks.tasks[worst[0]]));
+  return text;
+}
+
+std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
+                         const DebriefPlace& place) {
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\">";
+  html += fmt::format("<title>{}</title><style>{}</style></head><body><main>\n", escaped(lesson.title), report_style);
+  html += fmt::format("<h1>{}</h1>\n", escaped(lesson.title));
+  html += fmt::format("<p>{}</p>\n", escaped(lesson.aim));
+  html += "<p class=\"warning\">Before you read on: which mark would you give yourself, and why?</p>\n";
+  html += "<div class=\"tiles\">\n";
+  html +=
+      fmt::format("<div class=\"tile\"><b>{} <small>of 10</small></b><span>mark</span></div>\n", mark_text(marks.mark));
+  html += fmt::format("<div class=\"tile\"><b>{}</b><span>{:.1f} is needed, and nothing dangerous</span></div>\n",
+                      marks.passed ? "passed" : "not passed", lesson.pass_mark);
+  html += "</div>\n<h2>To take home</h2>\n";
+  const auto worst = worst_tasks(lesson, marks);
+  if (worst.empty()) html += "<p>Nothing was beyond its bound.</p>\n";
+  for (const std::size_t i : worst)
+    html += fmt::format(
+        "<figure>{}<figcaption><b>{}. {}</b> {}: {}. Show it again: <code>septet replay session.sqlite --from "
+        "{:.0f}</code></figcaption></figure>\n",
+        picture(marks.tasks[i].worst_s, place), i + 1, escaped(lesson.tasks[i].says), name_of(marks.tasks[i].severity),
+        why(lesson.tasks[i], marks.tasks[i]), std::max(0.0, std::floor(marks.tasks[i].worst_s - 3.0)));
+  html += route(marks, samples);
+  html += "<h2>All tasks</h2>\n<table><tr><th></th><th>Task</th><th>Mark</th><th>Fault</th><th>Worst</th></tr>\n";
+  for (std::size_t i = 0; i < lesson.tasks.size(); ++i) {
+    const LessonTask& task = lesson.tasks[i];
+    const TaskMark& mark = marks.tasks[i];
+    html += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"value\">{}</td><td>{}</td><td>{}</td></tr>\n", i + 1,
+                        escaped(task.says), mark_text(mark.mark), name_of(mark.severity),
+                        mark.mark ? why(task, mark) : std::string("no occasion"));
+  }
+  html +=
+      "</table>\n<p class=\"soft\">10 within the bound, 0 at the bound and its tolerance; the mark is the weighted "
+      "mean of what was "
+      "seen. Glances are known by the head's direction alone; where no head tracker told it, they are not seen.</p>\n";
+  return html + "</main></body></html>\n";
+}
+
+}  // namespace septet::logging

@@ -1,0 +1,31 @@
+#pragma once
+/// debrief.html: a lesson's marks, where on the route and when each went worst, and what the driver saw at that moment.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "logging/lesson/lesson.hpp"
+#include "logging/session_reader.hpp"
+
+namespace septet::logging {
+
+/// What the page shows beside the marks. Who drove it does not tell: it may be printed and left lying.
+struct DebriefPlace {
+  std::string
+      picture_folder;  ///< Of the screen ahead, seen from the page, with TICK.png once a second; empty: there are no pictures.
+  double ticks_per_second = 120.0;
+};
+
+std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
+                         const DebriefPlace& place);
+
+/// debrief.html in the folder, if the session holds a lesson; answers its marks in a line. Error: the session or the folder.
+Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
+                                                   const std::string& picture_folder);
+
+/// In a line: "mark 7.3 of 10, passed; worst: look into a mirror …".
+std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks);
+
+}  // namespace septet::logging

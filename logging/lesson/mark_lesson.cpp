@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "logging/lesson/lesson.hpp"
+#include "logging/measures/glances.hpp"
+#include "logging/measures/lane_changes.hpp"
+#include "logging/measures/sample_steps.hpp"
+
+namespace septet::logging {
+namespace {
+
+constexpr double driving_mps = 5.0, standing_mps = 0.1;
+constexpr double around_change_s = 4.0;  ///< A lane is left and entered within this on either side of the crossing.
+constexpr double blink_s = 0.8;          ///< UN R48 asks for 60 flashes a minute at least: dark for half a second.
+
+/// One occasion: what was measured, and when.
+struct Moment {
+  double time_s = 0.0, value = 0.0;
+};
+
+/// Whether more is worse.
+bool is_most(LessonMeasure measure) {
+  return measure != LessonMeasure::gap && measure != LessonMeasure::indicator && measure != LessonMeasure::stop;
+}
+
+/// What all tasks look at.
+struct DriveSeen {
+  std::span<const Sample> samples;
+  std::span<const Event> events;
+  std::vector<LaneChange> changes;
+  std::vector<Glance> glances;
+  bool head_is_known = false;
+};
+
+template <class Value>
+std::vector<Moment> each_sample(const DriveSeen& drive, const Value& value) {
+  std::vector<Moment> moments;
+  for (const Sample& sample : drive.samples)
+    if (const std::optional<double> found = value(sample); found && std::isfinite(*found))
+      moments.push_back({sample.simulated_time_s, *found});
+  return moments;
+}
+
+/// For how long the lamp of the change's side had been blinking when the line was crossed.
+std::vector<Moment> indicators(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  for (const LaneChange& change : drive.changes) {
+    const Lamp lamp = change.lanes_to_left > 0 ? Lamp::indicator_left : Lamp::indicator_right;
+    double first_lit_s = change.simulated_time_s;
+    auto at = std::ranges::upper_bound(drive.samples, change.simulated_time_s, {}, &Sample::simulated_time_s);
+    while (at != drive.samples.begin()) {
+      --at;
+      if (first_lit_s - at->simulated_time_s > blink_s) break;
+      if (at->lamps.has(lamp)) first_lit_s = at->simulated_time_s;
+    }
+    moments.push_back({change.simulated_time_s, change.simulated_time_s - first_lit_s});
+  }
+  return moments;
+}
+
+std::vector<Moment> mirrors(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  for (const LaneChange& change : drive.changes) {
+    double ago_s = change.simulated_time_s - drive.samples.front().simulated_time_s;
+    for (const Glance& glance : drive.glances)
+      if (glance.start_s <= change.simulated_time_s) ago_s = std::min(ago_s, change.simulated_time_s - glance.start_s);
+    moments.push_back({change.simulated_time_s, ago_s});
+  }
+  return moments;
+}
+
+/// Times without a glance, each told at its end. Standing still, and a gap in the samples, begin a new one.
+std::vector<Moment> lookouts(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  std::optional<double> since_s;
+  auto glance = drive.glances.begin();
+  const Sample* before = nullptr;
+  for (const Sample& sample : drive.samples) {
+    const double now_s = sample.simulated_time_s;
+    const bool broken = sample.speed_mps < driving_mps || (before && is_gap(*before, sample));
+    bool looked = false;
+    for (; glance != drive.glances.end() && glance->start_s <= now_s; ++glance) looked = true;
+    if (since_s && (broken || looked)) moments.push_back({now_s, now_s - *since_s});
+    if (broken)
+      since_s.reset();
+    else if (looked || !since_s)
+      since_s = now_s;
+    before = &sample;
+  }
+  if (since_s && before) moments.push_back({before->simulated_time_s, before->simulated_time_s - *since_s});
+  return moments;
+}
+
+/// The first sample at rest after driving.
+std::optional<std::size_t> first_halt(const DriveSeen& drive) {
+  bool drove = false;
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    drove = drove || drive.samples[i].speed_mps > driving_mps;
+    if (drove && std::abs(drive.samples[i].speed_mps) < standing_mps) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<Moment> hazards(const DriveSeen& drive) {
+  const auto halt = first_halt(drive);
+  if (!halt) return {};
+  const double halt_s = drive.samples[*halt].simulated_time_s;
+  // Who has switched them on before is in time.
+  for (const Sample& sample : drive.samples)
+    if (sample.simulated_time_s > halt_s - blink_s && sample.lamps.has(Lamp::indicator_left) &&
+        sample.lamps.has(Lamp::indicator_right))
+      return {{halt_s, std::max(0.0, sample.simulated_time_s - halt_s)}};
+  return {{halt_s, drive.samples.back().simulated_time_s - halt_s}};
+}
+
+std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
+  using Found = std::optional<double>;
+  if (drive.samples.empty()) return {};
+  switch (measure) {
+    case LessonMeasure::speed:
+      return each_sample(drive, [](const Sample& sample) -> Found { return 3.6 * std::abs(sample.speed_mps); });
+    case LessonMeasure::gap:
+      return each_sample(drive, [](const Sample& sample) -> Found {
+        if (!sample.leader || sample.speed_mps < driving_mps) return std::nullopt;
+        return std::max(0.0, sample.leader->distance_gap_m) / sample.speed_mps;
+      });
+    case LessonMeasure::position:
+      return each_sample(drive, [&](const Sample& sample) -> Found {
+        const auto changes = [&](const LaneChange& change) {
+          return std::abs(change.simulated_time_s - sample.simulated_time_s) < around_change_s;
+        };
+        if (sample.lane == 0 || std::ranges::any_of(drive.changes, changes)) return std::nullopt;
+        return std::abs(sample.lateral_position_m);
+      });
+    case LessonMeasure::indicator:
+      return indicators(drive);
+    case LessonMeasure::mirror:
+      return drive.head_is_known ? mirrors(drive) : std::vector<Moment>{};
+    case LessonMeasure::lookout:
+      return drive.head_is_known ? lookouts(drive) : std::vector<Moment>{};
+    case LessonMeasure::stop: {
+      const auto halt = first_halt(drive);
+      if (!halt || !drive.samples[*halt].leader) return {};
+      return {{drive.samples[*halt].simulated_time_s, drive.samples[*halt].leader->distance_gap_m}};
+    }
+    case LessonMeasure::hazard:
+      return hazards(drive);
+    case LessonMeasure::collision:
+      break;
+  }
+  std::vector<Moment> moments{{drive.samples.front().simulated_time_s, 0.0}};
+  double count = 0.0;
+  for (const Event& event : drive.events)
+    if (event.kind == "collision") moments.push_back({event.simulated_time_s, ++count});
+  return moments;
+}
+
+TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
+  TaskMark result;
+  double worst_excess = 0.0;
+  for (const Moment& moment : moments_of(task.measure, drive)) {
+    if (moment.time_s < task.from_s || moment.time_s > task.to_s) continue;
+    const double excess = is_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
+    result.faults += excess > 0.0;
+    if (result.occasions++ > 0 && excess <= worst_excess) continue;
+    worst_excess = excess;
+    result.worst = moment.value;
+    result.worst_s = moment.time_s;
+  }
+  if (result.occasions == 0) return result;
+  result.mark = 10.0 * std::clamp(1.0 - worst_excess / task.tolerance, 0.0, 1.0);
+  if (worst_excess > 0.0) {
+    result.severity = worst_excess >= task.tolerance ? Severity::serious : Severity::minor;
+    if (task.measure == LessonMeasure::collision) result.severity = Severity::dangerous;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view name_of(Severity severity) {
+  switch (severity) {
+    case Severity::none:
+      return "none";
+    case Severity::minor:
+      return "minor";
+    case Severity::serious:
+      return "serious";
+    case Severity::dangerous:
+      return "dangerous";
+  }
+  return "";
+}
+
+LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events) {
+  DriveSeen drive{samples, events, find_lane_changes(samples), find_glances(samples), false};
+  drive.head_is_known =
+      std::ranges::any_of(samples, [](const Sample& sample) { return sample.gaze_heading_rad != 0.0; });
+  LessonMarks marks;
+  double sum = 0.0, weights = 0.0;
+  bool danger = false;
+  for (const LessonTask& task : lesson.tasks) {
+    const TaskMark& mark = marks.tasks.emplace_back(mark_task(task, drive));
+    danger = danger || mark.severity == Severity::dangerous;
+    if (!mark.mark) continue;
+    sum += task.weight * *mark.mark;
+    weights += task.weight;
+  }
+  if (weights > 0.0) marks.mark = sum / weights;
+  marks.passed = marks.mark && *marks.mark >= lesson.pass_mark && !danger;
+  return marks;
+}
+
+}  // namespace septet::logging

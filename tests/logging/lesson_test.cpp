@@ -1,0 +1,184 @@
+// Lessons: what is marked, how, and what the learner reads of it.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/core/regular_file.hpp"
+#include "logging/lesson/debrief.hpp"
+#include "logging/lesson/lesson.hpp"
+
+namespace septet::logging {
+namespace {
+
+/// A minute at 20 m/s in the middle of a lane, a car 50 m ahead, ten samples a second; a glance each five seconds.
+std::vector<Sample> good_drive() {
+  std::vector<Sample> samples;
+  for (int i = 0; i < 600; ++i) {
+    Sample sample;
+    sample.tick = static_cast<Tick>(12 * i);
+    sample.simulated_time_s = 0.1 * i;
+    sample.x_m = 2.0 * i;
+    sample.speed_mps = 20.0;
+    sample.lane = -2;
+    sample.lane_width_m = 3.5;
+    sample.leader = Leader{5, 50.0, 55.0, 20.0};
+    if (i % 50 < 5) sample.gaze_heading_rad = 0.7;  // The left mirror.
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+/// Into the lane to the left, over the line at the 300th sample, with the indicator on for so long before.
+void change_lanes(std::vector<Sample>& samples, double signal_s) {
+  for (int i = 260; i < 340; ++i) {
+    samples[static_cast<std::size_t>(i)].lateral_position_m = (i < 300 ? 0.0 : -3.5) + 3.5 * (i - 260) / 80.0;
+    if (i >= 300) samples[static_cast<std::size_t>(i)].lane = -1;
+  }
+  for (std::size_t i = 340; i < samples.size(); ++i) samples[i].lane = -1;
+  for (int i = 300 - static_cast<int>(std::lround(10.0 * signal_s)); i < 300; ++i)
+    samples[static_cast<std::size_t>(i)].lamps.set(Lamp::indicator_left, i % 7 < 4);  // It blinks.
+}
+
+Lesson lesson_of(const std::string& measure, double bound, double tolerance) {
+  const auto lesson =
+      read_lesson("title = \"T\"\naim = \"A\"\n[[task]]\nid = \"a\"\nsays = \"Do it\"\nmeasure = \"" + measure +
+                      "\"\nbound = " + std::to_string(bound) + "\ntolerance = " + std::to_string(tolerance) + "\n",
+                  "x.lesson.toml");
+  REQUIRE_MESSAGE(lesson.has_value(), (lesson ? "" : describe(lesson.error())));
+  return *lesson;
+}
+
+TaskMark mark_of(const std::string& measure, double bound, double tolerance, const std::vector<Sample>& samples,
+                 const std::vector<Event>& events = {}) {
+  return mark_lesson(lesson_of(measure, bound, tolerance), samples, events).tasks.at(0);
+}
+
+}  // namespace
+
+TEST_CASE("a mark is ten within the bound, none at bound and tolerance, and even in between") {
+  auto samples = good_drive();
+  CHECK(*mark_of("speed", 72.0, 10.0, samples).mark == doctest::Approx(10.0));
+  samples[200].speed_mps = 77.0 / 3.6;
+  const TaskMark half = mark_of("speed", 72.0, 10.0, samples);
+  CHECK(*half.mark == doctest::Approx(5.0));
+  CHECK(half.severity == Severity::minor);
+  CHECK(half.worst == doctest::Approx(77.0));
+  CHECK(half.worst_s == doctest::Approx(20.0));
+  CHECK(half.faults == 1);
+  CHECK(half.occasions == samples.size());
+  samples[200].speed_mps = 90.0 / 3.6;
+  const TaskMark none = mark_of("speed", 72.0, 10.0, samples);
+  CHECK(*none.mark == doctest::Approx(0.0));
+  CHECK(none.severity == Severity::serious);
+}
+
+TEST_CASE("a gap is over one's own speed, and nobody ahead is nothing seen") {
+  auto samples = good_drive();
+  CHECK(*mark_of("gap", 2.0, 1.0, samples).mark == doctest::Approx(10.0));
+  samples[100].leader->distance_gap_m = 30.0;
+  CHECK(*mark_of("gap", 2.0, 1.0, samples).mark == doctest::Approx(5.0));
+  for (Sample& sample : samples) sample.leader.reset();
+  CHECK_FALSE(mark_of("gap", 2.0, 1.0, samples).mark.has_value());
+}
+
+TEST_CASE("a lane change is marked by indicator and mirror, and is no bad place in the lane") {
+  auto samples = good_drive();
+  CHECK_FALSE(mark_of("indicator", 3.0, 3.0, samples).mark.has_value());
+  change_lanes(samples, 4.0);
+  CHECK(*mark_of("indicator", 3.0, 3.0, samples).mark == doctest::Approx(10.0));
+  CHECK(*mark_of("position", 0.3, 0.5, samples).mark == doctest::Approx(10.0));
+  auto late = good_drive();
+  change_lanes(late, 1.5);
+  CHECK(*mark_of("indicator", 3.0, 3.0, late).mark == doctest::Approx(4.7).epsilon(0.1));
+  auto unsignalled = good_drive();
+  change_lanes(unsignalled, 0.0);
+  CHECK(*mark_of("indicator", 3.0, 3.0, unsignalled).mark == doctest::Approx(0.0));
+  CHECK(*mark_of("mirror", 5.0, 5.0, samples).mark == doctest::Approx(10.0));
+  for (int i = 200; i < 310; ++i) samples[static_cast<std::size_t>(i)].gaze_heading_rad = 0.01;
+  CHECK(*mark_of("mirror", 5.0, 20.0, samples).mark < 9.0);
+}
+
+TEST_CASE("where the head never moved no glance is marked, and a long time without one costs") {
+  auto samples = good_drive();
+  CHECK(*mark_of("lookout", 6.0, 10.0, samples).mark == doctest::Approx(10.0));
+  for (int i = 100; i < 300; ++i) samples[static_cast<std::size_t>(i)].gaze_heading_rad = 0.01;
+  const TaskMark blind = mark_of("lookout", 6.0, 28.0, samples);
+  CHECK(*blind.mark < 6.0);
+  CHECK(blind.worst == doctest::Approx(25.0).epsilon(0.05));
+  for (Sample& sample : samples) sample.gaze_heading_rad = 0.0;
+  CHECK_FALSE(mark_of("lookout", 6.0, 10.0, samples).mark.has_value());
+}
+
+TEST_CASE("a halt is marked by its distance and the hazard lights that follow it") {
+  auto samples = good_drive();
+  for (std::size_t i = 300; i < samples.size(); ++i)
+    samples[i].speed_mps = 0.0, samples[i].leader->distance_gap_m = 6.0;
+  CHECK(*mark_of("stop", 10.0, 8.0, samples).mark == doctest::Approx(5.0));
+  CHECK(mark_of("hazard", 5.0, 15.0, samples).severity == Severity::serious);
+  for (std::size_t i = 330; i < samples.size(); ++i) {
+    samples[i].lamps.set(Lamp::indicator_left, i % 7 < 4);
+    samples[i].lamps.set(Lamp::indicator_right, i % 7 < 4);
+  }
+  CHECK(*mark_of("hazard", 5.0, 15.0, samples).mark == doctest::Approx(10.0));
+  CHECK_FALSE(mark_of("stop", 10.0, 8.0, good_drive()).mark.has_value());
+}
+
+TEST_CASE("a collision is dangerous, whatever the rest is worth") {
+  Lesson lesson = lesson_of("collision", 0.0, 1.0);
+  lesson.tasks.push_back(lesson_of("speed", 100.0, 10.0).tasks[0]);
+  lesson.tasks.back().weight = 100.0;
+  const auto samples = good_drive();
+  CHECK(mark_lesson(lesson, samples, {}).passed);
+  const std::vector<Event> events{{1200, 10.0, "collision", 7, ""}};
+  const LessonMarks marks = mark_lesson(lesson, samples, events);
+  CHECK(marks.tasks[0].severity == Severity::dangerous);
+  CHECK(*marks.mark > 9.0);
+  CHECK_FALSE(marks.passed);
+}
+
+TEST_CASE("an empty drive is not seen, and not passed") {
+  const LessonMarks marks = mark_lesson(lesson_of("speed", 72.0, 10.0), {}, {});
+  CHECK_FALSE(marks.mark.has_value());
+  CHECK_FALSE(marks.passed);
+  CHECK(debrief_page(lesson_of("speed", 72.0, 10.0), marks, {}, {}).find("not seen") != std::string::npos);
+}
+
+TEST_CASE("the debrief shows where and why with the picture of the moment, and no markup of the lesson's own") {
+  auto samples = good_drive();
+  samples[123].speed_mps = 30.0;
+  Lesson lesson = lesson_of("speed", 72.0, 10.0);
+  lesson.title = "<script>alert(1)</script>";
+  const LessonMarks marks = mark_lesson(lesson, samples, {});
+  const std::string page = debrief_page(lesson, marks, samples, {"screens/ahead", 120.0});
+  CHECK(page.find("108.0 km/h at 12.3 s") != std::string::npos);
+  CHECK(page.find("screens/ahead/1440.png") != std::string::npos);
+  CHECK(page.find("--from 9") != std::string::npos);
+  CHECK(page.find("<script>") == std::string::npos);
+  CHECK(page.find("<polyline") != std::string::npos);
+  CHECK(marks_in_a_line(lesson, marks).find("not passed") != std::string::npos);
+}
+
+TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
+  for (const char* text :
+       {"", "title = 3", "[[task]]\nid = \"a\"", "[[task]]\nid = \"a\"\nsays = \"b\"\nmeasure = \"joy\"", "task = 3",
+        "[[task]]\nid = \"a\"\nsays = \"b\"\nmeasure = \"gap\"\nbound = -1",
+        "[[task]]\nid = \"a\"\nsays = \"b\"\nmeasure = \"gap\"\nbound = nan",
+        "[[task]]\nid = \"a\"\nsays = \"b\"\nmeasure = \"gap\"\ntypo = 1"}) {
+    INFO(std::string(text));
+    const auto lesson = read_lesson(text, "x.toml");
+    REQUIRE_FALSE(lesson.has_value());
+    CHECK_FALSE(lesson.error().remedy.empty());
+  }
+  for (const std::string name : {"winter-lorry", "tunnel-fire", "motorway-ambulance"}) {
+    const std::string path = std::string(SEPTET_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".lesson.toml";
+    const auto text = read_regular_file(path);
+    REQUIRE(text.has_value());
+    const auto lesson = read_lesson(*text, path);
+    CHECK_MESSAGE(lesson.has_value(), (lesson ? "" : describe(lesson.error())));
+  }
+}
+
+}  // namespace septet::logging
