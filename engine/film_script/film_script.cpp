@@ -82,6 +82,7 @@ Shot read_shot(const toml::table& table, std::string_view file, Error& error) {
   shot.focus_m = reader.get_double("focus_m", shot.distance_m > 0.0 ? shot.distance_m : shot.focus_m, 0.1, 1e5);
   if (table.contains("focus_m") && !table.contains("f_number"))
     reader.report("focus_m", "a pinhole is sharp everywhere", "add f_number, or leave focus_m out");
+  shot.shutter_rad = radians * reader.get_double("shutter_deg", 0.0, 0.0, 360.0);
   shot.interior = reader.get_bool("interior", shot.interior);
   Turn before{shot.from_s, shot.heading_rad, shot.pitch_rad, 0.0};
   const auto turns = reader.get_tables("turn");

@@ -41,6 +41,8 @@ struct Shot {
   /// Of a lens before a film 36 mm wide: its focal length, which the field of view tells, over its opening. 0: a pinhole, all is sharp.
   double f_number = 0.0;
   double focus_m = 10.0;  ///< Distance before the camera at which a lens is sharp.
+  double shutter_rad =
+      0.0;  ///< Of a whole turn for the way to the next frame: how long a frame's light is taken. 0: no time at all.
   bool interior = false;  ///< Through a participant's eyes: the car's inside is drawn, where there is a model of it.
   std::string where;      ///< For messages: "shots.toml, shot 2".
 };

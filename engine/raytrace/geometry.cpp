@@ -24,7 +24,8 @@ struct Mesh {
   std::span<const scene::SurfaceVertex> vertices;
   std::span<const std::uint32_t> indices;
   bool open = false;
-  Scene scene;  ///< Its hierarchy; null while nobody has placed it.
+  std::span<const scene::SurfaceVertex> later;  ///< Empty: its vertices stay.
+  Scene scene;                                  ///< Its hierarchy; null while nobody has placed it.
 };
 
 /// One instruction set whatever the processor has more: hierarchies and rounding differ between them, and the machines of a film draw
@@ -64,6 +65,12 @@ void weaken_light(const RTCFilterFunctionNArguments* args) {
 /// `moved`: its vertices' positions, if not where the mesh has them. Both outlive the geometry.
 RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, std::span<const glm::vec3> moved = {}) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (!mesh.later.empty()) {
+    rtcSetGeometryTimeStepCount(geometry, 2);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, mesh.later.data(),
+                               offsetof(scene::SurfaceVertex, position_m), sizeof(scene::SurfaceVertex),
+                               mesh.later.size());
+  }
   if (moved.empty())
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.vertices.data(),
                                offsetof(scene::SurfaceVertex, position_m), sizeof(scene::SurfaceVertex),
@@ -79,6 +86,25 @@ RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, std::span<const glm
   }
   rtcCommitGeometry(geometry);
   return geometry;
+}
+
+void set_place(RTCGeometry instance, const Place& place) {
+  if (!place.motion) {
+    const glm::mat3& t = place.turn;
+    const glm::vec3& o = place.origin_m;
+    const float columns[12] = {t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z, t[2].x, t[2].y, t[2].z, o.x, o.y, o.z};
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    return;
+  }
+  rtcSetGeometryTimeStepCount(instance, 2);
+  for (unsigned step = 0; step < 2; ++step) {
+    const Motion::Key& key = place.motion->keys()[step];
+    RTCQuaternionDecomposition d{};
+    d.scale_x = key.stretch.x, d.scale_y = key.stretch.y, d.scale_z = key.stretch.z;
+    d.quaternion_r = key.turn.w, d.quaternion_i = key.turn.x, d.quaternion_j = key.turn.y, d.quaternion_k = key.turn.z;
+    d.translation_x = key.origin_m.x, d.translation_y = key.origin_m.y, d.translation_z = key.origin_m.z;
+    rtcSetGeometryTransformQuaternion(instance, step, &d);
+  }
 }
 
 /// What stands alone and is not turned is moved, not placed: a ray that need not be taken into an instance's frame is a sixth cheaper.
@@ -111,8 +137,8 @@ struct Geometry::Parts {
     for (std::size_t n = 0; n < places.size(); ++n) {
       const Mesh& mesh = meshes[places[n].mesh];
       const std::size_t here = mesh.indices.size() / 3;
-      if (times[places[n].mesh] > 1 || places[n].turn != glm::mat3(1.0f) || here > most_moved_of_mesh ||
-          triangles + here > most_moved)
+      if (places[n].motion || !mesh.later.empty() || times[places[n].mesh] > 1 || places[n].turn != glm::mat3(1.0f) ||
+          here > most_moved_of_mesh || triangles + here > most_moved)
         continue;
       triangles += here;
       moved[n].reserve(mesh.vertices.size() + 1);
@@ -135,11 +161,7 @@ struct Geometry::Parts {
         if (!mesh.scene) build(mesh);
         geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, mesh.scene.get());
-        const glm::mat3& t = places[n].turn;
-        const glm::vec3& o = places[n].origin_m;
-        const float columns[12] = {t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z,
-                                   t[2].x, t[2].y, t[2].z, o.x,    o.y,    o.z};
-        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        set_place(geometry, places[n]);
         rtcCommitGeometry(geometry);
       }
       rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(n));
@@ -165,9 +187,10 @@ Expected<Geometry> Geometry::create() {
 }
 
 void Geometry::add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices,
-                        bool open) {
+                        bool open, std::span<const scene::SurfaceVertex> later) {
+  SEPTET_CHECK(later.empty() || later.size() == vertices.size(), "{} vertices, then {}", vertices.size(), later.size());
   SEPTET_CHECK(indices.size() % 3 == 0, "{} indices", indices.size());
-  parts_->meshes.push_back({vertices, indices, open, nullptr});
+  parts_->meshes.push_back({vertices, indices, open, later, nullptr});
 }
 
 void Geometry::keep(std::size_t count) {
@@ -204,7 +227,7 @@ bool Geometry::intersect(const Ray& ray, Hit& hit) const {
                ray.direction.x,
                ray.direction.y,
                ray.direction.z,
-               0.0f,
+               ray.time,
                ray.to_m,
                0xffffffffu,
                0,
@@ -229,7 +252,7 @@ float Geometry::unshadowed(const Ray& ray) const {
                ray.direction.x,
                ray.direction.y,
                ray.direction.z,
-               0.0f,
+               ray.time,
                ray.to_m,
                0xffffffffu,
                0,

@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/core/expected.hpp"
+#include "engine/raytrace/motion.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::raytrace {
@@ -23,6 +25,7 @@ namespace septet::raytrace {
 struct Ray {
   glm::vec3 origin_m{0.0f}, direction{0.0f, 0.0f, 1.0f};  ///< Unit.
   float from_m = 0.0f, to_m = std::numeric_limits<float>::infinity();
+  float time = 0.0f;  ///< Of what moves, 0 to 1.
 };
 
 struct Hit {
@@ -37,7 +40,8 @@ struct Place {
   std::uint32_t mesh = 0;
   glm::vec3 origin_m{0.0f};
   glm::mat3 turn{1.0f};
-  bool seen = true;  ///< False: it only throws a shadow.
+  bool seen = true;                ///< False: it only throws a shadow.
+  std::optional<Motion> motion{};  ///< From there at time 0.
 };
 
 /// What a surface lets through where it is not all there: asked for meshes with holes or glass.
@@ -61,7 +65,8 @@ class Geometry {
 
   /// The next mesh, counted from 0. Vertices and indices are not copied; they outlive the geometry or the call of `keep`. `open`: it
   /// has places that `Openings` is to be asked about. Triangles whose corners do not exist are the caller's bug.
-  void add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices, bool open);
+  void add_mesh(std::span<const scene::SurfaceVertex> vertices, std::span<const std::uint32_t> indices, bool open,
+                std::span<const scene::SurfaceVertex> later = {});
   /// Forgets all meshes but the first `count`.
   void keep(std::size_t count);
   /// What stands where from now on. `openings` outlives the queries.

@@ -52,7 +52,7 @@ class Path {
   float headlight_weights(const glm::vec3& from_m) const;
   /// Chance with which a lamp is drawn, from a place.
   float weight_of(const Lamp& lamp, const glm::vec3& from_m) const {
-    const glm::vec3 way = lamp.middle_m - from_m;
+    const glm::vec3 way = lamp.middle_m + lamp.way_m * time_ - from_m;
     return lamp.power / std::max(glm::dot(way, way), lamp.radius_m * lamp.radius_m);
   }
   float lamp_weights(const glm::vec3& from_m) const {
@@ -67,6 +67,7 @@ class Path {
   const PathSettings& settings_;
   PathRandom& random_;
   glm::vec3 light_{0.0f}, throughput_{1.0f};
+  float time_ = 0.0f;               ///< While the shutter is open.
   float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
   glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
   float lamp_weights_ = 0.0f;       ///< Of all lamps, from there.
@@ -126,7 +127,7 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
   const float root = std::sqrt(random.x);
   const glm::vec3* c = &lamp.corners_m[3 * triangle];
   const float u = root * (1.0f - random.y), v = root * random.y;
-  const glm::vec3 at = (1.0f - u - v) * c[0] + u * c[1] + v * c[2];
+  const glm::vec3 at = (1.0f - u - v) * c[0] + u * c[1] + v * c[2] + lamp.way_m * time_;
   const glm::vec3 way = at - from_m;
   distance_m = glm::length(way);
   const glm::vec3 direction = way / distance_m;
@@ -137,6 +138,7 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
     Ray ray;
     ray.origin_m = from_m;
     ray.direction = direction;
+    ray.time = time_;
     const auto seen = lamp.first_triangle + static_cast<std::uint32_t>(triangle);
     const SurfacePoint there = world_.point(ray, {distance_m, lamp.place, seen, u, v});
     emission = there.emission * there.lights_up;
@@ -153,8 +155,8 @@ float reach(const instant::Headlight& light, const glm::vec3& way) {
 
 float Path::headlight_weights(const glm::vec3& from_m) const {
   float sum = 0.0f;
-  for (const instant::Headlight& light : world_.headlights())
-    sum += reach(light, from_m - glm::vec3(light.position_m - world_.origin_m()));
+  for (std::size_t n = 0; n < world_.headlights().size(); ++n)
+    sum += reach(world_.headlights()[n], from_m - world_.headlight_m(n, time_));
   return sum;
 }
 
@@ -162,15 +164,15 @@ LightSample Path::draw_headlight(const glm::vec3& from_m, float& distance_m) {
   const float sum = headlight_weights(from_m);
   if (!(sum > 0.0f)) return {};
   float rest = random_.uniform() * sum, strength = 0.0f;
-  const instant::Headlight* chosen = nullptr;
-  for (const instant::Headlight& light : world_.headlights()) {
-    const float here = reach(light, from_m - glm::vec3(light.position_m - world_.origin_m()));
+  std::size_t chosen = 0;
+  for (std::size_t n = 0; n < world_.headlights().size(); ++n) {
+    const float here = reach(world_.headlights()[n], from_m - world_.headlight_m(n, time_));
     if (here <= 0.0f) continue;
-    chosen = &light, strength = here;
+    chosen = n, strength = here;
     rest -= here;
     if (rest < 0.0f) break;
   }
-  const glm::vec3 way = glm::vec3(chosen->position_m - world_.origin_m()) - from_m;
+  const glm::vec3 way = world_.headlight_m(chosen, time_) - from_m;
   distance_m = glm::length(way);
   return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * strength, strength / sum};
 }
@@ -196,6 +198,7 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   Ray shadow;
   shadow.origin_m = beside(point.position_m, point.flat_normal);
   shadow.direction = light.direction;
+  shadow.time = time_;
   // Not as far as the lamp's own surface, though the ray begins nearer to it.
   const float margin = margin_m(point.position_m + light.direction * std::min(distance_m, 1e4f));
   shadow.to_m = std::max(0.0f, distance_m - 3.0f * margin);
@@ -262,6 +265,7 @@ Ray Path::enter_or_leave(const SurfacePoint& point, const Ray& ray) {
   const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
   const float eta = point.from_front ? point.index : 1.0f / point.index;
   Ray next;
+  next.time = time_;
   if (random_.uniform() < fresnel(cosine, eta)) {
     next.direction = glm::normalize(ray.direction + 2.0f * cosine * n);
     next.origin_m = beside(point.position_m, point.flat_normal);
@@ -289,6 +293,7 @@ bool Path::meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point) {
 }
 
 glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
+  time_ = ray.time;
   for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
     Hit hit;
     SurfacePoint point;
@@ -349,6 +354,7 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     scattered_ = true;
     from_m_ = point.position_m;
     ray = Ray{};
+    ray.time = time_;
     ray.origin_m = beside(point.position_m, point.flat_normal);
     ray.direction = scattered.direction;
   }

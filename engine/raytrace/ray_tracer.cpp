@@ -41,6 +41,14 @@ struct Camera {
     lens_right = glm::vec3(turn * p.right), lens_up = glm::vec3(turn * p.up), ahead = glm::vec3(turn * -p.back);
   }
 
+  /// On the way to another camera of the same viewport.
+  Camera towards(const Camera& later, float time) const {
+    Camera camera = *this;
+    for (const auto part : {&Camera::eye_m, &Camera::middle, &Camera::right, &Camera::down, &Camera::lens_right,
+                            &Camera::lens_up, &Camera::ahead})
+      camera.*part = glm::mix(this->*part, later.*part, time);
+    return camera;
+  }
   bool shows(std::int64_t x, std::int64_t y) const {
     return x >= viewport.x && y >= viewport.y && x < viewport.x + std::int64_t{viewport.width} &&
            y < viewport.y + std::int64_t{viewport.height};
@@ -65,9 +73,14 @@ struct Camera {
   }
 };
 
-ClearBody clear_body(const ice::IceBody& ice) {
+ClearBody clear_body(const ice::IceBody& ice, const ice::IceBody* later) {
   ClearBody body{ice.origin_m, {}, static_cast<float>(ice::ice_index / ice::air_index), ice.look.absorption_per_m};
   for (const ice::IceVertex& vertex : ice.vertices) body.vertices.push_back({vertex.position_m, vertex.normal, {}});
+  if (!later || later->vertices.size() != ice.vertices.size()) return body;
+  const Vec3 way_m = later->origin_m - ice.origin_m;
+  if (glm::length(way_m) < longest_way_m)
+    for (const ice::IceVertex& vertex : later->vertices)
+      body.later.push_back({vertex.position_m + glm::vec3(way_m), vertex.normal, {}});
   return body;
 }
 
@@ -88,13 +101,15 @@ struct PixelSums {
 };
 
 /// Until the pixel has `samples`.
-void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const TraceSettings& settings,
-                 std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
+void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const Camera* later,
+                 const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
   TracedPixel& sums = pixel.sums;
   for (; sums.samples < samples; ++sums.samples) {
     PathRandom random(settings.seed, x, y, sums.samples);
     const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
-    const Ray ray = camera.ray(at, settings, random);
+    const float time = later ? random.uniform() : 0.0f;
+    Ray ray = (later ? camera.towards(*later, time) : camera).ray(at, settings, random);
+    ray.time = time;
     FirstSeen first;
     glm::vec3 radiance = trace_path(world, settings.paths, ray, random, &first);
     if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
@@ -148,7 +163,7 @@ struct RayTracer::Parts {
   instant::Instant instant{};
   std::vector<ClearBody> bodies{};
   std::unique_ptr<World> world{};
-  std::vector<Camera> cameras{};
+  std::vector<Camera> cameras{}, later_cameras{};  ///< The latter: none, or as many.
   std::vector<std::uint8_t> cloud_noise = instant::cloud_noise();
 
   /// Whose pixel it is; a later view lies over an earlier one. Null: of none.
@@ -158,8 +173,9 @@ struct RayTracer::Parts {
   }
   void refine(PixelSums& pixel, std::int64_t x, std::int64_t y, std::uint32_t samples) const {
     if (const Camera* camera = camera_at(x, y))
-      add_samples(pixel, *world, *camera, settings, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                  samples);
+      add_samples(pixel, *world, *camera,
+                  later_cameras.empty() ? nullptr : &later_cameras[static_cast<std::size_t>(camera - cameras.data())],
+                  settings, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), samples);
   }
   void trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const;
 };
@@ -205,16 +221,23 @@ Expected<RayTracer> RayTracer::create(const scene::ResolvedScene& scene) {
   return RayTracer(std::unique_ptr<Parts>(new Parts{scene, std::move(*geometry)}));
 }
 
-void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies) {
+void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies,
+                      const instant::Instant* later) {
   Parts& p = *parts_;
   p.world.reset();
   p.settings = settings;
   p.instant = std::move(instant);
   p.bodies = std::move(bodies);
-  for (const ice::IceBody& ice : p.instant.ice) p.bodies.push_back(clear_body(ice));
-  p.world = std::make_unique<World>(p.scene, p.instant, p.bodies, p.cloud_noise, p.geometry);
+  for (std::size_t n = 0; n < p.instant.ice.size(); ++n) {
+    const bool same = later && later->ice.size() == p.instant.ice.size();
+    p.bodies.push_back(clear_body(p.instant.ice[n], same ? &later->ice[n] : nullptr));
+  }
+  p.world = std::make_unique<World>(p.scene, p.instant, later, p.bodies, p.cloud_noise, p.geometry);
   p.cameras.clear();
+  p.later_cameras.clear();
   for (const instant::FrameView& view : p.instant.views) p.cameras.emplace_back(view, p.world->origin_m());
+  if (later && later->views.size() == p.instant.views.size())
+    for (const instant::FrameView& view : later->views) p.later_cameras.emplace_back(view, p.world->origin_m());
 }
 
 Bucket RayTracer::trace(const instant::PixelRectangle& rectangle) const {

@@ -78,8 +78,10 @@ class RayTracer {
   RayTracer& operator=(RayTracer&&) noexcept;
   ~RayTracer();
 
-  /// Builds what the pixels of this instant are traced through; `bodies` beside those of the instant's ice.
-  void begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies = {});
+  /// Builds what the pixels of this instant are traced through; `bodies` beside those of the instant's ice. `later`: the instant at which the
+  /// shutter closes. What moves until then, the views too, is smeared; light and weather, smoke and soot are those of the first.
+  void begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies = {},
+             const instant::Instant* later = nullptr);
   /// Pixels of the instant begun last; the rectangle lies within the picture that its views make.
   Bucket trace(const instant::PixelRectangle& rectangle) const;
   const instant::Instant& instant() const;

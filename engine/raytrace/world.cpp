@@ -1,7 +1,6 @@
 #include "engine/raytrace/world.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -9,12 +8,6 @@
 namespace septet::raytrace {
 namespace {
 
-constexpr std::size_t most_lamps = 256;
-constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
-/// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
-/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Measured in scenarios/tunnel-fire 7.8 s after its
-/// beginning: the road has the rasteriser's radiance within 1 %, the walls have half of it.
-constexpr float roofed_lamps_light_up = 6.0f;
 constexpr float opaque_from = 0.999f;  // As the rasteriser has it.
 
 bool is_cut(const scene::SurfaceMaterial& material, const scene::ResolvedScene& scene) {
@@ -58,8 +51,8 @@ std::vector<bool> open_meshes(const scene::ResolvedScene& scene) {
   return open;
 }
 
-World::World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
-             std::span<const std::uint8_t> cloud_noise, Geometry& geometry)
+World::World(const scene::ResolvedScene& scene, const instant::Instant& instant, const instant::Instant* later,
+             std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise, Geometry& geometry)
     : scene_(scene),
       instant_(instant),
       geometry_(geometry),
@@ -78,130 +71,11 @@ World::World(const scene::ResolvedScene& scene, const instant::Instant& instant,
     add(places, instant::place(instance, {mesh.bounds_min_m, mesh.bounds_max_m}, instance.world_from_object), true,
         n + 1);
   }
-  for (const instant::PlacedMesh& part : instant.parts)
-    add(places, part, false, scene.instances.size() + part.mesh + 1);
-  add_soups(places, bodies);
+  add_parts(places, later);
+  add_soups(places, later, bodies);
+  add_headlight_ways(later);
   geometry_.place(places, this);
   add_lamps(places);
-}
-
-void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object) {
-  if (placed.mesh >= scene_.meshes.size()) return;
-  const double distance_m = glm::length(placed.origin_m - origin_m_);
-  if (distance_m < placed.visible_from_m || distance_m >= placed.visible_to_m) return;
-  const scene::SurfaceMesh& mesh = scene_.meshes[placed.mesh];
-  const glm::vec3 origin(placed.origin_m - origin_m_);
-  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen});
-  placed_.push_back({mesh.vertices,
-                     mesh.indices,
-                     mesh.parts,
-                     placed.world_from_object,
-                     glm::inverseTranspose(placed.world_from_object),
-                     origin,
-                     placed.tint,
-                     placed.share_of_sky,
-                     placed.snowed_on,
-                     placed.number,
-                     stands,
-                     std::ranges::is_sorted(mesh.parts, {}, &scene::MeshPart::first_index),
-                     {},
-                     nullptr,
-                     static_cast<std::uint32_t>(object)});
-}
-
-/// Triangles of this instant alone.
-void World::add_soups(std::vector<Place>& places, std::span<const ClearBody> bodies) {
-  std::size_t longest = 0;
-  for (const instant::LooseMesh& loose : instant_.loose) longest = std::max(longest, loose.mesh.vertices.size());
-  for (const ClearBody& body : bodies) longest = std::max(longest, body.vertices.size());
-  loose_indices_.resize(longest);
-  std::iota(loose_indices_.begin(), loose_indices_.end(), 0u);
-  loose_parts_.reserve(instant_.loose.size());
-  std::uint32_t mesh = static_cast<std::uint32_t>(scene_.meshes.size());
-  const auto add_soup = [&](const Vec3& origin_m, std::span<const scene::SurfaceVertex> vertices,
-                            bool seen) -> PlacedSurface& {
-    const glm::vec3 origin(origin_m - origin_m_);
-    const std::span indices(loose_indices_.data(), vertices.size() / 3 * 3);
-    geometry_.add_mesh(vertices, indices, false);
-    places.push_back({mesh++, origin, glm::mat3(1.0f), seen});
-    PlacedSurface soup;
-    soup.vertices = vertices;
-    soup.indices = indices;
-    soup.origin_m = origin;
-    return placed_.emplace_back(std::move(soup));
-  };
-  for (const instant::LooseMesh& loose : instant_.loose) {
-    PlacedSurface& soup = add_soup(loose.mesh.origin_m, loose.mesh.vertices, loose.mesh.seen);
-    loose_parts_.push_back({{0, static_cast<std::uint32_t>(soup.indices.size()), loose.material}});
-    soup.parts = loose_parts_.back();
-    soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
-    soup.share_of_sky = loose.share_of_sky;
-    soup.object = static_cast<std::uint32_t>(scene_.instances.size() + scene_.meshes.size() + loose.material + 1);
-  }
-  const std::size_t ice = scene_.instances.size() + scene_.meshes.size() + scene_.materials.size() + 1;
-  for (const ClearBody& body : bodies) {
-    PlacedSurface& soup = add_soup(body.origin_m, body.vertices, true);
-    soup.body = &body;
-    soup.object = static_cast<std::uint32_t>(ice);
-  }
-}
-
-float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const {
-  return placed.stands ? glm::mix(roofed_lamps_light_up, 1.0f, material.share_of_sky * placed.share_of_sky) : 1.0f;
-}
-
-/// The triangles of a part that shines, those in a row that lie together as one lamp each.
-void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
-  const PlacedSurface& placed = placed_[place];
-  if (part.material >= scene_.materials.size() || part.index_count < 3) return;
-  const scene::SurfaceMaterial& material = scene_.materials[part.material];
-  const glm::vec3 emission =
-      material.emission * (placed.tint.w * instant_.emission_share * lights_up(placed, material));
-  if (!(luminance(emission) > 0.0f)) return;
-  Lamp lamp;
-  glm::vec3 low(0.0f), high(0.0f);
-  const auto finish = [&] {
-    lamp.middle_m = 0.5f * (low + high);
-    lamp.radius_m = 0.5f * glm::length(high - low);
-    if (lamp.triangle_count > 0) lamp.power = lamp.cumulative_area.back() * luminance(emission);
-    if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
-  };
-  for (std::uint32_t t = part.first_index / 3; t < (part.first_index + part.index_count) / 3; ++t) {
-    const Corners at = corners(placed, t);
-    std::array<glm::vec3, 3> c{at.a->position_m, at.b->position_m, at.c->position_m};
-    for (glm::vec3& corner : c) corner = placed.origin_m + placed.turn * corner;
-    const glm::vec3 lower = glm::min(c[0], glm::min(c[1], c[2])), upper = glm::max(c[0], glm::max(c[1], c[2]));
-    const bool apart =
-        glm::any(glm::greaterThan(lower, high + lamp_gap_m)) || glm::any(glm::lessThan(upper, low - lamp_gap_m));
-    if (lamp.triangle_count == 0 || apart) {
-      if (lamp.triangle_count > 0) finish();
-      lamp = {};
-      lamp.place = place, lamp.first_triangle = t, lamp.emission = emission;
-      lamp.textured = material.base_color_image >= 0;
-      low = lower, high = upper;
-    }
-    low = glm::min(low, lower), high = glm::max(high, upper);
-    const float before = lamp.triangle_count > 0 ? lamp.cumulative_area.back() : 0.0f;
-    lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
-    const glm::vec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
-    const float twice_area = glm::length(across);
-    lamp.cumulative_area.push_back(before + 0.5f * twice_area);
-    lamp.normals.push_back(across / std::max(twice_area, 1e-30f));
-    ++lamp.triangle_count;
-  }
-  finish();
-}
-
-void World::add_lamps(const std::vector<Place>& places) {
-  for (std::uint32_t n = 0; n < placed_.size(); ++n)
-    if (placed_[n].tint.w > 0.0f && places[n].seen)
-      for (const scene::MeshPart& part : placed_[n].parts) add_lamps(n, part);
-  // The others are met by chance alone; where there are so many they are far or weak.
-  const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
-  std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
-  all_lamps_are_drawn_ = lamps_.size() <= most_lamps;
-  if (!all_lamps_are_drawn_) lamps_.resize(most_lamps);
-  for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
 }
 
 World::Corners World::corners(const PlacedSurface& placed, std::uint32_t triangle) const {
@@ -286,15 +160,36 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   const float w = 1.0f - hit.u - hit.v;
   SurfacePoint point;
   point.place = hit.place;
-  const glm::vec3 &a = at.a->position_m, &b = at.b->position_m, &c = at.c->position_m;
+  glm::vec3 a = at.a->position_m, b = at.b->position_m, c = at.c->position_m;
+  glm::vec3 normal = w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal;
+  if (!placed.later.empty()) {
+    const std::uint32_t* index = &placed.indices[std::size_t{3} * hit.triangle];
+    const scene::SurfaceVertex &then_a = placed.later[index[0]], &then_b = placed.later[index[1]],
+                               &then_c = placed.later[index[2]];
+    a = glm::mix(a, then_a.position_m, ray.time), b = glm::mix(b, then_b.position_m, ray.time);
+    c = glm::mix(c, then_c.position_m, ray.time);
+    // Debris is flat: its normal is exactly that of the triangle as it is then (Parus et al., eq. 1). Ice is smooth.
+    normal = placed.body ? glm::mix(normal, w * then_a.normal + hit.u * then_b.normal + hit.v * then_c.normal, ray.time)
+                         : glm::cross(b - a, c - a);
+  }
   // From the corners, not along the ray: a far hit's distance has fewer digits.
-  point.position_m = placed.origin_m + placed.turned(w * a + hit.u * b + hit.v * c);
-  const glm::vec3 across = glm::cross(b - a, c - a);
-  point.flat_normal = placed.is_turned ? placed.normal_turn * across : across;
+  point.position_m = w * a + hit.u * b + hit.v * c;
+  point.flat_normal = glm::cross(b - a, c - a);
+  if (placed.motion) {
+    const Stand now = placed.motion->at(ray.time);
+    const glm::mat3 normal_turn = glm::inverseTranspose(now.turn);
+    point.position_m = now.origin_m + now.turn * point.position_m;
+    point.flat_normal = normal_turn * point.flat_normal;
+    normal = normal_turn * normal;
+  } else {
+    point.position_m = placed.origin_m + placed.turned(point.position_m);
+    if (placed.is_turned) {
+      point.flat_normal = placed.normal_turn * point.flat_normal;
+      normal = placed.normal_turn * normal;
+    }
+  }
   const float area = glm::length(point.flat_normal);
   point.flat_normal = area > 0.0f ? point.flat_normal / area : -ray.direction;
-  glm::vec3 normal = w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal;
-  if (placed.is_turned) normal = placed.normal_turn * normal;
   const float length = glm::length(normal);
   normal = length > 1e-12f ? normal / length : point.flat_normal;
   point.from_front = glm::dot(point.flat_normal, ray.direction) < 0.0f;

@@ -48,6 +48,7 @@ struct Lamp {
   float radius_m = 0.0f;
   float power = 0.0f;        ///< Area times luminance.
   glm::vec3 emission{0.0f};  ///< With which it lights.
+  glm::vec3 way_m{0.0f};     ///< Until time 1.
   bool textured = false;     ///< Its image colours the emission.
 };
 
@@ -58,14 +59,15 @@ struct ClearBody {
       vertices;  ///< From the origin along the world's axes; three a triangle, ccw outside.
   float index = 1.31f;
   glm::vec3 absorption_per_m{0.0f};
+  std::vector<scene::SurfaceVertex> later{};  ///< From the same origin at time 1; none: it does not move.
 };
 
 class World : public Openings {
  public:
   /// `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
-  /// these outlive the world.
-  World(const scene::ResolvedScene& scene, const instant::Instant& instant, std::span<const ClearBody> bodies,
-        std::span<const std::uint8_t> cloud_noise, Geometry& geometry);
+  /// these outlive the world. `later`: the instant at which the shutter closes, time 1, for what moves until then; null: nothing does.
+  World(const scene::ResolvedScene& scene, const instant::Instant& instant, const instant::Instant* later,
+        std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise, Geometry& geometry);
   ~World() override = default;
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -82,6 +84,9 @@ class World : public Openings {
   /// Nothing shines that can only be met by chance.
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
+  glm::vec3 headlight_m(std::size_t n, float time) const {
+    return glm::vec3(instant_.headlights[n].position_m - origin_m_) + headlight_ways_m_[n] * time;
+  }
   const Smoke& smoke() const { return smoke_; }
   const Vec3& origin_m() const { return origin_m_; }  ///< World.
 
@@ -114,6 +119,8 @@ class World : public Openings {
     std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
     const ClearBody* body = nullptr;
     std::uint32_t object = 0;  ///< TracedPixel::object.
+    std::optional<Motion> motion{};
+    std::span<const scene::SurfaceVertex> later{};  ///< Its vertices at time 1, if they move.
     bool is_turned = turn != glm::mat3(1.0f);
 
     glm::vec3 turned(const glm::vec3& way) const { return is_turned ? turn * way : way; }
@@ -122,9 +129,12 @@ class World : public Openings {
     const scene::SurfaceVertex *a, *b, *c;
   };
 
-  void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object);
+  void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object,
+           const instant::PlacedMesh* later = nullptr);
+  void add_headlight_ways(const instant::Instant* later);
+  void add_parts(std::vector<Place>& places, const instant::Instant* later);
   float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const;
-  void add_soups(std::vector<Place>& places, std::span<const ClearBody> bodies);
+  void add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies);
   void add_lamps(const std::vector<Place>& places);
   void add_lamps(std::uint32_t place, const scene::MeshPart& part);
   Corners corners(const PlacedSurface& placed, std::uint32_t triangle) const;
@@ -147,6 +157,8 @@ class World : public Openings {
   std::vector<PlacedSurface> placed_;
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
+  std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
+  std::vector<glm::vec3> headlight_ways_m_;
   std::vector<Lamp> lamps_;
   bool all_lamps_are_drawn_ = true;
   std::vector<bool> cut_;  ///< For each material, whether its image has holes.

@@ -1,5 +1,11 @@
 #include "sim-client/film/film_frames.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
 #include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
@@ -102,14 +108,30 @@ class LastSeen {
 
 }  // namespace
 
+namespace {
+
+/// Where a camera that turns evenly from frame to frame looks between them.
+Look between(const Look& from, const Look& to, double share) {
+  const auto mixed = [share](const auto& a, const auto& b) {
+    const double x = (1.0 - share) * a[0] + share * b[0], y = (1.0 - share) * a[1] + share * b[1],
+                 length = std::hypot(x, y);
+    return length > 0.0 ? UnitVector<double, 2>{x / length, y / length} : a;
+  };
+  return {mixed(from.heading, to.heading), mixed(from.pitch, to.pitch)};
+}
+
+}  // namespace
+
 struct FilmFrames::State {
   logging::SessionReader session;
   FilmPlan plan;
   std::vector<Pivot> pivots;  ///< By shot.
   scene::ResolvedScene scene;
   std::uint32_t width_px, height_px;
+  double frames_per_second;
   // From here on what was read for the frame before, which spares reading it again.
   std::optional<FilmFrame> last{};
+  double last_instant_s = 0.0;
   std::optional<SessionInstants> instants{};
   std::optional<LastSeen> last_seen{};
   frame::EffectsDrawing effects{};
@@ -143,23 +165,40 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   if (!pivots) return tl::unexpected(pivots.error());
   scene::Store store;
   if (auto restored = logging::restore_scene(*session, store); !restored) return tl::unexpected(restored.error());
-  return FilmFrames(std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots),
-                                                     scene::resolve(store), options.width_px, options.height_px}));
+  return FilmFrames(
+      std::unique_ptr<State>(new State{std::move(*session), std::move(*plan), std::move(*pivots), scene::resolve(store),
+                                       options.width_px, options.height_px, options.frames_per_second}));
 }
 
 Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) {
+  return input_at(film_frame, film_frame.instant_s, state_->plan.paths[film_frame.shot][film_frame.number_in_shot]);
+}
+
+Expected<std::optional<instant::FrameInput>> FilmFrames::input_as_shutter_closes(const FilmFrame& film_frame) {
+  const Shot& shot = state_->plan.script.shots[film_frame.shot];
+  if (!(shot.shutter_rad > 0.0)) return std::nullopt;
+  const double share = shot.shutter_rad / (2.0 * std::numbers::pi);
+  const double instant_s = std::min(film_frame.instant_s + share * shot.speed / state_->frames_per_second, shot.to_s);
+  const std::vector<Look>& path = state_->plan.paths[film_frame.shot];
+  const Look &from = path[film_frame.number_in_shot],
+             &to = path[std::min(film_frame.number_in_shot + 1, path.size() - 1)];
+  return input_at(film_frame, instant_s, between(from, to, share));
+}
+
+Expected<instant::FrameInput> FilmFrames::input_at(const FilmFrame& film_frame, double instant_s, const Look& look) {
   State& state = *state_;
   const Shot& shot = state.plan.script.shots[film_frame.shot];
   const Pivot& pivot = state.pivots[film_frame.shot];
-  const bool follows = state.last && state.last->shot == film_frame.shot && state.last->number <= film_frame.number;
+  const bool follows = state.last && state.last->shot == film_frame.shot && state.last->number <= film_frame.number &&
+                       state.last_instant_s <= instant_s + time_slack_s;
   state.last.reset();  // Where reading fails, the next frame begins anew.
   if (!follows) {
-    auto instants = SessionInstants::start(state.session, film_frame.instant_s);
+    auto instants = SessionInstants::start(state.session, instant_s);
     if (!instants) return tl::unexpected(instants.error());
     state.instants.emplace(std::move(*instants));
     state.last_seen.reset();
   }
-  const auto world = state.instants->at(film_frame.instant_s);
+  const auto world = state.instants->at(instant_s);
   if (!world) return tl::unexpected(world.error());
   frame::Viewpoint waiting;
   if (pivot.participant && !find_participant(*world, *pivot.participant)) {
@@ -168,16 +207,15 @@ Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) 
       if (!last_seen) return tl::unexpected(last_seen.error());
       state.last_seen.emplace(std::move(*last_seen));
     }
-    const auto seen = state.last_seen->at(film_frame.instant_s);
+    const auto seen = state.last_seen->at(instant_s);
     if (!seen) return tl::unexpected(seen.error());
     waiting = *seen;
   }
-  const Look& look = state.plan.paths[film_frame.shot][film_frame.number_in_shot];
   auto input = frame::client_frame(*world, views_at(shot, pivot, look, state.width_px, state.height_px),
                                    viewpoint_at(shot, pivot, *world, waiting), state.scene);
   state.effects.show(*world, state.instants->history(), state.instants->tick_s(), state.scene);
   state.effects.add_to(input);
-  state.last = film_frame;
+  state.last = film_frame, state.last_instant_s = instant_s;
   return input;
 }
 

@@ -26,9 +26,12 @@ class FilmFrames {
 
   /// `frame` is one of the plan's. Error: the session cannot be read there.
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
+  /// The same as the shot's shutter closes; nothing where it is open for no time.
+  Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
 
  private:
   struct State;
+  Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look);
   explicit FilmFrames(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

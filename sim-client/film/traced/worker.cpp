@@ -248,6 +248,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       const FilmFrame& of_film = frames.plan().frames[wanted->frame];
       auto input = frames.input_of(of_film);
       if (!input) return tl::unexpected(input.error());
+      auto closing = frames.input_as_shutter_closes(of_film);
+      if (!closing) return tl::unexpected(closing.error());
       raytrace::TraceSettings settings;
       settings.samples = options.samples;
       settings.error = static_cast<float>(options.error);
@@ -256,7 +258,10 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       const Shot& shot = frames.plan().script.shots[of_film.shot];
       settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
       settings.focus_m = static_cast<float>(shot.focus_m);
-      tracer->begin(instant::describe(std::move(*input), summary), settings);
+      instant::Instant opens = instant::describe(std::move(*input), summary);
+      std::optional<instant::Instant> closes;
+      if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);
+      tracer->begin(std::move(opens), settings, {}, closes ? &*closes : nullptr);
       frame = wanted->frame;
       tracing.begin_frame(*frame, facts_of(tracer->instant()));
       Bytes bytes = message(Word::ready);

@@ -51,7 +51,7 @@ void write_session_and_shots(const TemporaryFolder& folder) {
     REQUIRE(writer.finish().has_value());
   }
   // Seen from a place to the side of the two, which turn with the sky behind them.
-  std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\n";
+  std::ofstream(folder / "shots.toml") << "[[shot]]\nfrom_s = 0\nto_s = 1\nparticipant = \"2\"\nshutter_deg = 360\n";
 }
 
 /// What a program prints.

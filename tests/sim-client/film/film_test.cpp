@@ -216,7 +216,7 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
 
 TEST_CASE("a lens opens as photographers reckon and is sharp where it is told or where the camera looks") {
   const auto script = read_script(
-      "[[shot]]\nfrom_s = 1\nto_s = 5\ndistance_m = 9\nf_number = 2\n"
+      "[[shot]]\nfrom_s = 1\nto_s = 5\ndistance_m = 9\nf_number = 2\nshutter_deg = 180\n"
       "field_of_view_deg = 39.5978\n[[shot]]\nfrom_s = 1\nto_s = 5\nf_number = 4\n"
       "focus_m = 3.5\n[[shot]]\nfrom_s = 1\nto_s = 5\n",
       "shots.toml");
@@ -224,6 +224,8 @@ TEST_CASE("a lens opens as photographers reckon and is sharp where it is told or
   // 39.6 degrees is what 50 mm see across 36 mm; at f/2 it opens 25 mm.
   CHECK(lens_radius_m(script->shots[0]) == doctest::Approx(0.0125).epsilon(1e-4));
   CHECK(script->shots[0].focus_m == 9.0);
+  CHECK(script->shots[0].shutter_rad == doctest::Approx(std::numbers::pi));
+  CHECK(script->shots[2].shutter_rad == 0.0);
   CHECK(script->shots[1].focus_m == 3.5);
   CHECK(lens_radius_m(script->shots[2]) == 0.0);
 }
@@ -262,6 +264,7 @@ TEST_CASE("a wrong script is refused with one message that names the line and th
       {shot + "field_of_view_deg = 180\n", 4, "give a number from 1 to 150"},
       {shot + "f_number = 0\n", 4, "give a number from 0.5 to 128"},
       {shot + "focus_m = 3\n", 4, "add f_number"},
+      {shot + "shutter_deg = 361\n", 4, "give a number from 0 to 360"},
       {shot + "bearings = \"north\"\n", 4, "choose one of: vehicle, world"},
       {shot + "place = 3\n", 4, "write { x_m"},
       {shot + "place = { x_m = 1, y_m = 2 }\n", 4, "add z_m"},

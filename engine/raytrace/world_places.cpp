@@ -1,0 +1,198 @@
+/// How what an instant shows gets into a World: where it stands, where it goes, and which of it are lamps.
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "engine/raytrace/world.hpp"
+
+namespace septet::raytrace {
+namespace {
+
+constexpr std::size_t most_lamps = 256;
+constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
+/// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
+/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Measured in scenarios/tunnel-fire 7.8 s after its
+/// beginning: the road has the rasteriser's radiance within 1 %, the walls have half of it.
+constexpr float roofed_lamps_light_up = 6.0f;
+
+/// Vertices as they are then, from the origin that they have now; none where they are others.
+std::vector<scene::SurfaceVertex> vertices_from(const Vec3& origin_m, std::size_t count, const Vec3& then_origin_m,
+                                                std::span<const scene::SurfaceVertex> then) {
+  const Vec3 way_m = then_origin_m - origin_m;
+  if (then.size() != count || glm::length(way_m) > longest_way_m) return {};
+  std::vector<scene::SurfaceVertex> vertices(then.begin(), then.end());
+  for (scene::SurfaceVertex& vertex : vertices) vertex.position_m += glm::vec3(way_m);
+  return vertices;
+}
+
+}  // namespace
+
+void World::add_headlight_ways(const instant::Instant* later) {
+  headlight_ways_m_.resize(instant_.headlights.size(), glm::vec3(0.0f));
+  if (later && later->headlights.size() == instant_.headlights.size())
+    for (std::size_t n = 0; n < headlight_ways_m_.size(); ++n)
+      if (const Vec3 way_m = later->headlights[n].position_m - instant_.headlights[n].position_m;
+          glm::length(way_m) < longest_way_m)
+        headlight_ways_m_[n] = glm::vec3(way_m);
+}
+
+/// The same part of the same participant in both, where there is one.
+void World::add_parts(std::vector<Place>& places, const instant::Instant* later) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const instant::PlacedMesh*>> then;
+  if (later)
+    for (const instant::PlacedMesh& part : later->parts) then[{part.mesh, part.number}].push_back(&part);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> met;
+  for (const instant::PlacedMesh& part : instant_.parts) {
+    const std::pair key{part.mesh, part.number};
+    const auto found = then.find(key);
+    const std::size_t which = met[key]++;
+    const bool there = found != then.end() && which < found->second.size();
+    add(places, part, false, scene_.instances.size() + part.mesh + 1, there ? found->second[which] : nullptr);
+  }
+}
+
+void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object,
+                const instant::PlacedMesh* later) {
+  if (placed.mesh >= scene_.meshes.size()) return;
+  const double distance_m = glm::length(placed.origin_m - origin_m_);
+  if (distance_m < placed.visible_from_m || distance_m >= placed.visible_to_m) return;
+  const scene::SurfaceMesh& mesh = scene_.meshes[placed.mesh];
+  const glm::vec3 origin(placed.origin_m - origin_m_);
+  std::optional<Motion> motion;
+  if (later && glm::length(later->origin_m - placed.origin_m) < longest_way_m) {
+    const Stand from{origin, placed.world_from_object},
+        to{glm::vec3(later->origin_m - origin_m_), later->world_from_object};
+    if (!(from == to)) motion.emplace(from, to);
+  }
+  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen, motion});
+  placed_.push_back({mesh.vertices,
+                     mesh.indices,
+                     mesh.parts,
+                     placed.world_from_object,
+                     glm::inverseTranspose(placed.world_from_object),
+                     origin,
+                     placed.tint,
+                     placed.share_of_sky,
+                     placed.snowed_on,
+                     placed.number,
+                     stands,
+                     std::ranges::is_sorted(mesh.parts, {}, &scene::MeshPart::first_index),
+                     {},
+                     nullptr,
+                     static_cast<std::uint32_t>(object)});
+  placed_.back().motion = motion;
+}
+
+/// Triangles of this instant alone.
+void World::add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies) {
+  std::size_t longest = 0;
+  for (const instant::LooseMesh& loose : instant_.loose) longest = std::max(longest, loose.mesh.vertices.size());
+  for (const ClearBody& body : bodies) longest = std::max(longest, body.vertices.size());
+  loose_indices_.resize(longest);
+  std::iota(loose_indices_.begin(), loose_indices_.end(), 0u);
+  loose_parts_.reserve(instant_.loose.size());
+  std::uint32_t mesh = static_cast<std::uint32_t>(scene_.meshes.size());
+  later_soups_.reserve(instant_.loose.size());
+  const auto add_soup = [&](const Vec3& origin_m, std::span<const scene::SurfaceVertex> vertices, bool seen,
+                            std::span<const scene::SurfaceVertex> moved) -> PlacedSurface& {
+    const glm::vec3 origin(origin_m - origin_m_);
+    const std::span indices(loose_indices_.data(), vertices.size() / 3 * 3);
+    geometry_.add_mesh(vertices, indices, false, moved);
+    places.push_back({mesh++, origin, glm::mat3(1.0f), seen});
+    PlacedSurface soup;
+    soup.vertices = vertices;
+    soup.indices = indices;
+    soup.origin_m = origin;
+    soup.later = moved;
+    return placed_.emplace_back(std::move(soup));
+  };
+  const bool same = later && later->loose.size() == instant_.loose.size();
+  for (std::size_t n = 0; n < instant_.loose.size(); ++n) {
+    const instant::LooseMesh& loose = instant_.loose[n];
+    std::vector<scene::SurfaceVertex>& moved = later_soups_.emplace_back();
+    if (same && later->loose[n].material == loose.material)
+      moved = vertices_from(loose.mesh.origin_m, loose.mesh.vertices.size(), later->loose[n].mesh.origin_m,
+                            later->loose[n].mesh.vertices);
+    PlacedSurface& soup = add_soup(loose.mesh.origin_m, loose.mesh.vertices, loose.mesh.seen, moved);
+    loose_parts_.push_back({{0, static_cast<std::uint32_t>(soup.indices.size()), loose.material}});
+    soup.parts = loose_parts_.back();
+    soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
+    soup.share_of_sky = loose.share_of_sky;
+    soup.object = static_cast<std::uint32_t>(scene_.instances.size() + scene_.meshes.size() + loose.material + 1);
+  }
+  const std::size_t ice = scene_.instances.size() + scene_.meshes.size() + scene_.materials.size() + 1;
+  for (const ClearBody& body : bodies) {
+    PlacedSurface& soup = add_soup(body.origin_m, body.vertices, true, body.later);
+    soup.body = &body;
+    soup.object = static_cast<std::uint32_t>(ice);
+  }
+}
+
+float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const {
+  return placed.stands ? glm::mix(roofed_lamps_light_up, 1.0f, material.share_of_sky * placed.share_of_sky) : 1.0f;
+}
+
+/// The triangles of a part that shines, those in a row that lie together as one lamp each.
+void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
+  const PlacedSurface& placed = placed_[place];
+  if (part.material >= scene_.materials.size() || part.index_count < 3) return;
+  const scene::SurfaceMaterial& material = scene_.materials[part.material];
+  const glm::vec3 emission =
+      material.emission * (placed.tint.w * instant_.emission_share * lights_up(placed, material));
+  if (!(luminance(emission) > 0.0f)) return;
+  Lamp lamp;
+  glm::vec3 low(0.0f), high(0.0f);
+  const auto finish = [&] {
+    lamp.middle_m = 0.5f * (low + high);
+    lamp.radius_m = 0.5f * glm::length(high - low);
+    if (lamp.triangle_count > 0) lamp.power = lamp.cumulative_area.back() * luminance(emission);
+    if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
+  };
+  for (std::uint32_t t = part.first_index / 3; t < (part.first_index + part.index_count) / 3; ++t) {
+    const Corners at = corners(placed, t);
+    std::array<glm::vec3, 3> c{at.a->position_m, at.b->position_m, at.c->position_m};
+    for (glm::vec3& corner : c) corner = placed.origin_m + placed.turn * corner;
+    const glm::vec3 lower = glm::min(c[0], glm::min(c[1], c[2])), upper = glm::max(c[0], glm::max(c[1], c[2]));
+    const bool apart =
+        glm::any(glm::greaterThan(lower, high + lamp_gap_m)) || glm::any(glm::lessThan(upper, low - lamp_gap_m));
+    if (lamp.triangle_count == 0 || apart) {
+      if (lamp.triangle_count > 0) finish();
+      lamp = {};
+      lamp.place = place, lamp.first_triangle = t, lamp.emission = emission;
+      lamp.textured = material.base_color_image >= 0;
+      if (placed.motion) lamp.way_m = placed.motion->keys()[1].origin_m - placed.motion->keys()[0].origin_m;
+      low = lower, high = upper;
+    }
+    low = glm::min(low, lower), high = glm::max(high, upper);
+    const float before = lamp.triangle_count > 0 ? lamp.cumulative_area.back() : 0.0f;
+    lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
+    const glm::vec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const float twice_area = glm::length(across);
+    lamp.cumulative_area.push_back(before + 0.5f * twice_area);
+    lamp.normals.push_back(across / std::max(twice_area, 1e-30f));
+    ++lamp.triangle_count;
+  }
+  finish();
+}
+
+void World::add_lamps(const std::vector<Place>& places) {
+  for (std::uint32_t n = 0; n < placed_.size(); ++n)
+    if (placed_[n].tint.w > 0.0f && places[n].seen)
+      for (const scene::MeshPart& part : placed_[n].parts) add_lamps(n, part);
+  // The others are met by chance alone; where there are so many they are far or weak.
+  const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
+  std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
+  all_lamps_are_drawn_ = lamps_.size() <= most_lamps;
+  if (!all_lamps_are_drawn_) lamps_.resize(most_lamps);
+  for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
+}
+
+}  // namespace septet::raytrace

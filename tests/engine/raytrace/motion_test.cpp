@@ -1,0 +1,139 @@
+#include "engine/raytrace/motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include "engine/geometry/temporal_normals.hpp"
+#include "tests/engine/raytrace/traced_scenes.hpp"
+
+namespace septet::raytrace {
+namespace {
+
+TracedPicture traced_until(const scene::ResolvedScene& scene, const instant::Instant& instant,
+                           const instant::Instant& later, const TraceSettings& settings) {
+  auto tracer = RayTracer::create(scene);
+  REQUIRE(tracer.has_value());
+  tracer->begin(instant, settings, {}, &later);
+  const instant::PixelRectangle size = instant.views.front().viewport;
+  return whole_picture(*tracer, size.width, size.height);
+}
+
+/// A bright sheet in the plane x = 0, from y = 0 to the left.
+scene::ResolvedScene bright_sheet() {
+  scene::ResolvedScene scene;
+  scene::SurfaceMaterial bright;
+  bright.emission = glm::vec3(1.0f);
+  bright.base_color = glm::vec3(0.0f);
+  scene.materials.push_back(bright);
+  scene::SurfaceMesh sheet;
+  const glm::vec3 a{0, 0, -20}, b{0, 0, 20}, c{0, 20, 20}, d{0, 20, -20};
+  add_triangle(sheet, {a, b, c});
+  add_triangle(sheet, {a, c, d});
+  sheet.parts.push_back({0, 6, 0});
+  sheet.bounds_min_m = a, sheet.bounds_max_m = c;
+  scene.meshes.push_back(std::move(sheet));
+  return scene;
+}
+
+constexpr std::uint32_t side_px = 40;
+constexpr double angle_rad = 0.6, distance_m = 6.0;
+const double px_of_m = side_px / (2.0 * std::tan(0.5 * angle_rad)) / distance_m;
+
+/// How far the light of each column, a mean over its rows, is from a ramp between two columns of the picture.
+double off_ramp(const TracedPicture& picture, double full_px, double dark_px) {
+  double worst = 0.0;
+  for (std::uint32_t x = 0; x < side_px; ++x) {
+    double light = 0.0;
+    for (std::uint32_t y = 0; y < side_px; ++y) light += picture.at(x, y).radiance.x / side_px;
+    // The mean of the ramp over the pixel.
+    double expected = 0.0;
+    for (int n = 0; n < 64; ++n)
+      expected += std::clamp((dark_px - (x + (n + 0.5) / 64.0)) / (dark_px - full_px), 0.0, 1.0) / 64.0;
+    worst = std::max(worst, std::abs(light - expected));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("an edge that moves while the shutter is open is a linear ramp as long as its way") {
+  const scene::ResolvedScene scene = bright_sheet();
+  instant::Instant instant = instant_from({-distance_m, 0.0, 0.0}, angle_rad, side_px, even_sky(0.0f)), later = instant;
+  instant::PlacedMesh sheet;
+  sheet.number = 5;
+  sheet.tint = glm::vec4(1.0f);
+  instant.parts = {sheet};
+  sheet.origin_m.y = -1.5;  // To the right.
+  later.parts = {sheet};
+  const TraceSettings settings{.samples = 64, .filter = Filter::box};
+  CHECK(off_ramp(traced_until(scene, instant, later, settings), 0.5 * side_px, 0.5 * side_px + 1.5 * px_of_m) < 0.03);
+  // Somebody else's sheet, or nobody's, does not show which way it went: the edge is sharp.
+  later.parts.front().number = 6;
+  const double sharp = 0.5 * side_px;
+  CHECK(off_ramp(traced_until(scene, instant, later, settings), sharp - 1e-3, sharp + 1e-3) < 0.03);
+  // A camera that moves to the left smears what stands.
+  instant::Instant from_left = instant;
+  from_left.views.front().projection.eye_m.y += 1.0;
+  CHECK(off_ramp(traced_until(scene, instant, from_left, settings), sharp, sharp + px_of_m) < 0.03);
+  // Shutter or not, what does not move is as sharp, and has the same light.
+  CHECK(off_ramp(traced_until(scene, instant, instant, settings), sharp - 1e-3, sharp + 1e-3) < 0.03);
+}
+
+TEST_CASE("a ray meets what turns where it is at the ray's time") {
+  const scene::ResolvedScene scene = bright_sheet();
+  auto geometry = Geometry::create();
+  REQUIRE(geometry.has_value());
+  geometry->add_mesh(scene.meshes[0].vertices, scene.meshes[0].indices, false);
+  // A quarter of a circle about z, stretched all the while.
+  const glm::mat3 stretch(1.0f, 0, 0, 0, 2.0f, 0, 0, 0, 0.5f);
+  const Stand from{glm::vec3(0.0f), stretch},
+      to{glm::vec3(0, 0, 3), glm::mat3(glm::rotate(glm::mat4(1.0f), 1.2f, glm::vec3(0, 0, 1))) * stretch};
+  const Motion motion(from, to);
+  const Place place{0, from.origin_m, from.turn, true, motion};
+  geometry->place({&place, 1}, nullptr);
+  for (const float time : {0.0f, 0.3f, 0.5f, 0.9f, 1.0f}) {
+    CAPTURE(time);
+    Ray ray;
+    ray.origin_m = {-9.0f, 2.0f, 0.5f}, ray.direction = {1.0f, 0.0f, 0.0f}, ray.time = time;
+    Hit hit;
+    REQUIRE(geometry->intersect(ray, hit));
+    CHECK(hit.distance_m == doctest::Approx(9.0 - 2.0 * std::tan(1.2 * time)).epsilon(1e-4));
+    const Stand now = motion.at(time);
+    const glm::vec3 axis = now.turn * glm::vec3(0, 1, 0);
+    CHECK(axis.x == doctest::Approx(-2.0 * std::sin(1.2 * time)).epsilon(1e-4));
+    CHECK(axis.y == doctest::Approx(2.0 * std::cos(1.2 * time)).epsilon(1e-4));
+    CHECK(now.origin_m.z == doctest::Approx(3.0 * time));
+  }
+}
+
+TEST_CASE("debris that turns over while the shutter is open has the normals of its faces at each instant") {
+  scene::ResolvedScene scene;
+  scene.materials.emplace_back();
+  instant::Instant instant = instant_from({-4.0, 0.0, 0.0}, 0.02, 8, even_sky(0.25f)), later = instant;
+  const auto loose = [](const std::array<glm::vec3, 3>& corners) {
+    instant::LooseMesh mesh;
+    for (const glm::vec3& corner : corners) mesh.mesh.vertices.push_back({corner, glm::vec3(0, 0, 1), {}});
+    return mesh;
+  };
+  const std::array<glm::vec3, 3> from{{{0, 3, -2}, {0, -3, -2}, {0, 0, 4}}},
+      to{{{1, 3, -2}, {-2, -3, -1}, {2.5, 0, 4}}};
+  instant.loose = {loose(from)};
+  later.loose = {loose(to)};
+  // It is also carried along; told from there.
+  later.loose.front().mesh.origin_m = {0.0, 0.0, 1.0};
+  for (scene::SurfaceVertex& vertex : later.loose.front().mesh.vertices) vertex.position_m.z -= 1.0f;
+  const TracedPicture picture = traced_until(scene, instant, later, {.samples = 512});
+  glm::dvec3 found(0.0), expected(0.0);
+  for (const TracedPixel& pixel : picture.pixels) found += glm::dvec3(pixel.normal) / 64.0;
+  for (int n = 0; n < 1000; ++n) {
+    const glm::vec3 normal = face_normal({from, to}, (static_cast<float>(n) + 0.5f) / 1000.0f);
+    expected += glm::dvec3(normal.x < 0.0f ? normal : -normal) / 1000.0;
+  }
+  CHECK(glm::length(found - expected) < 5e-3);
+}
+
+}  // namespace septet::raytrace
