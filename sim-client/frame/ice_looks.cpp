@@ -39,7 +39,7 @@ ice::Look sheet_look(float film) {
   ice::Look look;
   look.bump = 0.015f;
   look.bump_size_m = 0.6f;
-  look.roughness = 0.35f;
+  look.roughness = 0.06f;
   return wetted(look, film);
 }
 
