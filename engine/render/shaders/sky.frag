@@ -40,12 +40,15 @@ void main() {
     radiance = mix(radiance, white, cover);
   }
   if (starry != 0) {
-    // At most one star in each cell of a fine grid over the sky.
+    // At most one star in each cell of a fine grid over the sky, a point: as large as a pixel and no larger. Stars come out as the sun sinks from
+    // 6 to 15 degrees below the horizon, and thin cloud hides them.
     vec3 cell = floor(d * 300.0);
     float seed = fract(sin(dot(cell, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
     vec3 from_middle = d * 300.0 - cell - 0.5;
-    float star = step(0.996, seed) * exp(-dot(from_middle, from_middle) * 9.0) * fract(seed * 917.0);
-    radiance += vec3(step(0.0, d.z) * star * 0.05 * view.ground_irradiance.w * (1.0 - cover) * clear);
+    float pixel = clamp(300.0 * length(fwidth(d)), 0.02, 0.5);
+    float star = step(0.996, seed) * exp(-dot(from_middle, from_middle) / (0.3 * pixel * pixel)) * fract(seed * 917.0);
+    float depth = 1.0 - smoothstep(-0.26, -0.104, view.sun_direction.z);
+    radiance += vec3(smoothstep(0.0, 0.15, d.z) * star * 0.05 * depth * (1.0 - smoothstep(0.0, 0.3, cover)) * clear);
   }
   radiance += sun_color * ((disc * 60.0 + glare) * clear * step(-0.01, d.z) * (1.0 - 0.97 * cover));
   result = vec4(radiance, 1.0);

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <utility>
 
@@ -60,8 +63,9 @@ class LandGrid {
     for (int y = -1; y <= count_ + 1; ++y)
       for (int x = -1; x <= count_ + 1; ++x) {
         const Vec2 p = corner_ + Vec2(x, y) * cell_;
-        Point point{p, world.terrain.nearest(p), 0.0};
+        Point point{p, world.terrain.nearest(p), 0.0, Ground::verge};
         point.z = world.terrain.height_m(p, point.near);
+        point.kind = kind_at(p, outside_m(point.near));
         points_.push_back(point);
       }
   }
@@ -70,6 +74,7 @@ class LandGrid {
     Vec2 p;
     Nearest near;
     double z;
+    Ground kind;  ///< What lies or grows there.
   };
   const Vec3& origin() const { return origin_; }
   const Point& at(int x, int y) const { return points_[static_cast<std::size_t>((y + 1) * (count_ + 3) + x + 1)]; }
@@ -97,14 +102,8 @@ class LandGrid {
           has_hole = true;
           continue;
         }
-        const Ground kind = kind_at(middle, near);
-        builder.material = index_of(plain ? far_of(kind) : kind);
         const std::uint32_t a = first + static_cast<std::uint32_t>(y + 1) * stride + static_cast<std::uint32_t>(x + 1);
-        // A whole number of repeats per cell: neighbours meet, and the numbers are small on the
-        // wire.
-        const auto d = static_cast<float>(std::round(cell_ / texture_m));
-        builder.quad(a, a + 1, a + stride + 1, a + stride,
-                     plain ? geometry::CornerUvs{} : geometry::CornerUvs{{{0, 0}, {d, 0}, {d, d}, {0, d}}});
+        draw_cell(builder, x, y, {a, a + 1, a + stride + 1, a + stride}, plain);
       }
     return has_hole;
   }
@@ -118,13 +117,14 @@ class LandGrid {
   void draw_canopy(MeshBuilder& builder, bool plain) const {
     const bool plain_sides = cell_ > 100.0;
     std::map<std::pair<int, int>, std::uint32_t> tops;
-    const auto top_point = [&](int x, int y) {
+    const auto top_point = [&](int x, int y, double share = 1.0) {
       const Vec2& p = at(x, y).p;
-      return local(x, y, 10.5 + 5.5 * lattice_random(std::llround(p.x), std::llround(p.y), world_.seed + 8));
+      return local(x, y, share * (10.5 + 5.5 * lattice_random(std::llround(p.x), std::llround(p.y), world_.seed + 8)));
     };
     const auto top = [&](int x, int y) {
       const auto [place, fresh] = tops.try_emplace({x, y}, 0u);
-      if (fresh) place->second = builder.vertex(top_point(x, y));
+      // At the border the roof ends below the trees' tips, between which one sees through.
+      if (fresh) place->second = builder.vertex(top_point(x, y, !plain_sides && is_wood_border(x, y) ? 0.6 : 1.0));
       return place->second;
     };
     const auto length = static_cast<float>(cell_ / 55.0), d = static_cast<float>(std::round(cell_ / texture_m));
@@ -153,10 +153,105 @@ class LandGrid {
   }
 
  private:
-  Ground kind_at(const Vec2& p, const Nearest& near) const {
-    if (near.found && near.outside_m < 34.0) return Ground::verge;
+  static constexpr double verge_until_m = 34.0;
+  static double outside_m(const Nearest& near) { return near.found ? near.outside_m : 1e9; }
+  Ground kind_at(const Vec2& p, double outside_m) const {
+    if (outside_m < verge_until_m) return Ground::verge;
     if (world_.terrain.woodland(p) > 0.5) return Ground::wood_floor;
     return field_at(world_, p);
+  }
+
+  /// A corner of a cell or a place on its edge: how far along x and y, and how far off the roads.
+  struct Place {
+    Vec2 p;
+    double outside_m;
+    glm::vec2 share;
+    std::uint32_t vertex;
+  };
+  static Place between(const Place& a, const Place& b, double t) {
+    return {glm::mix(a.p, b.p, t), std::lerp(a.outside_m, b.outside_m, t),
+            glm::mix(a.share, b.share, static_cast<float>(t)), 0};
+  }
+
+  /// Where the ground changes between two corners; from whichever side it is looked for, the same place.
+  Place change(MeshBuilder& builder, const Place& a, const Place& b) const {
+    if (b.p.x < a.p.x || (b.p.x == a.p.x && b.p.y < a.p.y)) return change(builder, b, a);
+    const Ground kind = kind_at(a.p, a.outside_m);
+    double low = 0.0, high = 1.0;
+    for (int round = 0; round < 5; ++round) {  // As fine as it is sent.
+      const double t = 0.5 * (low + high);
+      const Place middle = between(a, b, t);
+      (kind_at(middle.p, middle.outside_m) == kind ? low : high) = t;
+    }
+    Place place = between(a, b, 0.5 * (low + high));
+    place.vertex = builder.vertex(glm::mix(builder.mesh().vertices_m[a.vertex], builder.mesh().vertices_m[b.vertex],
+                                           static_cast<float>(0.5 * (low + high))));
+    return place;
+  }
+
+  /// One quad where a cell bears one thing; where the border of two runs through it, both sides of a line along the border.
+  void draw_cell(MeshBuilder& builder, int x, int y, const std::array<std::uint32_t, 4>& vertices, bool plain) const {
+    std::array<Place, 4> corners;
+    std::array<Ground, 4> kinds;
+    constexpr std::array<std::array<int, 2>, 4> steps{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int i = x + steps[k][0], j = y + steps[k][1];
+      const Point& point = at(i, j);
+      corners[k] = {point.p, outside_m(point.near), {steps[k][0], steps[k][1]}, vertices[k]};
+      kinds[k] = point.kind;
+    }
+    // A whole number of repeats per cell: neighbours meet, and the numbers are small on the wire.
+    const auto d = static_cast<float>(std::round(cell_ / texture_m));
+    const auto draw = [&](Ground kind, std::initializer_list<const Place*> places) {
+      builder.material = index_of(plain ? far_of(kind) : kind);
+      geometry::CornerUvs uvs{};
+      std::array<std::uint32_t, 4> v{};
+      std::size_t n = 0;
+      for (const Place* place : places) {
+        if (!plain) uvs[n] = place->share * d;
+        v[n++] = place->vertex;
+      }
+      if (n == 4)
+        builder.quad(v[0], v[1], v[2], v[3], uvs);
+      else
+        builder.triangle(v[0], v[1], v[2], uvs);
+    };
+    std::array<std::size_t, 4> changes{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (kinds[k] != kinds[(k + 1) % 4]) changes[count++] = k;
+    if (count != 2) {
+      // One thing, or more than two: by what lies in the middle.
+      const Place middle = between(corners[0], corners[2], 0.5);
+      draw(count == 0 ? kinds[0] : kind_at(middle.p, middle.outside_m),
+           {&corners[0], &corners[1], &corners[2], &corners[3]});
+      return;
+    }
+    // From the corner after the first change to the one before the second lies one side.
+    const std::size_t first = (changes[0] + 1) % 4, last = changes[1];
+    const std::size_t within = last - first + 1;
+    const Place in = change(builder, corners[changes[0]], corners[first]),
+                out = change(builder, corners[last], corners[(last + 1) % 4]);
+    const auto corner = [&](std::size_t k) { return &corners[k % 4]; };
+    const Ground inner = kinds[first], outer = kinds[(last + 1) % 4];
+    if (within == 2) {
+      draw(inner, {&in, corner(first), corner(first + 1), &out});
+      draw(outer, {&out, corner(last + 1), corner(last + 2), &in});
+      return;
+    }
+    // One corner lies alone: a triangle, and the other three with the border as a quad and a triangle.
+    const bool alone_inside = within == 1;
+    const std::size_t alone = alone_inside ? first : (last + 1) % 4;
+    const Place &before = alone_inside ? in : out, &after = alone_inside ? out : in;
+    draw(alone_inside ? inner : outer, {&before, corner(alone), &after});
+    const Ground others = alone_inside ? outer : inner;
+    draw(others, {&after, corner(alone + 1), corner(alone + 2), corner(alone + 3)});
+    draw(others, {&after, corner(alone + 3), &before});
+  }
+
+  /// Whether a corner of the grid lies at a wood's border.
+  bool is_wood_border(int x, int y) const {
+    return !(is_wood(x - 1, y - 1) && is_wood(x, y - 1) && is_wood(x - 1, y) && is_wood(x, y));
   }
 
   const WorldContext& world_;
@@ -221,21 +316,29 @@ void build_middle_tile(const WorldContext& world, const Vec2& corner) {
     for (int i = 0; i < 2; ++i) build_tile(world, corner + Vec2(i, j) * tile_m);
 }
 
-/// The stream on a valley's floor.
+/// The stream on a valley's floor. Along its banks and under the bridge it mirrors them, not the sky: there it is dark and dull.
 void build_water(const WorldContext& world, const Terrain::Valley& valley) {
+  constexpr std::array<double, 4> columns_m{15.0, 11.0, -11.0, -15.0};
+  constexpr double bridge_mirrored_m = 30.0;
   MeshBuilder builder;
-  builder.material = index_of(Ground::water);
   const Vec2 across(-valley.along.y, valley.along.x);
   std::uint32_t last = 0;
   for (double distance = -330.0; distance <= 330.0; distance += 15.0) {
     const Vec2 middle = Vec2(valley.middle_m) + across * distance + valley.along * Terrain::meander_m(distance);
-    const double z = world.terrain.height_m(middle) + 1.1;
-    const glm::vec3 left(Vec3(middle - valley.along * 11.0, z) - valley.middle_m),
-        right(Vec3(middle + valley.along * 11.0, z) - valley.middle_m);
-    const std::uint32_t a = builder.vertex(left);
-    builder.vertex(right);
-    if (distance > -330.0) builder.quad(last, last + 1, a + 1, a);
-    last = a;
+    const double z = world.terrain.height_m(middle) + 1.8;  // Over the bottom as the squares of the land draw it.
+    std::uint32_t row = 0;
+    for (std::size_t k = 0; k < columns_m.size(); ++k) {
+      const std::uint32_t v =
+          builder.vertex(glm::vec3(Vec3(middle - valley.along * columns_m[k], z) - valley.middle_m));
+      if (k == 0) row = v;
+    }
+    if (distance > -330.0)
+      for (std::uint32_t k = 0; k + 1 < columns_m.size(); ++k) {
+        const bool shaded = k != 1 || std::abs(distance - 7.5) < bridge_mirrored_m;
+        builder.material = index_of(shaded ? Ground::water_shaded : Ground::water);
+        builder.quad(last + k, last + k + 1, row + k + 1, row + k);
+      }
+    last = row;
   }
   add_land_mesh(world, valley.middle_m, "stream", builder.mesh(), 0.0f, 1500.0f);
 }

@@ -41,7 +41,7 @@ struct WorldLook {
 constexpr float beads = 0.25f, sheeting = 180.0f;
 
 /// In the order of Ground. The textures' linear means: asphalt 0.11, ground 0.55, concrete 0.56.
-constexpr std::array<WorldLook, 70> ground_looks{{
+constexpr std::array<WorldLook, 71> ground_looks{{
     {"asphalt", {0.86f, 0.86f, 0.88f}, Texture::asphalt},
     {"asphalt fresh", {0.74f, 0.74f, 0.76f}, Texture::asphalt},
     {"asphalt old", {1.0f, 0.98f, 0.95f}, Texture::asphalt},
@@ -89,7 +89,8 @@ constexpr std::array<WorldLook, 70> ground_looks{{
     {"bark birch", {0.50f, 0.48f, 0.44f}, Texture::none},
     {"trees", {0.85f, 0.88f, 0.78f}, Texture::tree},
     {"noise wall", {0.30f, 0.36f, 0.24f}, Texture::concrete},
-    {"water", {0.035f, 0.055f, 0.060f}, Texture::none, 0.08f},
+    {"water", {0.010f, 0.016f, 0.018f}, Texture::none, 0.08f},
+    {"water shaded", {0.014f, 0.020f, 0.012f}, Texture::none, 0.35f},
     {"facade red", {0.52f, 0.095f, 0.060f}, Texture::facade},
     {"facade white", {0.82f, 0.80f, 0.72f}, Texture::facade},
     {"facade yellow", {0.72f, 0.52f, 0.25f}, Texture::facade},

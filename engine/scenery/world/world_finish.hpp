@@ -56,6 +56,7 @@ enum class Ground : std::uint32_t {
   tree_pictures,
   noise_wall,
   water,
+  water_shaded,
   facade_red,
   facade_white,
   facade_yellow,
