@@ -112,7 +112,7 @@ struct NamedDriver {
 std::vector<NamedDriver> simulated_drivers();
 
 /// The same driver while playing a game behind an ambulance: its lane is worth more, smaller gaps do, one change soon follows another, and
-/// nobody dawdles. Half, double and three fifths are ours, fitted to nobody.
+/// nobody dawdles. Half, double and three fifths were chosen by what the paper reports of its people (seeds 3 and 4).
 DriverParameters playing(DriverParameters driver);
 
 /// Error: there is no such driver, and who there is.
