@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "engine/instant/headlight_beam.hpp"
 
@@ -199,9 +200,13 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   shadow.origin_m = beside(point.position_m, point.flat_normal);
   shadow.direction = light.direction;
   shadow.time = time_;
-  // Not as far as the lamp's own surface, though the ray begins nearer to it.
-  const float margin = margin_m(point.position_m + light.direction * std::min(distance_m, 1e4f));
-  shadow.to_m = std::max(0.0f, distance_m - 3.0f * margin);
+  if (distance_m < std::numeric_limits<float>::infinity()) {
+    // To the very place that was drawn, from where the ray begins: beside it, a lamp seen at a grazing angle would shade itself.
+    const glm::vec3 at = point.position_m + light.direction * distance_m, way = at - shadow.origin_m;
+    const float length_m = glm::length(way);
+    if (length_m > 0.0f) shadow.direction = way / length_m;
+    shadow.to_m = std::max(0.0f, length_m - 3.0f * margin_m(at));
+  }
   const float let_through = world_.geometry().unshadowed(shadow);
   if (let_through <= 0.0f) return;
   const float clear = world_.smoke().empty() ? 1.0f : std::exp(-world_.smoke().optical_depth(shadow));
