@@ -79,7 +79,8 @@ void count(const Model& model, const scenario::GameSettings& settings, const Par
            std::vector<Event>& events) {
   GameStanding& standing = state.game->standing;
   constexpr double seconds = static_cast<double>(count_every_ticks) * tick_s;
-  standing.survived_s = static_cast<double>(state.tick / count_every_ticks) * seconds;
+  const Tick counts = state.tick / count_every_ticks;
+  standing.survived_s = static_cast<double>(counts) * seconds;
   const scenario::EntityState& leader = state.scenario.entities[settings.leader];
   const Vec3 away = leader.world_from_entity.position_m - car.world_from_vehicle.position_m;
   standing.leader_m = leader.active ? glm::length(away) : 0.0;

@@ -42,6 +42,7 @@ LessonTask read_task(const toml::table& table, std::string_view file, std::set<s
   if (task.says.empty() || !printable_characters(task.says))
     reader.report("says", "the task tells the learner nothing", "give a sentence, on one line");
   std::vector<std::string_view> names;
+  names.reserve(measure_names.size());
   for (const auto& each : measure_names) names.push_back(each.name);
   if (!table.contains("measure")) reader.report("measure", "the task measures nothing", "give its measure");
   task.measure = measure_names[reader.get_choice("measure", 0, names)].measure;

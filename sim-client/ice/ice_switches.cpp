@@ -64,6 +64,7 @@ bool press(IceOptions& options, Key key) {
 
 std::vector<std::string> switches(const IceOptions& options) {
   std::vector<std::string> lines;
+  lines.reserve(list.size() + 2);
   for (const Switch& each : list)
     lines.push_back(fmt::format("{} {}  {}", each.is_on(options) ? "●" : "○", name_of(each.key), each.name));
   lines.push_back(fmt::format("{} cracks: comma halves, full stop doubles", options.cracks));

@@ -40,6 +40,7 @@ class PaintPen {
   void polygon(double s, double t, double ahead, const std::vector<Vec2>& corners) {
     builder_.material = index_of(Ground::paint);
     std::vector<std::uint32_t> vertices;
+    vertices.reserve(corners.size());
     for (const Vec2& corner : corners)
       vertices.push_back(builder_.vertex(at(s + ahead * corner.x, t + ahead * corner.y)));
     double around = 0.0;
@@ -101,7 +102,7 @@ void draw_crossing(PaintPen& pen, const RoadTile& tile, const std::vector<Vec2>&
   for (const Vec2& corner : corners) t.add(corner.y);
   const double low = std::max(t.low_m, across.low_m), high = std::min(t.high_m, across.high_m);
   if (!(high - low > bar_m) || high - low > 200.0) return;
-  const int bars = std::max(1, static_cast<int>((high - low) / (2.0 * bar_m) + 0.5));
+  const int bars = std::max(1, static_cast<int>(std::lround((high - low) / (2.0 * bar_m))));
   const double margin = 0.5 * (high - low - (2 * bars - 1) * bar_m);
   for (int i = 0; i < bars; ++i) {
     const double t0 = low + margin + 2.0 * i * bar_m, t1 = std::min(t0 + bar_m, high);

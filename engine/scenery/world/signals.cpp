@@ -30,6 +30,7 @@ geometry::PolygonMesh sheet(const std::vector<glm::vec2>& outline) {
     const float x = front ? -0.012f : 0.0f;
     const std::uint32_t middle = builder.vertex(at(glm::vec2(0.5f), x));
     std::vector<std::uint32_t> rim;
+    rim.reserve(outline.size());
     for (const glm::vec2& corner : outline) rim.push_back(builder.vertex(at(corner, x)));
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::size_t next = (i + 1) % rim.size();
