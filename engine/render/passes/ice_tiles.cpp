@@ -112,9 +112,9 @@ IceTile tile_of(const Seen& seen, const ice::IceBody& body, std::uint32_t x, std
 /// `further`: tiles of bodies that lie further away, the nearest last.
 void find_beyond(IceTile& tile, std::span<const IceTile> further) {
   const glm::vec3 at(tile.constants.origin), forward(tile.constants.forward);
-  const float extent_m = tile.constants.absorption.w, nearest_m = tile.constants.forward.w;
+  const float extent_m = tile.constants.absorption.w, middle_m = tile.constants.forward.w;
   glm::vec4& beyond = tile.constants.beyond;
-  beyond = {extent_m, extent_m, nearest_m + 1.02f * extent_m, beyond.w};
+  beyond = {extent_m, extent_m, middle_m + 1.02f * extent_m, beyond.w};
   for (auto other = further.rbegin(); other != further.rend() && tile.beyond.size() < most_beyond; ++other) {
     if (other->view != tile.view) continue;
     const glm::vec3 there(other->constants.origin);
@@ -123,7 +123,7 @@ void find_beyond(IceTile& tile, std::span<const IceTile> further) {
     const float aside = glm::length(there - forward * ahead), reach = ahead - glm::dot(at, forward);
     if (!(aside < extent_m + other_m + reach)) continue;
     tile.beyond.push_back(other->body);
-    beyond.x = std::max(beyond.x, ahead + other_m - nearest_m);
+    beyond.x = std::max(beyond.x, ahead + other_m - middle_m);
     beyond.y = std::max(beyond.y, other_m);
   }
 }
