@@ -52,6 +52,13 @@ Expected<CarHere> open_car(const std::filesystem::path& file) {
   return CarHere{rig->car, *layout, std::move(*device)};
 }
 
+Expected<CarHere> open_car_with_actuators(const std::filesystem::path& file) {
+  auto here = open_car(file);
+  if (!here || here->layout->has_actuators) return here;
+  return failure(fmt::format("the layout {} has no actuators", here->layout->name), file.string(),
+                 "choose another layout in [car]");
+}
+
 void sleep_s(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 }  // namespace
@@ -138,11 +145,8 @@ std::vector<Trial> trials_of(const rig::CarActuators& limits) {
 
 Expected<void> run_trial(const TrialOptions& options) {
   program::catch_stop_signals();
-  auto here = open_car(options.rig);
+  auto here = open_car_with_actuators(options.rig);
   if (!here) return tl::unexpected(here.error());
-  if (!here->layout->has_actuators)
-    return failure(fmt::format("the layout {} has no actuators", here->layout->name), options.rig.string(),
-                   "choose another layout in [car]");
   ActuatorWriter writer(find_device(here->car),
                         {.layout = here->layout, .has_steering_force = here->car.actuators.steering_most > 0.0});
   std::optional<Error> fault;
@@ -228,11 +232,8 @@ Expected<void> run_lesson(const std::string& name, LearnOptions options) {
 
 Expected<void> run_actuators(const ActuateOptions& options) {
   program::catch_stop_signals();
-  auto here = open_car(options.rig);
+  auto here = open_car_with_actuators(options.rig);
   if (!here) return tl::unexpected(here.error());
-  if (!here->layout->has_actuators)
-    return failure(fmt::format("the layout {} has no actuators", here->layout->name), options.rig.string(),
-                   "choose another layout in [car]");
   ActuatorWriter writer(find_device(here->car),
                         {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
   std::optional<Error> fault;

@@ -1,10 +1,6 @@
 #include "engine/exr/exr.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -23,6 +19,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 
 #include "engine/core/check.hpp"
+#include "engine/core/whole_file.hpp"
 
 namespace septet::exr {
 namespace {
@@ -88,29 +85,6 @@ std::vector<half> halves_of(const std::vector<float>& values) {
   return halves;
 }
 
-tl::unexpected<Error> file_failure(int reason, const std::filesystem::path& path) {
-  return failure("cannot write the picture: " + std::generic_category().message(reason), path.string(),
-                 reason == ENOSPC ? "free some space on the disk" : "check that the folder exists and can be written");
-}
-
-Expected<void> write_bytes(const std::filesystem::path& place, const std::filesystem::path& path, const Bytes& bytes) {
-  const int file = ::open(place.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) return file_failure(errno, path);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const int reason = written < 0 ? errno : ENOSPC;
-      ::close(file);
-      return file_failure(reason, path);
-    }
-    done += static_cast<std::size_t>(written);
-  }
-  // The last error of a full disk or a network file system may come only here.
-  if (::close(file) != 0) return file_failure(errno, path);
-  return {};
-}
-
 }  // namespace
 
 Bytes encode(const Picture& picture) {
@@ -150,18 +124,7 @@ Bytes encode(const Picture& picture) {
 }
 
 Expected<void> write(const std::filesystem::path& path, const Picture& picture) {
-  namespace fs = std::filesystem;
-  const Bytes bytes = encode(picture);
-  std::error_code error, ignored;
-  const fs::path part = path.string() + ".part";
-  auto written = write_bytes(part, path, bytes);
-  if (written) {
-    fs::rename(part, path, error);
-    if (!error) return {};
-    written = failure(error.message(), path.string(), "check the folder and its permissions");
-  }
-  fs::remove(part, ignored);
-  return written;
+  return write_whole_file(path, "image", encode(picture));
 }
 
 bool is_whole(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {

@@ -7,6 +7,8 @@
 
 #include <png.h>
 
+#include "engine/core/whole_file.hpp"
+
 namespace septet::image {
 namespace {
 
@@ -18,10 +20,7 @@ struct FileCloser {
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
 tl::unexpected<Error> file_failure(const std::string& what, const std::filesystem::path& path) {
-  const int reason = errno;
-  std::string remedy = "check that the folder exists and can be written";
-  if (reason == ENOSPC) remedy = "free some space on the disk";
-  return failure(what + ": " + std::strerror(reason), path.string(), std::move(remedy));
+  return failure(what + ": " + std::strerror(errno), path.string(), "check that the folder exists and can be written");
 }
 
 }  // namespace
@@ -61,37 +60,8 @@ Expected<Image> decode_png(std::span<const std::byte> bytes, std::string_view wh
   return image;
 }
 
-namespace {
-
-/// Into that place; a failure names the picture's own path.
-Expected<void> write_bytes(const std::filesystem::path& place, const std::filesystem::path& path, const Bytes& bytes) {
-  File file(std::fopen(place.c_str(), "wb"));
-  if (!file) return file_failure("cannot create the image", path);
-  const bool written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
-  if (!written) return file_failure("cannot write the image", path);
-  // The last error of a full disk or a network file system may come only here.
-  if (std::fclose(file.release()) != 0) return file_failure("cannot write the image", path);
-  return {};
-}
-
-}  // namespace
-
 Expected<void> write_png(const std::filesystem::path& path, const Image& image, PngEffort effort) {
-  namespace fs = std::filesystem;
-  const Bytes bytes = encode_png(image, effort);
-  std::error_code error, ignored;
-  // A device or a pipe is written to; a file's place is taken by one that is whole.
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) return write_bytes(path, path, bytes);
-  const fs::path part = path.string() + ".part";
-  auto written = write_bytes(part, path, bytes);
-  if (written) {
-    fs::rename(part, path, error);
-    if (!error) return {};
-    written = failure(error.message(), path.string(), "check the folder and its permissions");
-  }
-  fs::remove(part, ignored);
-  return written;
+  return write_whole_file(path, "image", encode_png(image, effort));
 }
 
 Expected<Image> read_png(const std::filesystem::path& path) {

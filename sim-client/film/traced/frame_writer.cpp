@@ -33,18 +33,9 @@ Assembled assembled(const FilmOptions& options, const KeptTiles& kept, std::span
   return whole;
 }
 
-Expected<void> write_whole(const fs::path& file, const Assembled& whole) {
-  const fs::path part = file.string() + ".part";
-  std::error_code error, ignored;
+Expected<void> write_picture(const fs::path& file, const Assembled& whole) {
   const instant::Exposure exposure{static_cast<float>(whole.facts.ev100)};
-  if (auto written = image::write_png(part, raytrace::displayed(whole.picture, exposure), image::PngEffort::fast);
-      !written) {
-    fs::remove(part, ignored);
-    return written;
-  }
-  fs::rename(part, file, error);
-  if (error) return failure(error.message(), file.string(), "check the folder and its permissions");
-  return {};
+  return image::write_png(file, raytrace::displayed(whole.picture, exposure), image::PngEffort::fast);
 }
 
 ExrFacts exr_facts(const FilmOptions& options, const logging::SessionInfo& session) {
@@ -66,40 +57,19 @@ FrameWriter::FrameWriter(const FilmOptions& options, const FilmFolder& folder, c
       exr_facts_(exr_facts(options, session)),
       tiles_(tiles),
       preview_(folder.path() / "preview.png"),
-      thread_([this] { run(); }) {}
-
-FrameWriter::~FrameWriter() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+      thread_(4, [this](Job& job) { return write(job); }) {}
 
 Expected<void> FrameWriter::finish(std::uint64_t frame, KeptTiles tiles, fs::path kept_in) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return jobs_.size() < 4; });
-  if (error_) return tl::unexpected(*error_);
-  jobs_.push_back({frame, std::move(tiles), std::move(kept_in)});
-  changed_.notify_all();
-  return {};
+  return thread_.give({frame, std::move(tiles), std::move(kept_in)});
 }
 
-void FrameWriter::show_preview(fs::path kept_in) {
-  const std::lock_guard lock(mutex_);
-  if (!jobs_.empty() || writing_) return;
-  jobs_.push_back({0, std::nullopt, std::move(kept_in)});
-  changed_.notify_all();
-}
+void FrameWriter::show_preview(fs::path kept_in) { thread_.give_if_idle({0, std::nullopt, std::move(kept_in)}); }
 
 Expected<void> FrameWriter::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return jobs_.empty() && !writing_; });
+  auto written = thread_.wait();
   std::error_code ignored;
   fs::remove(preview_, ignored);
-  if (error_) return tl::unexpected(*error_);
-  return {};
+  return written;
 }
 
 FrameWriter::Quality FrameWriter::quality() {
@@ -113,7 +83,7 @@ Expected<void> FrameWriter::write(Job& job) {
     // Who looks sees a whole file; without one the film is made none the less. It may be whole and gone by now.
     if (!fs::exists(job.kept_in, error)) return {};
     if (const auto kept = KeptTiles::open(job.kept_in, tiles_))
-      (void)write_whole(preview_, assembled(options_, *kept, tiles_));
+      (void)write_picture(preview_, assembled(options_, *kept, tiles_));
     return {};
   }
   Assembled whole = assembled(options_, *job.tiles, tiles_);
@@ -129,7 +99,7 @@ Expected<void> FrameWriter::write(Job& job) {
     const exr::Picture picture = exr_picture(whole.picture, whole.facts, exr_facts_, options_.exr, options_.layers);
     if (auto written = exr::write(folder_.exr_picture(job.frame), picture); !written) return written;
   }
-  if (auto written = write_whole(folder_.picture(job.frame), whole); !written) return written;
+  if (auto written = write_picture(folder_.picture(job.frame), whole); !written) return written;
   fs::remove(job.kept_in, error);
   return {};
 }
@@ -143,23 +113,6 @@ void FrameWriter::note_quality(const raytrace::TracedPicture& picture, const ins
     quality_.samples += pixel.samples;
   }
   quality_.pixels += static_cast<double>(picture.pixels.size());
-}
-
-void FrameWriter::run() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [&] { return stop_ || !jobs_.empty(); });
-    if (jobs_.empty()) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
-    writing_ = true;
-    lock.unlock();
-    const auto written = write(job);
-    lock.lock();
-    writing_ = false;
-    if (!written && !error_) error_ = written.error();
-    changed_.notify_all();
-  }
 }
 
 }  // namespace septet::film

@@ -1,12 +1,13 @@
 #pragma once
 /// Makes pictures of the tiles of whole frames, on a thread of its own, so that who deals tiles does not wait for it.
 
-#include <condition_variable>
-#include <deque>
+#include <cstdint>
+#include <filesystem>
 #include <mutex>
 #include <optional>
-#include <thread>
+#include <span>
 
+#include "engine/core/job_thread.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/traced/kept_tiles.hpp"
 #include "sim-client/film/traced/layers.hpp"
@@ -15,12 +16,9 @@ namespace septet::film {
 
 class FrameWriter {
  public:
-  /// All but `session` outlive it.
+  /// All but `session` outlive it. Its end writes what is queued.
   FrameWriter(const FilmOptions& options, const FilmFolder& folder, const logging::SessionInfo& session,
               std::span<const instant::PixelRectangle> tiles);
-  ~FrameWriter();  ///< Writes what is queued.
-  FrameWriter(const FrameWriter&) = delete;
-  FrameWriter& operator=(const FrameWriter&) = delete;
 
   /// Queues the frame whose tiles are all there, and removes their file once the picture is whole; waits while four are
   /// queued. Answers the first failure of an earlier one.
@@ -42,7 +40,6 @@ class FrameWriter {
     std::optional<KeptTiles> tiles;  ///< None: a preview.
     std::filesystem::path kept_in;
   };
-  void run();
   Expected<void> write(Job& job);
   void note_quality(const raytrace::TracedPicture& picture, const instant::Exposure& exposure);
 
@@ -50,14 +47,10 @@ class FrameWriter {
   const FilmFolder& folder_;
   ExrFacts exr_facts_;
   std::span<const instant::PixelRectangle> tiles_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Job> jobs_;
-  bool writing_ = false, stop_ = false;
-  std::optional<Error> error_;
   const std::filesystem::path preview_;
+  std::mutex mutex_;  ///< Of the quality.
   Quality quality_;
-  std::thread thread_;
+  JobThread<Job> thread_;
 };
 
 }  // namespace septet::film
