@@ -49,7 +49,7 @@ class VirtualCan {
     is_there_ = true;
   }
   void remove() {
-    if (std::exchange(is_there_, false)) command("/tools/ip link del " + name_);
+    if (std::exchange(is_there_, false)) last_command("/tools/ip link del " + name_);
   }
   void set(const char* state) { command("/tools/ip link set " + name_ + " " + state); }
 

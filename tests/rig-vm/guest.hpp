@@ -16,6 +16,9 @@ namespace septet::rig_vm {
 /// A line for the machine's shell, which must succeed. busybox prefers its own ip and tc, which know little: these are /tools/ip and /tools/tc.
 inline void command(const std::string& line) { REQUIRE_MESSAGE(std::system(line.c_str()) == 0, line); }
 
+/// The same where a failure must not end the test: in destructors.
+inline void last_command(const std::string& line) { CHECK_MESSAGE(std::system(line.c_str()) == 0, line); }
+
 inline double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
