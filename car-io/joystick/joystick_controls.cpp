@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "car-io/car_report.hpp"
+#include "car-io/usb_device.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -118,7 +119,7 @@ OpenHidDevice car_opener(const rig::Car& car) {
     return joystick_opener(
         [address = InputAddress{car.vendor_id, car.product_id, car.serial}] { return open_input_device(address); },
         car.joystick, car.calibration.steering_lock_rad);
-  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] { return open_hid_device(address); };
+  return hid_opener(car);
 }
 
 }  // namespace septet::car_io
