@@ -9,7 +9,7 @@
 namespace septet::logging {
 
 struct InsertStatements {
-  Statement snapshot, input, scene_edit, sample, event, answer, state;
+  Statement snapshot, input, scene_edit, sample, event, answer, state, actuators;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
 
@@ -21,11 +21,13 @@ Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);
 Expected<void> insert(Statement& statement, const QuestionnaireRecord& answer);
 Expected<void> insert(Statement& statement, const StateRecord& state);
+Expected<void> insert(Statement& statement, const ActuatorRecord& actuators);
 
 Expected<SessionInfo> read_info(const Database& database);
 Expected<InputRecord> read_input(const Statement& row);
 Expected<SceneEdit> read_scene_edit(const Statement& row);  ///< Columns tick, data.
 Expected<StateRecord> read_state(const Statement& row);
+Expected<ActuatorRecord> read_actuators(const Statement& row);
 Expected<Sample> read_sample(const Statement& row);
 Expected<Event> read_event(const Statement& row);                 ///< Without the id.
 Expected<QuestionnaireRecord> read_answer(const Statement& row);  ///< Without the id.

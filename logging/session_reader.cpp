@@ -63,6 +63,13 @@ Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::
   return *row && !statement->is_null(0) ? std::optional(statement->integer(0)) : std::nullopt;
 }
 
+/// Of those that files of earlier builds lack.
+Expected<bool> has_table_called(const Database& database, std::string_view name) {
+  return database
+      .query_integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name))
+      .transform([](std::int64_t count) { return count > 0; });
+}
+
 Expected<Statement> prepare_range(const Database& database, std::string_view columns, std::string_view table,
                                   TickRange range, std::string_view order) {
   auto statement =
@@ -240,11 +247,17 @@ Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const 
                    read_answer);
 }
 
-Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
-  const auto has_table = state_->database.query_integer(
-      "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'saved_states'");
+Expected<std::vector<ActuatorRecord>> SessionReader::actuators(TickRange range) const {
+  const auto has_table = has_table_called(state_->database, "actuators");
   if (!has_table) return tl::unexpected(has_table.error());
-  if (*has_table == 0) return std::optional<StateRecord>();
+  if (!*has_table) return std::vector<ActuatorRecord>();
+  return read_rows(prepare_range(state_->database, "*", "actuators", range, "tick"), read_actuators);
+}
+
+Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
+  const auto has_table = has_table_called(state_->database, "saved_states");
+  if (!has_table) return tl::unexpected(has_table.error());
+  if (!*has_table) return std::optional<StateRecord>();
   auto rows =
       read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"),
                 read_state);

@@ -26,7 +26,7 @@ class JoystickDevice final : public HidDevice {
     if (!state) return tl::unexpected(state.error());
     DriverInput input = advance(driver_, controls_, **state, steering_lock_rad_);
     input.sequence = ++sequence_;
-    const auto report = encode_controls(input, steering_lock_rad_);
+    const auto report = encode_controls(input, steering_lock_rad_, switches_of(controls_, **state));
     return Bytes(report.begin(), report.end());
   }
   Expected<void> write(std::span<const std::byte> report) override {
@@ -102,6 +102,17 @@ DriverInput advance(JoystickDriver& driver, const std::vector<rig::JoystickContr
     input.gear = gear;
   }
   return input;
+}
+
+CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const InputState& state) {
+  const auto is_on = [&](std::string_view name) {
+    const auto control = std::ranges::find(controls, name, &rig::JoystickControl::name);
+    if (control == controls.end()) return false;
+    if (!control->is_axis) return state.down.contains(control->code);
+    const auto axis = state.axes.find(control->code);
+    return axis != state.axes.end() && axis_share(*control, axis->second.value) > 0.5;
+  };
+  return {is_on("emergency_stop"), is_on("rearm")};
 }
 
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,

@@ -200,7 +200,9 @@ Expected<void> run_lesson(const std::string& name, LearnOptions options) {
       {"gear_4", "gear 4"},
       {"gear_5", "gear 5"},
       {"gear_6", "gear 6"},
-      {"gear_reverse", "reverse"}};
+      {"gear_reverse", "reverse"},
+      {"emergency_stop", "press the emergency stop, if there is one that this device reads, and release it"},
+      {"rearm", "press what shall let the actuators run again after a fault (held for a second while driving)"}};
   std::vector<rig::JoystickControl> controls;
   for (const auto& question : questions) {
     JoystickLesson lesson;

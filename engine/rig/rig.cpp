@@ -21,7 +21,7 @@ constexpr const char* documented_in = "rigs/README.md";
 constexpr std::string_view joystick_controls[] = {
     "steering", "accelerator", "brake",     "clutch",        "indicator_left", "indicator_right", "hazard_lights",
     "horn",     "low_beam",    "high_beam", "parking_brake", "reverse",        "gear_1",          "gear_2",
-    "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse"};
+    "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse",   "emergency_stop",  "rearm"};
 
 void read_window(TableReader& reader, Window& window) {
   window.lower_left_m = reader.get_point("lower_left_m");
