@@ -2,7 +2,9 @@
 /// Directions around a normal, and how they are drawn at random.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -44,9 +46,12 @@ inline glm::vec2 on_circle(float share) {
   const float x = (eighths - static_cast<float>((octant + 1) & ~1)) * (0.25f * pi), x2 = x * x;
   const float sine = x * (1.0f + x2 * (-1.0f / 6.0f + x2 * (1.0f / 120.0f + x2 * (-1.0f / 5040.0f))));
   const float cosine = 1.0f + x2 * (-0.5f + x2 * (1.0f / 24.0f + x2 * (-1.0f / 720.0f + x2 * (1.0f / 40320.0f))));
-  const int quarter = (octant + 1) >> 1;
-  const float a = quarter & 1 ? -sine : cosine, b = quarter & 1 ? cosine : sine;
-  return quarter & 2 ? glm::vec2(-a, -b) : glm::vec2(a, b);
+  // By bits, for a branch would be guessed wrongly half of the time: each odd quarter exchanges the two, two quarters turn a sign.
+  const auto quarter = static_cast<std::uint32_t>((octant + 1) >> 1);
+  const std::uint32_t c = std::bit_cast<std::uint32_t>(cosine), s = std::bit_cast<std::uint32_t>(sine);
+  const std::uint32_t exchanged = (c ^ s) & (0u - (quarter & 1u));
+  return {std::bit_cast<float>(c ^ exchanged ^ ((quarter ^ (quarter << 1)) & 2u) << 30),
+          std::bit_cast<float>(s ^ exchanged ^ (quarter & 2u) << 30)};
 }
 
 /// About z, with density cosine / π.

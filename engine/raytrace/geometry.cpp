@@ -1,6 +1,7 @@
 #include "engine/raytrace/geometry.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -105,6 +106,17 @@ void set_place(RTCGeometry instance, const Place& place) {
     d.translation_x = key.origin_m.x, d.translation_y = key.origin_m.y, d.translation_z = key.origin_m.z;
     rtcSetGeometryTransformQuaternion(instance, step, &d);
   }
+}
+
+/// From `begin`, with the near end behind it, along `way`, with the time behind it.
+template <typename Four>
+void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m) {
+  std::memcpy(&ray.org_x, &begin, sizeof begin);
+  std::memcpy(&ray.dir_x, &way, sizeof way);
+  ray.tfar = to_m;
+  ray.mask = 0xffffffffu;
+  ray.id = 0;
+  ray.flags = 0;
 }
 
 /// What stands alone and is not turned is moved, not placed: a ray that need not be taken into an instance's frame is a sixth cheaper.
@@ -215,23 +227,12 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   }
 }
 
-bool Geometry::intersect(const Ray& ray, Hit& hit) const {
+bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
   Query query;
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
   RTCRayHit found;
-  found.ray = {ray.origin_m.x,
-               ray.origin_m.y,
-               ray.origin_m.z,
-               ray.from_m,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               ray.time,
-               ray.to_m,
-               0xffffffffu,
-               0,
-               0};
+  set_ray(found.ray, begin, way, to_m);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(parts_->seen.get(), &query.context, &found);
@@ -241,22 +242,12 @@ bool Geometry::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
-float Geometry::unshadowed(const Ray& ray) const {
+float Geometry::unshadowed(Four begin, Four way, float to_m) const {
   Query query;
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
-  RTCRay found{ray.origin_m.x,
-               ray.origin_m.y,
-               ray.origin_m.z,
-               ray.from_m,
-               ray.direction.x,
-               ray.direction.y,
-               ray.direction.z,
-               ray.time,
-               ray.to_m,
-               0xffffffffu,
-               0,
-               0};
+  RTCRay found;
+  set_ray(found, begin, way, to_m);
   rtcOccluded1(parts_->shadows.get(), &query.context, &found);
   return found.tfar < 0.0f ? 0.0f : query.let_through;
 }

@@ -5,6 +5,7 @@
 /// lamp may reach from its middle. (Drawing lights by their estimated share: Shirley, Wang and Zimmerman, "Monte Carlo Techniques for
 /// Direct Lighting Calculations", 1996.) No lamp that may give something has the weight 0. Frame: that of World.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,12 +16,17 @@
 
 namespace septet::raytrace {
 
+struct LampTriangle {
+  glm::vec3 corner_m{0.0f}, second{0.0f}, third{0.0f};  ///< From the first corner to the others.
+  glm::vec3 normal{0.0f};
+};
+
 /// Triangles that shine alike and lie together, such as one tube under a tunnel's roof.
 struct Lamp {
   std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
-  std::vector<glm::vec3> corners_m;    ///< Three a triangle.
+  std::vector<LampTriangle> triangles;
   std::vector<float> cumulative_area;  ///< m².
-  std::vector<glm::vec3> normals;      ///< One a triangle.
+  float area_m2 = 0.0f;                ///< Of all.
   glm::vec3 middle_m{0.0f};
   float radius_m = 0.0f;
   /// Mean of its triangles' normals by area: of length 1 where it is flat, 0 where it shines to all sides.
@@ -29,6 +35,22 @@ struct Lamp {
   glm::vec3 emission{0.0f};  ///< With which it lights.
   glm::vec3 way_m{0.0f};     ///< Until time 1.
   bool textured = false;     ///< Its image colours the emission.
+
+  /// Which triangle a uniform number in [0, 1) draws, by area.
+  std::size_t drawn_triangle(float uniform) const {
+    const float at = uniform * area_m2;
+    if (triangles.size() > most_counted)
+      return std::min<std::size_t>(
+          static_cast<std::size_t>(std::upper_bound(cumulative_area.begin(), cumulative_area.end(), at) -
+                                   cumulative_area.begin()),
+          triangles.size() - 1);
+    std::size_t before = 0;
+    for (std::size_t n = 0; n + 1 < triangles.size(); ++n) before += at >= cumulative_area[n];
+    return before;
+  }
+
+ private:
+  static constexpr std::size_t most_counted = 8;  ///< Up to so many are compared all, which no branch need guess.
 };
 
 /// The lamps' weights at one place.
@@ -47,7 +69,7 @@ class LampWeights {
   static constexpr std::size_t block = 8;
   std::array<float, most> weights_;
   std::array<float, most / block> blocks_;  ///< Their sums by eight.
-  std::size_t block_count_ = 0;
+  std::size_t block_count_ = 0;             ///< 0: there is one lamp at most.
   float sum_ = 0.0f;
 };
 
@@ -60,8 +82,20 @@ class LampRow {
   /// `normal`: of the surface, unit; 0 in the air. `time`: while the shutter is open.
   void weigh(const glm::vec3& from_m, const glm::vec3& normal, float time, LampWeights& weights) const;
 
+  /// The same up to a factor: of one lamp 1.
+  void weigh_for_choice(const glm::vec3& from_m, const glm::vec3& normal, float time, LampWeights& weights) const {
+    if (count_ != 1) return weigh(from_m, normal, time, weights);
+    weights.weights_[0] = weights.sum_ = 1.0f;
+    weights.block_count_ = 0;
+  }
+
  private:
   enum Number { x, y, z, way_x, way_y, way_z, axis_x, axis_y, axis_z, to_all_sides, radius, power, numbers };
+  using Rows = std::array<const float*, numbers>;
+  static float weight(const Rows& row, std::size_t n, const glm::vec3& from_m, const glm::vec3& normal, float in_air,
+                      float time);
+
+  std::size_t count_ = 0;
   std::array<std::vector<float>, numbers> rows_;  ///< Filled up to whole blocks by lamps without power.
 };
 

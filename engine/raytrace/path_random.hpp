@@ -14,7 +14,12 @@ namespace septet::raytrace {
 class PathRandom {
  public:
   PathRandom(std::uint64_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample)
-      : counter_(mixed(mixed(mixed(seed) ^ (std::uint64_t{y} << 32 | x)) + sample)) {}
+      : PathRandom(of_pixel(seed, x, y), sample) {}
+  /// `pixel`: as `of_pixel` has it, which all samples of a pixel share.
+  PathRandom(std::uint64_t pixel, std::uint32_t sample) : counter_(mixed(pixel + sample)) {}
+  static std::uint64_t of_pixel(std::uint64_t seed, std::uint32_t x, std::uint32_t y) {
+    return mixed(mixed(seed) ^ (std::uint64_t{y} << 32 | x));
+  }
 
   /// Uniform in [0, 1), 24 bits.
   float uniform() { return static_cast<float>(next() >> 40) * unit; }

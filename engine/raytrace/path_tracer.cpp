@@ -52,7 +52,7 @@ class Path {
   LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
   float headlight_weights(const glm::vec3& from_m) const;
   Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
-  bool meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point);
+  bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
 
   const World& world_;
   const PathSettings& settings_;
@@ -69,6 +69,7 @@ class Path {
 
 void Path::meet_sky(const glm::vec3& direction) {
   const Sky& sky = world_.sky();
+  if (scattered_ && !sky.shines() && !sky.has_sun()) return;
   const glm::vec3 sky_light = sky.radiance(direction), sun_light = sky.sun_radiance(direction);
   if (pdf_ <= 0.0f) {
     // The sun through a clear body onto a rough surface is met so seldom that it would be a spark, not a caustic.
@@ -93,30 +94,26 @@ void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
     const Lamp& lamp = world_.lamps()[point.lamp];
     const glm::vec3 way = point.position_m - from_m_;
     const float cosine = std::max(1e-6f, -glm::dot(point.flat_normal, ray.direction));
-    const float per_sr = glm::dot(way, way) / (cosine * lamp.cumulative_area.back());
+    const float per_sr = glm::dot(way, way) / (cosine * lamp.area_m2);
     weight = mis_weight(pdf_, chance(Kind::lamp) * lamp_weights_.chance(point.lamp) * per_sr);
   }
   light_ += throughput_ * point.emission * (weight * (scattered_ ? point.lights_up : 1.0f));
 }
 
 LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
-  const std::size_t chosen = lamp_weights_.drawn(random_.uniform());
+  if (!(lamp_weights_.sum() > 0.0f)) return {};
+  const std::size_t chosen = world_.lamps().size() > 1 ? lamp_weights_.drawn(random_.uniform()) : 0;
   const Lamp& lamp = world_.lamps()[chosen];
-  const float area = lamp.cumulative_area.back();
-  const auto triangle = std::min<std::size_t>(
-      static_cast<std::size_t>(
-          std::upper_bound(lamp.cumulative_area.begin(), lamp.cumulative_area.end(), random_.uniform() * area) -
-          lamp.cumulative_area.begin()),
-      lamp.triangle_count - 1);
+  const std::size_t which = lamp.triangles.size() > 1 ? lamp.drawn_triangle(random_.uniform()) : 0;
+  const LampTriangle& triangle = lamp.triangles[which];
   const glm::vec2 random = random_.pair();
   const float root = std::sqrt(random.x);
-  const glm::vec3* c = &lamp.corners_m[3 * triangle];
   const float u = root * (1.0f - random.y), v = root * random.y;
-  const glm::vec3 at = (1.0f - u - v) * c[0] + u * c[1] + v * c[2] + lamp.way_m * time_;
-  const glm::vec3 way = at - from_m;
-  distance_m = glm::length(way);
-  const glm::vec3 direction = way / distance_m;
-  const float cosine = -glm::dot(lamp.normals[triangle], direction);
+  const glm::vec3 way = triangle.corner_m + u * triangle.second + v * triangle.third + lamp.way_m * time_ - from_m;
+  const float square = glm::dot(way, way), per_m = 1.0f / std::sqrt(square);
+  distance_m = square * per_m;
+  const glm::vec3 direction = way * per_m;
+  const float cosine = -glm::dot(triangle.normal, direction);
   if (!(cosine > 1e-6f)) return {};
   glm::vec3 emission = lamp.emission;
   if (lamp.textured) {
@@ -124,11 +121,11 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
     ray.origin_m = from_m;
     ray.direction = direction;
     ray.time = time_;
-    const auto seen = lamp.first_triangle + static_cast<std::uint32_t>(triangle);
-    const SurfacePoint there = world_.point(ray, {distance_m, lamp.place, seen, u, v});
+    SurfacePoint there;
+    world_.point(ray, {distance_m, lamp.place, lamp.first_triangle + static_cast<std::uint32_t>(which), u, v}, there);
     emission = there.emission * there.lights_up;
   }
-  return {direction, emission, lamp_weights_.chance(chosen) * distance_m * distance_m / (cosine * area)};
+  return {direction, emission, lamp_weights_.chance(chosen) * square / (cosine * lamp.area_m2)};
 }
 
 /// A headlight's light on a surface that looks at it; as in the rasteriser near the lamp, where it is no point, it does not grow without limit.
@@ -178,8 +175,8 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   if (scattered.value == glm::vec3(0.0f)) return;
   const float pdf = light.pdf * chance(kind);
   const bool also_by_chance = kind != Kind::headlight && !looks_alone_;
-  const glm::vec3 estimate =
-      throughput_ * scattered.value * light.radiance * ((also_by_chance ? mis_weight(pdf, scattered.pdf) : 1.0f) / pdf);
+  const float share = also_by_chance ? pdf / std::max(pdf * pdf + scattered.pdf * scattered.pdf, 1e-37f) : 1.0f / pdf;
+  const glm::vec3 estimate = throughput_ * scattered.value * light.radiance * share;
   Ray shadow;
   shadow.origin_m = beside(point.position_m, point.flat_normal);
   shadow.direction = light.direction;
@@ -187,9 +184,9 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
   if (distance_m < std::numeric_limits<float>::infinity()) {
     // To the very place that was drawn, from where the ray begins: beside it, a lamp seen at a grazing angle would shade itself.
     const glm::vec3 at = point.position_m + light.direction * distance_m, way = at - shadow.origin_m;
-    const float length_m = glm::length(way);
-    if (length_m > 0.0f) shadow.direction = way / length_m;
-    shadow.to_m = std::max(0.0f, length_m - 3.0f * margin_m(at));
+    const float square = glm::dot(way, way), per_m = 1.0f / std::sqrt(std::max(square, 1e-30f));
+    shadow.direction = way * per_m;
+    shadow.to_m = std::max(0.0f, square * per_m - 3.0f * margin_m(at));
   }
   const float let_through = world_.geometry().unshadowed(shadow);
   if (let_through <= 0.0f) return;
@@ -199,6 +196,11 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
 
 /// Half by what each kind of light would give if nothing shaded it, half evenly, for something may.
 void Path::choose_chances(const SurfacePoint& point) {
+  if (world_.lamps_alone_shine()) {
+    world_.lamp_row().weigh_for_choice(point.position_m, point.flat_normal, time_, lamp_weights_);
+    chances_ = {0.0f, 0.0f, 1.0f, 0.0f};
+    return;
+  }
   const Sky& sky = world_.sky();
   const instant::SkyLight& light = *world_.instant().light;
   const float seen_sky = std::max(point.share_of_sky, 0.02f);
@@ -220,9 +222,12 @@ void Path::choose_chances(const SurfacePoint& point) {
 }
 
 void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer) {
-  float rest = random_.uniform();
-  std::size_t n = 0;
-  while (n < chances_.size() && (rest -= chances_[n]) >= 0.0f) ++n;
+  std::size_t n = static_cast<std::size_t>(Kind::lamp);
+  if (!world_.lamps_alone_shine()) {
+    float rest = random_.uniform();
+    n = 0;
+    while (n < chances_.size() && (rest -= chances_[n]) >= 0.0f) ++n;
+  }
   if (n == chances_.size()) return;  // Nothing shines; or, once in millions, the chances' sum is rounded below 1.
   const auto kind = static_cast<Kind>(n);
   float distance_m = std::numeric_limits<float>::infinity();
@@ -267,9 +272,9 @@ Ray Path::enter_or_leave(const SurfacePoint& point, const Ray& ray) {
 }
 
 /// Takes what flames on the edge give. True where the path turns before the edge's end: `point` is there then.
-bool Path::meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point) {
-  if (world_.smoke().empty()) return false;
+bool Path::meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point) {
   Ray edge = ray;
+  edge.origin_m = from_m;
   edge.to_m = edge_m;
   const SmokeWalk walk = world_.smoke().walk(edge, -std::log(1.0f - random_.uniform()));
   light_ += throughput_ * walk.emitted;
@@ -277,32 +282,32 @@ bool Path::meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point) {
   point = {};
   point.in_smoke = true;
   point.surface.diffuse = walk.albedo;
-  point.position_m = ray.origin_m + ray.direction * walk.distance_m;
+  point.position_m = from_m + ray.direction * walk.distance_m;
   return true;
 }
 
 glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
   time_ = ray.time;
+  SurfacePoint point;
   for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
     Hit hit;
-    SurfacePoint point;
     bool met = false;
-    const Ray edge_ray = ray;
+    const glm::vec3 edge_from_m = ray.origin_m;
     for (int passed = 0; passed < most_passed; ++passed) {
       met = world_.geometry().intersect(ray, hit);
       if (!met) break;
-      point = world_.point(ray, hit);
+      world_.point(ray, hit, point);
       if (point.opacity >= 1.0f || random_.uniform() < point.opacity) break;
       ray.origin_m = beside(point.position_m, -point.flat_normal);
     }
-    float edge_m = met ? glm::length(point.position_m - edge_ray.origin_m) : std::numeric_limits<float>::infinity();
+    float edge_m = met ? glm::length(point.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
     if (first && met)
       *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, world_.object(point.place),
                 world_.participant(point.place)};
     first = nullptr;
-    if (meet_smoke(edge_ray, edge_m, point)) {
+    if (!world_.smoke().empty() && meet_smoke(edge_from_m, ray, edge_m, point)) {
       met = true;
-      edge_m = glm::length(point.position_m - edge_ray.origin_m);
+      edge_m = glm::length(point.position_m - edge_from_m);
     }
     if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
       const float clear = std::exp(-fog * edge_m);

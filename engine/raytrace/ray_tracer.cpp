@@ -104,11 +104,12 @@ struct PixelSums {
 void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const Camera* later,
                  const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
   TracedPixel& sums = pixel.sums;
+  const std::uint64_t of_pixel = PathRandom::of_pixel(settings.seed, x, y);
   for (; sums.samples < samples; ++sums.samples) {
-    PathRandom random(settings.seed, x, y, sums.samples);
+    PathRandom random(of_pixel, sums.samples);
     const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
     const float time = later ? random.uniform() : 0.0f;
-    Ray ray = (later ? camera.towards(*later, time) : camera).ray(at, settings, random);
+    Ray ray = later ? camera.towards(*later, time).ray(at, settings, random) : camera.ray(at, settings, random);
     ray.time = time;
     FirstSeen first;
     glm::vec3 radiance = trace_path(world, settings.paths, ray, random, &first);
@@ -158,6 +159,7 @@ float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure
 
 struct RayTracer::Parts {
   const scene::ResolvedScene& scene;
+  SceneIndex index;
   Geometry geometry;
   TraceSettings settings{};
   instant::Instant instant{};
@@ -215,10 +217,10 @@ RayTracer::~RayTracer() = default;
 Expected<RayTracer> RayTracer::create(const scene::ResolvedScene& scene) {
   auto geometry = Geometry::create();
   if (!geometry) return tl::unexpected(geometry.error());
-  const std::vector<bool> open = open_meshes(scene);
+  SceneIndex index(scene);
   for (std::size_t n = 0; n < scene.meshes.size(); ++n)
-    geometry->add_mesh(scene.meshes[n].vertices, scene.meshes[n].indices, open[n]);
-  return RayTracer(std::unique_ptr<Parts>(new Parts{scene, std::move(*geometry)}));
+    geometry->add_mesh(scene.meshes[n].vertices, scene.meshes[n].indices, index.open[n]);
+  return RayTracer(std::unique_ptr<Parts>(new Parts{scene, std::move(index), std::move(*geometry)}));
 }
 
 void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies,
@@ -232,7 +234,7 @@ void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, s
     const bool same = later && later->ice.size() == p.instant.ice.size();
     p.bodies.push_back(clear_body(p.instant.ice[n], same ? &later->ice[n] : nullptr));
   }
-  p.world = std::make_unique<World>(p.scene, p.instant, later, p.bodies, p.cloud_noise, p.geometry);
+  p.world = std::make_unique<World>(p.scene, p.index, p.instant, later, p.bodies, p.cloud_noise, p.geometry);
   p.cameras.clear();
   p.later_cameras.clear();
   for (const instant::FrameView& view : p.instant.views) p.cameras.emplace_back(view, p.world->origin_m());

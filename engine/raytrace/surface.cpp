@@ -13,7 +13,6 @@ struct Shares {
 bool has_layer(const Surface& surface) { return surface.f0.x + surface.f0.y + surface.f0.z > 0.0f; }
 
 Shares shares_of(const Surface& surface, float viewer_z) {
-  if (is_rough(surface)) return {};
   const float coat = surface.coat * schlick(glm::vec3(surface.coat_f0), viewer_z).x;
   const float layer = (1.0f - coat) * (has_layer(surface) ? luminance(schlick(surface.f0, viewer_z)) : 0.0f);
   const float base = std::max(0.0f, 1.0f - coat - layer) * luminance(surface.diffuse);
@@ -63,18 +62,13 @@ Scattering in_frame(const Surface& surface, const Shares& shares, const glm::vec
 
 }  // namespace
 
-Scattering scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light) {
-  if (is_rough(surface)) {
-    const float cosine = glm::dot(surface.normal, to_light);
-    if (cosine <= 0.0f || glm::dot(surface.normal, to_viewer) <= 0.0f) return {};
-    return {surface.diffuse * (cosine / pi), cosine / pi};
-  }
+Scattering layered_scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light) {
   const Frame frame(surface.normal);
   const glm::vec3 v = frame.to_local(to_viewer);
   return in_frame(surface, shares_of(surface, std::clamp(v.z, 0.0f, 1.0f)), v, frame.to_local(to_light));
 }
 
-Scattered scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random) {
+Scattered layered_scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random) {
   const Frame frame(surface.normal);
   const float facing = glm::dot(surface.normal, to_viewer);
   if (facing <= 0.0f) return {};

@@ -36,7 +36,21 @@ struct Scattered {
 };
 
 /// Unit directions away from the surface, to the viewer and to the light.
-Scattering scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light);
-Scattered scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random);
+Scattering layered_scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light);
+Scattered layered_scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random);
+
+inline Scattering scattering(const Surface& surface, const glm::vec3& to_viewer, const glm::vec3& to_light) {
+  if (!is_rough(surface)) return layered_scattering(surface, to_viewer, to_light);
+  const float cosine = glm::dot(surface.normal, to_light);
+  if (cosine <= 0.0f || glm::dot(surface.normal, to_viewer) <= 0.0f) return {};
+  const float pdf = cosine * (1.0f / pi);
+  return {surface.diffuse * pdf, pdf};
+}
+inline Scattered scatter(const Surface& surface, const glm::vec3& to_viewer, PathRandom& random) {
+  if (!is_rough(surface)) return layered_scatter(surface, to_viewer, random);
+  if (glm::dot(surface.normal, to_viewer) <= 0.0f) return {};
+  const glm::vec3 l = cosine_direction(random.pair());
+  return {Frame(surface.normal).to_world(l), surface.diffuse, l.z * (1.0f / pi)};
+}
 
 }  // namespace septet::raytrace

@@ -9,6 +9,8 @@ namespace septet::raytrace {
 namespace {
 
 constexpr float opaque_from = 0.999f;  // As the rasteriser has it.
+constexpr float rough_from = 0.6f;     // Rougher than that nothing is seen to mirror.
+constexpr std::uint32_t no_material = 0xffffffffu;
 
 bool is_cut(const scene::SurfaceMaterial& material, const scene::ResolvedScene& scene) {
   if (material.opacity < opaque_from || material.base_color_image < 0 ||
@@ -39,29 +41,42 @@ float step_between(float low, float high, float x) {
 
 }  // namespace
 
-std::vector<bool> open_meshes(const scene::ResolvedScene& scene) {
-  std::vector<bool> open_materials;
-  for (const scene::SurfaceMaterial& material : scene.materials)
-    open_materials.push_back(material.opacity < opaque_from || is_cut(material, scene));
-  std::vector<bool> open;
-  for (const scene::SurfaceMesh& mesh : scene.meshes)
-    open.push_back(std::ranges::any_of(mesh.parts, [&](const scene::MeshPart& part) {
-      return part.material < open_materials.size() && open_materials[part.material];
-    }));
-  return open;
+SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
+  for (const scene::SurfaceMaterial& material : scene.materials) {
+    cut.push_back(is_cut(material, scene));
+    plain.push_back(material.base_color_image < 0 && material.opacity >= opaque_from && material.metallic == 0.0f &&
+                    material.roughness >= rough_from && !material.wettable && material.retroreflection == 0.0f &&
+                    material.emission == glm::vec3(0.0f));
+  }
+  const auto is_open = [&](const scene::MeshPart& part) {
+    return part.material < cut.size() && (cut[part.material] || scene.materials[part.material].opacity < opaque_from);
+  };
+  for (const scene::SurfaceMesh& mesh : scene.meshes) {
+    open.push_back(std::ranges::any_of(mesh.parts, is_open));
+    std::vector<std::uint32_t>& of_triangles = materials.emplace_back(mesh.indices.size() / 3, no_material);
+    // Where two hold a triangle the first counts.
+    for (auto part = mesh.parts.rbegin(); part != mesh.parts.rend(); ++part)
+      for (std::size_t n = part->first_index; n < std::size_t{part->first_index} + part->index_count; n += 3)
+        if (n / 3 < of_triangles.size()) of_triangles[n / 3] = part->material;
+    if (!of_triangles.empty() && std::ranges::all_of(of_triangles, [&](auto m) { return m == of_triangles[0]; }))
+      of_triangles.resize(1);
+    of_triangles.shrink_to_fit();
+  }
 }
 
-World::World(const scene::ResolvedScene& scene, const instant::Instant& instant, const instant::Instant* later,
-             std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise, Geometry& geometry)
+World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
+             const instant::Instant* later, std::span<const ClearBody> bodies,
+             std::span<const std::uint8_t> cloud_noise, Geometry& geometry)
     : scene_(scene),
+      index_(index),
       instant_(instant),
       geometry_(geometry),
       sky_(*instant.light),
       cloud_noise_(cloud_noise),
       cloud_drift_m_(instant::cloud_drift_m(instant.environment, instant.simulated_time_s)),
       origin_m_(instant::world_eye(instant.views.front())),
-      smoke_(instant.smoke, origin_m_) {
-  for (const scene::SurfaceMaterial& material : scene.materials) cut_.push_back(is_cut(material, scene));
+      smoke_(instant.smoke, origin_m_),
+      nothing_lies_on_it_(!(instant.environment.snow_cover > 0.0) && instant.soot.cover.empty()) {
   geometry_.keep(scene.meshes.size());
   std::vector<Place> places;
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
@@ -84,22 +99,9 @@ World::Corners World::corners(const PlacedSurface& placed, std::uint32_t triangl
 }
 
 const scene::SurfaceMaterial& World::material_of(const PlacedSurface& placed, std::uint32_t triangle) const {
-  const std::uint32_t index = 3 * triangle;
-  const auto holds = [&](const scene::MeshPart& part) { return index - part.first_index < part.index_count; };
-  std::size_t n = 0;
-  if (placed.parts_in_row) {
-    // The last that begins before it.
-    for (std::size_t count = placed.parts.size(); count > 1;) {
-      const std::size_t half = count / 2;
-      n += placed.parts[n + half].first_index <= index ? half : 0;
-      count -= half;
-    }
-  } else {
-    while (n < placed.parts.size() && !holds(placed.parts[n])) ++n;
-  }
-  if (n >= placed.parts.size() || !holds(placed.parts[n]) || placed.parts[n].material >= scene_.materials.size())
-    return no_material_;
-  return scene_.materials[placed.parts[n].material];
+  if (placed.materials.empty()) return no_material_;
+  const std::uint32_t material = placed.materials[placed.materials.size() > 1 ? triangle : 0];
+  return material < scene_.materials.size() ? scene_.materials[material] : no_material_;
 }
 
 /// Between four texels; the image repeats.
@@ -153,12 +155,12 @@ float World::soot(const glm::vec3& position_m) const {
   return sum;
 }
 
-SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
+void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const PlacedSurface& placed = placed_[hit.place];
   const scene::SurfaceMaterial& material = material_of(placed, hit.triangle);
   const Corners at = corners(placed, hit.triangle);
   const float w = 1.0f - hit.u - hit.v;
-  SurfacePoint point;
+  point = {};
   point.place = hit.place;
   glm::vec3 a = at.a->position_m, b = at.b->position_m, c = at.c->position_m;
   glm::vec3 normal = w * at.a->normal + hit.u * at.b->normal + hit.v * at.c->normal;
@@ -205,9 +207,17 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
     point.dielectric = true;
     point.index = placed.body->index;
     point.absorption_per_m = placed.body->absorption_per_m;
-    return point;
+    return;
   }
 
+  Surface& surface = point.surface;
+  surface.normal = normal;
+  point.share_of_sky = material.share_of_sky * placed.share_of_sky;
+  if (nothing_lies_on_it_ && &material != &no_material_ &&
+      index_.plain[static_cast<std::size_t>(&material - scene_.materials.data())]) {
+    surface.diffuse = material.base_color * (material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f));
+    return;
+  }
   const bool textured = material.base_color_image >= 0;
   glm::vec2 uv = w * at.a->uv + hit.u * at.b->uv + hit.v * at.c->uv;
   if (material.picture_columns > 1 || material.picture_rows > 1) uv = in_image(placed, material, uv);
@@ -223,7 +233,7 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   if (material.opacity >= opaque_from) point.opacity = 1.0f;
 
   const glm::vec3 color = base;
-  const float share_of_sky = point.share_of_sky = material.share_of_sky * placed.share_of_sky;
+  const float share_of_sky = point.share_of_sky;
   const Environment& weather = instant_.environment;
   if (weather.snow_cover > 0.0) lay_snow(placed, material, uv, normal.z, share_of_sky, base);
   const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
@@ -231,30 +241,27 @@ SurfacePoint World::point(const Ray& ray, const Hit& hit) const {
   if (!instant_.soot.cover.empty()) base *= 1.0f - soot(point.position_m);
 
   point.retroreflection = color * (material.retroreflection * (material.stripe ? 1.0f - 0.8f * wet : 1.0f));
-  Surface& surface = point.surface;
-  surface.normal = normal;
   surface.diffuse = base * (1.0f - material.metallic);
-  const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   if (material.wettable) {
     // Water covers a share of a wet road, as in the rasteriser; the dry road between is rough.
     surface.coat = 0.36f * wet;
     surface.coat_f0 = 0.02f;
     surface.coat_alpha = 0.0144f;
-  } else if (material.roughness < 0.6f || material.metallic > 0.2f || point.opacity < 1.0f) {
+  } else if (material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f) {
+    const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
     surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
     surface.f0 = glm::mix(glm::vec3(index * index), base, material.metallic);
   }
   if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
     point.opacity = std::clamp(
         point.opacity + luminance(schlick(surface.f0, std::min(1.0f, -glm::dot(normal, ray.direction)))), 0.0f, 1.0f);
-  if (point.from_front && placed.tint.w > 0.0f) {
+  if (point.from_front && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
     point.emission =
         material.emission * (placed.tint.w * instant_.emission_share) * (textured ? color : glm::vec3(1.0f));
     point.lights_up = lights_up(placed, material);
     for (const std::uint32_t lamp : placed.lamps)
       if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
   }
-  return point;
 }
 
 glm::vec3 World::fog_radiance(const glm::vec3& direction) const {
@@ -270,7 +277,7 @@ void World::lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& 
                      float share_of_sky, glm::vec3& albedo) const {
   const auto cover = static_cast<float>(instant_.environment.snow_cover);
   float snow = step_between(0.35f, 0.8f, up);
-  if (&material != &no_material_ && cut_[static_cast<std::size_t>(&material - scene_.materials.data())]) {
+  if (&material != &no_material_ && index_.cut[static_cast<std::size_t>(&material - scene_.materials.data())]) {
     albedo = glm::mix(albedo, glm::vec3(0.11f, 0.09f, 0.07f) * (0.4f + 2.0f * albedo.g), 0.9f * cover);
     snow = std::max(snow, 0.35f);
   }
@@ -296,7 +303,9 @@ float World::share_let_through(std::uint32_t place, std::uint32_t triangle, floa
   Hit hit{0.0f, place, triangle, u, v};
   Ray ray;
   ray.direction = direction;
-  return 1.0f - point(ray, hit).opacity;
+  SurfacePoint there;
+  point(ray, hit, there);
+  return 1.0f - there.opacity;
 }
 
 }  // namespace septet::raytrace

@@ -49,12 +49,23 @@ struct ClearBody {
   std::vector<scene::SurfaceVertex> later{};  ///< From the same origin at time 1; none: it does not move.
 };
 
+/// What of a scene is worked out once for all its instants.
+struct SceneIndex {
+  explicit SceneIndex(const scene::ResolvedScene& scene);
+  std::vector<bool> cut;            ///< For each material, whether its image has holes.
+  std::vector<std::uint8_t> plain;  ///< For each material, whether it is a matt colour and no more.
+  std::vector<bool> open;           ///< For each mesh, whether a ray may pass in places: holes, or glass.
+  /// For each mesh its triangles' materials, by their index; one number for all of them, if they are of one.
+  std::vector<std::vector<std::uint32_t>> materials;
+};
+
 class World : public Openings {
  public:
-  /// `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
+  /// `index` is the scene's. `geometry` holds the scene's meshes; those of this instant alone are added behind them. `cloud_noise` is instant::cloud_noise(). All of
   /// these outlive the world. `later`: the instant at which the shutter closes, time 1, for what moves until then; null: nothing does.
-  World(const scene::ResolvedScene& scene, const instant::Instant& instant, const instant::Instant* later,
-        std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise, Geometry& geometry);
+  World(const scene::ResolvedScene& scene, const SceneIndex& index, const instant::Instant& instant,
+        const instant::Instant* later, std::span<const ClearBody> bodies, std::span<const std::uint8_t> cloud_noise,
+        Geometry& geometry);
   ~World() override = default;
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -71,6 +82,8 @@ class World : public Openings {
   const LampRow& lamp_row() const { return lamp_row_; }
   /// Nothing shines that can only be met by chance.
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
+  /// No sky, no sun, no headlights: what is looked at is a lamp.
+  bool lamps_alone_shine() const { return lamps_alone_shine_; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
   glm::vec3 headlight_m(std::size_t n, float time) const {
     return glm::vec3(instant_.headlights[n].position_m - origin_m_) + headlight_ways_m_[n] * time;
@@ -82,7 +95,8 @@ class World : public Openings {
   std::uint32_t object(std::uint32_t place) const { return placed_[place].object; }
   std::uint32_t participant(std::uint32_t place) const { return placed_[place].stands ? 0 : placed_[place].number; }
 
-  SurfacePoint point(const Ray& ray, const Hit& hit) const;
+  /// What the ray met; all of `point` is set.
+  void point(const Ray& ray, const Hit& hit, SurfacePoint& point) const;
   /// What fog gives off in this direction: as bright as the sky behind it, below the horizon as the sky just above.
   glm::vec3 fog_radiance(const glm::vec3& direction) const;
   float fog_per_m() const { return instant_.light->fog_per_m; }
@@ -101,10 +115,10 @@ class World : public Openings {
     glm::vec4 tint{1.0f};
     float share_of_sky = 1.0f;
     bool snowed_on = true;
-    std::uint32_t number = 0;          ///< Of its participant.
-    bool stands = false;               ///< An instance of the scene: not a part of a participant, nor loose.
-    bool parts_in_row = true;          ///< Each begins behind the one before.
-    std::vector<std::uint32_t> lamps;  ///< Indices of lamps_.
+    std::uint32_t number = 0;                  ///< Of its participant.
+    bool stands = false;                       ///< An instance of the scene: not a part of a participant, nor loose.
+    std::span<const std::uint32_t> materials;  ///< Of its triangles, or one of all.
+    std::vector<std::uint32_t> lamps;          ///< Indices of lamps_.
     const ClearBody* body = nullptr;
     std::uint32_t object = 0;  ///< TracedPixel::object.
     std::optional<Motion> motion{};
@@ -135,6 +149,7 @@ class World : public Openings {
   float soot(const glm::vec3& position_m) const;
 
   const scene::ResolvedScene& scene_;
+  const SceneIndex& index_;
   const instant::Instant& instant_;
   Geometry& geometry_;
   Sky sky_;
@@ -142,6 +157,7 @@ class World : public Openings {
   glm::vec2 cloud_drift_m_;
   Vec3 origin_m_;
   Smoke smoke_;
+  bool nothing_lies_on_it_;  ///< Neither snow nor soot.
   std::vector<PlacedSurface> placed_;
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
@@ -149,12 +165,8 @@ class World : public Openings {
   std::vector<glm::vec3> headlight_ways_m_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;
-  bool all_lamps_are_drawn_ = true;
-  std::vector<bool> cut_;  ///< For each material, whether its image has holes.
+  bool all_lamps_are_drawn_ = true, lamps_alone_shine_ = false;
   scene::SurfaceMaterial no_material_;
 };
-
-/// For each mesh, whether it has places that a ray may pass: holes cut by an image, or glass.
-std::vector<bool> open_meshes(const scene::ResolvedScene& scene);
 
 }  // namespace septet::raytrace

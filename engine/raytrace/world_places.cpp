@@ -83,7 +83,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                      placed.snowed_on,
                      placed.number,
                      stands,
-                     std::ranges::is_sorted(mesh.parts, {}, &scene::MeshPart::first_index),
+                     index_.materials[placed.mesh],
                      {},
                      nullptr,
                      static_cast<std::uint32_t>(object)});
@@ -123,6 +123,7 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
     PlacedSurface& soup = add_soup(loose.mesh.origin_m, loose.mesh.vertices, loose.mesh.seen, moved);
     loose_parts_.push_back({{0, static_cast<std::uint32_t>(soup.indices.size()), loose.material}});
     soup.parts = loose_parts_.back();
+    soup.materials = {&loose_parts_.back().front().material, 1};
     soup.tint = glm::vec4(loose.mesh.paint, 1.0f);
     soup.share_of_sky = loose.share_of_sky;
     soup.object = static_cast<std::uint32_t>(scene_.instances.size() + scene_.meshes.size() + loose.material + 1);
@@ -152,8 +153,9 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   const auto finish = [&] {
     lamp.middle_m = 0.5f * (low + high);
     lamp.radius_m = 0.5f * glm::length(high - low);
-    if (lamp.triangle_count > 0) lamp.axis /= std::max(lamp.cumulative_area.back(), 1e-30f);
-    if (lamp.triangle_count > 0) lamp.power = lamp.cumulative_area.back() * luminance(emission);
+    if (lamp.triangle_count > 0) lamp.area_m2 = lamp.cumulative_area.back();
+    lamp.axis /= std::max(lamp.area_m2, 1e-30f);
+    lamp.power = lamp.area_m2 * luminance(emission);
     if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
   };
   for (std::uint32_t t = part.first_index / 3; t < (part.first_index + part.index_count) / 3; ++t) {
@@ -173,12 +175,11 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     }
     low = glm::min(low, lower), high = glm::max(high, upper);
     const float before = lamp.triangle_count > 0 ? lamp.cumulative_area.back() : 0.0f;
-    lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
     const glm::vec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
     const float twice_area = glm::length(across);
     lamp.axis += 0.5f * across;
     lamp.cumulative_area.push_back(before + 0.5f * twice_area);
-    lamp.normals.push_back(across / std::max(twice_area, 1e-30f));
+    lamp.triangles.push_back({c[0], c[1] - c[0], c[2] - c[0], across / std::max(twice_area, 1e-30f)});
     ++lamp.triangle_count;
   }
   finish();
@@ -194,6 +195,7 @@ void World::add_lamps(const std::vector<Place>& places) {
   all_lamps_are_drawn_ = lamps_.size() <= LampWeights::most;
   if (!all_lamps_are_drawn_) lamps_.resize(LampWeights::most);
   lamp_row_ = LampRow(lamps_);
+  lamps_alone_shine_ = !lamps_.empty() && !sky_.shines() && !sky_.has_sun() && instant_.headlights.empty();
   for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
 }
 
