@@ -17,6 +17,13 @@ struct Adjustable {
   double least = 0.0, most = 1.0;
 };
 
+/// How the driver feels is asked for each minute: one item of a questionnaire.
+struct RatingScale {
+  std::string title, text;
+  int least = 0;
+  std::vector<std::string> labels;  ///< From least on.
+};
+
 /// What does not change during the drive.
 struct DriveFacts {
   std::string scenario, rig, vehicle, participant;
@@ -26,6 +33,7 @@ struct DriveFacts {
   std::vector<Adjustable> conditions;
   bool has_traffic = false;  ///< Its density can be changed.
   ParticipantId driver = 0;
+  std::optional<RatingScale> rating;
 };
 
 struct ScreenView {
@@ -44,6 +52,12 @@ struct LeaderView {
   double speed_mps = 0.0;
 };
 
+/// Of the minute of driven time that goes on, the first being 0.
+struct RatingView {
+  int minute = 0;
+  std::optional<int> value;  ///< Its answer, if it has one.
+};
+
 /// How the drive stands.
 struct DriveView {
   std::shared_ptr<const TakenSnapshot> newest;  ///< Null before the first tick.
@@ -53,7 +67,8 @@ struct DriveView {
   double real_time_factor = 0.0;  ///< Simulated seconds a second, of late.
   std::optional<LeaderView> leader;
   std::vector<ScreenView> screens;
-  std::vector<double> conditions;     ///< As DriveFacts::conditions.
+  std::vector<double> conditions;  ///< As DriveFacts::conditions.
+  RatingView rating;
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
 };
 

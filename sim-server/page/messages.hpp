@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "engine/core/expected.hpp"
+#include "sim-server/page/drive_choice.hpp"
 #include "sim-server/page/drive_view.hpp"
 #include "sim-server/page/road_map.hpp"
 
@@ -33,7 +34,22 @@ struct Mark {
 struct Change {
   std::string command;
 };
-using Wish = std::variant<Take, Release, Pause, GoOn, End, Mark, Change>;
+/// How the driver feels on the scale of the questionnaire that the drive has for it (MISC).
+struct Rate {
+  int value = 0;
+};
+/// Where there is no drive: this one, to be started.
+struct Start {
+  DriveChoice choice;
+};
+/// The drive that is being made ready is not wanted any more.
+struct Cancel {};
+/// A file of a past session. Anybody may look.
+struct Look {
+  std::uint64_t session = 0;
+  std::string file;
+};
+using Wish = std::variant<Take, Release, Pause, GoOn, End, Mark, Change, Rate, Start, Cancel, Look>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.
