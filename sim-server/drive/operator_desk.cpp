@@ -54,7 +54,8 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
                      .frame_ms = screen.frame_ms,
                      .presented = screen.has_presented ? std::optional(screen.presented) : std::nullopt,
                      .lost_baselines = screen.lost_baselines,
-                     .drop_outs = screen.left_s.size()});
+                     .drop_outs = screen.left_s.size(),
+                     .thumbnail = screen.thumbnail});
   return views;
 }
 

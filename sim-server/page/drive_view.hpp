@@ -44,6 +44,8 @@ struct ScreenView {
   std::optional<Tick> presented;     ///< The newest tick that it has shown.
   std::uint64_t lost_baselines = 0;  ///< Ticks that came and could not be read, for what came before was lost.
   std::size_t drop_outs = 0;         ///< How often it has gone.
+  std::shared_ptr<const std::string>
+      thumbnail;  ///< What it shows, a PNG of any bytes; another one each time. May be null.
 };
 
 struct LeaderView {

@@ -100,6 +100,21 @@ Json screens_of(const DriveView& view, double tick_rate_hz) {
   return list;
 }
 
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t three = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      three = three << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? digits[three >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
+}
+
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
@@ -236,6 +251,10 @@ std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_
   Json json = {{"type", "answer"}, {"id", id}, {"ok", !why_not}};
   if (why_not) json["why"] = *why_not;
   return dump(json);
+}
+
+std::string thumbnail_text(const std::string& screen, std::string_view png) {
+  return dump({{"type", "thumbnail"}, {"screen", screen}, {"picture", "data:image/png;base64," + base64(png)}});
 }
 
 std::string event_text(double simulated_s, const std::string& text) {

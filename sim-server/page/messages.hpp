@@ -73,6 +73,8 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                        const std::optional<Commander>& commander, std::size_t browsers);
 std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not);
 /// Something has happened, for the list of events.
+/// What a screen shows, as a picture that an <img> takes.
+std::string thumbnail_text(const std::string& screen, std::string_view png);
 std::string event_text(double simulated_s, const std::string& text);
 
 }  // namespace septet::page

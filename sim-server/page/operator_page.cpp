@@ -1,5 +1,6 @@
 #include "sim-server/page/operator_page.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -40,6 +41,9 @@ struct OperatorPage::Shared {
     server->send(browser, shared_text(hello_text(facts, map, browser)));
     for (const Text& event : events) server->send(browser, event);
     send_state();
+    for (const ScreenView& screen : shown.screens)
+      if (screen.thumbnail)
+        server->send_newest_picture(browser, screen.name, shared_text(thumbnail_text(screen.name, *screen.thumbnail)));
   }
   void closed(BrowserId browser) {
     helm.closed(browser);
@@ -72,8 +76,15 @@ struct OperatorPage::Shared {
       is_due = false;
       taken.swap(newest);
     }
-    if (taken) shown = std::move(*taken);
+    const DriveView before = std::exchange(shown, taken ? std::move(*taken) : shown);
     send_state();
+    for (const ScreenView& screen : shown.screens) {
+      const auto same = std::ranges::find(before.screens, screen.name, &ScreenView::name);
+      if (!screen.thumbnail || (same != before.screens.end() && same->thumbnail == screen.thumbnail)) continue;
+      const Text picture = shared_text(thumbnail_text(screen.name, *screen.thumbnail));
+      for (const BrowserId browser : std::set(helm.browsers()))
+        server->send_newest_picture(browser, screen.name, picture);
+    }
   }
   void send_state() {
     if (helm.browsers().empty()) return;

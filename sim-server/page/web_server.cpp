@@ -93,11 +93,16 @@ class Browser : public std::enable_shared_from_this<Browser> {
     if (std::exchange(newest_, std::move(text))) ++shared_.states_left_out;
     write();
   }
+  void send_newest_picture(const std::string& name, Text text) {
+    if (is_ended_) return;
+    pictures_[name] = std::move(text);
+    write();
+  }
   void hang_up() {
     error_code ignored;
     beast::get_lowest_layer(socket_).socket().shutdown(tcp::socket::shutdown_both, ignored);
   }
-  bool has_more() const { return is_open_ && (writing_ || newest_ || !messages_.empty()); }
+  bool has_more() const { return is_open_ && (writing_ || newest_ || !messages_.empty() || !pictures_.empty()); }
   void end() {
     if (std::exchange(is_ended_, true)) return;
     error_code ignored;
@@ -122,8 +127,11 @@ class Browser : public std::enable_shared_from_this<Browser> {
     if (!messages_.empty()) {
       writing_ = std::move(messages_.front());
       messages_.pop_front();
-    } else {
+    } else if (newest_) {
       writing_ = std::exchange(newest_, nullptr);
+    } else if (!pictures_.empty()) {
+      writing_ = std::move(pictures_.begin()->second);
+      pictures_.erase(pictures_.begin());
     }
     if (!writing_) return;
     socket_.text(true);
@@ -140,6 +148,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   beast::flat_buffer buffer_{most_message_bytes + 1024};
   std::deque<Text> messages_;
   Text newest_, writing_;
+  std::map<std::string, Text> pictures_;  ///< The newest of each name.
   bool is_open_ = false, is_ended_ = false;
   std::function<void()> closed_;
 };
@@ -384,6 +393,9 @@ void WebServer::send(BrowserId browser, Text text) {
 }
 void WebServer::send_newest(BrowserId browser, Text text) {
   if (const auto found = running_->find(browser)) found->send_newest(std::move(text));
+}
+void WebServer::send_newest_picture(BrowserId browser, const std::string& name, Text text) {
+  if (const auto found = running_->find(browser)) found->send_newest_picture(name, std::move(text));
 }
 void WebServer::close(BrowserId browser) {
   if (const auto found = running_->find(browser)) found->end();

@@ -84,6 +84,8 @@ class WebServer {
   void send(BrowserId browser, Text text);
   /// In the server's thread. A state: one that has not been sent yet is left out for it.
   void send_newest(BrowserId browser, Text text);
+  /// The same of a picture, each of its name.
+  void send_newest_picture(BrowserId browser, const std::string& name, Text text);
   void close(BrowserId browser);
   /// Waits until every browser has been sent what waits for it, at most so long. From any other thread.
   void flush(double patience_s);

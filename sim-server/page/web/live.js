@@ -6,6 +6,7 @@ function make_drive() {
   $('scenario').textContent = hello.scenario;
   $('about').textContent = [hello.rig, hello.vehicle, hello.participant, `seed ${hello.seed}`].filter(Boolean).join(' · ');
   $('trafficbox').hidden = !hello.has_traffic;
+  $('thumbnails').replaceChildren();
   make_conditions();
   make_sickness();
   make_road();
@@ -49,6 +50,7 @@ function show_state() {
   s.conditions.forEach((value, i) => sliders[i] && sliders[i](value));
   show_triggers();
   show_screens();
+  age_thumbnails();
   show_near();
 }
 

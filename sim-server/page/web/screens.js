@@ -35,3 +35,25 @@ function show_near() {
     .map(([away, p]) => [`${hello.models[p[1]].name} ${p[0]}`, `${away.toFixed(0)} m`, (3.6 * p[5]).toFixed(0)]);
   fill($('near'), rows);
 }
+
+/// A small picture of what a screen shows, once a second. Browsers read the bytes, nobody before them: what is no picture is not shown.
+function show_thumbnail({ screen, picture }) {
+  const name = `thumbnail ${screen}`;
+  let figure = [...$('thumbnails').children].find((one) => one.dataset.name === name);
+  if (!figure) {
+    figure = document.createElement('figure');
+    figure.dataset.name = name;
+    const caption = document.createElement('figcaption');
+    caption.textContent = screen;
+    figure.append(new Image(), caption);
+    figure.firstChild.alt = `What ${screen} shows`;
+    $('thumbnails').append(figure);
+  }
+  figure.firstChild.src = picture;
+  figure.dataset.came = String(performance.now());
+}
+
+/// One that no new picture has come of is shown as old.
+function age_thumbnails() {
+  for (const figure of $('thumbnails').children) figure.classList.toggle('old', performance.now() - figure.dataset.came > 5000 && !state.paused);
+}

@@ -68,6 +68,8 @@ function receive(message) {
     state = message;
     quiet();
     show_start();
+  } else if (message.type === 'thumbnail') {
+    show_thumbnail(message);
   } else if (message.type === 'moved') {
     moved = true;
   } else if (message.type === 'answer') {
