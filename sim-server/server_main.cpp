@@ -1,5 +1,7 @@
 /// `septet-server`: the simulation of one drive, for the screens of a rig.
 
+#include <cstdlib>
+
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
 #include "sim-server/server_program.hpp"
@@ -59,6 +61,7 @@ int main(int argc, char** argv) {
       ->default_str("")
       ->allow_extra_args(false);
   app.add_flag("--any-port", options.any_port, "Take any free port and say which");
+  if (const char* handed = std::getenv(page::handover_variable)) options.page_handover = page::read_handover(handed);
   return program::run("septet-server", app, argc, argv,
                       [&] { return server::run_server(options).map(logging::exit_status); });
 }

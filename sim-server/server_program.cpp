@@ -287,7 +287,8 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
                             .lockstep = options.lockstep,
                             .tick_rate_hz = drive.source->tick_rate_hz(),
                             .picture_every_ticks = picture_every(serve_options.ticks, serve_options.draw_every_ticks,
-                                                                 drive.source->tick_rate_hz())};
+                                                                 drive.source->tick_rate_hz()),
+                            .thumbnails = options.page_port.has_value()};
     host_options.max_datagram_bytes = rig.network.max_payload_bytes;
     host_options.limits.max_datagram_bytes = rig.network.max_payload_bytes;
     // A screen that compiles its shaders is silent for a while and costs nobody anything: ticks do not wait for it in real

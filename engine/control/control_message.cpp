@@ -27,6 +27,7 @@ void fields(Welcome& m, Visitor& v) {
   v(m.group_ip);
   v(m.group_port);
   v(m.interface_ip);
+  v(m.thumbnails);
 }
 template <class Visitor>
 void fields(Refusal& m, Visitor& v) {
@@ -116,6 +117,11 @@ void fields(Notice& m, Visitor& v) {
 template <class Visitor>
 void fields(Pause& m, Visitor& v) {
   v(m.paused);
+}
+template <class Visitor>
+void fields(Thumbnail& m, Visitor& v) {
+  v(m.tick);
+  v.text(m.png, most_thumbnail_bytes);
 }
 
 struct Put {

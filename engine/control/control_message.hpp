@@ -4,6 +4,7 @@
 /// These share the secure lane with scene commands; the first byte of every message tells which of the two it is
 /// (`LaneMessage`). Format: CONTROL.md. A message from outside is decoded whole or refused.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,7 +22,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Of these messages; who speaks another one is refused.
-inline constexpr std::uint16_t protocol_version = 2;
+inline constexpr std::uint16_t protocol_version = 3;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -39,6 +40,7 @@ struct Welcome {
   std::uint32_t group_ip = 0;             ///< Multicast group of the tick lane; 0: ticks come to `Hello::tick_port`.
   std::uint16_t group_port = 0;
   std::uint32_t interface_ip = 0;
+  bool thumbnails = false;  ///< Somebody looks on: send a small picture with each that is kept.
 };
 
 /// Server → screen: this screen cannot take part.
@@ -127,8 +129,18 @@ struct Pause {
   bool paused = true;
 };
 
-using ControlMessage = std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish,
-                                    ScreenReport, CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause>;
+/// Of a thumbnail; a larger one is refused.
+inline constexpr std::size_t most_thumbnail_bytes = 32 * 1024;
+
+/// Screen → server: what this screen shows, small, about once a second.
+struct Thumbnail {
+  Tick tick = 0;
+  std::string png;  ///< Any bytes: nobody here reads them.
+};
+
+using ControlMessage =
+    std::variant<Hello, Welcome, Refusal, TickArrived, SceneArrived, Presented, Controls, Finish, ScreenReport,
+                 CarHello, CarWelcome, CarReport, CarFeedback, Quit, Notice, Pause, Thumbnail>;
 
 /// The message with its lane byte.
 Bytes encode_control(const ControlMessage& message);

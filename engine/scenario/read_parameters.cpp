@@ -81,7 +81,10 @@ void read_values(Reading& reading, const Element& root) {
     names[name] = static_cast<ValueIndex>(values.size());
     values.push_back(value);
   };
-  for (const auto& [name, value] : root.parameters()) add(reading.parameters, name, value);
+  for (const auto& [name, value] : root.parameters()) {
+    add(reading.parameters, name, value);
+    reading.scenario.parameters.emplace_back(name, value);
+  }
   for (const Element& declaration : root.child("VariableDeclarations").children("VariableDeclaration")) {
     const std::string type = declaration.text("variableType");
     const std::string value = declaration.text_or("value", "");

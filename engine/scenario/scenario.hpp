@@ -83,6 +83,7 @@ struct Scenario {
   FileHeader header;
   std::string road_file;  ///< As the file gives it: relative to the scenario's folder.
   std::vector<Entity> entities;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< Name and value of what can be given from outside.
   std::vector<std::string> values;  ///< Of parameters and variables when the scenario begins.
   std::vector<std::shared_ptr<const Route>> routes;
   std::vector<InitAction> init;

@@ -23,6 +23,7 @@
 #include "sim-client/screen/picture_rate.hpp"
 #include "sim-client/screen/screen_display.hpp"
 #include "sim-client/screen/screen_link.hpp"
+#include "sim-client/screen/thumbnail_maker.hpp"
 
 namespace septet::screen {
 namespace {
@@ -74,6 +75,7 @@ class Session {
   frame::ScreenViews views_;
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
+  ThumbnailMaker thumbnails_;
   FrameTimes frame_times_, submit_times_;
   std::optional<double> last_picture_s_;
   PictureRate picture_rate_;
@@ -185,9 +187,12 @@ void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snaps
 }
 
 Expected<void> Session::keep_picture(Tick tick) {
-  if (options_.pictures.empty()) return {};
+  const bool somebody_looks = link_.welcome()->thumbnails;
+  if (options_.pictures.empty() && !somebody_looks) return {};
   auto picture = display_->renderer().read_back();
   if (!picture) return tl::unexpected(picture.error());
+  if (somebody_looks) thumbnails_.take(tick, *picture);
+  if (options_.pictures.empty()) return {};
   pictures_.write(options_.pictures / fmt::format("{}.png", tick), std::move(*picture));
   return {};
 }
@@ -324,6 +329,8 @@ Expected<void> Session::run() {
         drawn = draw_real_time(now_s);
     }
     if (!drawn) return drawn;
+    if (auto thumbnail = thumbnails_.finished(); thumbnail && !link_.has_backlog())
+      link_.send(*thumbnail, net::Reliability::reliable);
     if (!display_ || link_.welcome()->lockstep) wait(link_.has_backlog() ? 0.0 : 0.005);
   }
   link_.close();

@@ -14,10 +14,6 @@
 namespace septet::server {
 namespace {
 
-struct Entry {
-  std::string name, description;
-};
-
 /// The first sentence of the comment that a TOML file begins with.
 std::string first_comment(const std::string& text) {
   std::string comment;
@@ -30,11 +26,18 @@ std::string first_comment(const std::string& text) {
   return comment;
 }
 
-Expected<std::vector<Entry>> entries_of(const std::string& kind) {
-  std::vector<Entry> entries;
+}  // namespace
+
+const std::vector<std::string>& listed_kinds() {
+  static const std::vector<std::string> kinds{"scenarios", "rigs", "vehicles", "drivers"};
+  return kinds;
+}
+
+Expected<std::vector<ListEntry>> list_of(const std::string& kind) {
+  std::vector<ListEntry> entries;
   if (kind == "drivers") {
     for (const auto& driver : car_io::simulated_drivers())
-      entries.push_back({std::string(driver.name), std::string(driver.description)});
+      entries.push_back({.name = std::string(driver.name), .description = std::string(driver.description)});
     return entries;
   }
   const bool scenarios = kind == "scenarios";
@@ -49,28 +52,22 @@ Expected<std::vector<Entry>> entries_of(const std::string& kind) {
     if (!file) continue;  // Something else that lies there.
     const auto text = read_regular_file(*file);
     if (!text) return tl::unexpected(text.error());
-    Entry entry{name, ""};
+    ListEntry entry{.name = name};
     if (!scenarios) {
       entry.description = first_comment(*text);
     } else {
       const auto scenario =
           scenario::read_scenario(*text, file->string(), scenario::files_in(file->parent_path().string()));
       entry.description = scenario ? scenario->header.description : "cannot be read: " + describe(scenario.error());
+      if (scenario) entry.parameters = scenario->parameters;
     }
     entries.push_back(std::move(entry));
   }
   return entries;
 }
 
-}  // namespace
-
-const std::vector<std::string>& listed_kinds() {
-  static const std::vector<std::string> kinds{"scenarios", "rigs", "vehicles", "drivers"};
-  return kinds;
-}
-
 Expected<int> run_list(const std::string& kind) {
-  const auto entries = entries_of(kind);
+  const auto entries = list_of(kind);
   if (!entries) return tl::unexpected(entries.error());
   std::size_t width = 0;
   for (const auto& entry : *entries) width = std::max(width, entry.name.size());

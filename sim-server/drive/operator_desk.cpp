@@ -5,7 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/simulation/operator_command.hpp"
+#include "logging/questionnaire.hpp"
+#include "program/resources.hpp"
 #include "sim-server/page/request_checks.hpp"
 
 namespace septet::server {
@@ -13,7 +16,18 @@ namespace {
 
 constexpr double show_every_s = 0.1;
 
-page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loaded) {
+/// The scale by which the driver is asked how he feels. A drive without it goes on: the page does not ask.
+std::optional<DriverRating> find_rating() {
+  const auto file = program::find_resource("misc", "scenarios/questionnaires", ".toml");
+  if (!file) return std::nullopt;
+  const auto text = read_regular_file(*file);
+  if (!text) return std::nullopt;
+  const auto rating = logging::read_questionnaire(*text, file->string()).and_then(DriverRating::of);
+  return rating ? std::optional(*rating) : std::nullopt;
+}
+
+page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loaded,
+                          const std::optional<DriverRating>& rating) {
   page::DriveFacts facts{.scenario = std::filesystem::path(options.scenario).stem().string(),
                          .rig = loaded.rig.name,
                          .vehicle = loaded.vehicle_name(),
@@ -23,6 +37,8 @@ page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loade
                          .planned_s = options.seconds,
                          .has_traffic = simulation::first_swarm(loaded.model->scenario) != nullptr,
                          .driver = simulation::driver_participant};
+  if (rating)
+    facts.rating = page::RatingScale{rating->title(), rating->item().text, rating->item().least, rating->item().labels};
   for (const auto& condition : simulation::conditions())
     facts.conditions.push_back({std::string(condition.name), condition.least, condition.most});
   return facts;
@@ -38,7 +54,8 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
                      .frame_ms = screen.frame_ms,
                      .presented = screen.has_presented ? std::optional(screen.presented) : std::nullopt,
                      .lost_baselines = screen.lost_baselines,
-                     .drop_outs = screen.left_s.size()});
+                     .drop_outs = screen.left_s.size(),
+                     .thumbnail = screen.thumbnail});
   return views;
 }
 
@@ -46,12 +63,18 @@ std::vector<page::ScreenView> view_of(const std::vector<HostedScreen>& screens) 
 
 Expected<std::unique_ptr<OperatorDesk>> OperatorDesk::open(const ServerOptions& options, const LoadedDrive& loaded,
                                                            LiveDrive& drive) {
-  auto page = page::OperatorPage::open({.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
-                                        .allowed_hosts = options.page_hosts,
-                                        .token = page::random_token()},
-                                       facts_of(options, loaded), loaded.model->roads);
+  page::PageOptions page_options{.port = static_cast<std::uint16_t>(options.page_port.value_or(0)),
+                                 .allowed_hosts = options.page_hosts};
+  if (options.page_handover) {
+    auto listening = page::ListeningSocket::take(options.page_handover->file);
+    if (!listening) return tl::unexpected(listening.error());
+    page_options.listening.emplace(std::move(*listening));
+  }
+  page_options.token = options.page_handover ? options.page_handover->token : page::random_token();
+  auto rating = find_rating();
+  auto page = page::OperatorPage::open(std::move(page_options), facts_of(options, loaded, rating), loaded.model->roads);
   if (!page) return tl::unexpected(page.error());
-  auto desk = std::unique_ptr<OperatorDesk>(new OperatorDesk(std::move(*page), loaded, drive));
+  auto desk = std::unique_ptr<OperatorDesk>(new OperatorDesk(std::move(*page), std::move(rating), loaded, drive));
   drive.watch_events([desk = desk.get()](const simulation::Event& event, double at_s) {
     desk->page_->tell(at_s, event.kind + ": " + event.detail);
   });
@@ -89,12 +112,19 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
   const auto& scenario = drive_.state().scenario;
   for (const auto& condition : simulation::conditions())
     view.conditions.push_back(simulation::value_of(condition, scenario));
+  if (rating_) {
+    view.rating.minute = DriverRating::minute_of(drive_.state().time_s());
+    const auto answered = rating_->answers().find(view.rating.minute);
+    if (answered != rating_->answers().end()) view.rating.value = answered->second;
+  }
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }
 
 void OperatorDesk::show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s) {
   if (!newest_) newest_ = drive_.first();
+  if (rating_ && log_)
+    for (auto& row : rating_->unanswered(drive_.state().time_s())) log_->record_answer(std::move(row));
   show(text, screens, now_s);
 }
 
@@ -121,7 +151,20 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
     note(wish, "operator", "end reason=" + end->reason);
   } else if (const auto* changed = std::get_if<page::Change>(&wish.wish)) {
     return change(wish, changed->command);
+  } else if (const auto* rated = std::get_if<page::Rate>(&wish.wish)) {
+    return rate(wish, rated->value);
+  } else {
+    return "a drive goes on";
   }
+  return std::nullopt;
+}
+
+std::optional<std::string> OperatorDesk::rate(const page::OperatorWish& wish, int value) {
+  if (!rating_) return "this drive has no scale for it";
+  auto record = rating_->answer(drive_.state().time_s(), value);
+  if (!record) return record.error().what;
+  note(wish, "rating", fmt::format("{} value={}", record->item, value));
+  if (log_) log_->record_answer(std::move(*record));
   return std::nullopt;
 }
 

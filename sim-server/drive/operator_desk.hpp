@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "logging/drive_end.hpp"
 #include "sim-server/drive/drive_loader.hpp"
+#include "sim-server/drive/driver_rating.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/server_options.hpp"
 #include "sim-server/drive/session_log.hpp"
@@ -40,14 +42,18 @@ class OperatorDesk {
   void show_end(const std::string& text, const std::vector<HostedScreen>& screens, double now_s);
 
  private:
-  OperatorDesk(std::unique_ptr<page::OperatorPage> page, const LoadedDrive& loaded, LiveDrive& drive)
-      : page_(std::move(page)), loaded_(loaded), drive_(drive) {}
+  OperatorDesk(std::unique_ptr<page::OperatorPage> page, std::optional<DriverRating> rating, const LoadedDrive& loaded,
+               LiveDrive& drive)
+      : page_(std::move(page)), rating_(std::move(rating)), loaded_(loaded), drive_(drive) {}
   std::optional<std::string> fulfil(const page::OperatorWish& wish);
   std::optional<std::string> change(const page::OperatorWish& wish, const std::string& command);
   void note(const page::OperatorWish& wish, const std::string& kind, const std::string& what);
   void show(const std::string& what, const std::vector<HostedScreen>& screens, double now_s);
 
+  std::optional<std::string> rate(const page::OperatorWish& wish, int value);
+
   std::unique_ptr<page::OperatorPage> page_;
+  std::optional<DriverRating> rating_;  ///< None where its scale is not installed.
   const LoadedDrive& loaded_;
   LiveDrive& drive_;
   SessionLog* log_ = nullptr;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "sim-server/page/listening_socket.hpp"
 
 namespace septet::server {
 
@@ -34,7 +35,9 @@ struct ServerOptions {
   bool no_screens = false;
   std::optional<int> page_port;         ///< Of the operator's page; 0: any free one; none: there is no page.
   std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
-  bool any_port = false;                ///< Any free port instead of the rig's: several drives on one machine.
+  std::optional<page::Handover>
+      page_handover;      ///< The page's port and token, where whoever started the drive had them.
+  bool any_port = false;  ///< Any free port instead of the rig's: several drives on one machine.
 };
 
 inline constexpr std::size_t most_participant_characters = 100;

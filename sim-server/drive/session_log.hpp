@@ -40,6 +40,7 @@ class SessionLog {
   }
   void record_actuators(logging::ActuatorRecord actuators) { writer_.record(actuators); }
   void record_message(const std::string& kind, const std::string& text);
+  void record_answer(logging::QuestionnaireRecord answer) { writer_.record(std::move(answer)); }
   std::optional<Error> take_error() { return writer_.take_error(); }
   /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.
   std::optional<std::string> take_warning();

@@ -195,6 +195,8 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
     end_requested_ = quit->by_escape ? logging::DriveEnd::escape : logging::DriveEnd::window_closed;
   } else if (const auto* pause = std::get_if<Pause>(&message)) {
     pause_requested_ = pause->paused;
+  } else if (const auto* thumbnail = std::get_if<Thumbnail>(&message)) {
+    screen->thumbnail = std::make_shared<const std::string>(thumbnail->png);
   } else if (const auto* report = std::get_if<ScreenReport>(&message)) {
     screen->report = *report;
   }

@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -65,6 +66,7 @@ struct HostedScreen {
   std::optional<Tick> joined_at;  ///< The newest tick at that moment; its own ticks come after. None before the first.
   bool left_behind = false;       ///< Lockstep waits for it no more, until it shows a tick.
   std::optional<control::ScreenReport> report;
+  std::shared_ptr<const std::string> thumbnail;  ///< The newest, any bytes; null: none has come.
   std::vector<double> connected_s, left_s,
       left_behind_s;  ///< When, in simulated time; at most `most_moments` each: the first and the newest.
   std::optional<double> unanswered_since_s;  ///< When the first tick was sent that it has not answered.

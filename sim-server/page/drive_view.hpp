@@ -17,6 +17,13 @@ struct Adjustable {
   double least = 0.0, most = 1.0;
 };
 
+/// How the driver feels is asked for each minute: one item of a questionnaire.
+struct RatingScale {
+  std::string title, text;
+  int least = 0;
+  std::vector<std::string> labels;  ///< From least on.
+};
+
 /// What does not change during the drive.
 struct DriveFacts {
   std::string scenario, rig, vehicle, participant;
@@ -26,6 +33,7 @@ struct DriveFacts {
   std::vector<Adjustable> conditions;
   bool has_traffic = false;  ///< Its density can be changed.
   ParticipantId driver = 0;
+  std::optional<RatingScale> rating;
 };
 
 struct ScreenView {
@@ -36,12 +44,20 @@ struct ScreenView {
   std::optional<Tick> presented;     ///< The newest tick that it has shown.
   std::uint64_t lost_baselines = 0;  ///< Ticks that came and could not be read, for what came before was lost.
   std::size_t drop_outs = 0;         ///< How often it has gone.
+  std::shared_ptr<const std::string>
+      thumbnail;  ///< What it shows, a PNG of any bytes; another one each time. May be null.
 };
 
 struct LeaderView {
   ParticipantId participant = 0;
   double gap_m = 0.0;
   double speed_mps = 0.0;
+};
+
+/// Of the minute of driven time that goes on, the first being 0.
+struct RatingView {
+  int minute = 0;
+  std::optional<int> value;  ///< Its answer, if it has one.
 };
 
 /// How the drive stands.
@@ -56,7 +72,8 @@ struct DriveView {
   std::string alarm;                         ///< What the driver reads: an emergency stop.
   std::optional<LeaderView> leader;
   std::vector<ScreenView> screens;
-  std::vector<double> conditions;     ///< As DriveFacts::conditions.
+  std::vector<double> conditions;  ///< As DriveFacts::conditions.
+  RatingView rating;
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
 };
 

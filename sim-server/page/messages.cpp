@@ -26,6 +26,36 @@ std::string text_member(const nlohmann::json& object, const char* name, std::siz
   return printable(found->get_ref<const std::string&>(), most);
 }
 
+/// A whole number from 0 on; a huge one where there is none.
+std::uint64_t count_member(const nlohmann::json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : ~std::uint64_t{0};
+}
+
+/// The drive of a message: what is none of its members' kind is left out, and Septet's own command line judges the rest.
+DriveChoice choice_of(const nlohmann::json& object) {
+  const auto text = [&](const char* name, std::size_t most) { return text_member(object, name, most); };
+  DriveChoice choice{.scenario = text("scenario", 200),
+                     .rig = text("rig", 200),
+                     .driver = text("driver", 60),
+                     .vehicle = text("vehicle", 200),
+                     .participant = text("participant", 400),
+                     .group = text("group", 200),
+                     .condition = text("condition", 200),
+                     .order = text("order", 200),
+                     .note = text("note", most_note_characters),
+                     .seed = text("seed", 40),
+                     .seconds = text("seconds", 40)};
+  if (const auto now = object.find("start_now"); now != object.end() && now->is_boolean())
+    choice.start_now = now->get<bool>();
+  if (const auto parameters = object.find("parameters"); parameters != object.end() && parameters->is_object())
+    for (const auto& item : parameters->items())
+      if (item.value().is_string() && choice.parameters.size() < 100)
+        choice.parameters.emplace_back(printable(item.key(), 200),
+                                       printable(item.value().get_ref<const std::string&>(), 200));
+  return choice;
+}
+
 /// Rounded: a state is sent ten times a second, and nobody reads a micrometre off a map.
 Json rounded(double value, double unit) {
   if (!std::isfinite(value)) return nullptr;
@@ -70,6 +100,21 @@ Json screens_of(const DriveView& view, double tick_rate_hz) {
   return list;
 }
 
+/// RFC 4648, section 4.
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t three = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      three = three << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j) text += j <= count ? digits[three >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
+}
+
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 }  // namespace
@@ -103,6 +148,14 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
   else if (wish == "change")
     message.wish =
         Change{json.value("command", nlohmann::json()).is_string() ? json["command"].get<std::string>() : ""};
+  else if (wish == "rate")
+    message.wish = Rate{static_cast<int>(std::min<std::uint64_t>(count_member(json, "value"), 1000))};
+  else if (wish == "start")
+    message.wish = Start{choice_of(json)};
+  else if (wish == "cancel")
+    message.wish = Cancel{};
+  else if (wish == "look")
+    message.wish = Look{count_member(json, "session"), text_member(json, "file", 40)};
   else
     return no_message("nobody knows this message");
   return message;
@@ -130,6 +183,12 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
     conditions.push_back({{"name", condition.name},
                           {"least", document::number(condition.least)},
                           {"most", document::number(condition.most)}});
+  Json rating = nullptr;
+  if (facts.rating)
+    rating = {{"title", facts.rating->title},
+              {"text", facts.rating->text},
+              {"least", facts.rating->least},
+              {"labels", facts.rating->labels}};
   return dump({{"type", "hello"},
                {"schema", schema},
                {"you", browser},
@@ -141,6 +200,7 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
                {"planned_s", facts.planned_s},
                {"driver", facts.driver},
                {"has_traffic", facts.has_traffic},
+               {"rating", std::move(rating)},
                {"conditions", std::move(conditions)},
                {"models", std::move(models)},
                {"road", std::move(shapes)}});
@@ -164,6 +224,8 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
     json["actuators"] = {{"cut", view.actuators_cut ? Json(*view.actuators_cut) : Json(nullptr)},
                          {"alarm", view.alarm}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
+  json["rating"] = {{"minute", view.rating.minute}, {"answered", view.rating.value.has_value()}};
+  if (view.rating.value) json["rating"]["value"] = *view.rating.value;
   Json conditions = Json::array();
   for (const double value : view.conditions) conditions.push_back(rounded(value, 0.0001));
   json["conditions"] = std::move(conditions);
@@ -195,6 +257,10 @@ std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_
   Json json = {{"type", "answer"}, {"id", id}, {"ok", !why_not}};
   if (why_not) json["why"] = *why_not;
   return dump(json);
+}
+
+std::string thumbnail_text(const std::string& screen, std::string_view png) {
+  return dump({{"type", "thumbnail"}, {"screen", screen}, {"picture", "data:image/png;base64," + base64(png)}});
 }
 
 std::string event_text(double simulated_s, const std::string& text) {

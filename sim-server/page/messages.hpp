@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "engine/core/expected.hpp"
+#include "sim-server/page/drive_choice.hpp"
 #include "sim-server/page/drive_view.hpp"
 #include "sim-server/page/road_map.hpp"
 
@@ -35,7 +36,22 @@ struct Mark {
 struct Change {
   std::string command;
 };
-using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change>;
+/// How the driver feels on the scale of the questionnaire that the drive has for it (MISC).
+struct Rate {
+  int value = 0;
+};
+/// Where there is no drive: this one, to be started.
+struct Start {
+  DriveChoice choice;
+};
+/// The drive that is being made ready is not wanted any more.
+struct Cancel {};
+/// A file of a past session. Anybody may look.
+struct Look {
+  std::uint64_t session = 0;
+  std::string file;
+};
+using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change, Rate, Start, Cancel, Look>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.
@@ -59,6 +75,8 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                        const std::optional<Commander>& commander, std::size_t browsers);
 std::string answer_text(std::uint64_t id, const std::optional<std::string>& why_not);
 /// Something has happened, for the list of events.
+/// What a screen shows, as a picture that an <img> takes.
+std::string thumbnail_text(const std::string& screen, std::string_view png);
 std::string event_text(double simulated_s, const std::string& text);
 
 }  // namespace septet::page

@@ -1,5 +1,6 @@
 #include "sim-server/page/operator_page.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -8,22 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "sim-server/page/helm.hpp"
+#include "sim-server/page/page_files.hpp"
+
 namespace septet::page {
 namespace {
 
-constexpr std::string_view index_html =
-#include "sim-server/page/web/index.html.inc"
-    ;
-constexpr std::string_view page_css =
-#include "sim-server/page/web/page.css.inc"
-    ;
-constexpr std::string_view page_js =
-#include "sim-server/page/web/page.js.inc"
-    ;
-
 constexpr std::size_t remembered_events = 200;  ///< For who opens the page later.
-
-Text text(std::string words) { return std::make_shared<const std::string>(std::move(words)); }
 
 }  // namespace
 
@@ -37,8 +29,7 @@ struct OperatorPage::Shared {
   // The page's thread's own.
   DriveFacts facts;
   RoadMap map;
-  std::set<BrowserId> browsers;
-  std::optional<Commander> commander;
+  Helm helm;
   std::uint64_t states = 0;
   DriveView shown;
   std::deque<Text> events;
@@ -46,39 +37,32 @@ struct OperatorPage::Shared {
   std::unique_ptr<WebServer> server;  ///< Last: its thread is gone before the rest.
 
   void opened(BrowserId browser) {
-    browsers.insert(browser);
-    server->send(browser, text(hello_text(facts, map, browser)));
+    helm.opened(browser);
+    server->send(browser, shared_text(hello_text(facts, map, browser)));
     for (const Text& event : events) server->send(browser, event);
     send_state();
+    for (const ScreenView& screen : shown.screens)
+      if (screen.thumbnail)
+        server->send_newest_picture(browser, screen.name, shared_text(thumbnail_text(screen.name, *screen.thumbnail)));
   }
   void closed(BrowserId browser) {
-    browsers.erase(browser);
-    if (commander && commander->browser == browser) commander.reset();
+    helm.closed(browser);
     send_state();
   }
   void said(BrowserId browser, std::string_view words) {
     auto message = read_browser_message(words);
-    if (!message) return server->send(browser, text(answer_text(0, message.error().what)));
+    if (!message) return server->send(browser, shared_text(answer_text(0, message.error().what)));
     const auto answer = [&](const std::optional<std::string>& why_not) {
-      server->send(browser, text(answer_text(message->id, why_not)));
+      server->send(browser, shared_text(answer_text(message->id, why_not)));
     };
-    const bool commands = commander && commander->browser == browser;
-    if (const auto* take = std::get_if<Take>(&message->wish)) {
-      if (commander && !commands && !take->by_force) return answer("somebody else commands");
-      commander = Commander{browser, take->name};
-      answer(std::nullopt);
-      return send_state();
-    }
-    if (!commands) return answer("only who commands may do that: take the command first");
-    if (std::holds_alternative<Release>(message->wish)) {
-      commander.reset();
-      answer(std::nullopt);
-      return send_state();
+    if (const auto reply = helm.judge(browser, message->wish)) {
+      answer(reply->why_not);
+      return reply->why_not ? void() : send_state();
     }
     {
       const std::lock_guard lock(mutex);
       if (wishes.size() < most_waiting_wishes) {
-        wishes.push_back({browser, message->id, commander->name, std::move(message->wish)});
+        wishes.push_back({browser, message->id, helm.commander()->name, std::move(message->wish)});
         return;  // The drive answers.
       }
     }
@@ -92,13 +76,20 @@ struct OperatorPage::Shared {
       is_due = false;
       taken.swap(newest);
     }
-    if (taken) shown = std::move(*taken);
+    const DriveView before = std::exchange(shown, taken ? std::move(*taken) : shown);
     send_state();
+    for (const ScreenView& screen : shown.screens) {
+      const auto same = std::ranges::find(before.screens, screen.name, &ScreenView::name);
+      if (!screen.thumbnail || (same != before.screens.end() && same->thumbnail == screen.thumbnail)) continue;
+      const Text picture = shared_text(thumbnail_text(screen.name, *screen.thumbnail));
+      for (const BrowserId browser : std::set(helm.browsers()))
+        server->send_newest_picture(browser, screen.name, picture);
+    }
   }
   void send_state() {
-    if (browsers.empty()) return;
-    const Text state = text(state_text(shown, facts, ++states, commander, browsers.size()));
-    for (const BrowserId browser : std::set(browsers)) server->send_newest(browser, state);
+    if (helm.browsers().empty()) return;
+    const Text state = shared_text(state_text(shown, facts, ++states, helm.commander(), helm.browsers().size()));
+    for (const BrowserId browser : std::set(helm.browsers())) server->send_newest(browser, state);
   }
 };
 
@@ -110,9 +101,8 @@ Expected<std::unique_ptr<OperatorPage>> OperatorPage::open(PageOptions options, 
   WebServerOptions web{.port = options.port,
                        .allowed_hosts = std::move(options.allowed_hosts),
                        .token = options.token,
-                       .resources = {{"/", "text/html; charset=utf-8", index_html},
-                                     {"/page.css", "text/css; charset=utf-8", page_css},
-                                     {"/page.js", "text/javascript; charset=utf-8", page_js}}};
+                       .resources = page_files(),
+                       .listening = options.listening ? &*options.listening : nullptr};
   Shared* const here = shared.get();
   // Nothing that needs the server may be done before it is kept: until then its thread waits here.
   std::unique_lock starting(shared->mutex);
@@ -152,16 +142,15 @@ std::vector<OperatorWish> OperatorPage::take_wishes() {
 }
 
 void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::string>& why_not) {
-  shared_->server->post([shared = shared_.get(), browser = wish.browser, words = text(answer_text(wish.id, why_not))] {
-    shared->server->send(browser, words);
-  });
+  shared_->server->post([shared = shared_.get(), browser = wish.browser,
+                         words = shared_text(answer_text(wish.id, why_not))] { shared->server->send(browser, words); });
 }
 
 void OperatorPage::tell(double simulated_s, const std::string& words) {
-  shared_->server->post([shared = shared_.get(), event = text(event_text(simulated_s, words))] {
+  shared_->server->post([shared = shared_.get(), event = shared_text(event_text(simulated_s, words))] {
     shared->events.push_back(event);
     if (shared->events.size() > remembered_events) shared->events.pop_front();
-    for (const BrowserId browser : std::set(shared->browsers)) shared->server->send(browser, event);
+    for (const BrowserId browser : std::set(shared->helm.browsers())) shared->server->send(browser, event);
   });
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct PageOptions {
   std::uint16_t port = 0;                  ///< On 127.0.0.1; 0: any free one.
   std::vector<std::string> allowed_hosts;  ///< As a proxy is called.
   std::string token;                       ///< Of web_server.hpp.
+  std::optional<ListeningSocket> listening =
+      std::nullopt;  ///< Instead of the port: handed over by whoever started the drive.
 };
 
 /// Something that the one who commands wants: Pause, GoOn, Rearm, End, Mark or Change.

@@ -14,7 +14,9 @@
 #include <thread>
 #include <utility>
 
+#include <fcntl.h>
 #include <pthread.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 #include <boost/asio/io_context.hpp>
@@ -41,6 +43,9 @@ using Response = http::response<http::string_body>;
 
 constexpr auto patience = std::chrono::seconds(10);  // For a request and its answer.
 constexpr std::string_view subprotocol = "septet";
+constexpr std::string_view page_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
+    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 beast::string_view view(std::string_view text) { return {text.data(), text.size()}; }
@@ -88,7 +93,16 @@ class Browser : public std::enable_shared_from_this<Browser> {
     if (std::exchange(newest_, std::move(text))) ++shared_.states_left_out;
     write();
   }
-  bool has_more() const { return is_open_ && (writing_ || newest_ || !messages_.empty()); }
+  void send_newest_picture(const std::string& name, Text text) {
+    if (is_ended_) return;
+    pictures_[name] = std::move(text);
+    write();
+  }
+  void hang_up() {
+    error_code ignored;
+    beast::get_lowest_layer(socket_).socket().shutdown(tcp::socket::shutdown_both, ignored);
+  }
+  bool has_more() const { return is_open_ && (writing_ || newest_ || !messages_.empty() || !pictures_.empty()); }
   void end() {
     if (std::exchange(is_ended_, true)) return;
     error_code ignored;
@@ -113,8 +127,11 @@ class Browser : public std::enable_shared_from_this<Browser> {
     if (!messages_.empty()) {
       writing_ = std::move(messages_.front());
       messages_.pop_front();
-    } else {
+    } else if (newest_) {
       writing_ = std::exchange(newest_, nullptr);
+    } else if (!pictures_.empty()) {
+      writing_ = std::move(pictures_.begin()->second);
+      pictures_.erase(pictures_.begin());
     }
     if (!writing_) return;
     socket_.text(true);
@@ -131,6 +148,7 @@ class Browser : public std::enable_shared_from_this<Browser> {
   beast::flat_buffer buffer_{most_message_bytes + 1024};
   std::deque<Text> messages_;
   Text newest_, writing_;
+  std::map<std::string, Text> pictures_;  ///< The newest of each name.
   bool is_open_ = false, is_ended_ = false;
   std::function<void()> closed_;
 };
@@ -171,7 +189,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
       return refuse(http::status::method_not_allowed, "only GET is answered");
     for (const Resource& resource : shared_.options.resources)
       if (resource.path == target)
-        return send(http::status::ok, resource.type, resource.body, request.method() == http::verb::head);
+        return send(http::status::ok, resource.type, std::string(resource.body), request.method() == http::verb::head);
+    if (shared_.options.find)
+      if (auto found = shared_.options.find(target))
+        return send(http::status::ok, found->type, std::move(found->body), request.method() == http::verb::head,
+                    found->content_policy);
     refuse(http::status::not_found, "there is nothing of this name");
   }
 
@@ -190,24 +212,23 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void refuse(http::status status, std::string_view why) {
     ++shared_.refused;
-    send(status, "text/plain; charset=utf-8", why, false);
+    send(status, "text/plain; charset=utf-8", std::string(why), false);
   }
 
-  void send(http::status status, std::string_view type, std::string_view body, bool without_body) {
+  void send(http::status status, std::string_view type, std::string body, bool without_body,
+            std::string_view content_policy = page_policy) {
     response_ = Response(status, 11);
     response_.set(http::field::server, "septet");
     response_.set(http::field::content_type, view(type));
-    response_.set("Content-Security-Policy",
-                  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
-                  "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+    response_.set("Content-Security-Policy", view(content_policy));
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("X-Frame-Options", "DENY");
     response_.set("Referrer-Policy", "no-referrer");
     response_.set(http::field::cache_control, "no-store");
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
     response_.keep_alive(false);
-    if (!without_body) response_.body() = std::string(body);
     response_.content_length(body.size());
+    if (!without_body) response_.body() = std::move(body);
     stream_.expires_after(patience);
     serializer_.emplace(response_);
     if (without_body)
@@ -282,6 +303,7 @@ struct WebServer::Running {
         return;
       }
       ++shared.connections;
+      ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
       std::erase_if(connections, [](const auto& connection) { return connection.expired(); });
       if (connections.size() < most_connections) {
         const auto connection = std::make_shared<Connection>(
@@ -335,18 +357,20 @@ struct WebServer::Running {
 
 Expected<std::unique_ptr<WebServer>> WebServer::start(WebServerOptions options, WebHandlers handlers) {
   auto running = std::make_unique<Running>();
-  const tcp::endpoint place(asio::ip::address_v4::loopback(), options.port);
+  const auto here =
+      options.listening
+          ? options.listening->copy()
+          : ListeningSocket::open(options.port).and_then([](const ListeningSocket& made) { return made.copy(); });
+  if (!here) return tl::unexpected(here.error());
   running->shared.options = std::move(options);
   running->shared.handlers = std::move(handlers);
   error_code error;
   tcp::acceptor& acceptor = running->acceptor;
-  acceptor.open(place.protocol(), error);
-  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
-  if (!error) acceptor.bind(place, error);
-  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-  if (error)
-    return failure(error.message(), fmt::format("the operator's page, 127.0.0.1:{}", place.port()),
-                   "choose another port with --page, or 0 for any free one");
+  acceptor.assign(tcp::v4(), *here, error);
+  if (error) {
+    ::close(*here);
+    return failure(error.message(), "the operator's page", "close other programs");
+  }
   running->port = acceptor.local_endpoint(error).port();
   running->accept();
   const SignalsAway away;
@@ -358,6 +382,8 @@ WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(runn
 WebServer::~WebServer() {
   running_->context.stop();
   running_->thread.join();
+  // Also where a program that was started meanwhile holds a copy of the socket: a browser hears at once that this server is gone.
+  for (const auto& [id, browser] : running_->browsers) browser->hang_up();
 }
 
 std::uint16_t WebServer::port() const { return running_->port; }
@@ -367,6 +393,9 @@ void WebServer::send(BrowserId browser, Text text) {
 }
 void WebServer::send_newest(BrowserId browser, Text text) {
   if (const auto found = running_->find(browser)) found->send_newest(std::move(text));
+}
+void WebServer::send_newest_picture(BrowserId browser, const std::string& name, Text text) {
+  if (const auto found = running_->find(browser)) found->send_newest_picture(name, std::move(text));
 }
 void WebServer::close(BrowserId browser) {
   if (const auto found = running_->find(browser)) found->end();

@@ -12,11 +12,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "sim-server/page/listening_socket.hpp"
 
 namespace septet::page {
 
@@ -27,12 +30,22 @@ struct Resource {
   std::string_view body;
 };
 
+/// What is made or read when it is asked for.
+struct FoundResource {
+  std::string type, body;
+  std::string content_policy;  ///< Its Content-Security-Policy.
+};
+
 struct WebServerOptions {
   std::uint16_t port = 0;                  ///< 0: any free one.
   std::vector<std::string> allowed_hosts;  ///< Beside localhost, 127.0.0.1 and [::1]: those of a proxy.
   std::string token;                       ///< Of the WebSocket, as one of its subprotocols.
   std::string socket_path = "/live";
   std::vector<Resource> resources;
+  /// What else there is, called in the server's thread; nothing: 404. May be empty. The path is any bytes.
+  std::function<std::optional<FoundResource>(std::string_view path)> find;
+  /// Where it listens, made before (listening_socket.hpp), of which it takes a copy; null: at `port`.
+  const ListeningSocket* listening = nullptr;
   double silence_s = 20.0;  ///< A browser that says nothing for so long, and answers no ping, is gone.
 };
 
@@ -42,6 +55,7 @@ inline constexpr std::size_t most_waiting_messages = 256;
 
 using BrowserId = std::uint64_t;
 using Text = std::shared_ptr<const std::string>;
+inline Text shared_text(std::string words) { return std::make_shared<const std::string>(std::move(words)); }
 
 /// Called in the server's thread; they may call send, send_newest and close.
 struct WebHandlers {
@@ -70,6 +84,8 @@ class WebServer {
   void send(BrowserId browser, Text text);
   /// In the server's thread. A state: one that has not been sent yet is left out for it.
   void send_newest(BrowserId browser, Text text);
+  /// The same of a picture, each of its name.
+  void send_newest_picture(BrowserId browser, const std::string& name, Text text);
   void close(BrowserId browser);
   /// Waits until every browser has been sent what waits for it, at most so long. From any other thread.
   void flush(double patience_s);

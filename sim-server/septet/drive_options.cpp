@@ -92,6 +92,24 @@ void add_drive_commands(CLI::App& app, Options& options) {
   drive_command->footer(car_io::driving_keys_text());
   drive_command->callback([&] { options.work = [&] { return run_drive(options.drive); }; });
 
+  auto* operate_command = app.add_subcommand(
+      "operate", "The operator's page: choose drives and start them, look on, see past ones, until this is stopped");
+  operate_command->add_option("--page", options.operate.port, "Its port on 127.0.0.1; 0: any free one")
+      ->check(CLI::Range(0, 65535));
+  operate_command
+      ->add_option("--page-host", options.operate.page_hosts,
+                   "Name by which a proxy in front of the page is asked for; as often as needed")
+      ->type_name("NAME")
+      ->default_str("")
+      ->allow_extra_args(false);
+  operate_command->add_option("--out", options.operate.out, "Folder in which each drive gets one of its own")
+      ->default_str("out/drives");
+  operate_command
+      ->add_option("--keys", options.operate.keys,
+                   "Of a rig of several machines: the server's folder of septet rig keys; its screens run already")
+      ->default_str("none: screens and car of this machine");
+  operate_command->callback([&] { options.work = [&] { return run_operate(options.operate); }; });
+
   auto* replay_command =
       app.add_subcommand("replay", "Show a session again on any rig, or verify that its input gives the same drive");
   replay_command->add_option("session", options.replay.replay, "Session file")->required();

@@ -10,6 +10,7 @@
 #include "sim-server/command/check_command.hpp"
 #include "sim-server/command/drive_command.hpp"
 #include "sim-server/command/experiment_command.hpp"
+#include "sim-server/command/operate_command.hpp"
 #include "sim-server/command/report_command.hpp"
 #include "sim-server/command/session_command.hpp"
 #include "sim-server/command/traffic_command.hpp"
@@ -37,10 +38,11 @@ struct Options {
   StopOptions stop;
   ForgetOptions forget;
   ExperimentOptions experiment;
+  OperateOptions operate;
   std::function<Expected<int>()> work;  ///< Of the command that was chosen.
 };
 
-void add_drive_commands(CLI::App& app, Options& options);       ///< drive, replay, film, sound, ice, report.
+void add_drive_commands(CLI::App& app, Options& options);       ///< drive, operate, replay, film, sound, ice, report.
 void add_track_commands(CLI::App& app, Options& options);       ///< vehicle, traffic.
 void add_session_commands(CLI::App& app, Options& options);     ///< session.
 void add_experiment_commands(CLI::App& app, Options& options);  ///< experiment.

@@ -33,8 +33,8 @@ const std::string input_bytes =
 std::vector<std::pair<ControlMessage, std::string>> written_messages() {
   return {
       {Hello{"left", 0x1234, 7}, "01 00 04 6c656674 3412 0700"},
-      {Welcome{"rig", true, 120.0, 8, 0x0a0b0c0d, 0x4321, 0x7f000001},
-       "01 01 03 726967 01 0000000000005e40 08000000 0d0c0b0a 2143 0100007f"},
+      {Welcome{"rig", true, 120.0, 8, 0x0a0b0c0d, 0x4321, 0x7f000001, true},
+       "01 01 03 726967 01 0000000000005e40 08000000 0d0c0b0a 2143 0100007f 01"},
       {Refusal{"no"}, "01 02 02 6e6f"},
       {TickArrived{0x0102, 1.5f, true}, "01 03 0201000000000000 0000c03f 01"},
       {SceneArrived{9}, "01 04 0900000000000000"},
@@ -51,6 +51,7 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {Quit{true}, "01 0d 01"},
       {Notice{"go", true, false}, "01 0e 02 676f 01 00"},
       {Pause{true}, "01 0f 01"},
+      {Thumbnail{3, std::string("\0\xff", 2)}, "01 10 0300000000000000 02 00ff"},
   };
 }
 

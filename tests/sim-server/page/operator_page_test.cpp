@@ -109,6 +109,29 @@ TEST_CASE("the newest view is shown to who is there and to who comes later, with
   state_where(late, is_last);
 }
 
+TEST_CASE("what a screen shows is sent once to who is there, and to who comes later") {
+  Desk desk;
+  RawBrowser early(desk.port, token);
+  hear(early, "hello", [](const json&) { return true; });
+  const auto png = std::make_shared<const std::string>("\x89PNG");
+  const auto show = [&](const std::string& phase) {
+    desk.page->show({.phase = phase, .screens = {{.name = "ahead", .thumbnail = png}, {.name = "left"}}});
+  };
+  show("one");
+  const auto picture = hear(early, "thumbnail", [](const json&) { return true; });
+  CHECK(picture["screen"] == "ahead");
+  CHECK(picture["picture"] == "data:image/png;base64,iVBORw==");
+  show("two");
+  desk.page->tell(1.0, "later");
+  while (true) {  // Nothing comes twice.
+    const auto message = json::parse(*early.hear());
+    CHECK(message["type"] != "thumbnail");
+    if (message["type"] == "state" && message["phase"] == "two") break;
+  }
+  RawBrowser late(desk.port, token);
+  CHECK(hear(late, "thumbnail", [](const json&) { return true; })["screen"] == "ahead");
+}
+
 TEST_CASE("more wishes than the drive has done are refused, not kept") {
   Desk desk;
   RawBrowser eager(desk.port, token);

@@ -1,0 +1,320 @@
+#include "sim-server/command/operate_command.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "engine/core/printable.hpp"
+#include "logging/drive_end.hpp"
+#include "program/child_process.hpp"
+#include "program/console.hpp"
+#include "program/resources.hpp"
+#include "program/stop_signal.hpp"
+#include "program/temporary_folder.hpp"
+#include "sim-server/command/list_command.hpp"
+#include "sim-server/command/past_sessions.hpp"
+#include "sim-server/page/request_checks.hpp"
+#include "sim-server/page/start_page.hpp"
+
+namespace septet::server {
+namespace fs = std::filesystem;
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto look_every = 20ms;
+constexpr std::size_t shown_lines = 8;
+
+/// The newest lines of what a drive has said, made printable.
+std::vector<std::string> lines_of(const fs::path& log) {
+  std::vector<std::string> lines;
+  std::ifstream in(log);
+  for (std::string line; std::getline(in, line);) {
+    // That is for who types.
+    if (line.find_first_not_of(" \r\t") == std::string::npos || line.starts_with("Run with --help")) continue;
+    lines.push_back(printable(line));
+    if (lines.size() > shown_lines) lines.erase(lines.begin());
+  }
+  return lines;
+}
+
+/// A drive that was started: `septet drive` from its start to its end.
+struct RunningDrive {
+  program::ChildProcess process;
+  fs::path log;
+  std::string command, last_line;
+  bool is_cancelled = false;
+
+  /// Takes what it has said on its standard output; the last line says how it ended.
+  void listen() {
+    while (auto line = process.read_line(0ms))
+      if (!line->empty()) last_line = printable(*line);
+  }
+  /// It serves the page itself from now on.
+  bool has_page() const {
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);)
+      if (line.find("operator's page: ") != std::string::npos) return true;
+    return false;
+  }
+};
+
+Expected<page::Choices> find_choices() {
+  page::Choices choices;
+  const auto take = [](const std::string& kind, std::vector<page::Choice>& into) -> Expected<void> {
+    const auto list = list_of(kind);
+    if (!list) return tl::unexpected(list.error());
+    for (const ListEntry& entry : *list) into.push_back({entry.name, entry.description});
+    return {};
+  };
+  const auto scenarios = list_of("scenarios");
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  for (const ListEntry& entry : *scenarios)
+    choices.scenarios.push_back({{entry.name, entry.description}, entry.parameters});
+  if (auto taken = take("rigs", choices.rigs); !taken) return tl::unexpected(taken.error());
+  if (auto taken = take("drivers", choices.drivers); !taken) return tl::unexpected(taken.error());
+  if (auto taken = take("vehicles", choices.vehicles); !taken) return tl::unexpected(taken.error());
+  return choices;
+}
+
+/// What is no choice of the lists, which a browser may ask for all the same. Everything else the command line judges.
+std::optional<std::string> no_choice(const page::Choices& choices, const page::DriveChoice& choice) {
+  const auto is_one_of = [](const auto& list, const std::string& name) {
+    return std::ranges::any_of(list, [&](const page::Choice& one) { return one.name == name; });
+  };
+  if (!is_one_of(choices.scenarios, choice.scenario)) return "there is no such scenario";
+  if (!choice.rig.empty() && !is_one_of(choices.rigs, choice.rig)) return "there is no such rig";
+  if (!choice.driver.empty() && !is_one_of(choices.drivers, choice.driver)) return "there is no such driver";
+  if (!choice.vehicle.empty() && !is_one_of(choices.vehicles, choice.vehicle)) return "there is no such vehicle";
+  return std::nullopt;
+}
+
+/// A new folder's name below `out`: when, and what.
+fs::path new_folder(const fs::path& out, const std::string& scenario) {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char when[32];
+  std::strftime(when, sizeof when, "%Y-%m-%dT%H-%M-%SZ", &parts);
+  std::error_code ignored;
+  fs::path folder = out / fmt::format("{}-{}", when, scenario);
+  for (int number = 2; fs::exists(folder, ignored); ++number)
+    folder = out / fmt::format("{}-{}-{}", when, scenario, number);
+  return folder;
+}
+
+/// The page with what it needs, and the drive that goes on, if there is one.
+class Operation {
+ public:
+  Operation(OperateOptions options, page::ListeningSocket listening, page::Choices choices,
+            program::TemporaryFolder logs)
+      : options_(std::move(options)),
+        listening_(std::move(listening)),
+        choices_(std::move(choices)),
+        logs_(std::move(logs)),
+        past_(options_.out) {}
+
+  std::string url() const { return fmt::format("http://127.0.0.1:{}/#{}", listening_.port(), token_); }
+  /// Until a signal comes.
+  Expected<void> run();
+
+ private:
+  Expected<void> open_page();
+  void show();
+  void obey(const page::OperatorWish& wish);
+  Expected<void> start(const page::DriveChoice& choice);
+  void attend_drive();
+  void end_drive(const program::ChildExit& exit);
+
+  OperateOptions options_;
+  page::ListeningSocket listening_;
+  page::Choices choices_;
+  program::TemporaryFolder logs_;
+  std::string token_ = page::random_token();
+  PastSessions past_;
+  page::StartView view_;
+  std::unique_ptr<page::StartPage> page_;  ///< None while a drive serves it.
+  std::optional<RunningDrive> drive_;
+  int drives_ = 0;
+};
+
+Expected<void> Operation::open_page() {
+  auto page = page::StartPage::open(listening_, token_, options_.page_hosts, choices_);
+  if (!page) return tl::unexpected(page.error());
+  page_ = std::move(*page);
+  past_.look();
+  show();
+  return {};
+}
+
+void Operation::show() {
+  if (!page_) return;
+  view_.sessions = past_.sessions();
+  page_->show(view_, past_.folders());
+}
+
+Expected<void> Operation::start(const page::DriveChoice& choice) {
+  const auto command = command_of(choice, options_, new_folder(options_.out, choice.scenario));
+  const auto handed = listening_.copy(true);
+  if (!handed) return tl::unexpected(handed.error());
+  program::ChildOptions child;
+  child.program = (program::own_folder() / command.front()).string();
+  child.arguments = {command.begin() + 1, command.end()};
+  child.environment[page::handover_variable] = page::text_of({*handed, token_});
+  child.log = logs_.path() / fmt::format("drive-{}.log", ++drives_);
+  auto process = program::ChildProcess::start(child);
+  ::close(*handed);
+  if (!process) return tl::unexpected(process.error());
+  drive_.emplace(RunningDrive{std::move(*process), child.log, typed(command), ""});
+  program::say("started: " + drive_->command);
+  view_ = {.is_starting = true, .command = drive_->command};
+  return {};
+}
+
+void Operation::obey(const page::OperatorWish& wish) {
+  std::optional<std::string> why_not;
+  if (const auto* begin = std::get_if<page::Start>(&wish.wish)) {
+    why_not = drive_ ? "a drive is being started already" : no_choice(choices_, begin->choice);
+    if (!why_not)
+      if (const auto started = start(begin->choice); !started) why_not = describe(started.error());
+  } else if (drive_) {  // Cancel.
+    drive_->is_cancelled = true;
+    drive_->process.send_signal(SIGTERM);
+  } else {
+    why_not = "nothing is being started";
+  }
+  page_->answer(wish, why_not);
+  show();
+}
+
+void Operation::attend_drive() {
+  drive_->listen();
+  if (const auto exit = drive_->process.poll()) return end_drive(*exit);
+  if (!page_) return;
+  if (drive_->has_page()) return page_.reset();
+  auto lines = lines_of(drive_->log);
+  if (lines == view_.said) return;
+  view_.said = std::move(lines);
+  show();
+}
+
+void Operation::end_drive(const program::ChildExit& exit) {
+  drive_->listen();
+  view_ = {.command = drive_->command, .said = lines_of(drive_->log), .last = drive_->last_line};
+  view_.has_failed = exit.code != logging::finished_status && exit.code != logging::stopped_status;
+  if (view_.last.empty() && !view_.said.empty()) view_.last = view_.said.back();
+  if (drive_->is_cancelled) view_.last = "the start was called off";
+  if (exit.signal != 0) view_.last = fmt::format("the drive was ended by signal {}", exit.signal);
+  program::say("ended: " + view_.last);
+  std::error_code ignored;
+  fs::remove(drive_->log, ignored);
+  drive_.reset();
+  past_.look();
+  show();
+}
+
+Expected<void> Operation::run() {
+  bool has_forwarded = false;
+  while (true) {
+    if (const auto signal = program::stop_signal()) {
+      program::obey_stop_signal();
+      if (!drive_) return {};
+      if (!std::exchange(has_forwarded, true)) drive_->process.send_signal(*signal);
+    }
+    if (drive_) attend_drive();
+    if (!page_ && !drive_)
+      if (auto opened = open_page(); !opened) return opened;
+    if (page_)
+      for (const auto& wish : page_->take_wishes()) obey(wish);
+    std::this_thread::sleep_for(look_every);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> command_of(const page::DriveChoice& choice, const OperateOptions& options,
+                                    const fs::path& folder) {
+  const bool has_keys = !options.keys.empty();
+  std::vector<std::string> command{has_keys ? "septet-server" : "septet"};
+  if (!has_keys) command.emplace_back("drive");
+  // As one word: a value may begin with a hyphen.
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) command.push_back(fmt::format("--{}={}", option, value));
+  };
+  const auto add_about = [&](const std::string& key, const std::string& value) {
+    if (!value.empty()) has_keys ? add("about", key + '=' + value) : add(key, value);
+  };
+  add("keys", options.keys.string());
+  add("scenario", choice.scenario);
+  add("rig", choice.rig);
+  add("driver", choice.driver);
+  add("vehicle", choice.vehicle);
+  add("participant", choice.participant);
+  add_about("group", choice.group);
+  add_about("condition", choice.condition);
+  add_about("order", choice.order);
+  add_about("note", choice.note);
+  add("seed", choice.seed);
+  add("seconds", choice.seconds);
+  for (const auto& [name, value] : choice.parameters) command.push_back(fmt::format("--parameter={}={}", name, value));
+  if (choice.start_now) command.emplace_back("--start-now");
+  add("out", folder.string());
+  add("page", std::to_string(options.port));
+  for (const auto& host : options.page_hosts) add("page-host", host);
+  return command;
+}
+
+std::string typed(const std::vector<std::string>& command) {
+  std::string line;
+  for (const std::string& word : command) {
+    const bool is_plain = std::ranges::all_of(word, [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+             std::string_view("-_=./:,+@%").find(c) != std::string_view::npos;
+    });
+    line += line.empty() ? "" : " ";
+    if (is_plain && !word.empty()) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) c == '\'' ? line += "'\\''" : line += c;
+    line += '\'';
+  }
+  return line;
+}
+
+Expected<int> run_operate(OperateOptions options) {
+  auto choices = find_choices();
+  if (!choices) return tl::unexpected(choices.error());
+  if (options.out.empty()) {
+    const auto data = program::data_folder();
+    if (!data) return tl::unexpected(data.error());
+    options.out = *data / "out" / "drives";
+  }
+  std::error_code error;
+  fs::create_directories(options.out, error);
+  if (error) return failure(error.message(), options.out.string(), "choose a folder that can be written with --out");
+  options.out = fs::absolute(options.out, error).lexically_normal();
+  auto listening = page::ListeningSocket::open(options.port);
+  if (!listening) return tl::unexpected(listening.error());
+  options.port = listening->port();
+  auto logs = program::TemporaryFolder::make("septet");
+  if (!logs) return tl::unexpected(logs.error());
+  program::catch_stop_signals();
+  Operation operation(std::move(options), std::move(*listening), std::move(*choices), std::move(*logs));
+  program::announce("operator's page: " + operation.url());
+  return operation.run().map([] { return logging::finished_status; });
+}
+
+}  // namespace septet::server

@@ -1,0 +1,31 @@
+#pragma once
+/// `septet operate`: the operator's page without a drive. Each drive that is chosen there is a `septet drive` of its own, as it would be
+/// typed, which serves the page while it lasts; after that the page is here again.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/expected.hpp"
+#include "sim-server/page/drive_choice.hpp"
+
+namespace septet::server {
+
+struct OperateOptions {
+  std::uint16_t port = 0;               ///< Of the page on 127.0.0.1; 0: any free one.
+  std::vector<std::string> page_hosts;  ///< By what names, beside this machine's own, it may be asked for.
+  std::filesystem::path out;            ///< Where each drive gets a folder; empty: out/drives of the data folder.
+  std::filesystem::path keys;  ///< Of a rig of several machines, whose screens run already: septet-server is started.
+};
+
+/// Until a signal comes, which ends a drive that goes on in order. Prints the page's address to standard output.
+Expected<int> run_operate(OperateOptions options);
+
+/// What a choice is on the command line: the program's name and its arguments.
+std::vector<std::string> command_of(const page::DriveChoice& choice, const OperateOptions& options,
+                                    const std::filesystem::path& folder);
+/// The same as a person types it.
+std::string typed(const std::vector<std::string>& command);
+
+}  // namespace septet::server

@@ -1,0 +1,59 @@
+#include "sim-server/page/page_files.hpp"
+
+#include <string_view>
+
+namespace septet::page {
+namespace {
+
+constexpr std::string_view index_html =
+#include "sim-server/page/web/index.html.inc"
+    ;
+constexpr std::string_view page_css =
+#include "sim-server/page/web/page.css.inc"
+    ;
+constexpr std::string_view socket_js =
+#include "sim-server/page/web/socket.js.inc"
+    ;
+constexpr std::string_view conditions_js =
+#include "sim-server/page/web/conditions.js.inc"
+    ;
+constexpr std::string_view live_js =
+#include "sim-server/page/web/live.js.inc"
+    ;
+constexpr std::string_view screens_js =
+#include "sim-server/page/web/screens.js.inc"
+    ;
+constexpr std::string_view map_js =
+#include "sim-server/page/web/map.js.inc"
+    ;
+constexpr std::string_view sickness_js =
+#include "sim-server/page/web/sickness.js.inc"
+    ;
+constexpr std::string_view operator_js =
+#include "sim-server/page/web/operator.js.inc"
+    ;
+constexpr std::string_view start_js =
+#include "sim-server/page/web/start.js.inc"
+    ;
+constexpr std::string_view page_js =
+#include "sim-server/page/web/page.js.inc"
+    ;
+
+}  // namespace
+
+std::vector<Resource> page_files() {
+  constexpr const char* script = "text/javascript; charset=utf-8";
+  return {{"/", "text/html; charset=utf-8", index_html},
+          {"/page.css", "text/css; charset=utf-8", page_css},
+          {"/socket.js", script, socket_js},
+          {"/conditions.js", script, conditions_js},
+          {"/live.js", script, live_js},
+          {"/screens.js", script, screens_js},
+          {"/map.js", script, map_js},
+          {"/sickness.js", script, sickness_js},
+          {"/operator.js", script, operator_js},
+          {"/start.js", script, start_js},
+          {"/page.js", script, page_js}};
+}
+
+}  // namespace septet::page

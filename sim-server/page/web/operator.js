@@ -1,0 +1,30 @@
+'use strict';
+// What the operator does.
+
+$('take').onclick = () => {
+  if (mine) return ask({ do: 'release' }, show_command);
+  ask({ do: 'take', name: $('name').value }, (answer) => {
+    if (answer.ok) return;
+    $('takingtext').textContent = `${(state.commander && state.commander.name) || 'Somebody'} commands this drive now and will only look on.`;
+    $('taking').showModal();
+  });
+};
+$('taking').onclose = () => { if ($('taking').returnValue === 'yes') ask({ do: 'take', name: $('name').value, by_force: true }, show_command); };
+$('name').value = localStorage.getItem('name') || '';
+$('name').onchange = () => {
+  localStorage.setItem('name', $('name').value);
+  if (mine) ask({ do: 'take', name: $('name').value }, show_command);
+};
+$('pause').onclick = () => command({ do: $('pause').textContent === 'Pause' ? 'pause' : 'go_on' });
+$('rearm').onclick = () => command({ do: 'rearm' });
+$('end').onclick = () => { $('ending').returnValue = ''; $('ending').showModal(); };
+$('ending').onclose = () => { if ($('ending').returnValue === 'yes') command({ do: 'end', reason: $('reason').value }); };
+$('markform').onsubmit = (event) => {
+  event.preventDefault();
+  command({ do: 'mark', note: $('note').value });
+  $('note').value = '';
+};
+$('trafficform').onsubmit = (event) => {
+  event.preventDefault();
+  change(`traffic vehicles=${Math.max(0, Math.min(3000, Math.round(+$('vehicles').value || 0)))}`);
+};

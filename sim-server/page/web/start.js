@@ -1,0 +1,118 @@
+'use strict';
+// Without a drive: one is chosen and started, and past ones are looked at.
+
+function option(value, text, about) {
+  const made = document.createElement('option');
+  made.value = value;
+  made.textContent = text;
+  made.title = about || '';
+  return made;
+}
+
+function make_start() {
+  document.title = 'Septet: operator';
+  $('scenario').textContent = 'Septet';
+  $('about').textContent = 'no drive goes on';
+  document.body.classList.remove('paused');
+  const { scenarios, rigs, drivers, vehicles } = hello.choices;
+  const fill_choice = (id, list, none) => {
+    const chosen = $(id).value || localStorage.getItem(id);
+    $(id).replaceChildren(...(none ? [option('', none)] : []), ...list.map((one) => option(one.name, one.name, one.about)));
+    if (list.some((one) => one.name === chosen)) $(id).value = chosen;
+  };
+  fill_choice('choosescenario', scenarios);
+  fill_choice('chooserig', rigs, 'desktop, or off-screen without a display');
+  fill_choice('choosedriver', drivers, 'whom the rig names: a person as a rule');
+  fill_choice('choosevehicle', vehicles, 'the rig’s');
+  for (const id of ['chooserig', 'choosedriver', 'choosevehicle']) $(id).onchange = () => localStorage.setItem(id, $(id).value);
+  $('choosescenario').onchange = () => { localStorage.setItem('choosescenario', $('choosescenario').value); show_scenario(); };
+  show_scenario();
+}
+
+/// What the scenario is, and its parameters with their own values.
+function show_scenario() {
+  const scenario = hello.choices.scenarios.find((one) => one.name === $('choosescenario').value);
+  $('scenarioabout').textContent = scenario ? scenario.about : 'There is no scenario.';
+  $('parameters').replaceChildren(...(scenario ? scenario.parameters : []).map(({ name, value }) => {
+    const label = document.createElement('label'), input = document.createElement('input');
+    input.placeholder = value;
+    input.dataset.parameter = name;
+    input.maxLength = 200;
+    input.autocomplete = 'off';
+    label.append(name, input);
+    return label;
+  }));
+  $('parametersbox').hidden = !scenario || !scenario.parameters.length;
+}
+
+function chosen() {
+  const choice = { do: 'start', start_now: $('startnow').checked, parameters: {} };
+  for (const [member, id] of Object.entries({ scenario: 'choosescenario', rig: 'chooserig', driver: 'choosedriver', vehicle: 'choosevehicle', participant: 'participant',
+    group: 'group', condition: 'condition', order: 'order', note: 'drivenote', seed: 'seed', seconds: 'seconds' })) choice[member] = $(id).value.trim();
+  for (const input of $('parameters').querySelectorAll('input')) if (input.value.trim()) choice.parameters[input.dataset.parameter] = input.value.trim();
+  return choice;
+}
+
+function show_start() {
+  const s = state;
+  show_command();
+  $('phase').textContent = s.starting ? 'being made ready' : 'ready';
+  $('startbutton').disabled = s.starting;
+  $('cancel').hidden = !s.starting;
+  $('startcommand').textContent = s.command;
+  $('startsaid').textContent = s.said.join('\n');
+  $('startsaid').hidden = !s.said.length || (!s.starting && !s.failed);
+  $('startlast').textContent = s.starting ? 'Reading scenario and rig …' : s.last ? `The last drive: ${s.last}` : 'Nothing has been driven from this page yet.';
+  $('startlast').classList.toggle('failed', s.failed);
+  show_sessions();
+}
+
+function show_sessions() {
+  const body = $('sessions'), key = JSON.stringify(state.sessions);
+  if (body.dataset.key === key) return;
+  body.dataset.key = key;
+  body.replaceChildren(...state.sessions.map((session) => {
+    const row = document.createElement('tr');
+    const cell = (text, title) => {
+      const made = row.insertCell();
+      made.textContent = text;
+      if (title) made.title = title;
+      return made;
+    };
+    cell(session.started_utc.replace('T', ' ').replace('Z', ''), session.folder);
+    cell(session.scenario, session.rig);
+    cell(session.participant || '–');
+    cell(session.driver || 'a person');
+    cell(session.simulated_s ? `${session.simulated_s.toFixed(0)} s` : '–');
+    cell(session.ended.replaceAll('_', ' '));
+    const files = cell('');
+    for (const [file, name, is_there] of [['report.html', 'Report', session.has_report], ['debrief.html', 'Debrief', session.has_debrief]]) {
+      if (!is_there) continue;
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = name;
+      button.onclick = () => look(session.id, file);
+      files.append(button);
+    }
+    return row;
+  }));
+  $('nosessions').hidden = state.sessions.length > 0;
+}
+
+/// A report in a tab of its own. That is opened at once, or the browser takes it for a pop-up.
+function look(id, file) {
+  const tab = window.open('about:blank');
+  ask({ do: 'look', session: id, file }, (answer) => {
+    if (answer.ok && tab) tab.location = answer.path;
+    else {
+      if (tab) tab.close();
+      alarm(answer.why || 'The browser opens no new tab.');
+    }
+  });
+}
+
+$('startform').onsubmit = (event) => {
+  event.preventDefault();
+  ask(chosen(), (answer) => { if (!answer.ok) alarm(`Not started: ${answer.why}`); });
+};
+$('cancel').onclick = () => ask({ do: 'cancel' }, () => {});

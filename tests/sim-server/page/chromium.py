@@ -1,0 +1,84 @@
+"""A headless Chromium, told what to do over its debugging socket."""
+import json
+import pathlib
+import socket
+import struct
+import subprocess
+import sys
+import time
+import urllib.request
+
+LIMIT_S = 300  # Which only a hang reaches.
+
+
+class Browser:
+    """Told what to do over its debugging socket."""
+
+    def __init__(self, program, folder):
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-port=0",
+             f"--user-data-dir={folder}", "--window-size=1440,1040", "about:blank"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        said = pathlib.Path(folder, "DevToolsActivePort")
+        wait_for(lambda: said.exists() and "\n" in said.read_text(), "Chromium to start")
+        port = int(said.read_text().split()[0])
+        pages = json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=LIMIT_S))
+        path = next(page for page in pages if page["type"] == "page")["webSocketDebuggerUrl"].split(str(port), 1)[1]
+        self.socket, self.bytes, self.number = socket.create_connection(("127.0.0.1", port), LIMIT_S), b"", 0
+        self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                            "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode())
+        while b"\r\n\r\n" not in self.bytes:
+            self.bytes += self.socket.recv(4096)
+        self.bytes = self.bytes.split(b"\r\n\r\n", 1)[1]
+
+    def read(self, count):
+        while len(self.bytes) < count:
+            more = self.socket.recv(1 << 20)
+            if not more:
+                raise EOFError("Chromium has gone")
+            self.bytes += more
+        taken, self.bytes = self.bytes[:count], self.bytes[count:]
+        return taken
+
+    def call(self, method, **parameters):
+        self.number += 1
+        data, mask = json.dumps({"id": self.number, "method": method, "params": parameters}).encode(), b"mask"
+        size = bytes([0x80 | len(data)]) if len(data) < 126 else b"\xfe" + struct.pack(">H", len(data))
+        self.socket.sendall(b"\x81" + size + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(data)))
+        while True:
+            message, is_last = b"", False
+            while not is_last:
+                first, size = self.read(2)
+                is_last, size = first & 0x80, size & 127
+                if size > 125:
+                    size = int.from_bytes(self.read(2 if size == 126 else 8), "big")
+                message += self.read(size)
+            answer = json.loads(message)
+            if answer.get("id") == self.number:
+                return answer["result"]
+
+    def value(self, script):
+        answer = self.call("Runtime.evaluate", expression=script, returnByValue=True)
+        assert "exceptionDetails" not in answer, (script, answer)
+        return answer["result"].get("value")
+
+    def until(self, script):
+        wait_for(lambda: self.value(script), script)
+
+    def open(self, url):
+        self.call("Page.navigate", url=url)
+        self.until("typeof state !== 'undefined' && state && state.tick > 0")
+
+    def click(self, selector):
+        self.value(f"document.querySelector({selector!r}).click()")
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+
+def wait_for(condition, what):
+    until = time.monotonic() + LIMIT_S
+    while not condition():
+        if time.monotonic() > until:
+            sys.exit(f"waited in vain for: {what}")
+        time.sleep(0.02)
