@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
         if (const auto problem = film::read_layers(text, options.layers); !problem.empty())
           throw CLI::ValidationError(problem);
       });
+  app.add_flag("!--no-sound", options.sound, "Leave out what the driver heard")->default_str("");
   app.add_flag("--resume", options.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");
