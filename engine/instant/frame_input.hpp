@@ -88,6 +88,7 @@ struct FrameInput {
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
   std::vector<ice::IceBody> ice;           ///< To see through; a mesh of its shape that is not `seen` casts its shadow.
+  std::vector<ice::IceBody> glass;         ///< Frost and cracks on panes: bodies whose look is of what lies on glass.
   std::uint32_t ice_surroundings_px = 64;  ///< Side of each of the six pictures of what lies around it.
   bool ice_surroundings_kept = false;      ///< Those of the frame before do, where there are any: nothing has moved.
   std::vector<SmokePuff> smoke;

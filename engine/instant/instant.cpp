@@ -72,11 +72,15 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
     const float share = share_of_sky(scene, mesh.origin_m);
     instant.loose.push_back({std::move(mesh), material, share});
   }
-  for (ice::IceBody& body : input.ice) {
-    if (body.vertices.size() < 3) continue;
-    body.look.share_of_sky *= share_of_sky(scene, body.origin_m);
-    instant.ice.push_back(std::move(body));
-  }
+  const auto take_ice = [&](std::vector<ice::IceBody>& from, std::vector<ice::IceBody>& into) {
+    for (ice::IceBody& body : from) {
+      if (body.vertices.size() < 3) continue;
+      body.look.share_of_sky *= share_of_sky(scene, body.origin_m);
+      into.push_back(std::move(body));
+    }
+  };
+  take_ice(input.ice, instant.ice);
+  take_ice(input.glass, instant.glass);
   instant.ice_surroundings_px = input.ice_surroundings_px;
   instant.ice_surroundings_kept = input.ice_surroundings_kept;
   instant.views = std::move(input.views);

@@ -43,7 +43,8 @@ struct Instant {
   std::vector<FrameView> views;   ///< At least one.
   std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
-  std::vector<ice::IceBody> ice;  ///< None without vertices.
+  std::vector<ice::IceBody> ice;    ///< None without vertices.
+  std::vector<ice::IceBody> glass;  ///< Likewise.
   std::uint32_t ice_surroundings_px = 64;
   bool ice_surroundings_kept = false;
   std::vector<LampGlow> lamps;  ///< That shine and are seen, for the glow around them.

@@ -117,6 +117,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
       frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke,
                                                 surroundings_detail(instant.ice_surroundings_px)));
   }
+  frame.glass = upload_glass(context, instant.glass);
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);
   return frame;

@@ -32,6 +32,7 @@ struct PreparedFrame {
   std::array<SurfaceDraws, cascade_count> casters;
   IceTiles ice;
   IceUpload ice_upload;
+  std::vector<FrameData> glass;   ///< Vertices of Instant::glass.
   std::vector<FrameView> around;  ///< The surroundings of the ice; nothing where none is seen.
   std::vector<PreparedView> around_views;
 };

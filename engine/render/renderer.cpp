@@ -188,12 +188,15 @@ void Renderer::State::draw_views(PassContext& context, const PreparedFrame& fram
   for (std::uint32_t i = 0; i < frame.views.size(); ++i) {
     const PreparedView& prepared = frame.views[i];
     if (i > 0) clear_inset(context, targets, prepared.view->viewport);
+    const Vec3 eye_m = world_eye(*prepared.view);
     draw_view(context, prepared, instant, soot, [&] {
-      if (frame.ice.list.empty()) return;
-      draw_ice(ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
+      if (frame.ice.list.empty() && instant.glass.empty()) return;
+      if (!frame.ice.list.empty()) draw_ice(ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
+      draw_glass(ice_pass, context, instant.glass, frame.glass, eye_m, false);
       // Ice has no instances and its own constants; what follows has both.
       bind_instances(context, prepared.draws.records);
     });
+    draw_glass(ice_pass, context, instant.glass, frame.glass, eye_m, true);
   }
   vkCmdEndRendering(context.slot.commands);
 }

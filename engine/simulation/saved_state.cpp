@@ -23,6 +23,9 @@ SEPTET_MEMBERS(GroundPoint, height_m, normal, friction_factor)
 namespace septet::ice {
 SEPTET_MEMBERS(LyingSlab, vehicle, foot_m, size_m)
 SEPTET_MEMBERS(IcicleRow, from_m, to_m, longest_m, seed)
+SEPTET_MEMBERS(Frost, thickness_kgpm2, heated_s, seed, glass_k, melted_kgpm2)
+SEPTET_MEMBERS(Star, across, up, reach_m, seed)
+SEPTET_MEMBERS(Pane, vehicle, frost, stars)
 SEPTET_MEMBERS(Sheet, left_m, right_m, thickness_m)
 // Where icicles hang follows from roads and seed, and sheets from the black ice.
 SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_kh))
@@ -31,7 +34,8 @@ SEPTET_MEMBER_GROUPS(StillIce, hashed(slabs), kept(rows, sheets), hashed(thawed_
 namespace septet::simulation {
 
 SEPTET_MEMBERS(BlackIce, road, lane, s_m, length_m, thickness_m)
-SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(keyframe))
+// Panes are in the effects' chained hash, where there are any.
+SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass_keyframe))
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)

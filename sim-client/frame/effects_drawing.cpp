@@ -8,6 +8,7 @@ void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, d
   debris_shown_ = debris_.draw(effects_at(history, simulated_time_s, tick_s), simulated_time_s / tick_s, scene,
                                instant.environment.temperature_k);
   ice_.show(instant, scene);
+  glass_.show(instant, scene);
   puffs_ = smoke_.draw(instant.effects, simulated_time_s);
   soot_.draw(instant.effects);
 }
@@ -16,6 +17,7 @@ void EffectsDrawing::add_to(instant::FrameInput& frame) const {
   frame.meshes = debris_shown_.meshes;
   frame.ice = debris_shown_.ice;
   ice_.add_to(frame);
+  glass_.add_to(frame);
   frame.ice_surroundings_px = 32;  // Uneven ice under a crust shows no more of them.
   frame.smoke = puffs_;
   frame.soot = soot_.field();

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "engine/effects/debris/debris_keyframe.hpp"
+#include "engine/effects/ice/glass_keyframe.hpp"
 #include "engine/effects/ice/ice_keyframe.hpp"
 #include "engine/effects/smoke/smoke_keyframe.hpp"
 #include "engine/effects/smoke/soot_keyframe.hpp"
@@ -64,11 +65,23 @@ void feed_ice(std::span<const std::byte> bytes) {
     for (const ice::Icicle& icicle : ice::icicles_of(row, ice->thawed_kh)) require(icicle.length_m >= 0.0);
 }
 
+void feed_glass(std::span<const std::byte> bytes) {
+  const auto panes = ice::decode_glass(bytes);
+  if (!panes) return;
+  const Bytes again = ice::encode_glass(*panes);
+  require(ice::decode_glass(again).has_value());
+  const ice::PaneShape shape = ice::pane_between({1, -1, 1}, {1, 1, 1}, {0.5, -1, 1.5}, {0.5, 1, 1.5}, 0.04);
+  for (ice::Pane pane : *panes) {
+    ice::warm(pane.frost, ice::freezing_k, 10.0, 0.1);
+    for (const ice::Star& star : pane.stars) require(ice::star_surface(shape, star).size() % 3 == 0);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   ByteReader input(std::as_bytes(std::span(data, size)));
-  switch (input.get<std::uint8_t>() % 5) {
+  switch (input.get<std::uint8_t>() % 6) {
     case 0:
       feed_snapshots(input);
       break;
@@ -80,6 +93,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 3:
       feed_soot(input.take(input.remaining()));
+      break;
+    case 4:
+      feed_glass(input.take(input.remaining()));
       break;
     default:
       feed_ice(input.take(input.remaining()));

@@ -18,7 +18,11 @@ enum class Mode : std::uint8_t {
 /// What is drawn of it: all, or the depth of a layer between its nearest (white) and its furthest place (figure 5 a, b).
 enum class Shown : std::uint8_t { all, front_depth, back_depth };
 
+/// What lies on glass: a surface without thickness, seen from both sides, of which what lies behind is seen through (glass.hpp).
+enum class OnGlass : std::uint8_t { nothing, frost, cracks };
+
 struct Look {
+  OnGlass on_glass = OnGlass::nothing;
   Mode mode = Mode::paper;
   Shown shown = Shown::all;
   bool two_sided = true;  ///< Off: the front face alone refracts.

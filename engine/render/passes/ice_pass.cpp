@@ -275,7 +275,8 @@ void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::Memor
       if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
   for (const VkPipeline pipeline : pass.layers)
     if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
-  if (pass.cracks) vkDestroyPipeline(device.device, pass.cracks, nullptr);
+  for (const VkPipeline pipeline : {pass.cracks, pass.glass[0], pass.glass[1]})
+    if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
   pass = {};
 }
 

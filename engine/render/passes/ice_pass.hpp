@@ -48,6 +48,7 @@ struct IcePass {
   std::map<std::uint32_t, VkPipeline> fronts, insides;  ///< By variant.
   std::array<VkPipeline, 6> layers{};                   ///< By variant.
   VkPipeline cracks = VK_NULL_HANDLE;
+  std::array<VkPipeline, 2> glass{};  ///< Of frost and of cracks on it.
 };
 
 /// What of a frame's ice is on the device.
@@ -80,6 +81,13 @@ void draw_ice_layer(IcePass& pass, PassContext& context, IceImage layer, const I
 /// Into the view that is being drawn, which has this index.
 void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::uint32_t view,
               std::span<const ice::IceBody> bodies, const IceUpload& upload);
+
+/// Frost and cracks on panes, over what the view shows so far (ice_glass.cpp); `near`: those within arm's reach of the eye, which
+/// are drawn after all else, or the others.
+void draw_glass(IcePass& pass, PassContext& context, std::span<const ice::IceBody> bodies,
+                std::span<const FrameData> vertices, const Vec3& eye_m, bool near);
+/// The vertices of each body, for this frame.
+std::vector<FrameData> upload_glass(PassContext& context, std::span<const ice::IceBody> bodies);
 
 /// From the six pictures side by side to the cube map.
 void copy_surroundings(const IcePass& pass, PassContext& context);

@@ -75,6 +75,9 @@ constexpr std::uint32_t ice_layer_frag_code[] = {
 constexpr std::uint32_t ice_crack_frag_code[] = {
 #include "engine/render/shaders/ice_crack.frag.inc"
 };
+constexpr std::uint32_t ice_glass_frag_code[] = {
+#include "engine/render/shaders/ice_glass.frag.inc"
+};
 constexpr std::uint32_t ice_inside_frag_code[] = {
 #include "engine/render/shaders/ice_inside.frag.inc"
 };
@@ -111,6 +114,7 @@ std::span<const std::uint32_t> ice_inside_vert() { return ice_inside_vert_code; 
 std::span<const std::uint32_t> ice_layer_vert() { return ice_layer_vert_code; }
 std::span<const std::uint32_t> ice_layer_frag() { return ice_layer_frag_code; }
 std::span<const std::uint32_t> ice_crack_frag() { return ice_crack_frag_code; }
+std::span<const std::uint32_t> ice_glass_frag() { return ice_glass_frag_code; }
 std::span<const std::uint32_t> ice_inside_frag() { return ice_inside_frag_code; }
 std::span<const std::uint32_t> overlay_vert() { return overlay_vert_code; }
 std::span<const std::uint32_t> overlay_frag() { return overlay_frag_code; }

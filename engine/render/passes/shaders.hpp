@@ -30,6 +30,7 @@ std::span<const std::uint32_t> ice_inside_vert();
 std::span<const std::uint32_t> ice_layer_vert();
 std::span<const std::uint32_t> ice_layer_frag();
 std::span<const std::uint32_t> ice_crack_frag();
+std::span<const std::uint32_t> ice_glass_frag();
 std::span<const std::uint32_t> ice_inside_frag();
 std::span<const std::uint32_t> overlay_vert();
 std::span<const std::uint32_t> overlay_frag();

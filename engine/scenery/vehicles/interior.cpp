@@ -11,6 +11,7 @@
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
+#include "engine/world/windscreen.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -103,8 +104,11 @@ VehicleParts interior_parts() {
   parts.push_back({"dashboard", dashboard(), 0, {Placement{}}});
   MeshBuilder pillars;
   pillars.material = index_of(Finish::cabin);
-  for (const float side : {1.0f, -1.0f})
-    add_limb(pillars, {2.02f, side * 0.80f, 0.94f}, {1.36f, side * 0.60f, 1.37f}, 0.045f, 0.04f, 8);
+  for (const float side : {1.0f, -1.0f}) {
+    using namespace windscreen;
+    const glm::vec3 foot(foot_left_m), head(head_left_m);
+    add_limb(pillars, {foot.x, side * foot.y, foot.z}, {head.x, side * head.y, head.z}, 0.045f, 0.04f, 8);
+  }
   // The doors below their windows, and the scuttle's ends.
   pillars.patch({1.4f, 0.80f, 0.2f}, {2.66f, 0.80f, 0.2f}, {2.66f, 0.80f, 0.93f}, {1.4f, 0.80f, 0.99f});
   pillars.patch({2.66f, -0.80f, 0.2f}, {1.4f, -0.80f, 0.2f}, {1.4f, -0.80f, 0.99f}, {2.66f, -0.80f, 0.93f});

@@ -32,10 +32,20 @@ debris::CrashBody body_of(const Participant& participant, const MountedParts& pa
   return body;
 }
 
+void note_glass(ParticipantId vehicle, const debris::CrashBody& body, const Vec3& point_m, double closing_mps,
+                CrashOutcome& outcome) {
+  const auto is_windscreen = [](const debris::MountedPart& part) { return part.part == debris::Part::windscreen; };
+  const bool gone = std::ranges::none_of(body.parts, is_windscreen);
+  const Vec3 local_m = inverse(body.box.world_from_box) * point_m;
+  outcome.glass.push_back(
+      {vehicle, gone, std::clamp(0.5 + 0.5 * local_m.y / body.box.half_size_m.y, 0.0, 1.0), closing_mps});
+}
+
 void throw_parts(const Participant& car, debris::Crash& blow, const debris::ContactWorld& world, CrashMemory& memory,
                  debris::State& debris, Random& random, CrashOutcome& outcome) {
   const debris::CrashReport report = debris::crash(debris, blow, world, random);
   ++outcome.crashes;
+  note_glass(car.id, blow.first, blow.point_m, report.closing_speed_mps, outcome);
   outcome.pieces += static_cast<int>(report.pieces.size());
   outcome.impulse_on_driver_ns += blow.first.impulse_ns;
   memory.parts[car.id] = std::move(blow.first.parts);
@@ -55,6 +65,7 @@ void crash_with_vehicle(const Participant& car, const Participant& other, const 
   const double common = blow.first.mass_kg * blow.second.mass_kg / (blow.first.mass_kg + blow.second.mass_kg);
   outcome.impulse_on_driver_ns += blow.normal * (common * closing);
   throw_parts(car, blow, world, memory, debris, random, outcome);
+  note_glass(other.id, blow.second, blow.point_m, closing, outcome);
   memory.parts[other.id] = std::move(blow.second.parts);
 }
 

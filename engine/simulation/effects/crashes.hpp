@@ -23,10 +23,19 @@ struct CrashMemory {
   MountedParts parts;
 };
 
+/// A windscreen that a crash shook.
+struct ShakenGlass {
+  ParticipantId vehicle = 0;
+  bool gone = false;    ///< It is in its car no more.
+  double across = 0.5;  ///< Where it was hit: 0 at its right, 1 at its left.
+  double closing_mps = 0.0;
+};
+
 struct CrashOutcome {
   int crashes = 0;
   int pieces = 0;
   Vec3 impulse_on_driver_ns{0.0};
+  std::vector<ShakenGlass> glass;
 };
 
 /// Two boxes as rectangles on the ground: do they overlap, and if so, where and which way out (shortest, from b to a)?

@@ -94,7 +94,7 @@ void spill(const scenario::EffectAction& action, const scenario::Entity& entity,
 bool effects_are_still(const EffectsState& state) {
   return state.debris.pieces.empty() && state.debris.shards.empty() && state.published.keyframes.empty() &&
          state.crashes.struck_by_driver.empty() && state.crashes.struck_standing.empty() && !state.fires.smoke &&
-         state.ice.still.empty() && state.ice.keyframe.data.empty();
+         state.ice.still.empty() && state.ice.keyframe.data.empty() && state.ice.panes.empty();
 }
 
 EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
@@ -120,13 +120,22 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
   advance_fires(world.participants, world.environment, world.tick, static_cast<double>(world.tick) * world.tick_s,
                 step_s, state.fires);
 
-  advance_ice(world.environment.temperature_k, step_s, world.tick + effects_step_ticks, state.ice);
+  for (const ShakenGlass& glass : report.crashes.glass) shake_glass(glass, state.ice);
+  const auto driver = std::ranges::find(world.participants, world.driver, &Participant::id);
+  const double driver_speed_mps = driver != world.participants.end() ? glm::length(driver->velocity_mps) : 0.0;
+  advance_ice({world.environment.temperature_k, driver_speed_mps}, step_s, world.tick + effects_step_ticks, state.ice);
 
   StateHash hash;
   hash.add(state.hash);
   // What is new of the smoke; its keyframes follow wholly from it.
   for (const EffectKeyframe& keyframe : state.fires.keyframes)
     if (keyframe.tick == world.tick) hash.add_bytes(keyframe.data);
+  for (const ice::Pane& pane : state.ice.panes) {
+    hash.add(pane.vehicle);
+    for (const double glass_k : pane.frost.glass_k) hash.add(glass_k);
+    for (const double melted : pane.frost.melted_kgpm2) hash.add(melted);
+    for (const ice::Star& star : pane.stars) hash.add(star.seed);
+  }
   debris::add_to_hash(state.debris, hash);
   hash_members(hash, state.random);
   state.hash = hash.value();
@@ -138,7 +147,8 @@ EffectsReport advance_effects(const EffectsWorld& world, EffectsState& state) {
 std::vector<EffectKeyframe> effect_keyframes(const EffectsState& state) {
   std::vector<EffectKeyframe> keyframes = state.fires.keyframes;
   keyframes.insert(keyframes.end(), state.published.keyframes.begin(), state.published.keyframes.end());
-  if (!state.ice.keyframe.data.empty()) keyframes.push_back(state.ice.keyframe);
+  for (const EffectKeyframe& keyframe : {state.ice.keyframe, state.ice.glass_keyframe})
+    if (!keyframe.data.empty()) keyframes.push_back(keyframe);
   return keyframes;
 }
 

@@ -1,7 +1,9 @@
 #include "engine/simulation/effects/ice_stage.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -100,6 +102,8 @@ IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& s
                 lay(*effect, scenario.entities[effect->entity],
                     effect->entity == driver ? driver_id : first_id + effect->entity, state.still);
   if (storyboard.environment.temperature_k >= ice::freezing_k) return state;
+  state.panes.push_back(
+      {driver_id, ice::morning_frost(storyboard.environment.temperature_k, static_cast<std::uint32_t>(seed)), {}});
   for (road::RoadIndex i = 0; i < roads.roads.size(); ++i)
     for (const road::RoadStructure& structure : roads.roads[i].structures)
       (structure.kind == road::RoadStructure::Kind::tunnel ? hang_at_tunnel : hang_at_bridge)(roads, i, structure, seed,
@@ -128,12 +132,35 @@ double release_slab(ParticipantId vehicle, const Vec2& place_m, double thickness
   return ice::left_m(thickness_m, state.still.thawed_kh) / thickness_m;
 }
 
-void advance_ice(double temperature_k, double step_s, Tick shows, IceState& state) {
+void shake_glass(const ShakenGlass& glass, IceState& state) {
+  auto pane = std::ranges::find(state.panes, glass.vehicle, &ice::Pane::vehicle);
+  if (glass.gone) {
+    if (pane != state.panes.end()) state.panes.erase(pane);
+    return;
+  }
+  if (!(glass.closing_mps >= ice::least_starring_mps)) return;
+  if (pane == state.panes.end()) {
+    if (state.panes.size() >= ice::most_panes) return;
+    pane = state.panes.insert(pane, ice::Pane{glass.vehicle, {}, {}});
+  }
+  if (pane->stars.size() >= ice::most_stars) return;
+  const std::uint64_t seed = std::bit_cast<std::uint64_t>(glass.closing_mps) ^ glass.vehicle;
+  pane->stars.push_back(ice::star_of_blow(glass.across, glass.closing_mps, seed));
+}
+
+void advance_ice(const IceWeather& weather, double step_s, Tick shows, IceState& state) {
+  const auto renew = [&](EffectKeyframe& keyframe, std::uint32_t id, std::uint16_t kind, Bytes data) {
+    if (data != keyframe.data) keyframe = {id, kind, std::move(data), shows};
+  };
+  if (!state.panes.empty() || !state.glass_keyframe.data.empty()) {
+    for (ice::Pane& pane : state.panes) ice::warm(pane.frost, weather.temperature_k, weather.driver_speed_mps, step_s);
+    std::erase_if(state.panes,
+                  [](const ice::Pane& pane) { return pane.stars.empty() && !(pane.frost.thickness_kgpm2 > 0.0); });
+    renew(state.glass_keyframe, ice::glass_effect_id, ice::glass_keyframe_kind, ice::encode_glass(state.panes));
+  }
   if (state.still.empty() && state.keyframe.data.empty()) return;
-  state.still.thawed_kh += ice::degree_hours(temperature_k, step_s);
-  Bytes data = ice::encode(state.still);
-  if (data == state.keyframe.data) return;
-  state.keyframe = {ice::effect_id, ice::keyframe_kind, std::move(data), shows};
+  state.still.thawed_kh += ice::degree_hours(weather.temperature_k, step_s);
+  renew(state.keyframe, ice::effect_id, ice::keyframe_kind, ice::encode(state.still));
 }
 
 }  // namespace septet::simulation

@@ -3,22 +3,26 @@
 
 #include <vector>
 
+#include "engine/effects/ice/glass_keyframe.hpp"
 #include "engine/effects/ice/ice_keyframe.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/scenario/scenario.hpp"
 #include "engine/scenario/scenario_state.hpp"
 #include "engine/simulation/effects/black_ice.hpp"
+#include "engine/simulation/effects/crashes.hpp"
 
 namespace septet::simulation {
 
 struct IceState {
   ice::StillIce still;
-  std::vector<BlackIce> black;  ///< One for each sheet of `still`, in its order.
-  EffectKeyframe keyframe;      ///< No bytes while there is no ice.
+  std::vector<BlackIce> black;    ///< One for each sheet of `still`, in its order.
+  std::vector<ice::Pane> panes;   ///< Windscreens with frost or cracks.
+  EffectKeyframe keyframe;        ///< No bytes while there is no ice.
+  EffectKeyframe glass_keyframe;  ///< No bytes before there are panes.
 };
 
 /// Slabs that the storyboard will spill lie on their roofs from the start, where they find room; in frost, icicles hang at the
-/// mouths of tunnels and along bridges.
+/// mouths of tunnels and along bridges, and the driver's windscreen has frost.
 IceState initial_ice(const road::RoadNetwork& roads, const scenario::Scenario& scenario,
                      const scenario::ScenarioState& storyboard, scenario::EntityIndex driver, ParticipantId driver_id,
                      ParticipantId first_id, std::uint64_t seed);
@@ -29,7 +33,14 @@ void freeze(const road::RoadNetwork& roads, const scenario::EffectAction& action
 /// How much of a slab's thickness is left, 0 to 1; it lies on its roof no more.
 double release_slab(ParticipantId vehicle, const Vec2& place_m, double thickness_m, IceState& state);
 
-/// Lets it thaw for `step_s`; the keyframe shows `shows`.
-void advance_ice(double temperature_k, double step_s, Tick shows, IceState& state);
+/// A blow cracks a windscreen, or takes it out of its car; nothing happens at walking pace, and where there are stars enough.
+void shake_glass(const ShakenGlass& glass, IceState& state);
+
+struct IceWeather {
+  double temperature_k = 288.15;
+  double driver_speed_mps = 0.0;  ///< Of the car whose windscreen is warmed.
+};
+/// Lets it thaw for `step_s`; the keyframes show `shows`.
+void advance_ice(const IceWeather& weather, double step_s, Tick shows, IceState& state);
 
 }  // namespace septet::simulation

@@ -1,5 +1,6 @@
 #include "engine/simulation/effects/effects_stage.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 #include <doctest/doctest.h>
@@ -145,6 +146,12 @@ TEST_CASE("a car that hits another throws parts and no part twice") {
   const Vec3 forward = participants[0].world_from_vehicle.orientation * Vec3(1.0, 0.0, 0.0);
   CHECK(glm::dot(report.impulse_on_driver_ns, forward) < -5000.0);
   REQUIRE(state.crashes.parts.contains(1));
+  // Of each car whose windscreen is still in it the glass has starred.
+  for (const ParticipantId id : {1u, 7u}) {
+    const bool kept = std::ranges::any_of(
+        state.crashes.parts[id], [](const debris::MountedPart& part) { return part.part == debris::Part::windscreen; });
+    CHECK(std::ranges::count(state.ice.panes, id, &ice::Pane::vehicle) == (kept ? 1 : 0));
+  }
   const auto all_parts = [&](std::size_t i) {
     return debris::passenger_car_parts(body_box(participants[i]).half_size_m);
   };

@@ -119,9 +119,9 @@ TEST_CASE("black ice takes the wheels' grip where it lies and until it has thawe
   CHECK(friction_at(state, 1179.0, -7, 268.15) == dry);
   CHECK(friction_at(state, 1221.0, -7, 268.15) == dry);
   // Four millimetres are twelve degree-hours: two hours at six degrees.
-  for (int i = 0; i < 7000; ++i) advance_ice(ice::freezing_k + 6.0, 1.0, 2, state);
+  for (int i = 0; i < 7000; ++i) advance_ice({ice::freezing_k + 6.0, 0.0}, 1.0, 2, state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == iced);
-  for (int i = 0; i < 300; ++i) advance_ice(ice::freezing_k + 6.0, 1.0, 2, state);
+  for (int i = 0; i < 300; ++i) advance_ice({ice::freezing_k + 6.0, 0.0}, 1.0, 2, state);
   CHECK(friction_at(state, 1200.0, -7, 268.15) == dry);
   // What freezes then is there in full.
   freeze(motorway(), black_ice("1", -7), state);
@@ -148,15 +148,61 @@ TEST_CASE("black ice lies within its lane on the road, and nowhere where there i
 
 TEST_CASE("the keyframe of still ice is renewed when there is another to tell and not before") {
   IceState state = start(lorry_with({slab(-2.6, -0.2)}), 280.0);
-  advance_ice(270.0, 0.1, 2, state);
+  advance_ice({270.0, 20.0}, 0.1, 2, state);
   CHECK(state.keyframe.tick == 2);
-  advance_ice(270.0, 0.1, 4, state);
+  advance_ice({270.0, 20.0}, 0.1, 4, state);
   CHECK(state.keyframe.tick == 2);
-  advance_ice(290.0, 60.0, 6, state);
+  advance_ice({290.0, 20.0}, 60.0, 6, state);
   CHECK(state.keyframe.tick == 6);
   release_slab(2, {-2.6, -0.2}, 0.08, state);
-  advance_ice(270.0, 0.1, 8, state);
+  advance_ice({270.0, 20.0}, 0.1, 8, state);
   CHECK(state.keyframe.tick == 8);
   REQUIRE(ice::decode(state.keyframe.data));
   CHECK(ice::decode(state.keyframe.data)->slabs.empty());
+}
+
+TEST_CASE("a windscreen has frost in the morning and stars where blows shook it, but for those at walking pace") {
+  IceState state = start(lorry_with({}), 268.15);
+  REQUIRE(state.panes.size() == 1);
+  CHECK(state.panes[0].vehicle == 1);
+  CHECK(state.panes[0].frost.thickness_kgpm2 == doctest::Approx(0.15));
+  CHECK(start(lorry_with({}), 280.0).panes.empty());
+  shake_glass({7, false, 0.5, 1.0}, state);
+  CHECK(state.panes.size() == 1);
+  shake_glass({1, false, 0.2, 10.0}, state);
+  for (int i = 0; i < 20; ++i) shake_glass({7, false, 0.8, 25.0 + i}, state);
+  REQUIRE(state.panes.size() == 2);
+  for (const ice::Pane& pane : state.panes) {
+    const bool drivers = pane.vehicle == 1;
+    REQUIRE(pane.stars.size() == (drivers ? 1 : ice::most_stars));
+    CHECK(std::abs(pane.stars[0].across - (drivers ? 0.2 : 0.8)) <= 0.1);
+    CHECK(pane.stars[0].reach_m == doctest::Approx(drivers ? 0.35 : 0.875));
+  }
+  advance_ice({268.15, 0.0}, 0.1, 2, state);
+  CHECK(state.glass_keyframe.id == ice::glass_effect_id);
+  const auto read = ice::decode_glass(state.glass_keyframe.data);
+  REQUIRE(read);
+  REQUIRE(read->size() == 2);
+  CHECK((*read)[0].stars[0].seed == state.panes[0].stars[0].seed);
+  // One that has flown out of its car has neither frost nor cracks, and the screens are told so.
+  shake_glass({1, true, 0.2, 30.0}, state);
+  shake_glass({9, true, 0.2, 30.0}, state);
+  REQUIRE(state.panes.size() == 1);
+  CHECK(state.panes[0].vehicle == 7);
+  advance_ice({268.15, 0.0}, 0.1, 4, state);
+  CHECK(state.glass_keyframe.tick == 4);
+  REQUIRE(ice::decode_glass(state.glass_keyframe.data));
+  CHECK(ice::decode_glass(state.glass_keyframe.data)->size() == 1);
+}
+
+TEST_CASE("the blower thaws the driver's windscreen until nothing of it is left to tell") {
+  IceState state = start(lorry_with({}), 268.15);
+  double before = state.panes[0].frost.melted_kgpm2.back();
+  for (int i = 0; i < 120; ++i) advance_ice({268.15, 20.0}, 0.5, 2, state);
+  REQUIRE(state.panes.size() == 1);
+  CHECK(state.panes[0].frost.melted_kgpm2.back() > before);
+  for (int i = 0; i < 2000; ++i) advance_ice({278.15, 20.0}, 0.5, 4, state);
+  CHECK(state.panes.empty());
+  REQUIRE(ice::decode_glass(state.glass_keyframe.data));
+  CHECK(ice::decode_glass(state.glass_keyframe.data)->empty());
 }

@@ -1,0 +1,11 @@
+#pragma once
+/// The windscreen of the car whose inside is drawn (the Volvo S80), vehicle frame: what its pillars stand around.
+
+#include "engine/math/rigid_transform.hpp"
+
+namespace septet::windscreen {
+
+/// The left ends of its foot and of its head; the right ones are their mirror images.
+inline constexpr Vec3 foot_left_m{2.02, 0.80, 0.94}, head_left_m{1.36, 0.60, 1.37};
+
+}  // namespace septet::windscreen
