@@ -128,9 +128,8 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     if (!heard) return tl::unexpected(heard.error());
     if ((made.stopped = !*heard)) return made;
   }
-  const auto whole =
-      encode_film(ffmpeg, pictures, sound, options.frames_per_second / options.every, options.out,
-                  [&] { return go_on(made); });
+  const auto whole = encode_film(ffmpeg, pictures, sound, options.frames_per_second / options.every, options.out,
+                                 [&] { return go_on(made); });
   if (!whole) return tl::unexpected(whole.error());
   made.stopped = !*whole;
   std::error_code ignored;
