@@ -169,28 +169,30 @@ TEST_CASE("a lost instruments' bus and sound that has stopped cut fan and shaker
   seated.drive(1, true);
   seated.live->cut_actuators("the sound has stopped");
   falls("the sound has stopped");
-  TEST_CASE("controls that stand still and a car that is pulled out light the cluster's lamp until they are back") {
-    SeatedDrive seated({});
-    seated.drive(30, true);
-    CHECK(seated.shown.controls_lost == 0.0);
-    seated.drive(14, false);  // 100 ms until they are stale.
-    CHECK(seated.shown.controls_lost == 1.0);
-    seated.drive(2, true);
-    CHECK(seated.shown.controls_lost == 0.0);
-    seated.port.unplug();
-    seated.drive(2, true);
-    CHECK(seated.shown.controls_lost == 1.0);
-    seated.port.plug();
-    seated.drive(70, true);
-    CHECK(seated.shown.controls_lost == 0.0);
-  }
+}
 
-  TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {
-    SeatedDrive seated({.vibration_full_mps2 = 100.0, .vibration_dose_mps2 = 0.01});
-    seated.drive(240, true);
-    CHECK(seated.told.vibration == 0.0);
-    CHECK(seated.told.fan > 0.19);
-    CHECK(messages_with(*seated.live, "the shaker is cut") == 1);
-  }
+TEST_CASE("controls that stand still and a car that is pulled out light the cluster's lamp until they are back") {
+  SeatedDrive seated({});
+  seated.drive(30, true);
+  CHECK(seated.shown.controls_lost == 0.0);
+  seated.drive(14, false);  // 100 ms until they are stale.
+  CHECK(seated.shown.controls_lost == 1.0);
+  seated.drive(2, true);
+  CHECK(seated.shown.controls_lost == 0.0);
+  seated.port.unplug();
+  seated.drive(2, true);
+  CHECK(seated.shown.controls_lost == 1.0);
+  seated.port.plug();
+  seated.drive(70, true);
+  CHECK(seated.shown.controls_lost == 0.0);
+}
+
+TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {
+  SeatedDrive seated({.vibration_full_mps2 = 100.0, .vibration_dose_mps2 = 0.01});
+  seated.drive(240, true);
+  CHECK(seated.told.vibration == 0.0);
+  CHECK(seated.told.fan > 0.19);
+  CHECK(messages_with(*seated.live, "the shaker is cut") == 1);
+}
 
 }  // namespace septet::server
