@@ -202,7 +202,7 @@ car_io::Actuators LiveDrive::within_dose(car_io::Actuators wanted, double dt_s) 
 
 void LiveDrive::show_instruments(const DriverInput& input) {
   if (!seat_.show) return;
-  const bool is_lost = seat_.car && !car_was_there_;
+  const bool is_lost = seat_.car && (!car_was_there_ || is_stale_);
   if (const auto error =
           seat_.show(car_io::instruments_of(newest_->snapshot(), input, car_motion(*model_, state_), is_lost)))
     tell(describe(*error));

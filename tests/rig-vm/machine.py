@@ -27,7 +27,7 @@ UNPACKED = ("boot/vmlinuz*", "lib/modules/*/modules.*", "lib/modules/*/kernel/cr
             "lib/modules/*/kernel/drivers/net/*", "lib/modules/*/kernel/drivers/usb/*", "lib/modules/*/kernel/drivers/virtio/*")
 COMMAND_LINE = "console=ttyS0 quiet panic=-1 tsc=reliable no_timer_check mitigations=off random.trust_cpu=1"
 ALL_SUITES_RAN = 33  # QEMU's exit status for the 16 that init writes to its debug port.
-LIMIT_S = 420
+LIMIT_S = 900
 
 
 class Missing(Exception):

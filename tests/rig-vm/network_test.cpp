@@ -109,7 +109,7 @@ TEST_CASE("of the ticks that a network loses and reorders nearly all arrive by t
   command("/tools/tc qdisc add dev cable0 root netem delay 20ms 5ms loss 5%");
   delays_ms.clear();
   const auto before = tick;
-  run(20.0);
+  run(12.0);
   const auto published = static_cast<double>(tick - before);
   std::ranges::sort(delays_ms);
   const auto late_ms = [&](double share) {

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "car-io/can/can_plan.hpp"
 #include "car-io/simulated_hid_device.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "tests/sim-server/shipped_drive.hpp"
@@ -26,6 +27,10 @@ struct SeatedDrive {
       return std::nullopt;
     };
     seat.bus_is_lost = [this] { return bus_is_lost; };
+    seat.show = [this](const car_io::Instruments& instruments) -> std::optional<Error> {
+      shown = instruments;
+      return std::nullopt;
+    };
     const LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
     live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(seat)).value();
   }
@@ -43,6 +48,7 @@ struct SeatedDrive {
   bool bus_is_lost = false;
   DriverInput input{.accelerator = 0.5};
   car_io::Actuators told;
+  car_io::Instruments shown;
   std::unique_ptr<LiveDrive> live;
 };
 
@@ -163,6 +169,22 @@ TEST_CASE("a lost instruments' bus and sound that has stopped cut fan and shaker
   seated.drive(1, true);
   seated.live->cut_actuators("the sound has stopped");
   falls("the sound has stopped");
+}
+
+TEST_CASE("controls that stand still and a car that is pulled out light the cluster's lamp until they are back") {
+  SeatedDrive seated({});
+  seated.drive(30, true);
+  CHECK(seated.shown.controls_lost == 0.0);
+  seated.drive(14, false);  // 100 ms until they are stale.
+  CHECK(seated.shown.controls_lost == 1.0);
+  seated.drive(2, true);
+  CHECK(seated.shown.controls_lost == 0.0);
+  seated.port.unplug();
+  seated.drive(2, true);
+  CHECK(seated.shown.controls_lost == 1.0);
+  seated.port.plug();
+  seated.drive(70, true);
+  CHECK(seated.shown.controls_lost == 0.0);
 }
 
 TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {
