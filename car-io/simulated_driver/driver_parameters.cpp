@@ -25,6 +25,12 @@ constexpr auto change_time = [](DriverParameters& d) -> double& { return d.lanes
 constexpr auto glance_interval = [](DriverParameters& d) -> double& { return d.mirrors.interval_s; };
 constexpr auto glance = [](DriverParameters& d) -> double& { return d.mirrors.glance_s; };
 
+constexpr auto ease_off = [](DriverParameters& d) -> double& { return d.course.ease_off_mps2; };
+constexpr auto lead = [](DriverParameters& d) -> double& { return d.course.lead_s; };
+constexpr auto accepted_wait = [](DriverParameters& d) -> double& { return d.course.gap_s; };
+constexpr auto judgement = [](DriverParameters& d) -> double& { return d.course.judgement; };
+constexpr auto turn_signal = [](DriverParameters& d) -> double& { return d.course.turn_signal_s; };
+
 constexpr auto in_tracks = [](DriverParameters& d) -> double& { return d.lanes.in_tracks_within_m; };
 
 struct Difference {
@@ -38,18 +44,31 @@ struct Kind {
 
 constexpr std::initializer_list<Difference> from_novice = {
     // Looks less often and longer, sees less exactly, keeps more distance, reacts later.
-    {position_noise, 0.23}, {peripheral, 0.4},      {heading_noise, 0.0026},
-    {eye_to_hand, 0.25},    {limit_factor, 0.95},   {time_gap, 1.8},
-    {reaction, 0.9},        {distance_noise, 0.10}, {change_threshold, 0.5},
-    {signal_time, 2.5},     {change_time, 6.0},     {glance_interval, 14.0},
-    {glance, 0.9}};
-constexpr std::initializer_list<Difference> from_experienced = {
-    {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05},   {time_gap, 1.3},
-    {reaction, 0.6},        {distance_noise, 0.04}, {change_threshold, 0.2}, {glance_interval, 6.0}, {glance, 0.55}};
+    {position_noise, 0.23},  {peripheral, 0.4},  {heading_noise, 0.0026}, {eye_to_hand, 0.25},
+    {limit_factor, 0.95},    {time_gap, 1.8},    {reaction, 0.9},         {distance_noise, 0.10},
+    {change_threshold, 0.5}, {signal_time, 2.5}, {change_time, 6.0},      {glance_interval, 14.0},
+    {glance, 0.9},           {lead, 2.5},        {ease_off, 1.8},         {judgement, 0.35},
+    {accepted_wait, 3.2},    {turn_signal, 1.0}};
+constexpr std::initializer_list<Difference> from_experienced = {{position_noise, 0.15},
+                                                                {peripheral, 0.8},
+                                                                {heading_noise, 0.0014},
+                                                                {limit_factor, 1.05},
+                                                                {time_gap, 1.3},
+                                                                {reaction, 0.6},
+                                                                {distance_noise, 0.04},
+                                                                {change_threshold, 0.2},
+                                                                {glance_interval, 6.0},
+                                                                {glance, 0.55},
+                                                                {lead, 6.0},
+                                                                {ease_off, 0.8},
+                                                                {judgement, 0.05},
+                                                                {accepted_wait, 3.8},
+                                                                {turn_signal, 2.6}};
 constexpr std::initializer_list<Difference> from_tired = {
     // Corrects late and slowly: the lane is kept loosely.
-    {frequency, 0.45}, {position_noise, 0.28}, {position_time, 4.0},   {eye_to_hand, 0.30},
-    {reaction, 1.2},   {distance_noise, 0.12}, {glance_interval, 20.0}};
+    {frequency, 0.45}, {position_noise, 0.28}, {position_time, 4.0},    {eye_to_hand, 0.30},
+    {reaction, 1.2},   {distance_noise, 0.12}, {glance_interval, 20.0}, {lead, 3.5},
+    {ease_off, 1.4},   {judgement, 0.20},      {turn_signal, 1.6}};
 constexpr std::initializer_list<Difference> from_escort = {
     // An experienced driver on duty: in the ambulance's tracks, through the lane that opens for it.
     {position_noise, 0.15}, {peripheral, 0.8},      {heading_noise, 0.0014}, {limit_factor, 1.05}, {time_gap, 1.1},

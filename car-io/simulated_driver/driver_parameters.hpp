@@ -82,6 +82,17 @@ struct MirrorParameters {
   double turn_s = 0.25;           ///< Head to the mirror, or back.
 };
 
+/// Bends, limits ahead, and lines where others may have right of way.
+struct CourseParameters {
+  double bend_mps2 = 2.4;         ///< Sideways, that the driver is at ease with in a bend…
+  double lead_s = 4.5;            ///< …so long before which he wants to be slow enough…
+  double ease_off_mps2 = 1.0;     ///< …and how he slows down for it, or for a lower limit.
+  double gap_s = 3.6;             ///< Until who has right of way comes, for which the driver does not wait…
+  double judgement = 0.10;        ///< …judged with an error of this relative SD, that wanders.
+  double judgement_time_s = 2.0;  ///< Its correlation time.
+  double turn_signal_s = 2.2;     ///< Indicator before a turn.
+};
+
 /// Clutch and lever of a manual gearbox; engine speeds as the driver hears them, with little
 /// accelerator and with all of it.
 struct GearParameters {
@@ -103,6 +114,7 @@ struct DriverParameters {
   GearParameters gears;
   LaneChoiceParameters lanes;
   MirrorParameters mirrors;
+  CourseParameters course;
 };
 
 struct NamedDriver {

@@ -16,6 +16,34 @@ constexpr double foresight_s = 1.0;  ///< Who comes over a line is seen to do so
 
 Vec2 ground_position(const Participant& participant) { return Vec2(participant.world_from_vehicle.position_m); }
 
+/// Along the corridor; 0 off it.
+double x_on(const traffic::Corridor& corridor, const road::RoadPosition& place) {
+  const auto piece = std::ranges::find(corridor.pieces, place.road, &traffic::CorridorPiece::road);
+  if (piece == corridor.pieces.end()) return 0.0;
+  return piece->x_m + (piece->along_s ? place.s_m : piece->length_m - place.s_m);
+}
+
+/// The place on the corridor, where other roads of a junction lie on it: the one that is nearest along it to where somebody was expected.
+std::optional<road::Location> on_corridor(const road::RoadNetwork& network, const traffic::Corridor& corridor,
+                                          const std::optional<road::Location>& found, const Vec2& place,
+                                          double expected_x_m) {
+  const auto x_of = [&](const road::Location& location) {
+    return traffic::x_of(network, corridor, location.position, location.lanes.lane);
+  };
+  if (!found || x_of(*found) || network.roads[found->position.road].junction == road::no_index) return found;
+  std::optional<road::Location> nearest;
+  double least_m = 0.0;
+  for (const road::Location& location : road::roads_holding(network, place)) {
+    const auto x_m = x_of(location);
+    if (!x_m || location.lanes.lane == 0) continue;
+    const double off_m = std::abs(traffic::distance_m(corridor, expected_x_m, *x_m));
+    if (nearest && off_m >= least_m) continue;
+    nearest = location;
+    least_m = off_m;
+  }
+  return nearest ? nearest : found;
+}
+
 /// Offset from the lane's centre to the driver's left, for an offset towards +t.
 double to_the_left(const traffic::CorridorPiece& piece, double towards_t_m) {
   return piece.along_s ? towards_t_m : -towards_t_m;
@@ -57,7 +85,10 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
                                       const Snapshot& snapshot, const std::optional<road::RoadPosition>& hint) {
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   if (!body) return std::nullopt;
-  const auto location = road::locate(network, ground_position(*body), hint ? &*hint : nullptr);
+  const double was_m = hint ? x_on(corridor, *hint) : 0.0;
+  const Vec2 here = ground_position(*body);
+  const auto location =
+      on_corridor(network, corridor, road::locate(network, here, hint ? &*hint : nullptr), here, was_m);
   if (!location || location->lanes.lane == 0) return std::nullopt;
   const auto x_m = traffic::x_of(network, corridor, location->position, location->lanes.lane);
   if (!x_m) return std::nullopt;
@@ -94,7 +125,9 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
     if (other.id == self->id || glm::distance(ground_position(other), here) > sight_m) continue;
     road::RoadPosition hint = own.position;
     hint.s_m += glm::dot(ground_position(other) - here, forward);
-    const auto location = road::locate(network, ground_position(other), &hint);
+    const Vec2 there = ground_position(other);
+    const auto location = on_corridor(network, corridor, road::locate(network, there, &hint), there,
+                                      own.x_m + glm::dot(there - here, ahead_along_s * forward));
     const int side = traffic::piece_at(corridor, own.x_m).side;
     if (!location || location->lanes.lane * side <= 0) continue;
     const VehicleModel& model = vehicle_models()[other.model];

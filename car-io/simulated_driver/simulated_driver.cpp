@@ -79,7 +79,7 @@ double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& cor
 double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own) {
   const SpeedParameters& speed = driver.parameters.speed;
   const double limit = road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
-  return limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
+  return std::min(limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps, driver.course.speed_mps);
 }
 
 /// What the foot minds: whoever was seen in the way a reaction time ago, or the end of the lane. Which way the car goes the
@@ -90,7 +90,9 @@ std::optional<Obstacle> obstacle_ahead(const SimulatedDriver& driver, LaneScene 
   const auto wish_mps2 = [&](const std::optional<Obstacle>& obstacle) {
     return wished_acceleration_mps2(driver.parameters.speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
   };
-  const auto vehicle = obstacle_on_way(driver.lanes, scene, driver.parameters.speed);
+  auto vehicle = obstacle_on_way(driver.lanes, scene, driver.parameters.speed);
+  const auto line = line_ahead(driver.course, scene.own, driver.parameters.speed);
+  if (line && wish_mps2(line) < wish_mps2(vehicle)) vehicle = line;
   if (scene.lane_ends_in_m >= lane_preview_m) return vehicle;
   const std::optional<Obstacle> end = Obstacle{scene.lane_ends_in_m, 0.0};
   return wish_mps2(end) < wish_mps2(vehicle) ? end : vehicle;
@@ -117,7 +119,10 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   driver.now_s += dt_s;
   ++driver.sequence;
   if (snapshot.game && !std::exchange(driver.plays, true)) driver.parameters = playing(driver.parameters);
-  if (!driver.corridor) driver.corridor = find_corridor(network, snapshot);
+  if (!driver.corridor) {
+    driver.corridor = find_corridor(network, snapshot);
+    if (driver.corridor) driver.course = read_course(network, *driver.corridor);
+  }
   const Participant* body = find_participant(snapshot, snapshot.driver_car.participant);
   const auto own = driver.corridor ? see_own_place(network, *driver.corridor, snapshot, driver.place) : std::nullopt;
   if (!own || !body) {
@@ -140,6 +145,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
     driver.minded = remembered_vehicles(driver.foot_eyes.through(driver.now_s, driver.vehicles, reaction_s), reaction_s,
                                         own->speed_mps);
     driver.next_look_around_s = driver.now_s + look_around_interval_s;
+    look_at_course(driver.course, driver.parameters, network, *driver.corridor, snapshot, *own, driver.now_s,
+                   look_around_interval_s, driver.eyes_random);
     const LaneChoiceParameters& lanes = driver.parameters.lanes;
     if (driver.lanes.phase == LanePhase::keep && lanes.in_tracks_within_m > 0.0)
       look_at_tracks(driver.tracks, *driver.corridor, *own, driver.vehicles, lanes.in_tracks_within_m,
@@ -166,9 +173,12 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
                  obstacle_ahead(driver, scene), dt_s, driver.foot_random);
 
   DriverInput input;
+  // Standing, the wheel mends no place in the lane.
   input.steering_wheel_rad =
-      advance_steering(driver.steering, parameters.steering, parameters.car, path, sees_road(driver.mirrors),
-                       own->speed_mps, driver.now_s, dt_s, driver.hands_random);
+      driver.course.stands_at_line(*own)
+          ? driver.steering.hands_rad
+          : advance_steering(driver.steering, parameters.steering, parameters.car, path, sees_road(driver.mirrors),
+                             own->speed_mps, driver.now_s, dt_s, driver.hands_random);
   input.accelerator = driver.pedals.accelerator;
   input.brake = driver.pedals.brake;
   if (parameters.car.has_clutch) {
@@ -188,6 +198,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
   if (signals)
     input.indicator = (driver.lanes.target < driver.lanes.lane) == scene.grows_to_the_right ? IndicatorStalk::left
                                                                                             : IndicatorStalk::right;
+  else
+    input.indicator = turn_indicator(driver.course, parameters.course, *own);
   input.gaze_heading_rad = driver.mirrors.head_rad;
   input.sequence = driver.sequence;
   return input;

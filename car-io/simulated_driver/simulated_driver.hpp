@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "car-io/simulated_driver/ambulance_tracks.hpp"
+#include "car-io/simulated_driver/course.hpp"
 #include "car-io/simulated_driver/driver_parameters.hpp"
 #include "car-io/simulated_driver/driver_view.hpp"
 #include "car-io/simulated_driver/gears.hpp"
@@ -31,10 +32,14 @@ namespace septet::car_io {
 /// What the driver remembers from tick to tick.
 struct SimulatedDriver {
   SimulatedDriver(DriverParameters parameters_in, std::uint64_t seed)
-      : parameters(std::move(parameters_in)), hands_random(seed, 1), foot_random(seed, 2), head_random(seed, 3) {}
+      : parameters(std::move(parameters_in)),
+        hands_random(seed, 1),
+        foot_random(seed, 2),
+        head_random(seed, 3),
+        eyes_random(seed, 4) {}
 
   DriverParameters parameters;
-  Random hands_random, foot_random, head_random;
+  Random hands_random, foot_random, head_random, eyes_random;
   std::optional<traffic::Corridor> corridor;
   std::optional<road::RoadPosition> place;  ///< Hint for the next look.
   std::vector<SeenVehicle> vehicles;
@@ -48,6 +53,7 @@ struct SimulatedDriver {
   MirrorState mirrors;
   LaneState lanes;
   TracksState tracks;
+  CourseState course;
   bool plays = false;  ///< Has seen that this is a game.
   std::uint8_t sequence = 0;
 };

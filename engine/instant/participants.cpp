@@ -43,6 +43,9 @@ Vec3 facing(PartRole role, double x_m) {
     case PartRole::lamp_brake:
     case PartRole::lamp_tail:
     case PartRole::lamp_reverse:
+    case PartRole::signal_red:
+    case PartRole::signal_amber:
+    case PartRole::signal_green:
       return {-1, 0, 0};
     case PartRole::lamp_indicator_left:
     case PartRole::lamp_indicator_right:
@@ -68,6 +71,12 @@ bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y
     case PartRole::lamp_head:
     case PartRole::lamp_tail:
       return beams;
+    case PartRole::signal_red:
+      return lamps.has(Lamp::signal_red);
+    case PartRole::signal_amber:
+      return lamps.has(Lamp::signal_amber);
+    case PartRole::signal_green:
+      return lamps.has(Lamp::signal_green);
     case PartRole::beacon: {
       if (!lamps.has(Lamp::beacon)) return false;
       const double phase_s = std::fmod(simulated_time_s, 0.5) - (beacon_y_m < -0.05 ? 0.25 : 0.0);

@@ -108,6 +108,9 @@ bool better(const RoadNetwork& network, const Location& a, const Location& b) {
   return std::abs(a.lanes.offset_m) < std::abs(b.lanes.offset_m);
 }
 
+/// Where roads part they lie on one another at first: of those that hold the point equally well, the first of the file.
+constexpr double as_good_m = 0.01;
+
 /// Tries the roads linked to the end of the hint's road that the point has passed.
 std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Location& at_end, const Vec2& world_m) {
   const RoadIndex from = at_end.position.road;
@@ -117,7 +120,7 @@ std::optional<Location> locate_beyond_end(const RoadNetwork& network, const Loca
   const auto consider = [&](RoadIndex index, double s) {
     const Location location = location_on(network, index, world_m, s);
     if (location.lanes.outside_m > 0.0) return;
-    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m)) best = location;
+    if (!best || std::abs(location.lanes.offset_m) < std::abs(best->lanes.offset_m) - as_good_m) best = location;
   };
   const auto end_of = [&](RoadIndex index, ContactPoint contact) {
     return contact == ContactPoint::start ? 0.0 : network.roads[index].length_m;

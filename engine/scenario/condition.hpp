@@ -1,6 +1,7 @@
 #pragma once
 /// Conditions and triggers (OpenSCENARIO XML 1.3), as plain data. SI units throughout.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -45,6 +46,15 @@ struct ValueCondition {
   ValueIndex value = 0;
   Rule rule = Rule::equal;
   std::string compared;  ///< As numbers where both are, else as texts (parameter_value.hpp).
+};
+/// What a signal's controller says of it: the state as the file writes it.
+struct TrafficSignalCondition {
+  std::string signal, state;
+};
+/// Which phase a controller is in.
+struct TrafficSignalControllerCondition {
+  std::size_t controller = 0;  ///< Index in Scenario::signals.
+  std::string phase;
 };
 /// What a storyboard element is in, or passed through in this step.
 enum class ElementPhase : std::uint8_t {
@@ -133,7 +143,7 @@ using ConditionVariant =
                  EndOfRoadCondition, CollisionCondition, StandStillCondition, TraveledDistanceCondition,
                  ReachPositionCondition, SpeedCondition, AccelerationCondition, RelativeSpeedCondition,
                  DistanceCondition, RelativeDistanceCondition, TimeHeadwayCondition, TimeToCollisionCondition,
-                 RelativeClearanceCondition>;
+                 RelativeClearanceCondition, TrafficSignalCondition, TrafficSignalControllerCondition>;
 
 struct Condition {
   std::string name;

@@ -104,6 +104,15 @@ struct Test {
   bool operator()(const ValueCondition& test) const {
     return compare_values(test.rule, state.values[test.value], test.compared);
   }
+  bool operator()(const TrafficSignalCondition& test) const {
+    const SignalState* now = signal_state_at(scenario.signals, test.signal, state.time_s);
+    return now && now->state == test.state;
+  }
+  bool operator()(const TrafficSignalControllerCondition& test) const {
+    if (test.controller >= scenario.signals.size()) return false;
+    const PhaseNow now = phase_at(scenario.signals[test.controller], state.time_s);
+    return now.phase && now.phase->name == test.phase;
+  }
   bool operator()(const CollisionCondition& test) const {
     const DistanceMeasure gap{CoordinateSystem::entity, DistanceType::euclidean, true};
     for (EntityIndex other = 0; other < state.entities.size(); ++other) {
@@ -210,7 +219,9 @@ struct Test {
 
 bool is_by_value(const ConditionVariant& test) {
   return std::holds_alternative<SimulationTimeCondition>(test) || std::holds_alternative<ValueCondition>(test) ||
-         std::holds_alternative<StoryboardElementStateCondition>(test);
+         std::holds_alternative<StoryboardElementStateCondition>(test) ||
+         std::holds_alternative<TrafficSignalCondition>(test) ||
+         std::holds_alternative<TrafficSignalControllerCondition>(test);
 }
 
 bool holds_now(const Scenario& scenario, const road::RoadNetwork& network, const Condition& condition,

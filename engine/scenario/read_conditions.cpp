@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "engine/scenario/scenario_reading.hpp"
@@ -134,6 +139,31 @@ ConditionVariant read_value_condition(Reading& reading, const Element& element) 
       return ValueCondition{read_value_reference(reading, found, reference), read_rule(found),
                             found.text_or("value", "")};
     }
+  }
+  if (const Element found = element.child("TrafficSignalCondition")) {
+    TrafficSignalCondition condition{found.text("name"), found.text("state")};
+    const auto is_named = [&](const SignalState& state) {
+      return state.signal == condition.signal && state.state == condition.state;
+    };
+    const bool ever = std::ranges::any_of(reading.scenario.signals, [&](const SignalController& controller) {
+      return std::ranges::any_of(controller.phases,
+                                 [&](const SignalPhase& phase) { return std::ranges::any_of(phase.states, is_named); });
+    });
+    if (!ever && !reading.names_are_elsewhere)
+      found.warning(
+          fmt::format("no phase has signal {} at \"{}\"; it is never true", condition.signal, condition.state),
+          "name a signal and a state of the file's TrafficSignals");
+    return condition;
+  }
+  if (const Element found = element.child("TrafficSignalControllerCondition")) {
+    const std::string name = found.text("trafficSignalControllerRef");
+    TrafficSignalControllerCondition condition{0, found.text("phase")};
+    const auto controller = std::ranges::find(reading.scenario.signals, name, &SignalController::name);
+    condition.controller = static_cast<std::size_t>(controller - reading.scenario.signals.begin());
+    if (controller == reading.scenario.signals.end() && !reading.names_are_elsewhere)
+      found.error(fmt::format("no traffic signal controller is named \"{}\"", name.substr(0, 60)),
+                  "name one of the file's TrafficSignals");
+    return condition;
   }
   if (const Element found = element.child("StoryboardElementStateCondition")) {
     StoryboardElementStateCondition condition;

@@ -15,6 +15,7 @@
 #include "engine/scenario/condition.hpp"
 #include "engine/scenario/entity.hpp"
 #include "engine/scenario/game_settings.hpp"
+#include "engine/scenario/signal_plan.hpp"
 
 namespace septet::scenario {
 
@@ -82,6 +83,7 @@ inline constexpr std::uint32_t most_swarm_vehicles = 3000;
 struct Scenario {
   FileHeader header;
   std::string road_file;  ///< As the file gives it: relative to the scenario's folder.
+  std::vector<SignalController> signals;
   std::vector<Entity> entities;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< Name and value of what can be given from outside.
   std::vector<std::string> values;  ///< Of parameters and variables when the scenario begins.

@@ -75,6 +75,7 @@ void read_definition(Reading& reading, const Element& root) {
     roads.error("it names no road, so that the scenario cannot be driven", name_road);
   // Septet draws the road from the OpenDRIVE file itself.
   roads.child("SceneGraphFile").ignore();
+  read_signals(reading, roads.child("TrafficSignals"));
   read_entities(reading, root.required("Entities"));
   if (const Element storyboard = root.required("Storyboard")) read_storyboard(reading, storyboard);
   if (reading.checking && logic) check_on_road(reading, logic);

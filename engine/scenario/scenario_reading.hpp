@@ -51,6 +51,8 @@ void check_distribution(Reading& reading, const Element& distribution);
 Element resolve_catalog_reference(Reading& reading, const Element& parent,
                                   std::initializer_list<std::string_view> kinds);
 
+/// <TrafficSignals> of the road network.
+void read_signals(Reading& reading, const Element& signals);
 void read_entities(Reading& reading, const Element& entities);
 /// A vehicle, pedestrian or misc object, from the scenario or a catalog.
 void read_object(const Element& object, Entity& entity);

@@ -5,10 +5,11 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 13> role_names = {
-    "fixed",      "wheel_front_left", "wheel_front_right",   "wheel_rear_left",      "wheel_rear_right",
-    "lamp_brake", "lamp_reverse",     "lamp_indicator_left", "lamp_indicator_right", "lamp_head",
-    "lamp_tail",  "beacon",           "steering_wheel"};
+constexpr std::array<std::string_view, 16> role_names = {
+    "fixed",         "wheel_front_left", "wheel_front_right",   "wheel_rear_left",      "wheel_rear_right",
+    "lamp_brake",    "lamp_reverse",     "lamp_indicator_left", "lamp_indicator_right", "lamp_head",
+    "lamp_tail",     "signal_red",       "signal_amber",        "signal_green",         "beacon",
+    "steering_wheel"};
 static_assert(role_names.size() == static_cast<std::size_t>(PartRole::steering_wheel) + 1);
 
 }  // namespace

@@ -84,6 +84,9 @@ enum class PartRole : std::uint8_t {
   lamp_indicator_right,
   lamp_head,
   lamp_tail,
+  signal_red,  ///< Of a traffic light, here and below.
+  signal_amber,
+  signal_green,
   beacon,
   steering_wheel,
 };

@@ -3,12 +3,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "engine/physics/vehicle/vehicle_parameters.hpp"
 #include "engine/road/road_network.hpp"
 #include "engine/roadside/obstacles.hpp"
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/scenario/scenario.hpp"
+#include "engine/traffic/yield_line.hpp"
+#include "engine/world/traffic_light.hpp"
 #include "engine/world/wire_snapshot.hpp"
 
 namespace septet::simulation {
@@ -23,6 +27,12 @@ static_assert(first_scripted_participant + scenario::most_entities <= first_traf
 static_assert(first_scripted_participant + scenario::most_entities + scenario::most_swarm_vehicles <=
               max_wire_participants);
 
+/// A head of lamps that the scenario switches.
+struct SwitchedLight {
+  std::string signal;  ///< Its id in the road file.
+  TrafficLight head;   ///< Its lamps stay dark here: lights_stage.hpp.
+};
+
 struct Model {
   road::RoadNetwork roads;
   scenario::Scenario scenario;
@@ -30,6 +40,8 @@ struct Model {
   vehicle::VehicleParameters car;
   std::shared_ptr<const roadside::Obstacles> obstacles;  ///< What stands beside the roads; nothing where empty.
   std::shared_ptr<const roadside::RaisedAreas> raised;   ///< Kerbs and islands that are objects; nothing where empty.
+  std::vector<SwitchedLight> lights;                     ///< In the order of the road file.
+  std::vector<traffic::YieldLine> yield_lines;           ///< None: nobody examines (examiner.hpp).
   std::uint64_t seed = 1;
   std::uint64_t sources_hash =
       0;  ///< Of the texts that it was read from: models with equal ones are equal. 0: it was read from none.

@@ -39,6 +39,7 @@ SEPTET_MEMBER_GROUPS(IceState, hashed(still, black), kept(panes, keyframe, glass
 SEPTET_MEMBERS(KerbTouch, height_m, closing_speed_mps)
 SEPTET_MEMBERS(WheelStrike, kerb, squeeze_m)
 SEPTET_MEMBERS(CrashMemory, struck_by_driver, struck_standing, parts)
+SEPTET_MEMBERS(ExaminerState, front, lane, limit_mps, entered_s)
 SEPTET_MEMBERS(GameState, standing, next_move_s, random)
 SEPTET_MEMBERS(Fire, vehicle, flames, smoke, burning_s, burning)
 SEPTET_MEMBERS(PublishedEffect, id, tick, settled)
@@ -50,9 +51,9 @@ SEPTET_MEMBER_GROUPS(FireState, left_out(smoke, track), kept(soot), hashed(fires
 // rest remembers where something was found.
 SEPTET_MEMBER_GROUPS(EffectsState, left_out(debris), hashed(crashes), left_out(fires), hashed(ice, random),
                      kept(published), hashed(hash), left_out(surface_memory), kept(surface_hint))
-// Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game is hashed where there is one.
+// Storyboard, traffic and effects have readers of their own. What the input did is in the car. A game, and an examiner, is hashed where there is one.
 SEPTET_MEMBER_GROUPS(State, hashed(tick, car, hull, wheel_roads, kerbs, strikes, car_road),
-                     left_out(scenario, traffic, effects), kept(game, input), hashed(diagnostics, touching))
+                     left_out(scenario, traffic, effects), kept(game, examiner, input), hashed(diagnostics, touching))
 
 namespace {
 
@@ -140,6 +141,8 @@ void restore_car(const Model& model, StateReader& reader, State& state) {
   if (state.car_road) road::require_on_roads(reader, model.roads, *state.car_road);
   reader.require(std::ranges::is_sorted(state.touching), wrong);
   reader.require(state.game.has_value() == model.scenario.game.has_value(), wrong);
+  reader.require(state.examiner.has_value() != model.yield_lines.empty(), wrong);
+  if (state.examiner && state.examiner->front) road::require_on_roads(reader, model.roads, *state.examiner->front);
   if (state.game) reader.require(state.game->standing.end <= GameEnd::time, wrong);
 }
 
@@ -156,6 +159,7 @@ std::uint64_t hash_state(const State& state) {
   state.traffic->add_to_hash(hash);
   hash_members(hash, state.effects, state.effects.fires);
   if (state.game) hash_members(hash, *state.game);
+  if (state.examiner) hash_members(hash, *state.examiner);
   return hash.value();
 }
 

@@ -11,7 +11,9 @@
 #include "engine/simulation/collisions.hpp"
 #include "engine/simulation/driver_car.hpp"
 #include "engine/simulation/effects/effects_stage.hpp"
+#include "engine/simulation/examiner.hpp"
 #include "engine/simulation/game.hpp"
+#include "engine/simulation/lights_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 #include "engine/simulation/way_ahead.hpp"
 
@@ -83,6 +85,7 @@ Snapshot capture(const Model& model, const State& state, const DrivenCar& car, s
   snapshot.participants = std::move(participants);
   show_damage(state.effects, snapshot.participants);
   snapshot.effects = effect_keyframes(state.effects);
+  if (auto lights = light_keyframe(model, state.tick)) snapshot.effects.push_back(std::move(*lights));
   snapshot.diagnostics = state.diagnostics;
   if (state.game) snapshot.game = state.game->standing;
   return snapshot;
@@ -107,6 +110,7 @@ Expected<State> initial_state(const Model& model, std::unique_ptr<traffic::Traff
                                   first_scripted_participant, model.seed);
   apply_effects(model, init, car, state);
   if (model.scenario.game) state.game = initial_game(*model.scenario.game, model.seed);
+  if (!model.yield_lines.empty()) state.examiner.emplace();
   if (auto error = state.traffic->take_error()) return tl::unexpected(std::move(*error));
   return state;
 }
@@ -125,6 +129,7 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   participants.front() = car.participant;  // The lowest id; the effects may have pushed it.
   find_collisions(car.participant, participants, state, events);
   advance_game(model, car.participant, state, events);
+  advance_examiner(model, participants, car.participant, state, events);
   const Snapshot snapshot = capture(model, state, car, std::move(participants));
   look_ahead(model, snapshot.participants, state.effects, state.scenario);
   return snapshot;

@@ -13,6 +13,7 @@
 #include "engine/road/road_position.hpp"
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/simulation/effects/effects_state.hpp"
+#include "engine/simulation/examiner_state.hpp"
 #include "engine/simulation/game_state.hpp"
 #include "engine/simulation/model.hpp"
 #include "engine/traffic/traffic_engine.hpp"
@@ -44,8 +45,9 @@ struct State {
   scenario::ScenarioState scenario;
   std::unique_ptr<traffic::TrafficEngine> traffic;
   EffectsState effects;
-  std::optional<GameState> game;  ///< Where the scenario is played as one.
-  DriverInput input;              ///< Of the last step.
+  std::optional<GameState> game;          ///< Where the scenario is played as one.
+  std::optional<ExaminerState> examiner;  ///< Where the roads have lines at which others may have right of way.
+  DriverInput input;                      ///< Of the last step.
   Diagnostics diagnostics;
   std::vector<ParticipantId> touching;  ///< Who overlapped the car last tick, ascending: one collision counts once.
 
@@ -54,7 +56,7 @@ struct State {
 
 /// Something that happened in a step, for the log.
 struct Event {
-  std::string kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number".
+  std::string kind;  ///< "scenario", "collision", "game", "kerb", "wheel_damage", "bad_number", "right_of_way", ….
   std::optional<ParticipantId> participant;
   std::string detail;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What a vehicle shows and sounds, one bit each.
+/// What a vehicle shows and sounds, and a traffic light shows, one bit each.
 
 #include <cstdint>
 
@@ -16,6 +16,9 @@ enum class Lamp : std::uint16_t {
   beacon = 1 << 7,  ///< Emergency beacon switched on; its flashing is a function of simulated time.
   siren = 1 << 8,
   horn = 1 << 9,
+  signal_red = 1 << 10,  ///< Of a traffic light, here and below.
+  signal_amber = 1 << 11,
+  signal_green = 1 << 12,
 };
 
 /// A set of lamps.

@@ -92,8 +92,9 @@ std::string picture(double time_s, const DebriefPlace& place) {
 }
 
 std::string why(const LessonTask& task, const TaskMark& mark) {
-  return fmt::format("{} at {:.1f} s; bound {}; {} of {} occasions beyond it", value_text(task, mark.worst),
-                     mark.worst_s, value_text(task, task.bound), mark.faults, mark.occasions);
+  return fmt::format("{}{}{} at {:.1f} s; bound {}; {} of {} occasions beyond it", value_text(task, mark.worst),
+                     mark.worst_at.empty() ? "" : " ", mark.worst_at, mark.worst_s, value_text(task, task.bound),
+                     mark.faults, mark.occasions);
 }
 
 }  // namespace

@@ -27,6 +27,9 @@ enum class LessonMeasure {
   stop,       ///< How far behind who is ahead the car stood, m, at its first halt; at least the bound.
   hazard,     ///< From the first halt to the hazard lights, s; at most the bound.
   collision,  ///< How many were touched; at most the bound. Any is dangerous.
+  yielding,  ///< Per line where others had right of way: the time that was left until they would have been there, s; at least the bound.
+  turn,      ///< Per turn at a fork: for how long the indicator had been on when it began, s; at least the bound.
+  limit,     ///< The most over the posted limit, km/h; at most the bound.
 };
 
 struct LessonTask {
@@ -57,6 +60,7 @@ struct TaskMark {
   std::size_t occasions = 0, faults = 0;  ///< How often it could be marked, and how often it was beyond the bound.
   double worst = 0.0;                     ///< In the measure's unit…
   double worst_s = 0.0;                   ///< …and when that was.
+  std::string worst_at;                   ///< Where, in words; empty where the measure does not tell.
 };
 
 struct LessonMarks {

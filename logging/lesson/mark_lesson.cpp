@@ -1,10 +1,16 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
+
+#include <fmt/core.h>
 
 #include "logging/lesson/lesson.hpp"
 #include "logging/measures/glances.hpp"
@@ -21,11 +27,14 @@ constexpr double blink_s = 0.8;          ///< UN R48 asks for 60 flashes a minut
 /// One occasion: what was measured, and when.
 struct Moment {
   double time_s = 0.0, value = 0.0;
+  std::string at = {};  ///< Where, in words.
 };
 
 /// Whether more is worse.
 bool is_most(LessonMeasure measure) {
-  return measure != LessonMeasure::gap && measure != LessonMeasure::indicator && measure != LessonMeasure::stop;
+  constexpr std::array least{LessonMeasure::gap, LessonMeasure::indicator, LessonMeasure::stop, LessonMeasure::yielding,
+                             LessonMeasure::turn};
+  return std::ranges::find(least, measure) == least.end();
 }
 
 /// What all tasks look at.
@@ -46,19 +55,89 @@ std::vector<Moment> each_sample(const DriveSeen& drive, const Value& value) {
   return moments;
 }
 
+/// For how long a lamp had been blinking at that time.
+double blinked_s(const DriveSeen& drive, Lamp lamp, double time_s) {
+  double first_lit_s = time_s;
+  auto at = std::ranges::upper_bound(drive.samples, time_s, {}, &Sample::simulated_time_s);
+  while (at != drive.samples.begin()) {
+    --at;
+    if (first_lit_s - at->simulated_time_s > blink_s) break;
+    if (at->lamps.has(lamp)) first_lit_s = at->simulated_time_s;
+  }
+  return time_s - first_lit_s;
+}
+
 /// For how long the lamp of the change's side had been blinking when the line was crossed.
 std::vector<Moment> indicators(const DriveSeen& drive) {
   std::vector<Moment> moments;
   for (const LaneChange& change : drive.changes) {
     const Lamp lamp = change.lanes_to_left > 0 ? Lamp::indicator_left : Lamp::indicator_right;
-    double first_lit_s = change.simulated_time_s;
-    auto at = std::ranges::upper_bound(drive.samples, change.simulated_time_s, {}, &Sample::simulated_time_s);
-    while (at != drive.samples.begin()) {
-      --at;
-      if (first_lit_s - at->simulated_time_s > blink_s) break;
-      if (at->lamps.has(lamp)) first_lit_s = at->simulated_time_s;
-    }
-    moments.push_back({change.simulated_time_s, change.simulated_time_s - first_lit_s});
+    moments.push_back({change.simulated_time_s, blinked_s(drive, lamp, change.simulated_time_s)});
+  }
+  return moments;
+}
+
+/// The value of "name=" in an event's detail; empty where it is not told.
+std::string_view word_of(const Event& event, std::string_view name) {
+  const std::string_view detail = event.detail;
+  for (std::size_t at = 0; at < detail.size();) {
+    const std::size_t end = std::min(detail.find(' ', at), detail.size());
+    const std::string_view pair = detail.substr(at, end - at);
+    if (pair.starts_with(name) && pair.size() > name.size() && pair[name.size()] == '=')
+      return pair.substr(name.size() + 1);
+    at = end + 1;
+  }
+  return {};
+}
+
+std::optional<double> number_of(const Event& event, std::string_view name) {
+  const std::string_view word = word_of(event, name);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<Moment> yieldings(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  for (const Event& event : drive.events) {
+    const auto margin_s = number_of(event, "margin_s");
+    if (event.kind != "right_of_way" || !margin_s) continue;
+    const std::string_view kind = word_of(event, "kind");
+    moments.push_back({event.simulated_time_s, *margin_s,
+                       kind == "lights"     ? fmt::format("at the lights, which showed {}", word_of(event, "shows"))
+                       : kind == "crossing" ? std::string("at the crossing, to somebody on foot")
+                                            : std::string("at the give-way line, to who came there")});
+  }
+  return moments;
+}
+
+std::vector<Moment> turns(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  for (const Event& event : drive.events) {
+    const auto began_s = number_of(event, "began_s");
+    if (event.kind != "turn" || !began_s) continue;
+    const bool left = word_of(event, "side") == "left";
+    moments.push_back({*began_s, blinked_s(drive, left ? Lamp::indicator_left : Lamp::indicator_right, *began_s),
+                       left ? "turning to the left" : "turning to the right"});
+  }
+  return moments;
+}
+
+/// Where no limit is posted, or none has been told of yet, nothing counts.
+std::vector<Moment> limits(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  auto event = drive.events.begin();
+  double limit_kmh = 0.0;
+  for (const Sample& sample : drive.samples) {
+    const auto is_past = [&](const Event& next) {
+      return next.kind != "speed_limit" || next.simulated_time_s <= sample.simulated_time_s;
+    };
+    for (; event != drive.events.end() && is_past(*event); ++event)
+      if (event->kind == "speed_limit") limit_kmh = number_of(*event, "kmh").value_or(0.0);
+    if (limit_kmh > 0.0)
+      moments.push_back({sample.simulated_time_s, std::max(0.0, 3.6 * std::abs(sample.speed_mps) - limit_kmh),
+                         fmt::format("where {:.0f} km/h are allowed", limit_kmh)});
   }
   return moments;
 }
@@ -150,6 +229,12 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
     }
     case LessonMeasure::hazard:
       return hazards(drive);
+    case LessonMeasure::yielding:
+      return yieldings(drive);
+    case LessonMeasure::turn:
+      return turns(drive);
+    case LessonMeasure::limit:
+      return limits(drive);
     case LessonMeasure::collision:
       break;
   }
@@ -171,6 +256,7 @@ TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
     worst_excess = excess;
     result.worst = moment.value;
     result.worst_s = moment.time_s;
+    result.worst_at = moment.at;
   }
   if (result.occasions == 0) return result;
   result.mark = 10.0 * std::clamp(1.0 - worst_excess / task.tolerance, 0.0, 1.0);

@@ -29,7 +29,8 @@ constexpr std::array measure_names{
     MeasureName{LessonMeasure::position, "position", "m"},  MeasureName{LessonMeasure::indicator, "indicator", "s"},
     MeasureName{LessonMeasure::mirror, "mirror", "s"},      MeasureName{LessonMeasure::lookout, "lookout", "s"},
     MeasureName{LessonMeasure::stop, "stop", "m"},          MeasureName{LessonMeasure::hazard, "hazard", "s"},
-    MeasureName{LessonMeasure::collision, "collision", ""},
+    MeasureName{LessonMeasure::collision, "collision", ""}, MeasureName{LessonMeasure::yielding, "yielding", "s"},
+    MeasureName{LessonMeasure::turn, "turn", "s"},          MeasureName{LessonMeasure::limit, "limit", "km/h"},
 };
 
 LessonTask read_task(const toml::table& table, std::string_view file, std::set<std::string>& taken, Error& error) {

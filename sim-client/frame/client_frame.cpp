@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "engine/world/paint.hpp"
+#include "engine/world/traffic_light.hpp"
 
 namespace septet::frame {
 namespace {
@@ -80,6 +81,15 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         frame.participants.push_back(interior);
       }
     }
+    frame.participants.push_back(drawn);
+  }
+  for (const TrafficLight& light : traffic_lights_of(shown)) {
+    const auto prototype = find_prototype(scene, light.for_walkers ? "pedestrian light" : "traffic light");
+    if (!prototype) continue;
+    instant::DrawnParticipant drawn;
+    drawn.prototype = *prototype;
+    drawn.world_from_vehicle = light.world_from_light;
+    drawn.lamps = light.lamps;
     frame.participants.push_back(drawn);
   }
   return frame;

@@ -12,6 +12,7 @@
 #include "engine/road/opendrive_reader.hpp"
 #include "engine/scenario/scenario_reader.hpp"
 #include "engine/scenery/world/road_world.hpp"
+#include "engine/simulation/lights_stage.hpp"
 #include "logging/lesson/lesson.hpp"
 #include "program/resources.hpp"
 
@@ -102,6 +103,10 @@ Expected<LoadedDrive> load(const ReadSource& read, std::uint64_t seed, const std
     return failure(buildable.error().what, road_source->name, buildable.error().remedy);
   model->obstacles = std::make_shared<const roadside::Obstacles>(model->roads, seed);
   model->raised = std::make_shared<const roadside::RaisedAreas>(model->roads);
+  if (!model->scenario.signals.empty())
+    model->lights = simulation::switched_lights(roadside::RoadShape(model->roads, roadside::usual_overrun_m),
+                                                model->scenario.signals);
+  model->yield_lines = traffic::yield_lines(model->roads);
   if (!model->raised->complete())
     drive.warnings.push_back(road_source->name +
                              ": too many kerbs and islands, or too large ones; the rest is not met");

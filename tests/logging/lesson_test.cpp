@@ -1,6 +1,7 @@
 // Lessons: what is marked, how, and what the learner reads of it.
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,57 @@ TEST_CASE("where the head never moved no glance is marked, and a long time witho
   CHECK(blind.worst == doctest::Approx(25.0).epsilon(0.05));
   for (Sample& sample : samples) sample.gaze_heading_rad = 0.0;
   CHECK_FALSE(mark_of("lookout", 6.0, 10.0, samples).mark.has_value());
+}
+
+TEST_CASE("right of way is marked by the time that was left, and told with its place") {
+  const auto samples = good_drive();
+  const auto event = [](double time_s, const std::string& detail) {
+    return Event{0, time_s, "right_of_way", std::nullopt, detail};
+  };
+  CHECK_FALSE(mark_of("yielding", 3.0, 3.0, samples).mark.has_value());
+  const TaskMark kept = mark_of("yielding", 3.0, 3.0, samples, {event(10, "kind=lights margin_s=8.0 shows=green")});
+  CHECK(*kept.mark == doctest::Approx(10.0));
+  const TaskMark half =
+      mark_of("yielding", 3.0, 3.0, samples,
+              {event(10, "kind=crossing road=2 margin_s=1.5"), event(20, "kind=give_way margin_s=2.0")});
+  CHECK(*half.mark == doctest::Approx(5.0));
+  CHECK(half.worst_s == doctest::Approx(10.0));
+  CHECK(half.worst_at.find("crossing") != std::string::npos);
+  CHECK(half.faults == 2);
+  const TaskMark red = mark_of("yielding", 3.0, 3.0, samples, {event(10, "kind=lights margin_s=0.0 shows=red")});
+  CHECK(red.severity == Severity::serious);
+  CHECK(red.worst_at.find("red") != std::string::npos);
+  for (const char* none :
+       {"", "kind=lights", "margin_s=", "margin_s=nan", "margin_s=1e999", "xmargin_s=1", "margin_s=1x"})
+    CHECK_FALSE(mark_of("yielding", 3.0, 3.0, samples, {event(10, none)}).mark.has_value());
+}
+
+TEST_CASE("a turn is marked by the indicator of its side before it began") {
+  auto samples = good_drive();
+  for (int i = 180; i < 200; ++i) samples[static_cast<std::size_t>(i)].lamps.set(Lamp::indicator_right, i % 7 < 4);
+  const auto turn = [](const std::string& side) {
+    return std::vector{Event{0, 24.0, "turn", std::nullopt, "side=" + side + " road=73 began_s=20.0"}};
+  };
+  CHECK_FALSE(mark_of("turn", 1.5, 1.5, samples).mark.has_value());
+  CHECK(*mark_of("turn", 1.5, 1.5, samples, turn("right")).mark == doctest::Approx(10.0));
+  CHECK(*mark_of("turn", 1.5, 1.5, samples, turn("left")).mark == doctest::Approx(0.0));
+  CHECK(mark_of("turn", 1.5, 1.5, samples, turn("left")).worst_s == doctest::Approx(20.0));
+}
+
+TEST_CASE("speed counts over the limit that is posted where one drives") {
+  auto samples = good_drive();  // 72 km/h.
+  const auto limit = [](double time_s, const std::string& kmh) {
+    return Event{0, time_s, "speed_limit", std::nullopt, "kmh=" + kmh};
+  };
+  CHECK_FALSE(mark_of("limit", 3.0, 15.0, samples).mark.has_value());
+  CHECK(*mark_of("limit", 3.0, 15.0, samples, {limit(0, "80")}).mark == doctest::Approx(10.0));
+  // The log tells some events later than they were.
+  const TaskMark village =
+      mark_of("limit", 3.0, 15.0, samples,
+              {limit(0, "80"), {0, 31.0, "debris", std::nullopt, ""}, limit(30, "60"), limit(40, "0")});
+  CHECK(*village.mark == doctest::Approx(4.0));
+  CHECK(village.worst_s == doctest::Approx(30.0));
+  CHECK(village.worst_at.find("60") != std::string::npos);
 }
 
 TEST_CASE("a halt is marked by its distance and the hazard lights that follow it") {

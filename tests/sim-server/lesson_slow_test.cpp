@@ -52,6 +52,20 @@ TEST_CASE("novices get worse marks than experienced drivers") {
   }
 }
 
+TEST_CASE("the first lesson sees all that it marks, and a novice drives it worse than an experienced driver") {
+  const auto take = [](const char* driver) { return take_lesson("first-lesson", driver, 1, 240.0); };
+  const TakenLesson novice = take("novice"), experienced = take("experienced");
+  for (std::size_t i = 0; i < experienced.lesson.tasks.size(); ++i) {
+    INFO(experienced.lesson.tasks[i].id);
+    CHECK(novice.marks.tasks[i].mark.has_value());
+    CHECK(experienced.marks.tasks[i].mark.has_value());
+    CHECK(experienced.marks.tasks[i].severity != logging::Severity::dangerous);
+  }
+  MESSAGE("novice " << *novice.marks.mark << ", experienced " << *experienced.marks.mark);
+  CHECK(*novice.marks.mark + 0.5 < *experienced.marks.mark);
+  CHECK(experienced.marks.passed);
+}
+
 TEST_CASE("the halt before a fire is seen and marked, and who has switched no hazard lights on is told so") {
   const TakenLesson taken = take_lesson("tunnel-fire", "plain", 1, 40.0);
   for (std::size_t i = 0; i < taken.lesson.tasks.size(); ++i) {

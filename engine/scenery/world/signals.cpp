@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -104,7 +106,8 @@ class SignalWorks {
     place(world_.builder, "sign", shape, placement);
   }
 
-  /// A head of lamps. Nothing of the simulation switches it yet: amber, as a light out of service.
+  /// A head of lamps: amber, as a light out of service. Those that somebody switches get their lenses in front of these by the
+  /// prototypes "traffic light" and "pedestrian light".
   void add_light(const StandingSignal& standing) {
     const bool walkers = standing.form == SignalForm::pedestrian_light;
     Shape& shape = lights_[walkers];
@@ -131,16 +134,50 @@ class SignalWorks {
         standing.world_from_signal * RigidTransform{Vec3(-0.06, 0.0, standing.bottom_m), Quat(1, 0, 0, 0)};
     placement.visible_to_m = 500.0f;
     place(world_.builder, "traffic light", shape, placement);
+    if (std::exchange(has_lenses_[walkers], true)) return;
+    add_lenses(walkers, height);
   }
 
-  static void add_lens(MeshBuilder& builder, float z, float radius) {
-    const std::uint32_t middle = builder.vertex({-0.175f, 0.0f, z});
+  /// What is drawn of a head whose lamps are known: lenses that are dark unless they are lit.
+  void add_lenses(bool walkers, float height) {
+    struct Lens {
+      const char* name;
+      scene::PartRole role;
+      glm::vec3 color, emission;
+    };
+    const std::array lenses{
+        Lens{"signal red", scene::PartRole::signal_red, {0.10f, 0.010f, 0.008f}, {3.4f, 0.12f, 0.05f}},
+        Lens{"signal amber", scene::PartRole::signal_amber, {0.10f, 0.05f, 0.006f}, {3.4f, 1.4f, 0.08f}},
+        Lens{"signal green", scene::PartRole::signal_green, {0.008f, 0.055f, 0.040f}, {0.12f, 2.8f, 1.35f}}};
+    const scene::NodeId root = world_.builder.add_prototype(walkers ? "pedestrian light" : "traffic light");
+    const int lamps = walkers ? 2 : 3;
+    for (int i = 0; i < lamps; ++i) {
+      const Lens& lens = lenses[static_cast<std::size_t>(walkers && i == 1 ? 2 : i)];
+      scene::MaterialParameters look;
+      look.base_color = lens.color;
+      look.emission = lens.emission;
+      look.roughness = 0.4f;
+      MeshBuilder builder;
+      add_lens(builder, height * (static_cast<float>(lamps - i) - 0.5f) / static_cast<float>(lamps), 0.102f, 0.008f);
+      Placement placement;
+      placement.role = lens.role;
+      placement.visible_to_m = 500.0f;
+      placement.casts_shadow = false;
+      place(world_.builder, lens.name,
+            add_shape(world_.builder, lens.name, builder.take(), {world_.builder.add_material(lens.name, look)}),
+            placement, root);
+    }
+  }
+
+  static void add_lens(MeshBuilder& builder, float z, float radius, float before = 0.0f) {
+    const std::uint32_t middle = builder.vertex({-0.175f - before, 0.0f, z});
     constexpr int sides = 12;
     std::uint32_t first = 0, last = 0;
     for (int i = 0; i <= sides; ++i) {
       const float angle = 6.2831853f * static_cast<float>(i) / sides;
       const std::uint32_t v =
-          i < sides ? builder.vertex({-0.162f, radius * std::cos(angle), z + radius * std::sin(angle)}) : first;
+          i < sides ? builder.vertex({-0.162f - before, radius * std::cos(angle), z + radius * std::sin(angle)})
+                    : first;
       if (i == 0) first = v;
       if (i > 0) builder.triangle(middle, v, last);
       last = v;
@@ -176,6 +213,7 @@ class SignalWorks {
   const WorldContext& world_;
   std::map<std::string, Shape> faces_;
   std::map<bool, Shape> lights_;
+  std::array<bool, 2> has_lenses_{};  ///< Of vehicles, of walkers.
   std::map<road::RoadIndex, Posts> posts_;
 };
 

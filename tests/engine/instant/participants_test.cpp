@@ -23,6 +23,18 @@ float in_the_open(const Vec3&) { return 1.0f; }
 
 }  // namespace
 
+TEST_CASE("each lamp of a traffic light shines by its own bit") {
+  Lamps lamps;
+  lamps.set(Lamp::signal_red, true);
+  CHECK(shines(PartRole::signal_red, lamps, 0.0, 0.0));
+  CHECK_FALSE(shines(PartRole::signal_amber, lamps, 0.0, 0.0));
+  CHECK_FALSE(shines(PartRole::signal_green, lamps, 0.0, 0.0));
+  lamps = {};
+  lamps.set(Lamp::signal_green, true);
+  CHECK(shines(PartRole::signal_green, lamps, 0.0, 0.0));
+  CHECK_FALSE(shines(PartRole::signal_red, lamps, 0.0, 0.0));
+}
+
 TEST_CASE("front wheels steer and every wheel rolls forward and lifts") {
   DrawnParticipant car;
   car.front_steer_rad = 0.2;
