@@ -2,7 +2,7 @@
 /// What ice and blows leave on a windscreen, as a renderer draws it: frost that warmth takes away (frost.hpp), and stars of cracks
 /// that stay.
 ///
-/// Both are surfaces without thickness on the pane, of which what lies behind is seen through (Sheet of ice_body.hpp). A pane is
+/// Both are surfaces without thickness on the pane, of which what lies behind is seen through (OnGlass of ice_body.hpp). A pane is
 /// told by a grid of points, so that it may be bent as its car's is.
 
 #include <cstddef>

@@ -26,32 +26,26 @@ vec2 random_place(vec2 cell) {
 // How much of the frost's mass lies here: feathers, each a stem with barbs at 60° to it, that grew until they met. About 1 on average.
 float feathers(vec2 place, float pixel_m) {
   const float cell_m = 0.034;
-  vec2 cell = floor(place / cell_m);
+  // Of the four cells around a place one has the feather that reaches it, or nearly.
+  vec2 cell = floor(place / cell_m - 0.5);
   float nearest = 1e9, second = 1e9;
   vec2 feather = vec2(0.0);
-  for (int j = -1; j <= 1; ++j)
-    for (int i = -1; i <= 1; ++i) {
-      vec2 at = cell + vec2(i, j), germ = random_place(at);
-      float turn = 2.0 * pi * random_place(at + 517.0).x;
-      vec2 off = place - (at + germ) * cell_m, way = vec2(cos(turn), sin(turn));
-      vec2 own = vec2(dot(off, way), dot(off, vec2(-way.y, way.x)));
-      float far = abs(own.x) * 0.55 + abs(own.y);
-      if (far < nearest) {
-        second = nearest;
-        nearest = far;
-        feather = own;
-      } else {
-        second = min(second, far);
-      }
-    }
+  for (int k = 0; k < 4; ++k) {
+    vec2 at = cell + vec2(k & 1, k >> 1), germ = random_place(at);
+    vec2 off = place - (at + 0.15 + 0.7 * germ) * cell_m, way = normalize(fract(germ * 37.0) - 0.5 + 1e-4);
+    vec2 own = vec2(dot(off, way), dot(off, vec2(-way.y, way.x)));
+    float far = abs(own.x) * 0.55 + abs(own.y);
+    second = min(second, max(far, nearest));
+    feather = far < nearest ? own : feather;
+    nearest = min(nearest, far);
+  }
   float aside = abs(feather.y), along = feather.x - 0.577 * aside;
   // Each fades to its mean where a pixel no longer tells one from the next.
   float fine = 1.0 - smoothstep(0.0007, 0.0020, pixel_m), coarse = 1.0 - smoothstep(0.004, 0.015, pixel_m);
-  float wander = textureLod(noise, place * 5.1, 0.0).r * 7.0;
+  float grain = textureLod(noise, place * 7.0, 0.0).r, wander = 6.0 * grain;
   float barbs = 0.5 + 0.5 * cos(along * (2.0 * pi / 0.0034) + wander);
   float twigs = 0.5 + 0.5 * cos((aside * 1.155 + 0.5 * along) * (2.0 * pi / 0.0013) + 2.0 * wander);
   float stem = exp(-aside * aside / (0.0007 * 0.0007));
-  float grain = textureLod(noise, place * 9.0, 0.0).r;
   float seam = smoothstep(0.0, 0.004, second - nearest);
   float lies = 1.0 + fine * (1.1 * (barbs * barbs * barbs - 0.3125) * (0.7 + 0.6 * twigs) + 0.8 * stem - 0.1) + coarse * (grain - 0.6);
   return max(lies * mix(1.0, 0.55 + 0.45 * seam, coarse), 0.0);
