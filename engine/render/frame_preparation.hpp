@@ -32,8 +32,9 @@ struct PreparedFrame {
   std::array<SurfaceDraws, cascade_count> casters;
   IceTiles ice;
   IceUpload ice_upload;
-  std::vector<FrameView> around;  ///< The surroundings of the ice; nothing where none is seen.
+  std::vector<FrameView> around;  ///< The surroundings of the ice, six views each; nothing where none is seen.
   std::vector<PreparedView> around_views;
+  std::uint32_t surroundings() const { return static_cast<std::uint32_t>(around.size() / 6); }
 };
 
 /// For a target of this size.
