@@ -112,7 +112,10 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {
     frame.ice_upload = upload_ice(context, instant.ice);
-    frame.around = surrounding_views(middle_of_ice(instant.ice, eye_m), instant.ice_surroundings_px);
+    for (const Vec3& middle_m : seen_neighbourhoods(ice_neighbourhoods(instant.ice, eye_m), frame.ice)) {
+      const std::vector<FrameView> views = surrounding_views(middle_m, instant.ice_surroundings_px);
+      frame.around.insert(frame.around.end(), views.begin(), views.end());
+    }
     for (const FrameView& view : frame.around)
       frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke,
                                                 surroundings_detail(instant.ice_surroundings_px)));

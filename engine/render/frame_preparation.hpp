@@ -33,8 +33,9 @@ struct PreparedFrame {
   IceTiles ice;
   IceUpload ice_upload;
   std::vector<FrameData> glass;   ///< Vertices of Instant::glass.
-  std::vector<FrameView> around;  ///< The surroundings of the ice; nothing where none is seen.
+  std::vector<FrameView> around;  ///< The surroundings of the ice, six views each; nothing where none is seen.
   std::vector<PreparedView> around_views;
+  std::uint32_t surroundings() const { return static_cast<std::uint32_t>(around.size() / 6); }
 };
 
 /// For a target of this size.

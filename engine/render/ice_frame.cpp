@@ -8,17 +8,17 @@ namespace septet::render {
 namespace {
 
 void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, const IceResources& resources,
-                      const IceFrame& frame) {
+                      std::uint32_t around, const IceFrame& frame) {
   const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
   graph.add_pass("surroundings",
                  {frame.view_reads,
                   {{resource(IceImage::around), Access::color_attachment},
                    {resource(IceImage::around_depth), Access::depth_attachment}}},
-                 frame.draw_surroundings);
+                 [draw = frame.draw_surroundings, around] { draw(around); });
   graph.add_pass("surroundings cube",
                  {{{resource(IceImage::around), Access::transfer_source}},
-                  {{resource(IceImage::cube), Access::transfer_destination}}},
-                 [&pass, &context] { copy_surroundings(pass, context); });
+                  {{resource(cube_of(around)), Access::transfer_destination}}},
+                 [&pass, &context, around] { copy_surroundings(pass, context, cube_of(around)); });
 }
 
 }  // namespace
@@ -26,14 +26,16 @@ void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, c
 IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
                             const Instant& instant, const IceFrame& frame) {
   constexpr std::array<const char*, ice_image_count> names{
-      "ice front", "ice back",     "ice beyond",         "ice beyond back",  "ice inside",
-      "ice depth", "surroundings", "surroundings depth", "surroundings cube"};
+      "ice front",    "ice back",           "ice beyond",        "ice beyond back", "ice inside", "ice depth",
+      "surroundings", "surroundings depth", "surroundings cube", "second cube",     "third cube", "fourth cube"};
   IceResources resources{};
   for (std::size_t i = 0; i < ice_image_count; ++i)
     resources[i] = frame.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);
   const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
-  const bool kept = instant.ice_surroundings_kept && pass.targets.accesses[std::size_t(IceImage::cube)] != Access::none;
-  if (!kept) add_surroundings(graph, pass, context, resources, frame);
+  const std::uint32_t surroundings = prepared.surroundings();
+  for (std::uint32_t around = 0; around < surroundings; ++around)
+    if (!instant.ice_surroundings_kept || pass.targets.accesses[std::size_t(cube_of(around))] == Access::none)
+      add_surroundings(graph, pass, context, resources, around, frame);
   std::vector<ResourceUse> reads = frame.view_reads;
   const auto add_layer = [&](const char* name, IceImage layer) {
     std::vector<ResourceUse> writes{{resource(layer), Access::color_attachment}};
@@ -49,17 +51,18 @@ IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& cont
     add_layer("ice front faces beyond", IceImage::beyond);
     add_layer("ice back faces beyond", IceImage::beyond_back);
   }
-  reads.push_back({resource(IceImage::cube), Access::sampled});
+  for (std::uint32_t around = 0; around < surroundings; ++around)
+    reads.push_back({resource(cube_of(around)), Access::sampled});
   add_layer("ice inside", IceImage::inside);
   return resources;
 }
 
-std::vector<ResourceUse> ice_reads(const IceResources& resources, bool beyond) {
+std::vector<ResourceUse> ice_reads(const IceResources& resources, const PreparedFrame& prepared) {
+  std::vector<IceImage> seen{IceImage::front, IceImage::back, IceImage::inside};
+  if (prepared.ice.beyond) seen.insert(seen.end(), {IceImage::beyond, IceImage::beyond_back});
+  for (std::uint32_t around = 0; around < prepared.surroundings(); ++around) seen.push_back(cube_of(around));
   std::vector<ResourceUse> reads;
-  for (const IceImage seen :
-       {IceImage::front, IceImage::back, IceImage::inside, IceImage::cube, IceImage::beyond, IceImage::beyond_back})
-    if (beyond || (seen != IceImage::beyond && seen != IceImage::beyond_back))
-      reads.push_back({resources[std::size_t(seen)], Access::sampled});
+  for (const IceImage image : seen) reads.push_back({resources[std::size_t(image)], Access::sampled});
   return reads;
 }
 

@@ -19,7 +19,7 @@ struct IceFrame {
   std::function<ResourceId(const char*, const vulkan::DeviceImage&, Access)> add_image;
   std::vector<ResourceUse> view_reads;  ///< What a view reads but for ice.
   ViewBindings bindings;                ///< Of any view.
-  std::function<void()> draw_surroundings;
+  std::function<void(std::uint32_t around)> draw_surroundings;
 };
 
 /// Adds the passes; what they record refers to all but `frame`, until the graph has been executed.
@@ -27,6 +27,6 @@ IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& cont
                             const Instant& instant, const IceFrame& frame);
 
 /// What a view that has ice reads of it.
-std::vector<ResourceUse> ice_reads(const IceResources& resources, bool beyond);
+std::vector<ResourceUse> ice_reads(const IceResources& resources, const PreparedFrame& prepared);
 
 }  // namespace septet::render

@@ -230,7 +230,7 @@ void Renderer::State::draw(const Instant& instant) {
   const bool new_text = lay_out(*overlay_pass, instant.overlay);
   const bool icy = !frame.ice.list.empty();
   const IceTargetSizes ice_sizes{layer_px(targets.width), layer_px(targets.height), instant.ice_surroundings_px,
-                                 frame.ice.beyond};
+                                 frame.surroundings(), frame.ice.beyond};
   if (icy && !ice_targets_fit(ice_pass, ice_sizes)) {
     wait_for_frames(ring, device);
     prepare_ice_targets(ice_pass, context, ice_sizes);
@@ -268,8 +268,10 @@ void Renderer::State::draw(const Instant& instant) {
                          {add_image,
                           view_reads,
                           {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view},
-                          [&] { draw_surroundings(context, frame.around_views, instant); }});
-    for (const ResourceUse& use : ice_reads(*ice, frame.ice.beyond)) view_reads.push_back(use);
+                          [&](std::uint32_t around) {
+                            draw_surroundings(context, std::span(frame.around_views).subspan(6 * around, 6), instant);
+                          }});
+    for (const ResourceUse& use : ice_reads(*ice, frame)) view_reads.push_back(use);
   }
   graph.add_pass("views", {view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
                  [&] { draw_views(context, frame, instant); });

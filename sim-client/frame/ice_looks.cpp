@@ -37,6 +37,7 @@ ice::Look icicle_look(float film) {
 
 ice::Look sheet_look(float film) {
   ice::Look look;
+  look.thin = true;
   look.bump = 0.015f;
   look.bump_size_m = 0.6f;
   look.roughness = 0.06f;

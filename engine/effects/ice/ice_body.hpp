@@ -32,6 +32,8 @@ struct Look {
   bool bent_by_cracks = true;  ///< In quality mode: cracks turn the light that leaves through the back face.
   bool seen_beyond =
       false;  ///< In quality mode: light that has left goes on through what else of ice it meets, of equal absorption.
+  bool thin =
+      false;  ///< Light goes straight through: what lies behind is seen in its place, and only what is mirrored lies over it.
   float bump = 0.12f;         ///< Slope of the unevenness; 0: as smooth as its mesh.
   float bump_size_m = 0.05f;  ///< Length of its longest waves.
   float roughness = 0.0f;     ///< Share of the surface that crystals of frost make white.

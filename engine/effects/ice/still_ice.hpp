@@ -5,8 +5,8 @@
 /// number for all of it. World frame, metres, but for what lies on a vehicle. Pure functions.
 ///
 /// Melting is that of a temperature index: a surface loses `melt_m_per_kh` for each kelvin above freezing and each hour
-/// (R. Hock, "Temperature index melt modelling in mountain areas", J. Hydrology 282, 2003: degree-day factors of ice
-/// of some 6 to 9 mm a day and kelvin). With D = ∫ max(0, T − 273.15 K) dt,
+/// (R. Hock, "Temperature index melt modelling in mountain areas", J. Hydrology 282, 2003, describes the method; 8 mm a day and
+/// kelvin is what models of ice sheets take for ice, those of EISMINT-Greenland and PISM among them). With D = ∫ max(0, T − 273.15 K) dt,
 ///     sheet, slab:  h(D) = max(0, h₀ − kD)            one side: the other one lies on something
 ///     icicle:       r(D) = max(0, r₀ − kD),  L(D) = L₀ r(D)/r₀      a cone keeps its slope
 

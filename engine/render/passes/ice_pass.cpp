@@ -81,14 +81,15 @@ VkPipeline inside_pipeline(IcePass& pass, PassContext& context, bool quality, st
 
 VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBody& body) {
   const bool quality = body.look.mode == ice::Mode::quality;
-  const std::array<std::uint32_t, 6> constants{quality,
+  const std::array<std::uint32_t, 7> constants{quality,
                                                body.look.two_sided,
                                                !body.inside.empty(),
                                                body.look.roughness > 0.0f,
                                                quality && body.look.seen_beyond,
-                                               std::uint32_t(body.look.shown)};
+                                               std::uint32_t(body.look.shown),
+                                               body.look.thin};
   std::uint32_t variant = 0;
-  for (std::uint32_t i = 0; i < constants.size(); ++i) variant |= constants[i] << i;
+  for (const std::uint32_t constant : constants) variant = variant << 2 | constant;
   VkPipeline& pipeline = pass.fronts[variant];
   if (pipeline) return pipeline;
   vulkan::PipelineDescription description;
@@ -98,6 +99,7 @@ VkPipeline front_pipeline(IcePass& pass, PassContext& context, const ice::IceBod
   description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
+  if (body.look.thin) description.blend = vulkan::Blend::over;
   std::ranges::copy(constants, description.constants.begin());
   return pipeline = create_pipeline(context.device, context.layout, description);
 }
@@ -145,13 +147,13 @@ void bind(PassContext& context, VkPipeline pipeline) {
 void draw_inside(IcePass& pass, PassContext& context, const IceTiles& tiles, std::span<const ice::IceBody> bodies,
                  const IceUpload& upload) {
   push_layer(context, vulkan::binding_ice_back, pass.targets[IceImage::back].view);
-  push_layer(context, vulkan::binding_surroundings, pass.targets[IceImage::cube].view);
   vkCmdSetCullMode(context.slot.commands, VK_CULL_MODE_NONE);
   for (const IceTile& tile : tiles.list) {
     const IceUpload::Vertices& vertices = upload.bodies[tile.body];
     if (vertices.inside_count == 0) continue;
     const bool quality = bodies[tile.body].look.mode == ice::Mode::quality;
     begin_tile(context, tile, 2);
+    push_layer(context, vulkan::binding_surroundings, pass.targets[cube_of(tile.around)].view);
     bind(context, inside_pipeline(pass, context, quality, vertices.mixed ? 0 : 1));
     draw_vertices(context, vertices.inside, vertices.first_air);
     bind(context, inside_pipeline(pass, context, quality, 2));
@@ -227,7 +229,7 @@ bool ice_targets_fit(const IcePass& pass, const IceTargetSizes& sizes) {
   const vulkan::ImageDescription& layer = pass.targets[IceImage::front].description;
   return layer.width == sizes.width && layer.height == sizes.height &&
          pass.targets[IceImage::cube].description.width == sizes.surroundings_px &&
-         (!sizes.beyond || pass.targets[IceImage::beyond].image);
+         pass.targets[cube_of(sizes.surroundings - 1)].image && (!sizes.beyond || pass.targets[IceImage::beyond].image);
 }
 
 void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSizes& sizes) {
@@ -265,7 +267,7 @@ void prepare_ice_targets(IcePass& pass, PassContext& context, const IceTargetSiz
   description.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   description.layers = 6;
   description.cube = true;
-  make(IceImage::cube);
+  for (std::uint32_t i = 0; i < sizes.surroundings; ++i) make(cube_of(i));
 }
 
 void destroy_ice_pass(IcePass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory) {
@@ -310,7 +312,6 @@ void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::u
   push_layer(context, vulkan::binding_ice_front, targets[IceImage::front].view);
   push_layer(context, vulkan::binding_ice_back, targets[IceImage::back].view);
   push_layer(context, vulkan::binding_ice_inside, targets[IceImage::inside].view);
-  push_layer(context, vulkan::binding_surroundings, targets[IceImage::cube].view);
   push_layer(context, vulkan::binding_ice_beyond, targets[tiles.beyond ? IceImage::beyond : IceImage::front].view);
   push_layer(context, vulkan::binding_ice_beyond_back,
              targets[tiles.beyond ? IceImage::beyond_back : IceImage::back].view);
@@ -319,13 +320,14 @@ void draw_ice(IcePass& pass, PassContext& context, const IceTiles& tiles, std::u
     if (tile.view != view) continue;
     vkCmdBindPipeline(context.slot.commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       front_pipeline(pass, context, bodies[tile.body]));
+    push_layer(context, vulkan::binding_surroundings, targets[cube_of(tile.around)].view);
     push_constants(context, std::as_bytes(std::span(&tile.constants, 1)));
     draw_vertices(context, upload.bodies[tile.body].surface, upload.bodies[tile.body].surface_count);
   }
 }
 
-void copy_surroundings(const IcePass& pass, PassContext& context) {
-  const std::uint32_t side = pass.targets[IceImage::cube].description.width;
+void copy_surroundings(const IcePass& pass, PassContext& context, IceImage cube) {
+  const std::uint32_t side = pass.targets[cube].description.width;
   const bool multisampled = pass.targets[IceImage::around].description.samples != VK_SAMPLE_COUNT_1_BIT;
   for (std::uint32_t i = 0; i < 6; ++i) {
     const VkOffset3D from{std::int32_t(i % 3 * side), std::int32_t(i / 3 * side), 0};
@@ -335,11 +337,11 @@ void copy_surroundings(const IcePass& pass, PassContext& context) {
     const VkImageCopy copy{source, from, target, {}, {side, side, 1}};
     if (multisampled)
       vkCmdResolveImage(context.slot.commands, pass.targets[IceImage::around].image,
-                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pass.targets[IceImage::cube].image,
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pass.targets[cube].image,
                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &resolve);
     else
       vkCmdCopyImage(context.slot.commands, pass.targets[IceImage::around].image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                     pass.targets[IceImage::cube].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+                     pass.targets[cube].image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
   }
 }
 

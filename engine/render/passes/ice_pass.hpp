@@ -4,8 +4,8 @@
 /// 1. Front faces: normals and depth. 2. Back faces: normals and depth (figure 5 a, b); in quality mode cracks bend the normals.
 /// Where a body is looked through to what of ice lies behind it: the same two of what begins behind those back faces.
 /// 3. Cracks and air, clipped between the two (figure 5 d). 4. In the view, after the sky: front faces that put together what
-/// is seen through both faces, what is inside and what is mirrored. What lies around comes from a cube map that is drawn
-/// anew each frame from the ice's middle. Deviations: a rectangle a body (ice_tiles.hpp) instead of textures of 512²;
+/// is seen through both faces, what is inside and what is mirrored. What lies around comes from cube maps that are drawn
+/// anew each frame, one from the middle of ice that lies together. Deviations: a rectangle a body (ice_tiles.hpp) instead of textures of 512²;
 /// world-space normals of the front face, too; all in linear light.
 
 #include <array>
@@ -31,9 +31,10 @@ enum class IceImage : std::uint8_t {
   depth,
   around,
   around_depth,
-  cube,
+  cube,  ///< Of the first surroundings; those of the others follow.
 };
-inline constexpr std::size_t ice_image_count = 9;
+inline constexpr std::size_t ice_image_count = std::size_t(IceImage::cube) + most_neighbourhoods;
+constexpr IceImage cube_of(std::uint32_t around) { return IceImage(std::uint32_t(IceImage::cube) + around); }
 
 struct IceTargets {
   std::array<vulkan::DeviceImage, ice_image_count> images;
@@ -64,9 +65,9 @@ struct IceUpload {
 
 IceUpload upload_ice(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// Sizes of the layers, even, and of the surroundings; whether there are layers of what is beyond.
+/// Sizes of the layers, even, and of the surroundings; how many of these; whether there are layers of what is beyond.
 struct IceTargetSizes {
-  std::uint32_t width = 0, height = 0, surroundings_px = 0;
+  std::uint32_t width = 0, height = 0, surroundings_px = 0, surroundings = 1;
   bool beyond = false;
 };
 /// Makes the images, or makes them anew. No frame that uses them is in flight where they change.
@@ -89,7 +90,7 @@ void draw_glass(IcePass& pass, PassContext& context, std::span<const ice::IceBod
 /// The vertices of each body, for this frame.
 std::vector<FrameData> upload_glass(PassContext& context, std::span<const ice::IceBody> bodies);
 
-/// From the six pictures side by side to the cube map.
-void copy_surroundings(const IcePass& pass, PassContext& context);
+/// From the six pictures side by side to one of the cube maps.
+void copy_surroundings(const IcePass& pass, PassContext& context, IceImage cube);
 
 }  // namespace septet::render

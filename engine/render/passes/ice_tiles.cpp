@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -193,16 +194,60 @@ IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameVi
   return tiles;
 }
 
-Vec3 middle_of_ice(std::span<const ice::IceBody> bodies, const Vec3& eye_m) {
-  Vec3 sum(0.0);
-  double weights = 0.0;
-  for (const ice::IceBody& body : bodies) {
-    const Vec3 away = body.origin_m - eye_m;
-    const double square = std::max(1.0, glm::dot(away, away)), weight = 1.0 / (square * square);
-    sum += weight * away;
-    weights += weight;
+IceNeighbourhoods ice_neighbourhoods(std::span<const ice::IceBody> bodies, const Vec3& eye_m) {
+  // One reaches as far as what it mirrors hardly changes: some metres, and more from afar.
+  constexpr double reach_m = 3.0, reach_per_m = 0.1;
+  IceNeighbourhoods result;
+  std::vector<std::pair<double, std::uint32_t>> by_size;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (const ice::IceVertex& vertex : bodies[i].vertices)
+      low = glm::min(low, vertex.position_m), high = glm::max(high, vertex.position_m);
+    const double size = glm::length(high - low) / std::max(1.0, glm::length(bodies[i].origin_m - eye_m));
+    by_size.emplace_back(std::isfinite(size) ? -size : 0.0, i);
   }
-  return weights > 0.0 ? eye_m + sum / weights : eye_m;
+  std::ranges::sort(by_size);
+  std::vector<Vec3> seeds_m;
+  const auto nearest = [&](const Vec3& place_m) {
+    std::uint32_t best = 0;
+    for (std::uint32_t k = 1; k < seeds_m.size(); ++k)
+      if (glm::length(place_m - seeds_m[k]) < glm::length(place_m - seeds_m[best])) best = k;
+    return best;
+  };
+  for (const auto& [size, body] : by_size) {
+    const Vec3& place_m = bodies[body].origin_m;
+    if (seeds_m.size() == most_neighbourhoods) break;
+    const double reach = std::max(reach_m, reach_per_m * glm::length(place_m - eye_m));
+    if (seeds_m.empty() || !(glm::length(place_m - seeds_m[nearest(place_m)]) < reach)) seeds_m.push_back(place_m);
+  }
+  std::vector<Vec3> sums(seeds_m.size(), Vec3(0.0));
+  std::vector<double> weights(seeds_m.size(), 0.0);
+  for (const ice::IceBody& body : bodies) {
+    const std::uint32_t of = nearest(body.origin_m);
+    result.of_body.push_back(of);
+    // An eye at the height of a sheet would look into the road under it.
+    const Vec3 away = body.origin_m - eye_m + Vec3(0.0, 0.0, body.look.thin ? 0.3 : 0.0);
+    const double square = std::max(1.0, glm::dot(away, away)), weight = 1.0 / (square * square);
+    sums[of] += weight * away;
+    weights[of] += weight;
+  }
+  for (std::size_t k = 0; k < seeds_m.size(); ++k)
+    result.middles_m.push_back(weights[k] > 0.0 ? eye_m + sums[k] / weights[k] : seeds_m[k]);
+  return result;
+}
+
+std::vector<Vec3> seen_neighbourhoods(const IceNeighbourhoods& neighbourhoods, IceTiles& tiles) {
+  std::vector<Vec3> seen;
+  std::vector<std::optional<std::uint32_t>> place(neighbourhoods.middles_m.size());
+  for (IceTile& tile : tiles.list) {
+    auto& around = place[neighbourhoods.of_body[tile.body]];
+    if (!around) {
+      around = static_cast<std::uint32_t>(seen.size());
+      seen.push_back(neighbourhoods.middles_m[neighbourhoods.of_body[tile.body]]);
+    }
+    tile.around = *around;
+  }
+  return seen;
 }
 
 std::vector<FrameView> surrounding_views(const Vec3& middle_m, std::uint32_t side_px) {

@@ -24,6 +24,7 @@ struct IceConstants {
 
 struct IceTile {
   std::uint32_t body = 0, view = 0;  ///< Indices of Instant::ice and Instant::views.
+  std::uint32_t around = 0;          ///< Which of the frame's surroundings it is in.
   PixelRectangle rectangle;
   IceConstants constants;
   std::vector<std::uint32_t> beyond;  ///< Bodies behind it that light from it may meet, the nearest few, if it is to.
@@ -48,9 +49,16 @@ IceConstants constants_beyond(const IceTile& tile, const ice::IceBody& own, cons
 IceTiles ice_tiles(std::span<const ice::IceBody> bodies, std::span<const FrameView> views, std::uint32_t width,
                    std::uint32_t height);
 
-/// From where the surroundings of the ice are seen: the middle of all of it, what is near to the eye first. The same on all
-/// screens of one eye.
-Vec3 middle_of_ice(std::span<const ice::IceBody> bodies, const Vec3& eye_m);
+/// Ice that lies together mirrors the same surroundings; of what is elsewhere the largest in the eye comes first, and the rest
+/// takes the nearest. The same on all screens of one eye.
+struct IceNeighbourhoods {
+  std::vector<Vec3> middles_m;  ///< From where the surroundings of each are seen: what is near to the eye weighs most.
+  std::vector<std::uint32_t> of_body;  ///< One a body.
+};
+inline constexpr std::size_t most_neighbourhoods = 4;
+IceNeighbourhoods ice_neighbourhoods(std::span<const ice::IceBody> bodies, const Vec3& eye_m);
+/// Those that some tile is in, whose `around` is told; the others are left out.
+std::vector<Vec3> seen_neighbourhoods(const IceNeighbourhoods& neighbourhoods, IceTiles& tiles);
 
 /// The six views of a cube map, side by side in two rows of three: +x, −x, +z, −z, +y, −y, as `around` in shaders/ice.glsl
 /// looks them up.

@@ -13,6 +13,8 @@ layout(constant_id = 3) const uint frosted = 0;
 layout(constant_id = 4) const uint beyond = 0;  // What of ice lies behind is looked through, too.
 layout(constant_id = 5) const uint shown = 0;   // Instead of ice: 1 the depth of front faces, 2 of back faces.
 
+layout(constant_id = 6) const uint thin = 0;    // What lies behind is seen in its place.
+
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 rest;
@@ -128,13 +130,22 @@ void main() {
     result = vec4(vec3(1.0 - clamp((depth - ice.forward.w) / ice.absorption.w, 0.0, 1.0)), 1.0);
     return;
   }
+  // The grain of what lies under a thin film makes it rough: at a glancing look the slopes are seen that turn to the eye.
+  const float grain = 0.1;
+  if (thin != 0) {
+    n = normalize(n - grain * eye);
+    cosine = abs(dot(eye, n));
+  }
   // A bump may turn away from the eye; it is seen all the same.
   vec3 facing = dot(eye, n) < -0.02 ? n : normalize(n - (dot(eye, n) + 0.02) * eye);
 
-  vec3 seen;
+  vec3 seen = vec3(0.0);
+  // Of what lies behind. A film that lies on it keeps some of its light by total reflection, as water darkens asphalt (Lekner and
+  // Dorf, "Why some things are darker when wet", 1988).
+  float hidden = thin != 0 ? 0.3 : 1.0;
   if (quality != 0 && two_sided != 0) {
     seen = followed(refracted(eye, facing, into_ice));
-  } else {
+  } else if (thin == 0) {
     vec3 turned = facing;
     if (two_sided != 0) {
       // Equation 1.
@@ -146,10 +157,12 @@ void main() {
   if (filled != 0) {
     vec4 inside = textureLod(ice_inside, at, 0.0);
     seen = seen * (1.0 - inside.a) + inside.rgb;
+    hidden += (1.0 - hidden) * inside.a;
   }
   // Equation 4, or Fresnel's.
-  float share = (quality != 0 ? exact_fresnel(cosine) : (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine)) * ice.blend.w;
+  float share = (quality != 0 || thin != 0 ? exact_fresnel(cosine) : (1.0 - cosine) * (1.0 - cosine) * (1.0 - cosine)) * ice.blend.w;
   vec3 radiance = mix(seen, around(reflect(eye, facing)), share);
+  hidden += (1.0 - hidden) * share;
   vec3 h = normalize(view.light_direction.xyz - eye);
   vec3 sunlight = view.light_irradiance.rgb * ice.origin.w;
   radiance += sunlight * (pow(max(dot(n, h), 0.0), ice.beyond.w) * (ice.beyond.w * (1.5 / 220.0)) * ice.blend.w);
@@ -158,10 +171,12 @@ void main() {
     // The noise holds ranks, as square roots: a crust that is thick here and thin there.
     float coarse = textureLod(noise, rest.xy * 0.7 + rest.z * 0.31, 0.0).r, fine = textureLod(noise, rest.yx * 5.3 - rest.z, 0.0).r;
     float crust = 0.7 * coarse * coarse + 0.3 * fine * fine;
-    radiance = mix(radiance, 0.82 * light, ice.blend.z * smoothstep(0.15, 0.85, crust));
+    float covered = ice.blend.z * smoothstep(0.15, 0.85, crust);
+    radiance = mix(radiance, 0.82 * light, covered);
+    hidden += (1.0 - hidden) * covered;
   }
 
   float fog = 1.0 - exp2(-length(relative) * view.sky_irradiance.w);
-  radiance = mix(radiance, fog_radiance(eye), fog);
-  result = vec4(radiance, 1.0);
+  radiance = mix(radiance, fog_radiance(eye) * hidden, fog);
+  result = vec4(radiance, hidden);
 }
