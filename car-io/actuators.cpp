@@ -9,6 +9,8 @@ namespace {
 // Shares of what the shaker may do; engineer's values, to be felt and changed.
 constexpr double idling_engine = 0.10, loaded_engine = 0.30;
 constexpr double road_at_30_mps = 0.25;
+constexpr double line = 0.35, line_profile_m = 0.3048;  // As a milled strip's 12 inches.
+constexpr double bump = 0.90, wheel_hop_hz = 13.0, blow = 1.0, blow_hz = 30.0;
 constexpr double anti_lock = 0.60, anti_lock_hz = 12.0;
 constexpr double lowest_hz = 5.0, highest_hz = 200.0;  // What a shaker plays.
 
@@ -17,6 +19,18 @@ struct Shake {
 };
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
+
+/// Of the fan, so that its air is as fast as this share of what it can.
+double duty_for(double air_share, const rig::CarActuators& limits) {
+  const auto& curve = limits.fan_curve;
+  if (curve.empty()) return limits.fan_least + (1.0 - limits.fan_least) * air_share;
+  const double wanted = air_share * curve.back().y;
+  if (wanted <= curve.front().y) return curve.front().x;
+  std::size_t upper = 1;
+  while (upper + 1 < curve.size() && curve[upper].y < wanted) ++upper;
+  const Vec2 &low = curve[upper - 1], &high = curve[upper];
+  return low.x + (high.x - low.x) * std::clamp((wanted - low.y) / (high.y - low.y), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -27,7 +41,7 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
     // The force of a jet of air grows with the square of its speed.
     const double speed_share = std::min(speed_mps / limits.fan_full_speed_mps, 1.0);
     const double share = limits.fan_follows == rig::CarActuators::Wind::force ? std::sqrt(speed_share) : speed_share;
-    result.fan = std::min(limits.fan_least + (1.0 - limits.fan_least) * share, 1.0) * limits.fan_most;
+    result.fan = std::min(duty_for(share, limits), 1.0) * limits.fan_most;
   }
 
   constexpr double turn_rad = 2.0 * std::numbers::pi;
@@ -40,6 +54,9 @@ Actuators actuators_for(const CarMotion& motion, const rig::CarActuators& limits
        engine_hz * motion.cylinders / 2.0},
       {road_at_30_mps * std::clamp(finite(motion.roughness), 0.0, 10.0) * std::sqrt(speed_mps / 30.0),
        speed_mps / (turn_rad * std::max(motion.wheel_radius_m, 0.1))},
+      {motion.on_line ? line * std::min(speed_mps / 5.0, 1.0) : 0.0, speed_mps / line_profile_m},
+      {bump * std::clamp(finite(motion.bump), 0.0, 1.0), wheel_hop_hz},
+      {blow * std::clamp(finite(motion.blow), 0.0, 1.0), blow_hz},
       {motion.anti_lock_active ? anti_lock : 0.0, anti_lock_hz}};
   double power = 0.0;
   Shake strongest;

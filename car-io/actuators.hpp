@@ -4,8 +4,8 @@
 ///
 /// The fan blows in proportion to the car's speed (Lebram, Engström and Gustavsson 2006, section
 /// 3.3). A shaker has one frequency at a time: that of the strongest of engine (firing order k =
-/// cylinders / 2 of a four-stroke), road (once a turn of the wheel) and anti-lock brakes; their
-/// amplitudes add as squares.
+/// cylinders / 2 of a four-stroke), road (once a turn of the wheel), lines (their profile), kerbs (the wheel hops), crashes and anti-lock
+/// brakes; their amplitudes add as squares. The channel of low frequencies has all of them at once (engine/audio).
 
 #include "car-io/car_report.hpp"
 #include "engine/rig/rig.hpp"
@@ -19,7 +19,9 @@ struct CarMotion {
   double engine_load = 0.0;  ///< 0 to 1.
   int cylinders = 6;
   double wheel_radius_m = 0.32;
-  double roughness = 1.0;  ///< Of what the wheels roll on: 1 a good road, more on a worse one.
+  double roughness = 1.0;         ///< Of what the wheels roll on: 1 a good road, more on a worse one.
+  bool on_line = false;           ///< A wheel rolls over paint.
+  double bump = 0.0, blow = 0.0;  ///< 0 to 1, dying away: a kerb or a piece under a wheel; a crash.
   bool anti_lock_active = false;
   double steering_torque_nm = 0.0;  ///< At the hand wheel, positive turns it to the left.
 };

@@ -346,7 +346,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   environment.show = [&](const std::string& text) { progress.message(text); };
   if (rig.sound && !options.lockstep && !options.no_screens)
     environment.hear =
-        drive_sound(rig, drive.live ? &drive.loaded.model->car : nullptr, drive.session ? &*drive.session : nullptr,
+        drive_sound(rig, drive.live ? drive.loaded.model : nullptr, drive.session ? &*drive.session : nullptr,
                     drive.store, environment.message, [&drive] {
                       // The shaker hangs on the same device, and what it plays on is nobody's any more.
                       if (drive.live) drive.live->cut_actuators("the sound has stopped");

@@ -118,8 +118,11 @@ OwnCar hear_own(const Snapshot& now, const Snapshot* before, const Participant& 
   own.indicator_lit = body.lamps.has(Lamp::indicator_left) || body.lamps.has(Lamp::indicator_right);
   own.horn = body.lamps.has(Lamp::horn);
   if (!before) return own;
-  if (const Participant* earlier = find_participant(*before, body.id))
-    own.blow_mps = blow_mps(body, *earlier, now.simulated_time_s - before->simulated_time_s);
+  if (const Participant* earlier = find_participant(*before, body.id)) {
+    const double seconds = now.simulated_time_s - before->simulated_time_s;
+    own.blow_mps = blow_mps(body, *earlier, seconds);
+    own.bump_mps = bump_mps(body, *earlier, seconds);
+  }
   for (const EffectKeyframe& effect : now.effects) {
     if (effect.kind != debris_kind) continue;
     const auto same = std::ranges::lower_bound(before->effects, effect.id, {}, &EffectKeyframe::id);
@@ -157,6 +160,13 @@ OtherSound hear_other(const Snapshot& now, const Snapshot* before, const Partici
 
 }  // namespace
 
+double bump_mps(const Participant& now, const Participant& before, double seconds) {
+  constexpr double roads_do_at_most_mps2 = 6.0, least_mps = 0.05;
+  const double jump_mps = std::abs(now.velocity_mps.z - before.velocity_mps.z);
+  if (!std::isfinite(jump_mps) || jump_mps > 100.0) return 0.0;
+  return jump_mps > std::max(least_mps, roads_do_at_most_mps2 * seconds) ? jump_mps : 0.0;
+}
+
 double doppler_factor(const Vec3& to_listener, const Vec3& source_mps, const Vec3& listener_mps) {
   const double distance = glm::length(to_listener);
   if (!(distance > 1e-3)) return 1.0;
@@ -167,7 +177,16 @@ double doppler_factor(const Vec3& to_listener, const Vec3& source_mps, const Vec
   return (speed_of_sound_mps - away) / (speed_of_sound_mps - towards);
 }
 
-Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes) {
+Felt felt(const Snapshot& now, const Snapshot& before) {
+  const Participant* body = find_participant(now, now.driver_car.participant);
+  const Participant* earlier = body ? find_participant(before, body->id) : nullptr;
+  if (!earlier) return {};
+  const double seconds = now.simulated_time_s - before.simulated_time_s;
+  return {blow_mps(*body, *earlier, seconds), bump_mps(*body, *earlier, seconds)};
+}
+
+Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes,
+           const GroundFeel& ground) {
   Heard heard;
   Reader reader;
   const Participant* body = find_participant(now, now.driver_car.participant);
@@ -177,6 +196,8 @@ Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, con
     return heard;  // Nobody sits anywhere, so nothing is heard.
   }
   heard.car = hear_own(now, before, *body, car, boxes, reader);
+  heard.car.ground = ground;
+  if (!std::isfinite(ground.unevenness_m3)) heard.car.ground = {};
   const RigidTransform ear_from_world =
       inverse(body->world_from_vehicle * RigidTransform{car.ear_m, Quat(1.0, 0.0, 0.0, 0.0)});
   const Vec3 listener_mps = Reader().vector(body->velocity_mps, fastest_mps);  // Counted once, above.

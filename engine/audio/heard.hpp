@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/audio/ground_feel.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::audio {
@@ -40,12 +41,15 @@ struct OwnCar {
   double wheel_hz = 0.0;                     ///< Turns a second.
   double front_slip = 0.0, rear_slip = 0.0;  ///< Of the contact over the ground as a share of the speed.
   double looseness = 0.0;                    ///< 0 on a paved road, 1 on gravel or grass.
+  GroundFeel ground;                         ///< Without roads: a good one, without lines.
   double wetness = 0.0, snow = 0.0;
   double rain_mm_per_h = 0.0;  ///< On the roof: none in a tunnel, none as snow.
   bool indicator_lit = false, horn = false, reversing = false;
   double blow_mps = 0.0;  ///< Change of velocity within this tick, beyond what tyres can do; 0: no blow.
-  int pieces = 0;         ///< That were broken off in this tick.
-  double tunnel = 0.0;    ///< 0 in the open to 1 inside, over 20 m at its mouth.
+  double bump_mps =
+      0.0;  ///< Of a kerb, a hole, a piece under a wheel: likewise of the vertical velocity alone, beyond what a road does.
+  int pieces = 0;       ///< That were broken off in this tick.
+  double tunnel = 0.0;  ///< 0 in the open to 1 inside, over 20 m at its mouth.
 };
 
 /// Somebody else in one tick.
@@ -74,6 +78,16 @@ inline constexpr double speed_of_sound_mps = 343.3;
 double doppler_factor(const Vec3& to_listener, const Vec3& source_mps, const Vec3& listener_mps);
 
 /// `before` is the tick before, or null at the start and behind a gap.
-Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes);
+Heard hear(const Snapshot& now, const Snapshot* before, const CarSound& car, const std::vector<EchoBox>& boxes,
+           const GroundFeel& ground = {});
+
+/// The jolt that went through a body in the time between two of its states: `OwnCar::bump_mps`.
+double bump_mps(const Participant& now, const Participant& before, double seconds);
+
+/// What jolted the driver's car between two ticks: `OwnCar::blow_mps` and `bump_mps`.
+struct Felt {
+  double blow_mps = 0.0, bump_mps = 0.0;
+};
+Felt felt(const Snapshot& now, const Snapshot& before);
 
 }  // namespace septet::audio

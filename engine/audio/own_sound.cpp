@@ -12,6 +12,7 @@ namespace septet::audio {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double line_profile_m = 0.3048, wheel_hop_hz = 13.0;
 
 /// How each layer's noise is shaped, worked out once.
 struct Shapes {
@@ -166,9 +167,29 @@ void render_low(OwnState& state, const CarSound& car, const OwnCar& heard, Block
       state.gain * pressure_pa(firing_order_db(std::max(state.engine_hz, 3.0), state.load, false) - 3.0);
   add_harmonics(state.low_orders, std::max(state.engine_hz * car.cylinders / 2.0, 1.0), single(firing), 1, out);
   const double speed = std::abs(heard.speed_mps);
-  const double rolling = std::sqrt(std::min(speed, 60.0) / 30.0) * (1.0 + 2.0 * heard.looseness);
-  add_harmonics(state.low_wheel, std::max(heard.wheel_hz, 1.0), single(0.02 * rolling), 1, out);
-  add_noise(state.low_road, shapes().low_road, 3.0 * rolling, out);
+  // A good road at 30 m/s is the measure; the worst that is played is ten times that.
+  const double moving = std::min(speed, 60.0);
+  const double unevenness = heard.looseness > 0.0 ? std::max(heard.ground.unevenness_m3, class_e_m3)
+                                                  : std::clamp(heard.ground.unevenness_m3, 0.0, class_e_m3);
+  const double rolling = std::min(
+      ground_velocity_mps(unevenness, moving, 8.0, 35.0) / ground_velocity_mps(class_a_m3, 30.0, 8.0, 35.0), 10.0);
+  add_harmonics(state.low_wheel, std::max(heard.wheel_hz, 1.0), single(0.02 * std::sqrt(moving / 30.0)), 1, out);
+  add_noise(state.low_road, shapes().low_road, 2.0 * rolling, out);
+  // Lines are profiled every 0.3 m (a milled strip's 12 inches).
+  add_harmonics(state.low_line, std::max(moving / line_profile_m, 1.0),
+                single(heard.ground.on_line ? 0.08 * std::min(1.0, moving / 5.0) : 0.0), 1, out);
+  // A wheel that is struck hops on its tyre, at some 13 Hz.
+  static const float attack = attack_of(0.003), decay = decay_of(0.09);
+  if (heard.bump_mps > 0.0) {
+    if (state.bump.is_over()) state.bump_phase = 0.0;
+    state.bump.strike(std::min(1.2 * heard.bump_mps, 0.8));
+  }
+  if (!state.bump.is_over())
+    for (float& sample : out) {
+      state.bump_phase += wheel_hop_hz / sample_rate_hz;
+      sample += state.bump.step(attack, decay) * static_cast<float>(std::sin(turn * state.bump_phase));
+    }
+  state.bump_phase -= std::floor(state.bump_phase);
   for (float& sample : out) sample = state.low_second.step(steeper, state.low_first.step(upper, sample));
 }
 

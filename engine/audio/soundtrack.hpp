@@ -47,7 +47,7 @@ inline constexpr std::size_t own_voices = 13;
 /// The driver's car from block to block.
 struct OwnState {
   double gain = 0.0, engine_hz = 0.0, load = 0.0, fuel_cut = 0.0;  ///< The engine's, following within 80 ms.
-  Tone front_orders, rear_orders, whine, horn_low, horn_high, low_orders, low_wheel;
+  Tone front_orders, rear_orders, whine, horn_low, horn_high, low_orders, low_wheel, low_line;
   NoiseLayer mechanical, intake, rain_hiss, low_road;
   struct Tyre {
     NoiseLayer air, structure, spray, gravel, skid;
@@ -59,7 +59,8 @@ struct OwnState {
   std::array<Filter, 3> roof;
   double drop_rate = 0.0, drop_pressure = 0.0;
   bool was_lit = false;
-  Burst relay, blow, glass, pieces;
+  Burst relay, blow, glass, pieces, bump;
+  double bump_phase = 0.0;
   double relay_phase = 0.0, relay_hz = 2300.0;
   Filter blow_filter, glass_filter, pieces_filter, low_first, low_second, low_blow;
 };

@@ -100,6 +100,13 @@ std::vector<const toml::table*> TableReader::get_tables(std::string_view key) {
   return tables;
 }
 
+const toml::array* TableReader::get_array(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node && !node->is_array())
+    report(key, fmt::format("{}.{} is no list", title_, key), fmt::format("write {} = [...]", key));
+  return node ? node->as_array() : nullptr;
+}
+
 const toml::table* TableReader::get_table(std::string_view key) {
   const toml::node* node = find(key);
   return node ? node->as_table() : nullptr;

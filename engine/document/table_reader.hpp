@@ -35,6 +35,8 @@ class TableReader {
   Vec3 get_point(std::string_view key);
   std::vector<const toml::table*> get_tables(std::string_view key);
   const toml::table* get_table(std::string_view key);
+  /// Null where the key is absent, or no list, which is reported.
+  const toml::array* get_array(std::string_view key);
   /// Reports a key that nobody asked for; `documented_in` is the file that lists those there are.
   void finish(std::string_view documented_in);
   /// Reports with line and column of `key`, or of the table where the key is absent.

@@ -140,12 +140,32 @@ CarCalibration read_calibration(const toml::table& table, std::string_view file,
   return calibration;
 }
 
+std::vector<Vec2> read_fan_curve(const toml::array& points, TableReader& reader) {
+  std::vector<Vec2> curve;
+  for (const toml::node& node : points) {
+    const toml::array* pair = node.as_array();
+    const auto share = pair && pair->size() == 2 ? pair->get(0)->value<double>() : std::nullopt;
+    const auto speed = pair && pair->size() == 2 ? pair->get(1)->value<double>() : std::nullopt;
+    const bool is_point = share && speed && *share >= 0.0 && *share <= 1.0 && *speed >= 0.0 && *speed < 1000.0;
+    if (!is_point || (!curve.empty() && (*share <= curve.back().x || *speed <= curve.back().y))) {
+      reader.report("fan_curve", "car.actuators.fan_curve is no rising list of [share, air speed]",
+                    "write what was measured, as [[0.2, 2.0], [0.6, 7.5], [1.0, 12.0]]");
+      return {};
+    }
+    curve.emplace_back(*share, *speed);
+  }
+  if (curve.size() < 2 || curve.size() > 100)
+    reader.report("fan_curve", "car.actuators.fan_curve has not between 2 and 100 points", "measure at five or so");
+  return curve.size() < 2 ? std::vector<Vec2>{} : curve;
+}
+
 CarActuators read_actuators(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car.actuators", error);
   CarActuators actuators;
   actuators.fan_full_speed_mps = reader.get_double("fan_full_speed_mps", actuators.fan_full_speed_mps, 1.0, 200.0);
   actuators.fan_follows = static_cast<CarActuators::Wind>(reader.get_choice("fan_follows", 0, {"air-speed", "force"}));
   actuators.fan_least = reader.get_double("fan_least", actuators.fan_least, 0.0, 1.0);
+  if (const toml::array* points = reader.get_array("fan_curve")) actuators.fan_curve = read_fan_curve(*points, reader);
   actuators.fan_most = reader.get_double("fan_most", actuators.fan_most, 0.0, 1.0);
   actuators.vibration_most = reader.get_double("vibration_most", actuators.vibration_most, 0.0, 1.0);
   actuators.vibration_full_mps2 = reader.get_double("vibration_full_mps2", actuators.vibration_full_mps2, 0.0, 100.0);

@@ -85,6 +85,8 @@ struct CarActuators {
   /// What of the wind is linear in the car's speed: the air's speed, or its force, which grows with the square of that.
   enum class Wind : std::uint8_t { air_speed, force } fan_follows = Wind::air_speed;
   double fan_least = 0.2;  ///< Share at which the fan just turns.
+  std::vector<Vec2>
+      fan_curve;  ///< As it was measured: shares of the fan and the air's speed there, both rising. Empty: linear from fan_least.
   double fan_most = 1.0;
   double vibration_most = 0.6;
   double vibration_full_mps2 =

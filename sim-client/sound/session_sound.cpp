@@ -1,9 +1,11 @@
 #include "sim-client/sound/session_sound.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "engine/physics/vehicle/read_vehicle.hpp"
 #include "engine/rig/rig.hpp"
+#include "engine/road/opendrive_reader.hpp"
 #include "engine/scene/resolve.hpp"
 #include "logging/recorded_scene.hpp"
 #include "sim-client/frame/car_sound.hpp"
@@ -22,6 +24,13 @@ audio::CarSound car_sound_of(const logging::SessionInfo& info) {
   }
   car.ear_m = ear_m.value_or(car.ear_m);
   return car;
+}
+
+road::RoadNetwork roads_of(const logging::SessionInfo& info) {
+  for (const auto& source : info.files)
+    if (source.role == "road")
+      if (auto roads = road::read_opendrive(source.content, source.name)) return std::move(*roads);
+  return {};
 }
 
 Expected<std::vector<audio::EchoBox>> echo_boxes_of(const logging::SessionReader& session) {

@@ -46,12 +46,13 @@ struct Made {
 /// Tick for tick through the stage into the file. The stage is a block late: the first one it gives is left out.
 Expected<Made> render_session(const SoundOptions& options, const Span& span, logging::SnapshotCursor cursor,
                               const audio::CarSound& car, const std::vector<audio::EchoBox>& boxes,
-                              audio::SoundStage& stage, WavFile& file) {
+                              const road::RoadNetwork& roads, audio::SoundStage& stage, WavFile& file) {
   program::ProgressLine progress;
   audio::State state = audio::start(car, Random(options.seed));
   std::vector<audio::Voice> voices;
   std::vector<float> samples;
   std::optional<Snapshot> before;
+  std::optional<road::RoadPosition> place;
   Made made;
   std::uint64_t rendered = 0;
   const auto render = [&](const audio::Heard& heard) -> Expected<void> {
@@ -70,10 +71,11 @@ Expected<Made> render_session(const SoundOptions& options, const Span& span, log
     if (!*next || (*next)->simulated_time_s >= span.to_s - time_slack_s) break;
     if ((*next)->simulated_time_s >= span.from_s - time_slack_s) {
       const Tick missing = before && (*next)->tick > before->tick ? (*next)->tick - before->tick - 1 : 0;
-      heard.car.blow_mps = 0.0;
+      heard.car.blow_mps = heard.car.bump_mps = 0.0;
       for (Tick i = 0; rendered > 0 && i < std::min(missing, longest_gap); ++i)
         if (auto done = render(heard); !done) return tl::unexpected(done.error());
-      heard = audio::hear(**next, before && missing == 0 ? &*before : nullptr, car, boxes);
+      heard = audio::hear(**next, before && missing == 0 ? &*before : nullptr, car, boxes,
+                          audio::feel_ground(roads, **next, place, car.wheelbase_m));
       made.bad_numbers += heard.bad_numbers;
       if (auto done = render(heard); !done) return tl::unexpected(done.error());
     }
@@ -111,8 +113,8 @@ Expected<int> run_sound(SoundOptions options) {
   if (!stage) return tl::unexpected(stage.error());
   auto file = WavFile::create(options.out, channels);
   if (!file) return tl::unexpected(file.error());
-  const auto made =
-      render_session(options, *span, std::move(*cursor), car_sound_of(session->info()), *boxes, *stage, *file);
+  const auto made = render_session(options, *span, std::move(*cursor), car_sound_of(session->info()), *boxes,
+                                   roads_of(session->info()), *stage, *file);
   if (!made) return tl::unexpected(made.error());
   if (made->stopped) {
     program::say("septet: stopped; there is no file");

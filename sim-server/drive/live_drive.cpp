@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "car-io/can/instruments.hpp"
+#include "engine/audio/heard.hpp"
 #include "engine/core/printable.hpp"
 #include "engine/simulation/saved_state.hpp"
 #include "sim-server/drive/car_motion.hpp"
@@ -166,11 +167,27 @@ void LiveDrive::watch_faults() {
   }
 }
 
-void LiveDrive::move_actuators() {
+/// What of the ground and of blows the shaker plays beside engine and wheels.
+void LiveDrive::feel(const Snapshot& before, car_io::CarMotion& motion) {
+  constexpr double dies_in_s = 0.09, tick_s = 1.0 / simulation::tick_rate_hz;
+  const Snapshot& now = newest_->snapshot();
+  const auto ground = audio::feel_ground(model_->roads, now, felt_at_, model_->car.body.wheelbase_m);
+  motion.roughness = std::sqrt(ground.unevenness_m3 / audio::class_a_m3);
+  motion.on_line = ground.on_line;
+  const auto heard = audio::felt(now, before);
+  const double left = std::exp(-tick_s / dies_in_s);
+  bump_ = std::max(bump_ * left, std::min(heard.bump_mps, 1.0));
+  blow_ = std::max(blow_ * left, std::min(heard.blow_mps / 3.0, 1.0));
+  motion.bump = bump_;
+  motion.blow = blow_;
+}
+
+void LiveDrive::move_actuators(const Snapshot& before) {
   watch_faults();
   if (!seat_.actuate) return;
   constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
   auto motion = car_motion(*model_, state_);
+  feel(before, motion);
   motion.steering_torque_nm = car_io::wheel_torque_nm(wheel_torque_,
                                                       {.column_torque_nm = motion.steering_torque_nm,
                                                        .wheel_rad = state_.input.steering_wheel_rad,
@@ -242,8 +259,9 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
   std::vector<simulation::Event> events = std::exchange(events_, {});
+  const auto before = newest_;
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));
-  move_actuators();
+  move_actuators(before->snapshot());
   show_instruments(input.input);
   if (told_)
     for (const auto& event : events) told_(event, state_.time_s());

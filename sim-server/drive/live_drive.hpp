@@ -79,7 +79,8 @@ class LiveDrive final : public TickSource {
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
   void watch_switches(const car_io::CarSwitches& switches);
   void watch_faults();
-  void move_actuators();
+  void feel(const Snapshot& before, car_io::CarMotion& motion);
+  void move_actuators(const Snapshot& before);
   car_io::Actuators within_dose(car_io::Actuators wanted, double dt_s);
   void show_instruments(const DriverInput& input);
   void keep_state();
@@ -103,6 +104,8 @@ class LiveDrive final : public TickSource {
   int rearm_held_ticks_ = 0, resting_ticks_ = 0;
   std::optional<std::string> cut_why_;
   car_io::ActuatorGuard guard_;
+  std::optional<road::RoadPosition> felt_at_;
+  double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.
   car_io::VibrationDose dose_;
   car_io::WheelTorqueState wheel_torque_;
   bool dose_is_full_ = false;

@@ -63,8 +63,12 @@ OpenSoundOutput device_opener(const rig::Sound& sound) {
   };
 }
 
-SoundFeeder::SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes)
-    : open_(std::move(open)), state_(audio::start(car, Random(1))), boxes_(std::move(boxes)) {}
+SoundFeeder::SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes,
+                         std::shared_ptr<const road::RoadNetwork> roads)
+    : open_(std::move(open)),
+      state_(audio::start(car, Random(1))),
+      boxes_(std::move(boxes)),
+      roads_(std::move(roads)) {}
 
 void SoundFeeder::tell(std::string text) {
   if (text == last_told_) return;
@@ -123,12 +127,14 @@ void SoundFeeder::feed(double now_s) {
     if (now.tick->snapshot().participants.empty()) now.decoded = from_wire(now.tick->wire());
     // Behind a gap nothing is told from the step between two ticks.
     const bool follows = before_.tick && now.snapshot().tick == before_.snapshot().tick + 1;
-    heard_ = audio::hear(now.snapshot(), follows ? &before_.snapshot() : nullptr, state_.car, boxes_);
+    const auto ground =
+        roads_ ? audio::feel_ground(*roads_, now.snapshot(), place_, state_.car.wheelbase_m) : audio::GroundFeel{};
+    heard_ = audio::hear(now.snapshot(), follows ? &before_.snapshot() : nullptr, state_.car, boxes_, ground);
     before_ = std::move(now);
   } else {
     ++counts_.repeated;
     if (!came_s_ || now_s - *came_s_ > silent_after_s) heard_ = {};
-    heard_.car.blow_mps = 0.0;
+    heard_.car.blow_mps = heard_.car.bump_mps = 0.0;
     heard_.car.pieces = 0;
     for (auto& other : heard_.others) other.blow_mps = 0.0;
   }

@@ -40,7 +40,9 @@ OpenSoundOutput device_opener(const rig::Sound& sound);
 
 class SoundFeeder {
  public:
-  SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes);
+  /// `roads`: what the ground is by; null: a good road without lines. They are kept alive by whoever gave them, or by the pointer.
+  SoundFeeder(OpenSoundOutput open, const audio::CarSound& car, std::vector<audio::EchoBox> boxes,
+              std::shared_ptr<const road::RoadNetwork> roads = nullptr);
 
   void add(std::shared_ptr<const TakenSnapshot> tick, double now_s);
   /// Keeps the device fed; call it every few milliseconds.
@@ -62,6 +64,8 @@ class SoundFeeder {
   OpenSoundOutput open_;
   audio::State state_;
   std::vector<audio::EchoBox> boxes_;
+  std::shared_ptr<const road::RoadNetwork> roads_;
+  std::optional<road::RoadPosition> place_;
   std::unique_ptr<SoundOutput> output_;
   std::optional<double> next_try_s_, came_s_;
   double played_s_ = 0.0;  ///< When the device last took a block from its queue.

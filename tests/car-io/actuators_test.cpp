@@ -1,5 +1,6 @@
 #include "car-io/actuators.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,36 @@ TEST_CASE("at idle the shaker plays the firing order and at speed the turning of
       actuators_for({.speed_mps = 25.0, .engine_radps = 250.0, .wheel_radius_m = 0.31, .roughness = 1.0}, limits);
   CHECK(cruise.vibration_hz == doctest::Approx(12.83).epsilon(0.01));
   CHECK(cruise.vibration > idle.vibration);
+}
+
+TEST_CASE("a fan whose air was measured blows air in proportion to the speed, or with a force in proportion to it") {
+  rig::CarActuators limits{.fan_full_speed_mps = 40.0, .fan_curve = {{0.2, 1.0}, {0.5, 6.0}, {1.0, 10.0}}};
+  const auto air_at = [&](double speed_mps) {
+    const double duty = actuators_for({.speed_mps = speed_mps}, limits).fan;
+    return duty < 0.5 ? 1.0 + 5.0 * (duty - 0.2) / 0.3 : 6.0 + 4.0 * (duty - 0.5) / 0.5;
+  };
+  for (const double speed_mps : {8.0, 20.0, 24.0, 36.0, 40.0, 70.0})
+    CHECK(air_at(speed_mps) == doctest::Approx(10.0 * std::min(speed_mps / 40.0, 1.0)));
+  CHECK(actuators_for({.speed_mps = 1.0}, limits).fan == doctest::Approx(0.2));
+  limits.fan_follows = rig::CarActuators::Wind::force;
+  for (const double speed_mps : {8.0, 20.0, 40.0})
+    CHECK(std::pow(air_at(speed_mps) / 10.0, 2.0) == doctest::Approx(speed_mps / 40.0));
+}
+
+TEST_CASE("kerbs, crashes and lines are played at their own frequencies above engine and road") {
+  const rig::CarActuators limits{.vibration_most = 1.0};
+  const CarMotion driving{.speed_mps = 20.0, .engine_radps = 200.0, .engine_load = 0.5};
+  CarMotion motion = driving;
+  motion.on_line = true;
+  CHECK(actuators_for(motion, limits).vibration_hz == doctest::Approx(20.0 / 0.3048));
+  motion.bump = 0.8;
+  CHECK(actuators_for(motion, limits).vibration_hz == doctest::Approx(13.0));
+  CHECK(actuators_for(motion, limits).vibration > 0.7);
+  motion.blow = 1.0;
+  CHECK(actuators_for(motion, limits).vibration_hz == doctest::Approx(30.0));
+  CHECK(actuators_for(motion, limits).vibration == 1.0);
+  motion.bump = motion.blow = std::nan("");
+  CHECK(actuators_for(motion, limits).vibration < 0.7);
 }
 
 TEST_CASE("a hand wheel without a motor gets no force") {

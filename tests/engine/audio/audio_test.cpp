@@ -307,6 +307,72 @@ TEST_CASE("Of 5.1 channels the one for low frequencies has what shakes and nothi
   CHECK(mean_square(siren[3]) < 1e-6);
 }
 
+TEST_CASE("The road's unevenness shakes as ISO 8608 says: 3 dB for twice the speed, 6 dB a class, as white velocity") {
+  const auto low = [](double speed_mps, const GroundFeel& ground) {
+    const auto sound = voices_of(600, [=](int) {
+      Heard heard = cruising(speed_mps, 0.0, 0.0);
+      heard.car.wheel_hz = 0.0;
+      heard.car.ground = ground;
+      return heard;
+    });
+    return power_spectrum(sound[static_cast<std::size_t>(OwnVoice::low)], 32768);
+  };
+  const auto band = [](const std::vector<double>& spectrum, double from_hz, double to_hz) {
+    double power = 0.0;
+    for (std::size_t i = 1; i < spectrum.size(); ++i)
+      if (const double hz = double(i) * sample_rate_hz / 32768.0; hz >= from_hz && hz < to_hz) power += spectrum[i];
+    return power;
+  };
+  const auto good = low(15.0, {.unevenness_m3 = class_a_m3});
+  const double at_15 = band(good, 8.0, 40.0);
+  CHECK(decibels(band(low(30.0, {.unevenness_m3 = class_a_m3}), 8.0, 40.0) / at_15) ==
+        doctest::Approx(3.0).epsilon(0.2));
+  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_b_m3}), 8.0, 40.0) / at_15) ==
+        doctest::Approx(6.0).epsilon(0.1));
+  CHECK(decibels(band(low(15.0, {.unevenness_m3 = class_d_m3}), 8.0, 40.0) / at_15) ==
+        doctest::Approx(18.0).epsilon(0.1));
+  // As much in each hertz of what a shaker plays of it.
+  CHECK(std::abs(decibels(band(good, 10.0, 18.0) / band(good, 20.0, 28.0))) < 3.0);
+  CHECK(decibels(band(good, 150.0, 1000.0) / at_15) < -30.0);
+}
+
+TEST_CASE("A line under a wheel hums at the speed over its profile's 0.305 m, and a kerb thumps at the wheel's hop") {
+  const auto low = [](const HeardAt& at, int ticks) {
+    return voices_of(ticks, at)[static_cast<std::size_t>(OwnVoice::low)];
+  };
+  const auto line = low(
+      [](int) {
+        Heard heard = cruising(20.0, 0.0, 0.0);
+        heard.car.ground.on_line = true;
+        return heard;
+      },
+      240);
+  CHECK(peak_hz(line, 40.0, 110.0) == doctest::Approx(20.0 / 0.3048).epsilon(0.01));
+  const auto kerb = low(
+      [](int tick) {
+        Heard heard = cruising(0.0, 0.0, 0.0);
+        heard.car.bump_mps = tick == 70 ? 0.5 : 0.0;
+        return heard;
+      },
+      120);
+  CHECK(peak_hz(kerb, 5.0, 60.0) == doctest::Approx(13.0).epsilon(0.15));
+  const auto [least, most] = std::ranges::minmax(kerb);
+  CHECK(most > 0.2f);
+  CHECK(std::abs(kerb.back()) < 0.01f * most);
+}
+
+TEST_CASE("A jolt upwards that no road gives is a bump, and braking and hills are none") {
+  Snapshot before = with_ambulance(400.0, 0.0), now = before;
+  now.simulated_time_s = before.simulated_time_s + 1.0 / 120.0;
+  now.participants[0].velocity_mps = {1.0, 0.0, 0.2};
+  CHECK(felt(now, before).bump_mps == doctest::Approx(0.2));
+  CHECK(hear(now, &before, {}, {}).car.bump_mps == doctest::Approx(0.2));
+  now.participants[0].velocity_mps = {-0.08, 0.0, 0.03};
+  CHECK(felt(now, before).bump_mps == 0.0);
+  now.participants[0].velocity_mps.z = std::numeric_limits<double>::quiet_NaN();
+  CHECK(felt(now, before).bump_mps == 0.0);
+}
+
 TEST_CASE("The indicator's relay clicks where the lamp goes on and off") {
   const auto relay = voices_of(
       84,
