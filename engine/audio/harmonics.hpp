@@ -24,5 +24,8 @@ struct Tone {
 
 /// Adds a block of the first `count` harmonics to `out`, those at most that stay below 16 kHz.
 void add_harmonics(Tone& tone, double hz, const Harmonics& pressure_pa, std::size_t count, Block& out);
+/// Two of one frequency that have always been rendered together: the sines are made once.
+void add_harmonics(const std::array<Tone*, 2>& tones, double hz, const std::array<const Harmonics*, 2>& pressures_pa,
+                   std::size_t count, const std::array<Block*, 2>& out);
 
 }  // namespace septet::audio

@@ -2,6 +2,7 @@
 /// The two kinds of sound besides tones: a layer of shaped noise, and a burst that dies away. Plain states, a block at a time.
 
 #include <algorithm>
+#include <span>
 
 #include "engine/audio/signal.hpp"
 
@@ -25,6 +26,15 @@ struct NoiseLayer {
 /// Adds a block whose gain goes from that of the last to this one. Nothing is computed of silence.
 void add_noise(NoiseLayer& layer, const Shape& shape, double gain, Block& out);
 
+/// The same of several layers of one shape, four at a time: a filter waits for itself, and four wait together. The samples are those of one
+/// after the other, whatever stands beside it.
+struct NoisePart {
+  NoiseLayer* layer = nullptr;
+  double gain = 0.0;
+  Block* out = nullptr;
+};
+void add_noises(std::span<const NoisePart> parts, const Shape& shape);
+
 /// What begins within 1 to 5 ms and dies away: its envelope follows a value that decays, so it has no edge.
 struct Burst {
   float drive = 0.0f, envelope = 0.0f;
@@ -40,10 +50,13 @@ struct Burst {
 float attack_of(double seconds);
 float decay_of(double seconds);
 
+/// Through several walls, four at a time.
+struct CabinWall;
+void apply_walls(std::span<CabinWall* const> walls, std::span<Block* const> blocks);
+
 /// The car's body between outside and ear, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2 kHz: 11 dB and one pole at 225 Hz.
 struct CabinWall {
   float memory = 0.0f;
-  void apply(Block& block);
   static double gain(double frequency_hz);
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "engine/audio/horn.hpp"
 #include "engine/audio/levels.hpp"
@@ -52,20 +53,37 @@ void begin_other(OtherState& state, const OtherSound& sound, std::uint32_t first
   state.engine_hz = sound.engine_hz;
 }
 
-void render_other(OtherState& state, Voice& voice) {
+namespace {
+
+/// What is loud of somebody's rolling and engine.
+struct Loudness {
+  double rolling_db, engine_db;
+};
+Loudness loudness_of(const OtherSound& sound) {
+  return {rolling_outside_db(sound.kind, sound.speed_mps),
+          propulsion_outside_db(sound.kind, sound.speed_mps, sound.load)};
+}
+
+void add_noises_of(std::span<OtherState* const> states, std::span<Voice> voices) {
+  std::vector<NoisePart> rolling, exhaust;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const OtherSound& sound = states[i]->last;
+    const double here = states[i]->is_leaving ? 0.0 : 1.0, moving = std::min(1.0, sound.speed_mps / 1.0);
+    const auto [rolling_db, engine_db] = loudness_of(sound);
+    const bool is_masked = engine_db < rolling_db - masked_db;
+    rolling.push_back({&states[i]->rolling, here * moving * rolling_shape().gain(rolling_db), &voices[i].samples});
+    exhaust.push_back(
+        {&states[i]->exhaust, is_masked ? 0.0 : here * exhaust_shape().gain(engine_db - 3.0), &voices[i].samples});
+  }
+  add_noises(rolling, rolling_shape());
+  add_noises(exhaust, exhaust_shape());
+}
+
+void add_tones_of(OtherState& state, Voice& voice) {
   const OtherSound& sound = state.last;
   const double here = state.is_leaving ? 0.0 : 1.0;
-  voice.position_m = sound.position_m;
-  voice.is_near = false;
-  voice.echo = 1.0f;
   Block& out = voice.samples;
-  out.fill(0.0f);
-  const double rolling_db = rolling_outside_db(sound.kind, sound.speed_mps);
-  const double moving = std::min(1.0, sound.speed_mps / 1.0);
-  add_noise(state.rolling, rolling_shape(), here * moving * rolling_shape().gain(rolling_db), out);
-  const double engine_db = propulsion_outside_db(sound.kind, sound.speed_mps, sound.load);
-  const bool is_masked = engine_db < rolling_db - masked_db;
-  add_noise(state.exhaust, exhaust_shape(), is_masked ? 0.0 : here * exhaust_shape().gain(engine_db - 3.0), out);
+  const double engine_db = loudness_of(sound).engine_db;
   state.engine_hz += (sound.engine_hz - state.engine_hz) * (1.0 - std::exp(-block_s / engine_follows_s));
   const bool is_heavy = sound.kind == ParticipantKind::lorry || sound.kind == ParticipantKind::bus;
   const double firing_hz = (is_heavy ? 3.0 : 2.0) * state.engine_hz;  // Six cylinders, or four.
@@ -92,7 +110,24 @@ void render_other(OtherState& state, Voice& voice) {
       sample += ramp.next() * state.blow.step(attack, decay) *
                 state.blow_filter.step(blow_section(), state.rolling.noise.next());
   }
-  state.wall.apply(out);
+}
+
+}  // namespace
+
+void render_others(std::span<OtherState* const> states, std::span<Voice> voices) {
+  std::vector<CabinWall*> walls;
+  std::vector<Block*> blocks;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    voices[i].position_m = states[i]->last.position_m;
+    voices[i].is_near = false;
+    voices[i].echo = 1.0f;
+    voices[i].samples.fill(0.0f);
+    walls.push_back(&states[i]->wall);
+    blocks.push_back(&voices[i].samples);
+  }
+  add_noises_of(states, voices);
+  for (std::size_t i = 0; i < states.size(); ++i) add_tones_of(*states[i], voices[i]);
+  apply_walls(walls, blocks);
 }
 
 }  // namespace septet::audio

@@ -1,6 +1,7 @@
 #include "engine/audio/own_sound.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -60,8 +61,8 @@ void render_engine(OwnState& state, const CarSound& car, const OwnCar& heard, Bl
   state.fuel_cut = towards(state.fuel_cut, heard.fuel_cut ? 1.0 : 0.0, 0.08);
   const double hz = std::max(state.engine_hz, 3.0);
   const EngineOrders orders = engine_orders(car.cylinders, hz, state.load, state.fuel_cut, state.gain);
-  add_harmonics(state.front_orders, 0.5 * hz, orders.front, most_harmonics, front);
-  add_harmonics(state.rear_orders, 0.5 * hz, orders.rear, most_harmonics, rear);
+  add_harmonics({&state.front_orders, &state.rear_orders}, 0.5 * hz, {&orders.front, &orders.rear}, most_harmonics,
+                {&front, &rear});
   const double noise_db = engine_noise_db(hz, state.load, state.fuel_cut > 0.5);
   add_noise(state.mechanical, shapes().mechanical, state.gain * shapes().mechanical.gain(noise_db), front);
   add_noise(state.intake, shapes().intake, state.gain * shapes().intake.gain(intake_db(hz, state.load)), front);
@@ -74,20 +75,32 @@ void render_engine(OwnState& state, const CarSound& car, const OwnCar& heard, Bl
   add_harmonics(state.whine, std::max(mesh_hz, 1.0), single(std::min(1.0, speed) * pressure_pa(whine_db)), 1, front);
 }
 
-void render_tyre(OwnState::Tyre& tyre, const OwnCar& heard, double slip, Block& out) {
+void render_tyres(OwnState& state, const OwnCar& heard, const std::array<Block*, 4>& out) {
   const Shapes& all = shapes();
   const double speed = std::abs(heard.speed_mps), moving = std::min(1.0, speed);
   const double paved = 1.0 - heard.looseness;
   const double level = power_db(rolling_inside_db(speed), 0.25) - 5.0 * heard.snow;
-  add_noise(tyre.air, all.tyre_air, moving * all.tyre_air.gain(power_db(level, 0.8) - 6.0 * heard.snow), out);
-  add_noise(tyre.structure, all.tyre_structure,
-            moving * all.tyre_structure.gain(power_db(level, 0.2) + 6.0 * heard.looseness), out);
-  add_noise(tyre.spray, all.spray, moving * heard.wetness * all.spray.gain(level - 2.0), out);
-  add_noise(tyre.gravel, all.gravel, moving * heard.looseness * all.gravel.gain(level + 7.0), out);
+  const auto add = [&](NoiseLayer OwnState::Tyre::*layer, const Shape& shape, const std::array<double, 4>& gains) {
+    std::array<NoisePart, 4> parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = {&(state.tyres[i].*layer), gains[i], out[i]};
+    add_noises(parts, shape);
+  };
+  const auto add_alike = [&](NoiseLayer OwnState::Tyre::*layer, const Shape& shape, double gain) {
+    add(layer, shape, {gain, gain, gain, gain});
+  };
+  using Tyre = OwnState::Tyre;
+  add_alike(&Tyre::air, all.tyre_air, moving * all.tyre_air.gain(power_db(level, 0.8) - 6.0 * heard.snow));
+  add_alike(&Tyre::structure, all.tyre_structure,
+            moving * all.tyre_structure.gain(power_db(level, 0.2) + 6.0 * heard.looseness));
+  add_alike(&Tyre::spray, all.spray, moving * heard.wetness * all.spray.gain(level - 2.0));
+  add_alike(&Tyre::gravel, all.gravel, moving * heard.looseness * all.gravel.gain(level + 7.0));
   // A tyre on dry asphalt has its most force at a slip of 0.1 to 0.17; beyond, it slides.
-  const double sliding =
-      rising(slip, 0.14, 0.40) * rising(speed, 1.0, 5.0) * paved * (1.0 - 0.7 * heard.wetness) * (1.0 - heard.snow);
-  add_noise(tyre.skid, all.skid, sliding * all.skid.gain(power_db(skid_db, 0.25)), out);
+  const auto skidding = [&](double slip) {
+    return rising(slip, 0.14, 0.40) * rising(speed, 1.0, 5.0) * paved * (1.0 - 0.7 * heard.wetness) *
+           (1.0 - heard.snow) * all.skid.gain(power_db(skid_db, 0.25));
+  };
+  const double front = skidding(heard.front_slip), rear = skidding(heard.rear_slip);
+  add(&Tyre::skid, all.skid, {front, front, rear, rear});
 }
 
 void render_wind(OwnState& state, const OwnCar& heard, std::size_t side, Block& out) {
@@ -209,10 +222,11 @@ void render_own(OwnState& state, const CarSound& car, const OwnCar& heard, std::
   render_engine(state, car, heard, engine, exhaust);
   render_wind(state, heard, 0, voice(OwnVoice::wind_left, {0.5, 0.5, 0.1}, 0.0f));
   render_wind(state, heard, 1, voice(OwnVoice::wind_right, {0.5, -1.1, 0.1}, 0.0f));
-  render_tyre(state.tyres[0], heard, heard.front_slip, voice(OwnVoice::front_left, {front_x, left_y, wheel_z}, 0.5f));
-  render_tyre(state.tyres[1], heard, heard.front_slip, voice(OwnVoice::front_right, {front_x, right_y, wheel_z}, 0.5f));
-  render_tyre(state.tyres[2], heard, heard.rear_slip, voice(OwnVoice::rear_left, {rear_x, left_y, wheel_z}, 0.5f));
-  render_tyre(state.tyres[3], heard, heard.rear_slip, voice(OwnVoice::rear_right, {rear_x, right_y, wheel_z}, 0.5f));
+  render_tyres(state, heard,
+               {&voice(OwnVoice::front_left, {front_x, left_y, wheel_z}, 0.5f),
+                &voice(OwnVoice::front_right, {front_x, right_y, wheel_z}, 0.5f),
+                &voice(OwnVoice::rear_left, {rear_x, left_y, wheel_z}, 0.5f),
+                &voice(OwnVoice::rear_right, {rear_x, right_y, wheel_z}, 0.5f)});
   render_rain(state, heard, voice(OwnVoice::rain, {0.0, -ear.y, 0.5}, 0.0f));
   render_relay(state, heard, voice(OwnVoice::relay, {0.7, 0.0, -0.3}, 0.0f));
   add_horn(state.horn_low, state.horn_high, heard.horn ? horn_pressure(own_horn_db) : 0.0, 1.0,

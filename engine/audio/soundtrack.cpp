@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "engine/audio/other_sound.hpp"
 #include "engine/audio/own_sound.hpp"
@@ -48,12 +49,13 @@ void render(State& state, const Heard& heard, std::vector<Voice>& voices) {
     other.last = sound;
     other.is_leaving = false;
   }
-  for (auto place = state.others.begin(); place != state.others.end();) {
-    Voice& voice = voices.emplace_back();
-    voice.key = place->first + 256ull;
-    render_other(place->second, voice);
-    place = place->second.is_leaving ? state.others.erase(place) : std::next(place);
+  std::vector<OtherState*> others;
+  for (auto& [id, other] : state.others) {
+    voices.emplace_back().key = id + 256ull;
+    others.push_back(&other);
   }
+  render_others(others, std::span(voices).subspan(own_voices));
+  std::erase_if(state.others, [](const auto& other) { return other.second.is_leaving; });
   for (Voice& voice : voices) make_finite(voice.samples);
 }
 

@@ -1,11 +1,15 @@
 #include "sim-client/film/film.hpp"
 
+#include <optional>
+#include <vector>
+
 #include "engine/render/renderer.hpp"
 #include "sim-client/film/film_file.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_frames.hpp"
 #include "sim-client/film/traced/master.hpp"
 #include "sim-client/frame/picture_writer.hpp"
+#include "sim-client/soundtrack/cut_track.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -41,6 +45,26 @@ Expected<void> rasterise(const FilmOptions& options, FilmFrames& frames, render:
     ++made.frames;
   }
   return pictures.finish();
+}
+
+/// Each shot's stretch of what the driver heard, as long as its frames.
+Expected<bool> make_sound(const FilmOptions& options, const FilmPlan& plan, const fs::path& file,
+                          const std::function<bool()>& go_on) {
+  std::vector<sound::Cut> cuts;
+  std::optional<std::size_t> shot;
+  for (const FilmFrame& frame : plan.frames) {
+    if (shot != frame.shot)
+      cuts.push_back({.from_s = frame.instant_s, .speed = plan.script.shots[frame.shot].speed, .frames = 0});
+    shot = frame.shot;
+    ++cuts.back().frames;
+  }
+  const auto session = logging::SessionReader::open(options.session);
+  if (!session) return tl::unexpected(session.error());
+  std::error_code ignored;
+  fs::remove(file, ignored);  // Of a film that was stopped.
+  auto heard = sound::write_cut_track(*session, cuts, options.frames_per_second / options.every, file, go_on);
+  if (!heard) heard.error().remedy += "; or make it without: --no-sound";
+  return heard;
 }
 
 }  // namespace
@@ -97,7 +121,14 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   std::vector<fs::path> pictures;
   for (const FilmFrame& frame : frames->plan().frames) pictures.push_back(folder->picture(frame.number));
   made.encoding = true;
-  const auto whole = encode_film(ffmpeg, pictures, options.frames_per_second / options.every, options.out,
+  fs::path sound;
+  if (options.sound) {
+    sound = pictures_in / "sound.wav";
+    const auto heard = make_sound(options, frames->plan(), sound, [&] { return go_on(made); });
+    if (!heard) return tl::unexpected(heard.error());
+    if ((made.stopped = !*heard)) return made;
+  }
+  const auto whole = encode_film(ffmpeg, pictures, sound, options.frames_per_second / options.every, options.out,
                                  [&] { return go_on(made); });
   if (!whole) return tl::unexpected(whole.error());
   made.stopped = !*whole;

@@ -33,6 +33,7 @@ struct FilmOptions {
   /// Folder for the pictures, made, or empty already; or a film (film_file.hpp), whose pictures lie in a folder beside it until it is
   /// made of them.
   std::filesystem::path out;
+  bool sound = true;    ///< Of a film as one file: what the driver heard, with its pictures (soundtrack/cut_track.hpp).
   bool resume = false;  ///< Goes on with the same film that was begun there: finished pictures stay (film_folder.hpp).
   double frames_per_second = 25.0;
   std::uint32_t width_px = 1280, height_px = 720;

@@ -69,6 +69,7 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
         if (const auto problem = read_layers(text, options.layers); !problem.empty())
           throw CLI::ValidationError(problem);
       });
+  app.add_flag("!--no-sound", options.sound, "Leave out what the driver heard")->default_str("");
   app.add_flag("--resume", options.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");

@@ -43,8 +43,8 @@ Expected<fs::path> find_ffmpeg() {
                  "install the package ffmpeg, or choose a folder for the pictures alone");
 }
 
-Expected<bool> encode_film(const fs::path& ffmpeg, std::span<const fs::path> pictures, double frames_per_second,
-                           const fs::path& film, const std::function<bool()>& go_on) {
+Expected<bool> encode_film(const fs::path& ffmpeg, std::span<const fs::path> pictures, const fs::path& sound,
+                           double frames_per_second, const fs::path& film, const std::function<bool()>& go_on) {
   const fs::path folder = pictures.front().parent_path(), list = folder / "pictures.txt", log = folder / "ffmpeg.txt";
   const fs::path part = film.string() + ".part";
   std::string text = "ffconcat version 1.0\n";
@@ -69,6 +69,11 @@ Expected<bool> encode_film(const fs::path& ffmpeg, std::span<const fs::path> pic
   const auto add = [&](std::initializer_list<const char*> more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
   };
+  if (!sound.empty()) {
+    arguments.insert(arguments.end(), {"-i", "file:" + sound.string()});
+    add({"-map", "0:v", "-map", "1:a", "-shortest"});
+    film.extension() == ".mkv" ? add({"-c:a", "flac"}) : add({"-c:a", "aac", "-b:a", "192k"});
+  }
   if (film.extension() == ".mkv")
     add({"-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0", "-f", "matroska"});
   else

@@ -19,9 +19,10 @@ Expected<std::filesystem::path> pictures_folder(const std::filesystem::path& nam
 Expected<std::filesystem::path> find_ffmpeg();
 
 /// Whole or not at all: it is written beside its place and renamed. False where `go_on`, which is asked ten times a second, has said no. A
+/// `sound`: a WAV file as long as they are; empty: none. A
 /// picture of odd size is widened by one pixel, for H.264 halves colour.
 Expected<bool> encode_film(const std::filesystem::path& ffmpeg, std::span<const std::filesystem::path> pictures,
-                           double frames_per_second, const std::filesystem::path& film,
-                           const std::function<bool()>& go_on);
+                           const std::filesystem::path& sound, double frames_per_second,
+                           const std::filesystem::path& film, const std::function<bool()>& go_on);
 
 }  // namespace septet::film

@@ -17,9 +17,12 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include "engine/image/image.hpp"
 #include "engine/image/png.hpp"
 #include "engine/instant/tone_curve.hpp"
 #include "sim-client/film/film.hpp"
+#include "sim-client/film/film_file.hpp"
+#include "sim-client/soundtrack/wav_file.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -263,10 +266,18 @@ TEST_CASE("ffmpeg makes a film of the pictures, small or without loss, and the p
     CHECK_FALSE(fs::exists(options.out.string() + ".pictures"));
     CHECK_FALSE(fs::exists(options.out.string() + ".part"));
     CHECK(has(refusal_of(options), "it is there already"));
-    CHECK(printed_by("ffprobe -v error -count_frames -show_entries stream=width,height,r_frame_rate,nb_read_frames -of "
+    CHECK(printed_by("ffprobe -v error -select_streams v -count_frames -show_entries "
+                     "stream=width,height,r_frame_rate,nb_read_frames -of "
                      "csv=p=0 " +
                      file(options.out)) == (options.out.extension() == ".mkv" ? "63,47,25/1,6\n" : "64,48,25/1,6\n"));
   }
+  CHECK(printed_by("ffprobe -v error -select_streams a -show_entries stream=codec_name,channels -of csv=p=0 " +
+                   file(folder / "small.mp4")) == "aac,2\n");
+  options.out = folder / "silent.mp4";
+  options.sound = false;
+  REQUIRE(refusal_of(options) == "");
+  CHECK(printed_by("ffprobe -v error -select_streams a -show_entries stream=codec_name -of csv=p=0 " +
+                   file(options.out)) == "");
   // Without loss means bit by bit.
   printed_by("ffmpeg -v error -i " + file(folder / "it's 100 %.mkv") + " \"" + (folder / "again%d.png").string() +
              "\"");
@@ -281,6 +292,37 @@ TEST_CASE("ffmpeg makes a film of the pictures, small or without loss, and the p
   }
   options.out = folder / "film.webm";
   CHECK(has(refusal_of(options), "write .mp4"));
+}
+
+TEST_CASE("a click in a film's sound is heard within a frame of its picture, by H.264 with AAC and without loss") {
+  const TemporaryFolder folder;
+  std::vector<fs::path> pictures;
+  fs::create_directories(folder / "pictures");
+  for (int i = 0; i < 25; ++i) {
+    pictures.push_back(folder / fmt::format("pictures/{:06}.png", i + 1));
+    REQUIRE(image::write_png(pictures.back(), image::Image(16, 16)));
+  }
+  auto wav = sound::WavFile::create(folder / "sound.wav", 2);
+  REQUIRE(wav);
+  std::vector<float> samples(2 * 48000, 0.0f);
+  for (std::size_t i = 2 * 19200; i < 2 * 21600; ++i) samples[i] = i / 2 % 48 < 24 ? 0.5f : -0.5f;  // From 0.4 s on.
+  REQUIRE(wav->write(samples));
+  REQUIRE(wav->finish());
+  for (const char* name : {"film.mp4", "film.mkv"}) {
+    const auto made =
+        encode_film(*find_ffmpeg(), pictures, folder / "sound.wav", 25.0, folder / name, [] { return true; });
+    REQUIRE_MESSAGE(made.has_value(), (made ? "" : describe(made.error())));
+    const fs::path raw = folder / (std::string(name) + ".raw");
+    printed_by("ffmpeg -v error -i \"" + (folder / name).string() + "\" -f s16le -ac 1 -ar 48000 \"" + raw.string() +
+               "\"");
+    const Bytes heard = bytes_of(raw);
+    CHECK(heard.size() / 2 == doctest::Approx(48000).epsilon(0.03));
+    std::size_t first = 0;
+    while (2 * first + 1 < heard.size() &&
+           std::abs(static_cast<int>(static_cast<signed char>(heard[2 * first + 1]))) < 16)
+      ++first;
+    CHECK(std::abs(static_cast<double>(first) / 48000.0 - 0.4) < 0.5 / 25.0);
+  }
 }
 
 }  // namespace septet::film

@@ -5,9 +5,9 @@
 #include <doctest/doctest.h>
 
 #include "sim-client/frame/car_sound.hpp"
-#include "sim-client/sound/session_sound.hpp"
 #include "sim-client/sound/sound_program.hpp"
-#include "sim-client/sound/wav_file.hpp"
+#include "sim-client/soundtrack/session_sound.hpp"
+#include "sim-client/soundtrack/wav_file.hpp"
 #include "tests/logging/session_fixture.hpp"
 
 namespace septet::sound {

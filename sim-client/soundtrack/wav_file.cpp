@@ -1,4 +1,4 @@
-#include "sim-client/sound/wav_file.hpp"
+#include "sim-client/soundtrack/wav_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

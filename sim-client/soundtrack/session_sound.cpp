@@ -1,4 +1,4 @@
-#include "sim-client/sound/session_sound.hpp"
+#include "sim-client/soundtrack/session_sound.hpp"
 
 #include <optional>
 #include <utility>
