@@ -30,7 +30,9 @@ class EvdevDevice final : public InputDevice {
  public:
   EvdevDevice(int file, std::string node) : file_(file), node_(std::move(node)) {
     Bits<FF_MAX> effects{};
-    has_force_ = ioctl(file_, EVIOCGBIT(EV_FF, effects.size()), effects.data()) >= 0 && has(effects, FF_CONSTANT);
+    const bool has_effects = ioctl(file_, EVIOCGBIT(EV_FF, effects.size()), effects.data()) >= 0;
+    has_force_ = has_effects && has(effects, FF_CONSTANT);
+    for (Condition& condition : conditions_) condition.is_there = has_effects && has(effects, condition.type);
     read_all();
   }
   EvdevDevice(const EvdevDevice&) = delete;
@@ -52,25 +54,48 @@ class EvdevDevice final : public InputDevice {
 
   Expected<bool> set_force(double force) override {
     if (!has_force_) return false;
-    ff_effect effect{};
-    effect.type = FF_CONSTANT;
-    effect.id = effect_;
-    effect.direction = 0x4000;  // To the left, for which a positive level stands.
-    effect.replay.length = 250;
-    effect.u.constant.level =
-        static_cast<std::int16_t>(std::lround(32767.0 * (std::isfinite(force) ? std::clamp(force, -1.0, 1.0) : 0.0)));
+    ff_effect effect = constant_effect(force, effect_);
     if (ioctl(file_, EVIOCSFF, &effect) < 0) return lost("setting its force", errno);
     effect_ = effect.id;
-    input_event play{};
-    play.type = EV_FF;
-    play.code = static_cast<std::uint16_t>(effect_);
-    play.value = 1;
-    if (::write(file_, &play, sizeof play) != static_cast<ssize_t>(sizeof play))
-      return lost("playing its force", errno);
+    if (!play(effect_)) return lost("playing its force", errno);
+    for (const Condition& condition : conditions_)
+      if (condition.id >= 0 && !play(condition.id)) return lost("playing its force", errno);
     return true;
   }
 
+  Expected<bool> set_feel(const WheelFeel& feel) override {
+    bool any = false;
+    const double shares[] = {feel.spring, feel.damper, feel.friction};
+    for (std::size_t i = 0; i < conditions_.size(); ++i) {
+      Condition& condition = conditions_[i];
+      if (!condition.is_there || (shares[i] <= 0.0 && condition.id < 0)) continue;
+      ff_effect effect = condition_effect(condition.type, shares[i], condition.id);
+      // A wheel may have no room for one more, and drives without it.
+      if (ioctl(file_, EVIOCSFF, &effect) < 0) {
+        if (errno == ENODEV) return lost("setting its feel", errno);
+        condition.is_there = false;
+        continue;
+      }
+      condition.id = effect.id;
+      any = true;
+    }
+    return any;
+  }
+
  private:
+  struct Condition {
+    std::uint16_t type;
+    bool is_there = false;
+    std::int16_t id = -1;  ///< None yet.
+  };
+
+  bool play(std::int16_t id) const {
+    input_event event{};
+    event.type = EV_FF;
+    event.code = static_cast<std::uint16_t>(id);
+    event.value = 1;
+    return ::write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event);
+  }
   void read_all() {
     state_ = {};
     Bits<ABS_MAX> axes{};
@@ -107,6 +132,7 @@ class EvdevDevice final : public InputDevice {
   InputState state_;
   bool has_force_ = false;
   std::int16_t effect_ = -1;  ///< None yet.
+  std::array<Condition, 3> conditions_{{{FF_SPRING}, {FF_DAMPER}, {FF_FRICTION}}};
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "car-io/joystick/wheel_effects.hpp"
 #include "engine/core/expected.hpp"
 
 namespace septet::car_io {
@@ -32,6 +33,8 @@ class InputDevice {
   /// Turns the wheel: −1 (right) to 1 (left) of what its motor can, for 250 ms unless it is told again: the driver's own watchdog, for a
   /// program that hangs. False: it has no constant force.
   virtual Expected<bool> set_force(double force) = 0;
+  /// What the wheel does by itself while `set_force` goes on. False: it can nothing of it.
+  virtual Expected<bool> set_feel(const WheelFeel& /*feel*/) { return false; }
 };
 
 struct InputAddress {

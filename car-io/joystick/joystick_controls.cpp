@@ -32,6 +32,9 @@ class JoystickDevice final : public HidDevice {
   Expected<void> write(std::span<const std::byte> report) override {
     const auto force = decode_steering(report);
     if (!force) return {};  // Fan and shaker, which it has not.
+    // Once: it goes on by itself for as long as a force is set.
+    if (!std::exchange(has_feel_, true))
+      if (auto felt = device_->set_feel(usual_feel); !felt) return tl::unexpected(felt.error());
     return device_->set_force(*force).map([](bool) {});
   }
   /// A force ends by itself after the time that is set there.
@@ -48,6 +51,7 @@ class JoystickDevice final : public HidDevice {
   JoystickDriver driver_;
   std::uint8_t sequence_ = 0;
   Bytes feature_;
+  bool has_feel_ = false;
 };
 
 }  // namespace

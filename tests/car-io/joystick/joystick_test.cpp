@@ -1,3 +1,5 @@
+#include <linux/input.h>
+
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -20,6 +22,7 @@ struct Wheel {
   InputState state{{{0, {32768, 0, 65535}}, {2, {255, 0, 255}}, {5, {255, 0, 255}}}, {}};
   bool is_there = true;
   double force = 0.0;
+  std::vector<WheelFeel> feels;
 
   OpenInputDevice opener() {
     return [this]() -> Expected<std::unique_ptr<InputDevice>> {
@@ -37,6 +40,10 @@ struct Wheel {
     }
     Expected<bool> set_force(double share) override {
       wheel.force = share;
+      return true;
+    }
+    Expected<bool> set_feel(const WheelFeel& feel) override {
+      wheel.feels.push_back(feel);
       return true;
     }
     Wheel& wheel;
@@ -116,8 +123,26 @@ TEST_CASE("the force of the hand wheel reaches its motor and fan and shaker are 
   REQUIRE(device.has_value());
   CHECK((*device)->write(encode_steering(0.5, 1)).has_value());
   CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
+  CHECK(wheel.feels == std::vector{usual_feel});
   CHECK((*device)->write(encode_actuators({.fan = 1.0}, 1)).has_value());
+  CHECK(wheel.feels.size() == 1);
   CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
+}
+
+TEST_CASE("a wheel's effects have their sizes, work to both sides, and end by themselves after 250 ms") {
+  const ff_effect damper = condition_effect(FF_DAMPER, 0.5, 3);
+  CHECK(damper.type == FF_DAMPER);
+  CHECK(damper.id == 3);
+  CHECK(damper.replay.length == 250);
+  CHECK(damper.u.condition[0].left_coeff == 16384);
+  CHECK(damper.u.condition[0].right_coeff == 16384);
+  CHECK(damper.u.condition[0].left_saturation == 0xffff);
+  for (const double nonsense : {std::nan(""), -3.0})
+    CHECK(condition_effect(FF_SPRING, nonsense, -1).u.condition[0].left_coeff == 0);
+  CHECK(condition_effect(FF_FRICTION, 7.0, -1).u.condition[0].left_coeff == 32767);
+  CHECK(constant_effect(-0.5, 1).u.constant.level == -16384);
+  CHECK(constant_effect(1e9, 1).u.constant.level == 32767);
+  CHECK(constant_effect(0.5, 1).direction == 0x4000);
 }
 
 TEST_CASE("a gear lever makes the gearbox one to be shifted and neutral is between its gears") {
