@@ -3,6 +3,7 @@
 #include <string>
 
 #include "car-io/program/car_program.hpp"
+#include "car-io/program/game_program.hpp"
 #include "engine/core/version.hpp"
 #include "program/command_line.hpp"
 
@@ -43,6 +44,16 @@ int main(int argc, char** argv) {
   CLI::App* test = app.add_subcommand("test", "Try each actuator that the rig has, gently, one after the other");
   test->add_option("--rig", all.rig, "Rig file")->required();
   test->add_option("--seconds", all.seconds, "How long each")->check(number_between(0.1, 60.0));
+  car_io::ServeOptions serve;
+  CLI::App* games = app.add_subcommand("serve", "Be a wheel with force feedback to a commercial game");
+  games->add_option("--rig", serve.rig, "Rig file")->required();
+  games
+      ->add_option("--game", serve.games,
+                   "Telemetry that moves fan, shaker and instruments: outgauge, outsim, codemasters or a TOML file, "
+                   "with =PORT where it is "
+                   "not the usual one; may be repeated")
+      ->default_str("none");
+  games->add_option("--listen", serve.listen, "Address at which telemetry is heard; 0.0.0.0: from other machines too");
   app.require_subcommand(0, 1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
@@ -52,6 +63,7 @@ int main(int argc, char** argv) {
                       : trial->parsed()     ? car_io::run_actuators(actuate)
                       : test->parsed()      ? car_io::run_trial(all)
                       : lesson->parsed()    ? car_io::run_lesson(device, learn)
+                      : games->parsed()     ? car_io::run_serve(serve)
                                             : car_io::run_car(drive);
     return done.map([] { return 0; });
   });

@@ -62,7 +62,7 @@ Expected<bool> make_sound(const FilmOptions& options, const FilmPlan& plan, cons
   if (!session) return tl::unexpected(session.error());
   std::error_code ignored;
   fs::remove(file, ignored);  // Of a film that was stopped.
-  auto heard = sound::write_cut_track(*session, cuts, options.frames_per_second, file, go_on);
+  auto heard = sound::write_cut_track(*session, cuts, options.frames_per_second / options.every, file, go_on);
   if (!heard) heard.error().remedy += "; or make it without: --no-sound";
   return heard;
 }
@@ -122,7 +122,7 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   for (const FilmFrame& frame : frames->plan().frames) pictures.push_back(folder->picture(frame.number));
   made.encoding = true;
   fs::path sound;
-  if (options.sound && options.every == 1) {
+  if (options.sound) {
     sound = pictures_in / "sound.wav";
     const auto heard = make_sound(options, frames->plan(), sound, [&] { return go_on(made); });
     if (!heard) return tl::unexpected(heard.error());

@@ -1,0 +1,60 @@
+#pragma once
+/// The force effects that a game has loaded into a wheel, and the one force that they make together at an instant: what the kernel's drivers of
+/// wheels do (Linux' Documentation/input/ff.rst), as plain data.
+///
+/// Forces are shares of what the motor can, −1 to 1, positive to the left. A pure function of effects, wheel and time.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace septet::car_io {
+
+enum class ForceKind : std::uint8_t { constant, spring, damper, friction, inertia, periodic, ramp };
+enum class ForceWave : std::uint8_t { square, triangle, sine, saw_up, saw_down };
+
+struct ForceEffect {
+  ForceKind kind = ForceKind::constant;
+  double level = 0.0;      ///< Of constant, periodic and of a ramp's beginning.
+  double end_level = 0.0;  ///< Of a ramp.
+  double offset = 0.0;     ///< Of a periodic.
+  ForceWave wave = ForceWave::sine;
+  double period_s = 0.1, phase_turns = 0.0;
+  // Of what answers the wheel: shares of force for the whole way (or speed) to the left and to the right, the most there, and the middle.
+  double left_coefficient = 0.0, right_coefficient = 0.0, left_most = 1.0, right_most = 1.0;
+  double centre = 0.0, dead_band = 0.0;
+  double length_s = 0.0, delay_s = 0.0;  ///< 0: until it is stopped.
+  double attack_s = 0.0, attack_level = 0.0, fade_s = 0.0, fade_level = 0.0;
+};
+
+struct WheelPlace {
+  double share = 0.0;        ///< −1 full right to 1 full left.
+  double speed_per_s = 0.0;  ///< Likewise, a second.
+  double change_per_s2 = 0.0;
+};
+
+class ForceEffects {
+ public:
+  void load(std::int16_t id, const ForceEffect& effect);
+  void erase(std::int16_t id);
+  /// `times`: 0 stops it.
+  void play(std::int16_t id, int times, double now_s);
+  void set_gain(double gain) { gain_ = gain; }
+  void set_autocentre(double share) { autocentre_ = share; }
+  /// Forgets all: the game has gone.
+  void clear() { *this = {}; }
+  std::size_t size() const { return loaded_.size(); }
+
+  double force(const WheelPlace& wheel, double now_s) const;
+
+ private:
+  struct Loaded {
+    ForceEffect effect;
+    std::optional<double> began_s;
+    int times = 1;
+  };
+  std::map<std::int16_t, Loaded> loaded_;
+  double gain_ = 1.0, autocentre_ = 0.0;
+};
+
+}  // namespace septet::car_io

@@ -1,0 +1,95 @@
+#include "car-io/games/game_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace septet::car_io {
+namespace {
+
+constexpr double silent_after_s = 0.2, rearm_held_for_s = 1.0, rests_for_s = 0.1;
+constexpr double fan_full_in_s = 1.0, vibration_full_in_s = 0.2, force_full_in_s = 0.05, dies_in_s = 0.09;
+constexpr double stop_within = 0.03;  // Of the wheel's way, before its end.
+
+double towards(double from, double to, double most) { return std::clamp(to, from - most, from + most); }
+
+}  // namespace
+
+bool GameDrive::is_told(double now_s) const { return told_s_ && now_s - *told_s_ <= silent_after_s; }
+
+void GameDrive::receive(const TelemetryFormat& format, std::span<const std::byte> datagram, double now_s) {
+  const auto read = decode_telemetry(format, datagram, now_);
+  if (!read) {
+    ++refused_;
+    if (!std::exchange(has_told_refusal_, true)) messages_.push_back(describe(read.error()));
+    return;
+  }
+  const CarMotion felt = motion_of(*read, now_, told_s_ ? now_s - *told_s_ : 0.0);
+  bump_ = std::max(bump_, felt.bump);
+  blow_ = std::max(blow_, felt.blow);
+  now_ = *read;
+  told_s_ = now_s;
+}
+
+void GameDrive::watch(const CarReading& reading, double dt_s) {
+  if (reading.switches.emergency_stop) {
+    if (!stop_is_pressed_) messages_.emplace_back("EMERGENCY STOP: everything that moves is at 0");
+    guard_.stop();
+  }
+  stop_is_pressed_ = reading.switches.emergency_stop;
+  was_fresh_ = was_fresh_ || !reading.is_stale;
+  if (guard_.trip(was_fresh_ && reading.is_stale))
+    messages_.emplace_back("fan, shaker and wheel force are cut, for the car's reports have stopped");
+  rearm_held_s_ = reading.switches.rearm && !reading.is_stale && !stop_is_pressed_ ? rearm_held_s_ + dt_s : 0.0;
+  if (guard_.is_cut && rearm_held_s_ >= rearm_held_for_s) {
+    guard_.rearm();
+    resting_s_ = rests_for_s;
+    messages_.emplace_back("fan, shaker and wheel force are re-armed");
+  }
+}
+
+double GameDrive::wheel_force(const CarReading& reading, const ForceEffects& effects, double now_s, double dt_s) {
+  const double share = std::clamp(reading.input.steering_wheel_rad / steering_lock_rad_, -2.0, 2.0);
+  if (dt_s > 0.0) {
+    const double speed_per_s = (share - wheel_.share) / dt_s;
+    wheel_.change_per_s2 = (speed_per_s - wheel_.speed_per_s) / dt_s;
+    wheel_.speed_per_s = speed_per_s;
+  }
+  wheel_.share = share;
+  double wanted = effects.force(wheel_, now_s);
+  // The end wins over whatever the game pulls.
+  const double beyond = (std::abs(share) - (1.0 - stop_within)) / stop_within;
+  if (beyond > 0.0) {
+    const double stop = std::min(beyond, 1.0);
+    wanted = (1.0 - stop) * wanted - stop * std::copysign(1.0, share);
+  }
+  return force_ = towards(force_, std::clamp(wanted, -1.0, 1.0), dt_s / force_full_in_s);
+}
+
+Actuators GameDrive::actuate(const CarReading& reading, const ForceEffects& effects, double now_s) {
+  const double dt_s = std::clamp(stepped_s_ ? now_s - *stepped_s_ : 0.0, 0.0, 0.1);
+  stepped_s_ = now_s;
+  watch(reading, dt_s);
+  const double left = std::exp(-dt_s / dies_in_s);
+  CarMotion motion = is_told(now_s) ? motion_of(now_, now_, 0.0) : CarMotion{};
+  bump_ *= left, blow_ *= left;
+  motion.bump = bump_, motion.blow = blow_;
+  Actuators wanted = actuators_for(motion, limits_);
+  wanted.fan = fan_ = towards(fan_, wanted.fan, dt_s / fan_full_in_s);
+  wanted.vibration = vibration_ = towards(vibration_, wanted.vibration, dt_s / vibration_full_in_s);
+  wanted.steering = wheel_force(reading, effects, now_s, dt_s) * limits_.steering_most;
+  // Not at rest, which would re-arm what writes.
+  wanted.vibration_hz = std::max(wanted.vibration_hz, 1.0);
+  if (resting_s_ > 0.0 && !guard_.is_cut) {
+    resting_s_ -= dt_s;
+    guard_.share = 0.0;
+    return {};
+  }
+  return guard_.pass(wanted, dt_s);
+}
+
+std::optional<Instruments> GameDrive::instruments(double now_s) const {
+  return is_told(now_s) ? std::optional(instruments_of(now_)) : std::nullopt;
+}
+
+}  // namespace septet::car_io

@@ -1,0 +1,55 @@
+#pragma once
+/// A commercial game driven from the car: what its telemetry and its force effects make the car's actuators do, and when they rest.
+///
+/// Telemetry that is silent for 200 ms is a menu or a game that has gone: fan and shaker fade. The emergency stop, and a car whose reports stop, cut
+/// everything until the re-arm button has been held for a second. At the beginning and then a tenth of a second of rest is told, which is what arms a
+/// device (car-io/firmware), and everything rises over a second. No socket, device or clock of its own; one thread.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "car-io/actuator_guard.hpp"
+#include "car-io/car_connection.hpp"
+#include "car-io/games/force_effects.hpp"
+#include "car-io/games/telemetry.hpp"
+
+namespace septet::car_io {
+
+class GameDrive {
+ public:
+  GameDrive(const rig::CarActuators& limits, double steering_lock_rad)
+      : limits_(limits), steering_lock_rad_(steering_lock_rad) {}
+
+  /// A datagram of this format; one that is none is counted and changes nothing.
+  void receive(const TelemetryFormat& format, std::span<const std::byte> datagram, double now_s);
+  /// What the actuators shall do now; call it a hundred times a second or more.
+  Actuators actuate(const CarReading& reading, const ForceEffects& effects, double now_s);
+  /// Nothing while no telemetry comes: then the cluster rests.
+  std::optional<Instruments> instruments(double now_s) const;
+
+  std::uint64_t refused_datagrams() const { return refused_; }
+  bool is_cut() const { return guard_.is_cut; }
+  std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
+
+ private:
+  bool is_told(double now_s) const;
+  void watch(const CarReading& reading, double dt_s);
+  double wheel_force(const CarReading& reading, const ForceEffects& effects, double now_s, double dt_s);
+
+  rig::CarActuators limits_;
+  double steering_lock_rad_;
+  GameTelemetry now_;
+  double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.
+  std::optional<double> told_s_, stepped_s_;
+  ActuatorGuard guard_;
+  bool was_fresh_ = false, stop_is_pressed_ = false, has_told_refusal_ = false;
+  double resting_s_ = 0.1, rearm_held_s_ = 0.0, fan_ = 0.0, vibration_ = 0.0, force_ = 0.0;
+  WheelPlace wheel_;
+  std::uint64_t refused_ = 0;
+  std::vector<std::string> messages_;
+};
+
+}  // namespace septet::car_io

@@ -1,0 +1,48 @@
+#pragma once
+/// The car as a wheel of Linux (uinput), which every game takes for one: axes and buttons out, force effects in.
+///
+/// Axes as games know them of wheels: X the hand wheel, Z the accelerator, RZ the brake, Y the clutch. One thread. Errors: the system lets
+/// nobody make one (udev rule in packaging), or it was taken away.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "car-io/games/force_effects.hpp"
+#include "engine/core/expected.hpp"
+#include "engine/world/driver_input.hpp"
+
+struct ff_effect;
+
+namespace septet::car_io {
+
+/// What Linux calls an effect.
+ForceEffect force_effect_of(const ff_effect& effect);
+
+/// What is told to a game of the controls: each event's type, code and value.
+struct WheelEvent {
+  std::uint16_t type = 0, code = 0;
+  std::int32_t value = 0;
+  bool operator==(const WheelEvent&) const = default;
+};
+/// Only what has changed; `before` may be null: all of it.
+std::vector<WheelEvent> wheel_events(const DriverInput& now, const DriverInput* before, double steering_lock_rad);
+
+class UinputWheel {
+ public:
+  static Expected<UinputWheel> create();
+  UinputWheel(UinputWheel&&) noexcept;
+  UinputWheel& operator=(UinputWheel&&) noexcept;
+  ~UinputWheel();
+
+  Expected<void> show(const DriverInput& input, double steering_lock_rad);
+  /// Takes what the game has loaded, started and stopped since the last call. Never waits.
+  Expected<void> take_effects(ForceEffects& effects, double now_s);
+
+ private:
+  struct State;
+  explicit UinputWheel(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace septet::car_io

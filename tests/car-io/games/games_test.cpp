@@ -1,0 +1,279 @@
+#include <linux/input.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "car-io/games/force_effects.hpp"
+#include "car-io/games/game_drive.hpp"
+#include "car-io/games/telemetry.hpp"
+#include "car-io/games/uinput_wheel.hpp"
+#include "engine/core/bytes.hpp"
+
+namespace septet::car_io {
+namespace {
+
+/// A datagram that is written as the game's C structure lies in memory.
+class Datagram {
+ public:
+  explicit Datagram(std::size_t size) : bytes_(size) {}
+  template <class T>
+  Datagram& put(std::size_t at, T value) {
+    std::memcpy(bytes_.data() + at, &value, sizeof value);
+    return *this;
+  }
+  const Bytes& bytes() const { return bytes_; }
+
+ private:
+  Bytes bytes_;
+};
+
+const TelemetryFormat& format(const char* name) { return **find_telemetry_format(name); }
+
+Bytes outgauge(float speed_mps, float rpm, std::uint32_t lamps = 0) {
+  return Datagram(96)
+      .put(10, std::uint8_t{4})
+      .put(12, speed_mps)
+      .put(16, rpm)
+      .put(24, 88.0f)
+      .put(28, 0.5f)
+      .put(44, lamps)
+      .put(48, 0.75f)
+      .put(52, 0.25f)
+      .bytes();
+}
+
+CarReading reading(double wheel_rad = 0.0) {
+  CarReading reading;
+  reading.input.steering_wheel_rad = wheel_rad;
+  reading.is_connected = true;
+  return reading;
+}
+
+}  // namespace
+
+TEST_CASE("OutGauge, OutSim and Codemasters' packets are read where their structures have them") {
+  const auto gauge = decode_telemetry(format("outgauge"), outgauge(25.0f, 3000.0f, 1u << 5 | 1u << 10), {});
+  REQUIRE(gauge);
+  CHECK(gauge->speed_mps == 25.0);
+  CHECK(gauge->engine_rpm == 3000.0);
+  CHECK(gauge->gear == 3.0);
+  CHECK(gauge->accelerator == 0.75);
+  CHECK(gauge->brake == 0.25);
+  CHECK(gauge->indicator_left == 1.0);
+  CHECK(gauge->indicator_right == 0.0);
+  CHECK(gauge->anti_lock == 1.0);
+  const Instruments shown = instruments_of(*gauge);
+  CHECK(shown.speed_kmh == 90.0);
+  CHECK(shown.fuel_percent == 50.0);
+  CHECK(shown.coolant_temperature_c == 88.0);
+  const auto both = decode_telemetry(format("outsim"), Datagram(64).put(36, 9.5f).bytes(), *gauge);
+  REQUIRE(both);
+  CHECK(both->vertical_mps2 == 9.5);
+  CHECK(both->speed_mps == 25.0);
+  const auto rally = decode_telemetry(
+      format("codemasters"), Datagram(264).put(4 * 7, 31.0f).put(4 * 33, 2.0f).put(4 * 37, 512.0f).bytes(), {});
+  REQUIRE(rally);
+  CHECK(rally->speed_mps == 31.0);
+  CHECK(rally->gear == 2.0);
+  CHECK(rally->engine_rpm == 5120.0);
+}
+
+TEST_CASE("a datagram of another length or with a number that is none changes nothing") {
+  for (const std::size_t size : {0u, 1u, 91u, 97u, 1500u})
+    CHECK_FALSE(decode_telemetry(format("outgauge"), Bytes(size), {}).has_value());
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -3e30f})
+    CHECK_FALSE(decode_telemetry(format("outgauge"), outgauge(bad, 1000.0f), {}).has_value());
+  GameDrive drive({}, 7.85);
+  drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), 1.0);
+  for (int i = 0; i < 1000; ++i) drive.receive(format("outgauge"), Bytes(static_cast<std::size_t>(i % 90)), 1.0);
+  CHECK(drive.refused_datagrams() == 1000);
+  CHECK(drive.take_messages().size() == 1);
+  CHECK(drive.instruments(1.1)->speed_kmh == 90.0);
+}
+
+TEST_CASE("any other format is a TOML file, whose mistakes are told by their place") {
+  const auto own = read_telemetry_format(
+      "name = \"mine\"\nleast_bytes = 8\nmost_bytes = 8\nbyte_order = \"big\"\nport = 4444\n"
+      "[fields.speed_mps]\nbyte = 2\ntype = \"u16\"\nscale = 0.01\n"
+      "[fields.indicator_left]\nbyte = 7\ntype = \"u8\"\nbit = 3\n",
+      "mine.toml");
+  REQUIRE_MESSAGE(own.has_value(), (own ? "" : describe(own.error())));
+  const auto read = decode_telemetry(
+      *own, Datagram(8).put(2, std::uint8_t{0x0a}).put(3, std::uint8_t{0x28}).put(7, std::uint8_t{8}).bytes(), {});
+  REQUIRE(read);
+  CHECK(read->speed_mps == doctest::Approx(26.0));
+  CHECK(read->indicator_left == 1.0);
+  CHECK(own->port == 4444);
+  for (const char* wrong :
+       {"", "name = 3", "[fields]", "[fields.speed_mps]\nbyte = 65507\n", "[fields.altitude]\nbyte = 0\n",
+        "[fields.speed_mps]\nbyte = 0\ntype = \"f16\"\n", "[fields.speed_mps]\nbyte = 0\ntype = \"u8\"\nbit = 8\n",
+        "least_bytes = 9\nmost_bytes = 8\n[fields.speed_mps]\nbyte = 0\n", "speed = 1\n[fields.speed_mps]\nbyte = 0\n"})
+    CHECK_MESSAGE(!read_telemetry_format(wrong, "mine.toml").has_value(), wrong);
+}
+
+TEST_CASE("fan and shaker follow a game's telemetry and rest 200 ms after its last word, with the cluster") {
+  GameDrive drive({.fan_full_speed_mps = 50.0, .fan_least = 0.2}, 7.85);
+  const ForceEffects none;
+  double now_s = 0.0;
+  Actuators told;
+  const auto run = [&](double seconds, bool talks) {
+    for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.01) {
+      if (talks) drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), now_s);
+      told = drive.actuate(reading(), none, now_s);
+    }
+  };
+  run(2.0, true);
+  CHECK(told.fan == doctest::Approx(0.6));
+  CHECK(told.vibration > 0.05);
+  CHECK(told.vibration_hz == doctest::Approx(100.0));  // A four-cylinder's second order at 3000 a minute.
+  CHECK(drive.instruments(now_s).has_value());
+  run(0.15, false);
+  CHECK(told.fan == doctest::Approx(0.6));
+  run(1.3, false);
+  CHECK(told.fan == 0.0);
+  CHECK(told.vibration == 0.0);
+  CHECK_FALSE(drive.instruments(now_s).has_value());
+  run(1.5, true);
+  CHECK(told.fan == doctest::Approx(0.6));
+}
+
+TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re-arm button") {
+  GameDrive drive({.steering_most = 0.5}, 7.85);
+  ForceEffects effects;
+  effects.load(0, {.kind = ForceKind::constant, .level = 1.0});
+  effects.play(0, 1, 0.0);
+  double now_s = 0.0;
+  Actuators told;
+  CarReading car = reading();
+  const auto run = [&](double seconds) {
+    for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.005) told = drive.actuate(car, effects, now_s);
+  };
+  run(0.09);
+  CHECK(is_rest(told));  // Which arms the device.
+  run(1.2);
+  CHECK(told.steering == doctest::Approx(0.5));
+  car.switches.emergency_stop = true;
+  now_s += 0.005;
+  told = drive.actuate(car, effects, now_s);
+  CHECK(told.steering == 0.0);
+  CHECK_FALSE(is_rest(told));  // Else what writes would think that it was re-armed.
+  car.switches.emergency_stop = false;
+  run(2.0);
+  CHECK(told.steering == 0.0);
+  car.switches.rearm = true;
+  run(0.9);
+  CHECK(drive.is_cut());
+  run(1.5);
+  CHECK(told.steering == doctest::Approx(0.5));
+  car.is_stale = true;
+  run(0.21);
+  CHECK(told.steering == 0.0);
+}
+
+TEST_CASE("the end of the wheel's way pushes back against whatever the game pulls") {
+  GameDrive drive({.steering_most = 1.0}, 7.85);
+  ForceEffects effects;
+  effects.load(0, {.kind = ForceKind::constant, .level = 1.0});
+  effects.play(0, 1, 0.0);
+  Actuators told;
+  for (int i = 0; i < 150; ++i) told = drive.actuate(reading(7.85), effects, 0.01 * i);
+  CHECK(told.steering == doctest::Approx(-1.0));
+}
+
+TEST_CASE("a spring pulls to its middle, a damper against the turning, friction alike at every speed") {
+  ForceEffects effects;
+  effects.load(1, {.kind = ForceKind::spring, .left_coefficient = 0.8, .right_coefficient = 0.4, .right_most = 0.1});
+  effects.play(1, 1, 0.0);
+  CHECK(effects.force({.share = 0.5}, 1.0) == doctest::Approx(-0.4));
+  CHECK(effects.force({.share = -0.5}, 1.0) == doctest::Approx(0.1));
+  CHECK(effects.force({}, 1.0) == 0.0);
+  effects.erase(1);
+  effects.load(2, {.kind = ForceKind::damper, .left_coefficient = 0.5, .right_coefficient = 0.5});
+  effects.play(2, 1, 0.0);
+  CHECK(effects.force({.share = 0.9, .speed_per_s = 1.0}, 1.0) == doctest::Approx(-0.5));
+  CHECK(effects.force({.share = 0.9, .speed_per_s = -0.5}, 1.0) == doctest::Approx(0.25));
+  effects.erase(2);
+  effects.load(3, {.kind = ForceKind::friction, .left_coefficient = 0.3, .right_coefficient = 0.3});
+  effects.play(3, 1, 0.0);
+  CHECK(effects.force({.speed_per_s = 0.2}, 1.0) == doctest::Approx(-0.3));
+  CHECK(effects.force({.speed_per_s = 3.0}, 1.0) == doctest::Approx(-0.3));
+  CHECK(effects.force({}, 1.0) == 0.0);
+}
+
+TEST_CASE("effects begin, fade, repeat and end by their times, and nothing makes more than all of the motor's force") {
+  ForceEffects effects;
+  effects.load(
+      0, {.kind = ForceKind::constant, .level = 0.8, .length_s = 1.0, .delay_s = 0.5, .attack_s = 0.2, .fade_s = 0.5});
+  effects.play(0, 2, 10.0);
+  CHECK(effects.force({}, 10.4) == 0.0);
+  CHECK(effects.force({}, 10.6) == doctest::Approx(0.4));
+  CHECK(effects.force({}, 10.9) == doctest::Approx(0.8));
+  CHECK(effects.force({}, 11.25) == doctest::Approx(0.4));
+  CHECK(effects.force({}, 12.0) == doctest::Approx(0.8));
+  CHECK(effects.force({}, 12.6) == 0.0);
+  effects.load(1, {.kind = ForceKind::periodic, .level = 1.0, .wave = ForceWave::sine, .period_s = 0.04});
+  effects.play(1, 1, 0.0);
+  CHECK(effects.force({}, 20.01) == doctest::Approx(1.0));
+  for (int i = 2; i < 40; ++i) {
+    effects.load(static_cast<std::int16_t>(i), {.kind = ForceKind::constant, .level = i % 2 == 0 ? 5.0 : std::nan("")});
+    effects.play(static_cast<std::int16_t>(i), 1, 0.0);
+  }
+  CHECK(effects.force({.share = std::nan("")}, 30.0) == 1.0);
+  effects.set_gain(0.25);
+  CHECK(effects.force({}, 30.0) == 0.25);
+  effects.play(77, 1, 0.0);
+  for (int i = 100; i < 1000; ++i) effects.load(static_cast<std::int16_t>(i), {});
+  CHECK(effects.size() <= 64);
+}
+
+TEST_CASE("Linux' effects become ours: directions, conditions, and a direction that nobody has set") {
+  ff_effect effect{};
+  effect.type = FF_CONSTANT;
+  effect.direction = 0x4000;
+  effect.u.constant.level = 16384;
+  CHECK(force_effect_of(effect).level == doctest::Approx(0.5).epsilon(1e-3));
+  effect.direction = 0xC000;
+  CHECK(force_effect_of(effect).level == doctest::Approx(-0.5).epsilon(1e-3));
+  effect.direction = 0;
+  CHECK(force_effect_of(effect).level == doctest::Approx(0.5).epsilon(1e-3));
+  effect = {};
+  effect.type = FF_SPRING;
+  effect.u.condition[0] = {.right_saturation = 0xffff,
+                           .left_saturation = 0x8000,
+                           .right_coeff = 32767,
+                           .left_coeff = 16384,
+                           .deadband = 0,
+                           .center = 3277};
+  const ForceEffect spring = force_effect_of(effect);
+  CHECK(spring.kind == ForceKind::spring);
+  CHECK(spring.left_coefficient == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(spring.left_most == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(spring.centre == doctest::Approx(-0.1).epsilon(1e-3));  // To the right.
+}
+
+TEST_CASE("a game is told once of what has changed, wheel and pedals as a wheel's axes") {
+  DriverInput input;
+  const auto all = wheel_events(input, nullptr, 7.85);
+  CHECK(all.size() == 4 + 16 + 1);
+  DriverInput next = input;
+  CHECK(wheel_events(next, &input, 7.85).empty());
+  next.steering_wheel_rad = 7.85;
+  next.accelerator = 1.0;
+  next.horn = true;
+  CHECK(wheel_events(next, &input, 7.85) ==
+        std::vector<WheelEvent>{
+            {EV_ABS, ABS_X, -32767}, {EV_ABS, ABS_Z, 32767}, {EV_KEY, BTN_TRIGGER + 3, 1}, {EV_SYN, SYN_REPORT, 0}});
+  next.brake = std::nan("");
+  CHECK(wheel_events(next, &input, 7.85).size() == 4);
+}
+
+}  // namespace septet::car_io
