@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"none", "half", "float"}))
       ->capture_default_str();
   app.add_option("--layers",
-                 "What they hold beside light: all, or some of depth,object,participant,normal,albedo,variance")
+                 "What they hold beside light: all, or some of depth,object,participant,normal,albedo,motion,variance")
       ->type_name("NAMES")
       ->default_str("")
       ->each([&](const std::string& text) {

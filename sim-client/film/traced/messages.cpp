@@ -116,6 +116,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(options.width_px), writer.put(options.height_px), writer.put(options.samples);
   writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
+  writer.put(static_cast<std::uint8_t>(options.layers.contains(Layer::motion)));
   writer.put(static_cast<std::uint8_t>(told.script.has_value()));
   writer.put_string(told.script.value_or(""));
   writer.put(told.session_bytes);
@@ -133,6 +134,8 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.error = reader.get_double();
   options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
+  // The others are made of any tile; for this one a worker looks a frame ahead.
+  if (reader.get<std::uint8_t>() != 0) options.layers.insert(Layer::motion);
   const bool has_script = reader.get<std::uint8_t>() != 0;
   std::string script = reader.get_string(longest_text);
   if (has_script) told.script = std::move(script);
