@@ -52,6 +52,7 @@ class Path {
   LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
   float headlight_weights(const glm::vec3& from_m) const;
   Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
+  void note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const;
   bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
 
   const World& world_;
@@ -286,6 +287,23 @@ bool Path::meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, Sur
   return true;
 }
 
+void Path::note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const {
+  first.distance_m = edge_m;
+  first.normal = point.surface.normal;
+  first.albedo = point.surface.diffuse + point.surface.f0;
+  first.object = world_.object(point.place);
+  first.participant = world_.participant(point.place);
+  if (!first.asks_way) return;
+  Ray then = ray;
+  SurfacePoint there;
+  then.time = 0.0f;
+  world_.point(then, hit, there);
+  first.from_m = there.position_m;
+  then.time = 1.0f;
+  world_.point(then, hit, there);
+  first.to_m = there.position_m;
+}
+
 glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
   time_ = ray.time;
   SurfacePoint point;
@@ -301,9 +319,7 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
       ray.origin_m = beside(point.position_m, -point.flat_normal);
     }
     float edge_m = met ? glm::length(point.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
-    if (first && met)
-      *first = {edge_m, point.surface.normal, point.surface.diffuse + point.surface.f0, world_.object(point.place),
-                world_.participant(point.place)};
+    if (first && met) note_first(ray, hit, point, edge_m, *first);
     first = nullptr;
     if (!world_.smoke().empty() && meet_smoke(edge_from_m, ray, edge_m, point)) {
       met = true;

@@ -21,6 +21,9 @@ struct FirstSeen {
   glm::vec3 albedo{0.0f};
   std::uint32_t object = 0;       ///< From 1 (TracedPixel::object); 0: the sky.
   std::uint32_t participant = 0;  ///< Its number; 0: of none.
+  bool asks_way = false;          ///< Set before: whether the two places below are wanted.
+  glm::vec3 from_m{0.0f},
+      to_m{0.0f};  ///< Where the place that is seen is as the shutter opens and closes, times 0 and 1.
 };
 
 /// Radiance, in the units of engine/instant. `first` may be null.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 #include "engine/core/check.hpp"
 #include "engine/core/parallel_for.hpp"
@@ -53,6 +54,14 @@ struct Camera {
     return x >= viewport.x && y >= viewport.y && x < viewport.x + std::int64_t{viewport.width} &&
            y < viewport.y + std::int64_t{viewport.height};
   }
+  /// Where what lies in this direction from the eye is seen, pixels; nothing: behind it.
+  std::optional<glm::vec2> seen_at(const glm::vec3& way) const {
+    const float distance = glm::dot(way, ahead);
+    if (!(distance > 1e-6f * glm::length(way))) return std::nullopt;
+    const glm::vec3 off = way / distance - middle;
+    return glm::vec2(viewport.x, viewport.y) +
+           glm::vec2(glm::dot(off, right) / glm::dot(right, right), glm::dot(off, down) / glm::dot(down, down));
+  }
   Ray ray(const glm::vec2& at_px, const TraceSettings& settings, PathRandom& random) const {
     Ray ray;
     const glm::vec3 way =
@@ -84,6 +93,13 @@ ClearBody clear_body(const ice::IceBody& ice, const ice::IceBody* later) {
   return body;
 }
 
+glm::vec2 motion_px(const Camera& camera, const Camera& later, const FirstSeen& first, const glm::vec3& direction) {
+  const bool sky = first.object == 0;
+  const auto from = camera.seen_at(sky ? direction : first.from_m - camera.eye_m),
+             to = later.seen_at(sky ? direction : first.to_m - later.eye_m);
+  return from && to ? *to - *from : glm::vec2(0.0f);
+}
+
 /// What a pixel's samples have added up to so far, in their order.
 struct PixelSums {
   TracedPixel sums;
@@ -108,10 +124,12 @@ void add_samples(PixelSums& pixel, const World& world, const Camera& camera, con
   for (; sums.samples < samples; ++sums.samples) {
     PathRandom random(of_pixel, sums.samples);
     const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
-    const float time = later ? random.uniform() : 0.0f;
-    Ray ray = later ? camera.towards(*later, time).ray(at, settings, random) : camera.ray(at, settings, random);
+    const bool blurs = later && settings.blurs;
+    const float time = blurs ? random.uniform() : 0.0f;
+    Ray ray = blurs ? camera.towards(*later, time).ray(at, settings, random) : camera.ray(at, settings, random);
     ray.time = time;
     FirstSeen first;
+    first.asks_way = later && sums.samples == 0;
     glm::vec3 radiance = trace_path(world, settings.paths, ray, random, &first);
     if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
       radiance = glm::vec3(0.0f);
@@ -122,6 +140,7 @@ void add_samples(PixelSums& pixel, const World& world, const Camera& camera, con
     sums.albedo += first.albedo;
     if (sums.samples == 0)
       sums.depth_m = first.distance_m, sums.object = first.object, sums.participant = first.participant;
+    if (first.asks_way) sums.motion_px = settings.motion_scale * motion_px(camera, *later, first, ray.direction);
     const double light = luminance(radiance);
     pixel.light += light, pixel.squares += light * light;
   }

@@ -30,6 +30,8 @@ struct TraceSettings {
   std::uint64_t seed = 0;
   float lens_radius_m = 0.0f;  ///< 0: a pinhole, all is sharp.
   float focus_m = 10.0f;       ///< Distance at which a lens is sharp.
+  bool blurs = true;           ///< False: what moves until `later` is not smeared; its pixels' motion is told.
+  float motion_scale = 1.0f;   ///< Of a pixel's motion, to a time other than `later`'s, as if all went on evenly.
 };
 
 /// A pixel as samples add to it.
@@ -42,6 +44,9 @@ struct TracedPixel {
   /// of its materials, as debris, then ice: the same number means the same in every frame.
   std::uint32_t object = 0;
   std::uint32_t participant = 0;  ///< Of the first sample; 0: of none.
+  /// Of the first sample: its way in the picture until `later`, pixels to the right and down, times motion_scale. 0 without `later`, in
+  /// a picture of several views, and of what is behind the camera then. The sky is infinitely far.
+  glm::vec2 motion_px{0.0f};
   std::uint32_t bad_samples = 0;  ///< Not a number, or infinite.
   std::uint32_t samples = 0;
 };

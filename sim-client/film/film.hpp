@@ -25,7 +25,7 @@ enum class FilmRenderer : std::uint8_t {
 enum class ExrNumbers : std::uint8_t { none, half_precision, single_precision };
 
 /// What they hold beside the light.
-enum class Layer : std::uint8_t { depth, object, participant, normal, albedo, variance };
+enum class Layer : std::uint8_t { depth, object, participant, normal, albedo, motion, variance };
 
 struct FilmOptions {
   std::filesystem::path session;

@@ -62,7 +62,7 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
       ->check(CLI::IsMember({"none", "half", "float"}))
       ->capture_default_str();
   app.add_option("--layers",
-                 "What they hold beside light: all, or some of depth,object,participant,normal,albedo,variance")
+                 "What they hold beside light: all, or some of depth,object,participant,normal,albedo,motion,variance")
       ->type_name("NAMES")
       ->default_str("")
       ->each([&options](const std::string& text) {

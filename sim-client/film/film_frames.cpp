@@ -178,7 +178,15 @@ Expected<instant::FrameInput> FilmFrames::input_of(const FilmFrame& film_frame) 
 Expected<std::optional<instant::FrameInput>> FilmFrames::input_as_shutter_closes(const FilmFrame& film_frame) {
   const Shot& shot = state_->plan.script.shots[film_frame.shot];
   if (!(shot.shutter_rad > 0.0)) return std::nullopt;
-  const double share = shot.shutter_rad / (2.0 * std::numbers::pi);
+  return input_after(film_frame, shot.shutter_rad / (2.0 * std::numbers::pi));
+}
+
+Expected<instant::FrameInput> FilmFrames::input_of_next(const FilmFrame& film_frame) {
+  return input_after(film_frame, 1.0);
+}
+
+Expected<instant::FrameInput> FilmFrames::input_after(const FilmFrame& film_frame, double share) {
+  const Shot& shot = state_->plan.script.shots[film_frame.shot];
   const double instant_s = std::min(film_frame.instant_s + share * shot.speed / state_->frames_per_second, shot.to_s);
   const std::vector<Look>& path = state_->plan.paths[film_frame.shot];
   const Look &from = path[film_frame.number_in_shot],

@@ -28,9 +28,13 @@ class FilmFrames {
   Expected<instant::FrameInput> input_of(const FilmFrame& frame);
   /// The same as the shot's shutter closes; nothing where it is open for no time.
   Expected<std::optional<instant::FrameInput>> input_as_shutter_closes(const FilmFrame& frame);
+  /// The same at the next frame's instant, or where its shot ends before.
+  Expected<instant::FrameInput> input_of_next(const FilmFrame& frame);
 
  private:
   struct State;
+  /// So much of a frame's time after it.
+  Expected<instant::FrameInput> input_after(const FilmFrame& frame, double share);
   Expected<instant::FrameInput> input_at(const FilmFrame& frame, double instant_s, const Look& look);
   explicit FilmFrames(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

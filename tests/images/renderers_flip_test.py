@@ -15,7 +15,8 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import flip
 
-MOST = {"noon": 0.051, "dusk": 0.026, "night": 0.064, "rain": 0.111, "snow": 0.060, "tunnel": 0.375}
+MOST = {"noon": 0.051, "dusk": 0.025, "night": 0.064, "rain": 0.111, "snow": 0.060, "tunnel": 0.370}
+WELL_BELOW = 0.95  # Of its bound: it is time to lower that.
 
 
 def main():
@@ -31,7 +32,8 @@ def main():
             folder.mkdir(parents=True, exist_ok=True)
             subprocess.run([options.program, weather, str(folder), options.samples], check=True)
             figure = flip.mean_flip(flip.read_png(folder / "traced.png"), flip.read_png(folder / "raster.png"))
-        print(f"{weather} {figure:.4f}, at most {most}")
+        lower = "; lower its bound" if figure < WELL_BELOW * most else ""
+        print(f"{weather} {figure:.4f}, at most {most}{lower}")
         failed = failed or not figure <= most
     return 1 if failed else 0
 

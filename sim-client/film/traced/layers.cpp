@@ -15,11 +15,12 @@ namespace {
 
 using raytrace::TracedPixel;
 
-constexpr std::array<std::pair<Layer, std::string_view>, 6> names{{{Layer::depth, "depth"},
+constexpr std::array<std::pair<Layer, std::string_view>, 7> names{{{Layer::depth, "depth"},
                                                                    {Layer::object, "object"},
                                                                    {Layer::participant, "participant"},
                                                                    {Layer::normal, "normal"},
                                                                    {Layer::albedo, "albedo"},
+                                                                   {Layer::motion, "motion"},
                                                                    {Layer::variance, "variance"}}};
 
 std::string all_names() {
@@ -127,6 +128,11 @@ exr::Picture exr_picture(const raytrace::TracedPicture& traced, const FrameFacts
     channels.add_three("normal.", "XYZ", real, [](const TracedPixel& pixel) { return pixel.normal; });
   if (has(Layer::albedo))
     channels.add_three("albedo.", "RGB", real, [](const TracedPixel& pixel) { return pixel.albedo; });
+  if (has(Layer::motion)) {
+    picture.attributes["septet.motion"] = "pixels to the next frame, X to the right, Y down";
+    channels.add("motion.X", exr::ChannelType::single_precision, [](const TracedPixel& p) { return p.motion_px.x; });
+    channels.add("motion.Y", exr::ChannelType::single_precision, [](const TracedPixel& p) { return p.motion_px.y; });
+  }
   if (has(Layer::variance))
     channels.add("variance", exr::ChannelType::single_precision,
                  [&](const TracedPixel& pixel) { return pixel.variance * scale * scale; });

@@ -118,6 +118,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
   writer.put(options.every);
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
+  writer.put(static_cast<std::uint8_t>(options.layers.contains(Layer::motion)));
   writer.put(static_cast<std::uint8_t>(told.script.has_value()));
   writer.put_string(told.script.value_or(""));
   writer.put(told.session_bytes);
@@ -136,6 +137,8 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
   options.every = std::max(1u, reader.get<std::uint32_t>());
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
+  // The others are made of any tile; for this one a worker looks a frame ahead.
+  if (reader.get<std::uint8_t>() != 0) options.layers.insert(Layer::motion);
   const bool has_script = reader.get<std::uint8_t>() != 0;
   std::string script = reader.get_string(longest_text);
   if (has_script) told.script = std::move(script);

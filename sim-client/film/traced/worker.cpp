@@ -7,6 +7,7 @@
 #include <deque>
 #include <fstream>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -250,6 +251,12 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       if (!input) return tl::unexpected(input.error());
       auto closing = frames.input_as_shutter_closes(of_film);
       if (!closing) return tl::unexpected(closing.error());
+      const bool opens_at_all = closing->has_value();
+      if (!opens_at_all && options.layers.contains(Layer::motion)) {
+        auto next = frames.input_of_next(of_film);
+        if (!next) return tl::unexpected(next.error());
+        *closing = std::move(*next);
+      }
       raytrace::TraceSettings settings;
       settings.samples = options.samples;
       settings.error = static_cast<float>(options.error);
@@ -258,6 +265,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       const Shot& shot = frames.plan().script.shots[of_film.shot];
       settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
       settings.focus_m = static_cast<float>(shot.focus_m);
+      settings.blurs = opens_at_all;
+      if (opens_at_all) settings.motion_scale = static_cast<float>(2.0 * std::numbers::pi / shot.shutter_rad);
       instant::Instant opens = instant::describe(std::move(*input), summary);
       std::optional<instant::Instant> closes;
       if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);

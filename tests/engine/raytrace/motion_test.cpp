@@ -83,6 +83,72 @@ TEST_CASE("an edge that moves while the shutter is open is a linear ramp as long
   CHECK(off_ramp(traced_until(scene, instant, instant, settings), sharp - 1e-3, sharp + 1e-3) < 0.03);
 }
 
+TEST_CASE("a pixel's motion is the way of what it shows in the picture by the camera's move and its own") {
+  const scene::ResolvedScene scene = bright_sheet();
+  instant::Instant instant = instant_from({-distance_m, 0.0, 0.0}, angle_rad, side_px, even_sky(0.0f));
+  instant::PlacedMesh sheet;
+  sheet.tint = glm::vec4(1.0f);
+  instant.parts = {sheet};
+  const TraceSettings settings{.samples = 4, .filter = Filter::box, .blurs = false};
+  const auto motion = [&](const instant::Instant& later, std::uint32_t x, float scale = 1.0f) {
+    TraceSettings scaled = settings;
+    scaled.motion_scale = scale;
+    return traced_until(scene, instant, later, scaled).at(x, 20).motion_px;
+  };
+  constexpr std::uint32_t on_sheet = 10, in_sky = 30;
+  const double px_of_slope = px_of_m * distance_m;
+  // The camera moves to the left and up: what stands goes to the right and down, the sky nowhere.
+  instant::Instant later = instant;
+  later.views.front().projection.eye_m += Vec3(0.0, 1.0, 0.5);
+  CHECK(motion(later, on_sheet).x == doctest::Approx(px_of_m).epsilon(1e-4));
+  CHECK(motion(later, on_sheet).y == doctest::Approx(0.5 * px_of_m).epsilon(1e-4));
+  CHECK(glm::length(motion(later, in_sky)) < 1e-3f);
+  CHECK(motion(later, on_sheet, 2.5f).x == doctest::Approx(2.5 * px_of_m).epsilon(1e-4));
+  // It turns to the left: the sky goes to the right, by tangents.
+  later = instant;
+  later.views.front().projection = instant::symmetric_view({-distance_m, 0.0, 0.0}, 0.05, 0.0, angle_rad, angle_rad);
+  const auto turned_by = [&](double px) { return px_of_slope * std::tan(std::atan(px / px_of_slope) + 0.05) - px; };
+  CHECK(motion(later, in_sky).x > turned_by(10.0) - 1e-3);
+  CHECK(motion(later, in_sky).x < turned_by(11.0) + 1e-3);
+  // The sheet goes to the right, which a camera that goes with it does not see.
+  later = instant;
+  later.parts.front().origin_m.y = -1.5;
+  CHECK(motion(later, on_sheet).x == doctest::Approx(1.5 * px_of_m).epsilon(1e-4));
+  CHECK(std::abs(motion(later, on_sheet).y) < 1e-3f);
+  later.views.front().projection.eye_m.y = -1.5;
+  CHECK(glm::length(motion(later, on_sheet)) < 1e-3f);
+  // It comes two thirds as far away: everything is half as far again from the middle.
+  later = instant;
+  later.parts.front().origin_m.x = -2.0;
+  CHECK(motion(later, on_sheet).x > -5.0 - 1e-3);
+  CHECK(motion(later, on_sheet).x < -4.5 + 1e-3);
+  // It is behind the camera then.
+  later.parts.front().origin_m.x = -9.0;
+  CHECK(motion(later, on_sheet) == glm::vec2(0.0f));
+  // Nothing is smeared for it.
+  later = instant;
+  later.views.front().projection.eye_m.y += 1.0;
+  const double sharp = 0.5 * side_px;
+  CHECK(off_ramp(traced_until(scene, instant, later, {.samples = 64, .filter = Filter::box, .blurs = false}),
+                 sharp - 1e-3, sharp + 1e-3) < 0.03);
+}
+
+TEST_CASE("debris moves in the picture as its corners do") {
+  scene::ResolvedScene scene;
+  scene.materials.emplace_back();
+  instant::Instant instant = instant_from({-distance_m, 0.0, 0.0}, angle_rad, side_px, even_sky(1.0f));
+  instant::LooseMesh& piece = instant.loose.emplace_back();
+  const glm::vec3 back(-1.0f, 0.0f, 0.0f);
+  piece.mesh.vertices = {{{0, 9, -9}, back, {}}, {{0, -9, -9}, back, {}}, {{0, 0, 18}, back, {}}};
+  instant::Instant later = instant;
+  for (scene::SurfaceVertex& vertex : later.loose.front().mesh.vertices) vertex.position_m.z -= 0.75f;
+  later.loose.front().mesh.origin_m.y += 0.25;
+  const TracedPicture picture =
+      traced_until(scene, instant, later, {.samples = 1, .filter = Filter::box, .blurs = false});
+  CHECK(picture.at(20, 20).motion_px.x == doctest::Approx(-0.25 * px_of_m).epsilon(1e-4));
+  CHECK(picture.at(20, 20).motion_px.y == doctest::Approx(0.75 * px_of_m).epsilon(1e-4));
+}
+
 TEST_CASE("a ray meets what turns where it is at the ray's time") {
   const scene::ResolvedScene scene = bright_sheet();
   auto geometry = Geometry::create();

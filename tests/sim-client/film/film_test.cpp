@@ -320,7 +320,7 @@ TEST_CASE("layers are named by a list and what is no layer is refused with those
   CHECK(layers_text(layers) == "depth,normal");
   CHECK(read_layers("all", layers) == "");
   CHECK(read_layers(layers_text(layers), layers) == "");
-  CHECK(layers.size() == 6);
+  CHECK(layers.size() == 7);
   for (const char* wrong : {"", "depth,", "dept", "depth normal", ",", "DEPTH"}) {
     CAPTURE(wrong);
     CHECK(read_layers(wrong, layers).find("is no layer; write all, or some of depth,") != std::string::npos);
@@ -335,13 +335,14 @@ TEST_CASE("a picture's layers are its pixels' and its header says where the came
                       .albedo = {0.1f, 0.2f, 0.3f},
                       .depth_m = 12.0f,
                       .object = 0x80000001u,
-                      .participant = 7};
+                      .participant = 7,
+                      .motion_px = {3.5f, -1.25f}};
   FrameFacts facts{.simulated_time_s = 2.5, .ev100 = 12.0};
   facts.view.projection = instant::symmetric_view({0.0, 0.0, 1.2}, 0.3, -0.1, 1.0, 0.6);
   facts.view.world_from_car = {{4000.0, -300.0, 2.0}, orientation_from_angles(2.0, 0.02, 0.01)};
-  const exr::Picture picture =
-      exr_picture(traced, facts, {.frame = 9}, ExrNumbers::half_precision,
-                  {Layer::depth, Layer::object, Layer::participant, Layer::normal, Layer::albedo, Layer::variance});
+  const exr::Picture picture = exr_picture(
+      traced, facts, {.frame = 9}, ExrNumbers::half_precision,
+      {Layer::depth, Layer::object, Layer::participant, Layer::normal, Layer::albedo, Layer::motion, Layer::variance});
   const double scale = 8000.0 / (1.2 * std::exp2(12.0));
   CHECK(picture.white_luminance_cdpm2 == doctest::Approx(1.2 * std::exp2(12.0)));
   const auto value = [&](const std::string& name, std::size_t pixel) -> double {
@@ -358,6 +359,9 @@ TEST_CASE("a picture's layers are its pixels' and its header says where the came
   CHECK(value("albedo.G", 0) == doctest::Approx(0.2));
   CHECK(value("object", 0) == 0x80000001u);
   CHECK(value("participant", 0) == 7);
+  CHECK(value("motion.X", 0) == 3.5);
+  CHECK(value("motion.Y", 0) == -1.25);
+  CHECK(std::get<std::string>(picture.attributes.at("septet.motion")).find("pixels to the next frame") == 0);
   CHECK(value("Z", 0) == 12.0);
   CHECK(std::isinf(value("Z", 1)));
   CHECK(std::get<std::string>(picture.attributes.at("septet.seed")) == "9");
