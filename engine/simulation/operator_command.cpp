@@ -8,7 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/math/rigid_transform.hpp"
+#include "engine/road/road_locate.hpp"
 #include "engine/simulation/driver_car.hpp"
+#include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/storyboard_stage.hpp"
 
 namespace septet::simulation {
@@ -33,7 +36,9 @@ constexpr std::array condition_table{
 
 tl::unexpected<Error> no_command(std::string what) {
   return failure(std::move(what), "operator's command",
-                 "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\" or \"trigger element=NAME\"");
+                 "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
+                 "y_m=Y part=NAME\" "
+                 "or \"hide entity=NAME\"");
 }
 
 /// All of the text is this number.
@@ -61,6 +66,22 @@ Expected<OperatorCommand> parse_conditions(std::string_view text) {
   }
   if (set.values.empty()) return no_command("no condition is given");
   return set;
+}
+
+/// "X y_m=Y part=NAME".
+Expected<OperatorCommand> parse_place(std::string_view text) {
+  constexpr std::string_view second = " y_m=", third = " part=";
+  const auto y = text.find(second), part = text.find(third);
+  PlacePart place;
+  constexpr double furthest_m = 1e7;
+  const auto is_place = [](double value) { return value >= -furthest_m && value <= furthest_m; };
+  if (y == text.npos || part == text.npos || part < y || !read_number(text.substr(0, y), place.x_m) ||
+      !read_number(text.substr(y + second.size(), part - y - second.size()), place.y_m) || !is_place(place.x_m) ||
+      !is_place(place.y_m))
+    return no_command("this is no place");
+  place.part = text.substr(part + third.size());
+  if (!part_of_name(place.part)) return no_command("there is no such thing");
+  return place;
 }
 
 /// Uses each act and each event of the storyboard, as whole elements.
@@ -107,6 +128,41 @@ Expected<void> apply(const Model& model, const TriggerElement& trigger, State& s
   return done;
 }
 
+Expected<void> apply(const Model& model, const PlacePart& place, State& state, std::vector<Event>&) {
+  const auto part = part_of_name(place.part);
+  if (!part) return no_command("there is no such thing");
+  const RigidTransform car = driven_car(model, state).participant.world_from_vehicle;
+  const Vec2 at(place.x_m, place.y_m);
+  const double away_m = glm::length(at - Vec2(car.position_m));
+  if (away_m < nearest_place_m || away_m > furthest_place_m)
+    return failure(fmt::format("it would be {:.0f} m from the driver's car", away_m), "place",
+                   fmt::format("choose a place from {:g} to {:g} m away", nearest_place_m, furthest_place_m));
+  const auto ground = road::surface_at(model.roads, at);
+  if (!ground) return failure("there is no road", "place", "choose a place on a road or just beside it");
+  stand_part(*part, {Vec3(at, ground->height_m), orientation_from_angles(heading_rad(car.orientation), 0.0, 0.0)},
+             state.effects);
+  return {};
+}
+
+/// May be hidden: has a body that the scenario moves.
+bool can_hide(const Model& model, std::size_t entity) {
+  return entity != model.driver_entity && model.scenario.entities[entity].kind != scenario::EntityKind::misc_object;
+}
+
+Expected<void> apply(const Model& model, const ShowEntity& show, State& state, std::vector<Event>&) {
+  const auto found = scenario::find_entity(model.scenario, show.name);
+  if (!found || !can_hide(model, *found))
+    return failure("the scenario moves nobody of this name", show.name.substr(0, 200), "name another one");
+  scenario::EntityState& entity = state.scenario.entities[*found];
+  if (entity.active == show.shown)
+    return failure(show.shown ? "it is there already" : "it is not there", show.name, "choose the other");
+  if (entity.external) return failure("somebody else moves it", show.name, "name one that the scenario moves");
+  if (show.shown && entity.world_from_entity.position_m == Vec3(0.0) && !entity.on_road)
+    return failure("it has never been anywhere", show.name, "let the storyboard place it first");
+  entity.active = show.shown;
+  return {};
+}
+
 }  // namespace
 
 std::span<const Condition> conditions() { return condition_table; }
@@ -119,6 +175,10 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* traffic = std::get_if<SetTraffic>(&command))
     return fmt::format("traffic vehicles={}", traffic->vehicles);
   if (const auto* trigger = std::get_if<TriggerElement>(&command)) return "trigger element=" + trigger->name;
+  if (const auto* place = std::get_if<PlacePart>(&command))
+    return fmt::format("place x_m={} y_m={} part={}", place->x_m, place->y_m, place->part);
+  if (const auto* show = std::get_if<ShowEntity>(&command))
+    return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
   std::string text = "conditions";
   for (const auto& [condition, value] : std::get<SetConditions>(command).values)
     text += fmt::format(" {}={}", condition->name, value);
@@ -135,6 +195,13 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
     if (!read_number(text.substr(begin.size()), vehicles) || vehicles > scenario::most_swarm_vehicles)
       return no_command(fmt::format("vehicles are to be from 0 to {}", scenario::most_swarm_vehicles));
     return SetTraffic{vehicles};
+  }
+  if (constexpr std::string_view begin = "place x_m="; text.starts_with(begin))
+    return parse_place(text.substr(begin.size()));
+  for (const bool shown : {false, true}) {
+    const std::string_view begin = shown ? "show entity=" : "hide entity=";
+    if (text.starts_with(begin) && text.size() > begin.size())
+      return ShowEntity{std::string(text.substr(begin.size())), shown};
   }
   return no_command("there is no such command");
 }
@@ -155,6 +222,14 @@ const scenario::TrafficSwarmAction* first_swarm(const scenario::Scenario& scenar
             for (const auto& action : event.actions)
               if (const auto* swarm = std::get_if<scenario::TrafficSwarmAction>(&action.what)) return swarm;
   return nullptr;
+}
+
+std::vector<Hideable> hideable(const Model& model, const scenario::ScenarioState& state) {
+  std::vector<Hideable> list;
+  for (std::size_t i = 0; i < state.entities.size(); ++i)
+    if (can_hide(model, i) && !state.entities[i].external)
+      list.push_back({model.scenario.entities[i].name, state.entities[i].active});
+  return list;
 }
 
 std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state) {

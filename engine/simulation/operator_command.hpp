@@ -7,6 +7,9 @@
 ///     conditions rain_mm_per_h=20 road_wetness=0.6
 ///     traffic vehicles=120
 ///     trigger element=Story::Act::Group::Maneuver::Event
+///     place x_m=120.5 y_m=-3.25 part=traffic-cone
+///     hide entity=NAME
+///     show entity=NAME
 
 #include <cstdint>
 #include <span>
@@ -44,7 +47,22 @@ struct TriggerElement {
   std::string name;  ///< As Scenario::element_names has it.
   bool operator==(const TriggerElement&) const = default;
 };
-using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement>;
+/// A thing that can be hit stands on the road, or beside it, from now on: a part by its name ("traffic-cone"), as the driver's car faces.
+struct PlacePart {
+  std::string part;
+  double x_m = 0.0, y_m = 0.0;  ///< World.
+  bool operator==(const PlacePart&) const = default;
+};
+/// Somebody of the scenario is not there any more, seen and met by nobody, or is there again where he was.
+struct ShowEntity {
+  std::string name;
+  bool shown = false;
+  bool operator==(const ShowEntity&) const = default;
+};
+using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, ShowEntity>;
+
+/// How far from the driver's car a thing may be placed: nearer it would stand in the car, further it would be gone at once.
+inline constexpr double nearest_place_m = 8.0, furthest_place_m = 500.0;
 
 std::string text_of(const OperatorCommand& command);
 /// Error: it is no command, or asks for a value out of its range.
@@ -56,6 +74,13 @@ Expected<void> apply_operator_command(const Model& model, const OperatorCommand&
 
 /// The swarm that `SetTraffic` takes its mix and its reach from: the scenario's first; null where it has none.
 const scenario::TrafficSwarmAction* first_swarm(const scenario::Scenario& scenario);
+
+/// Whom `ShowEntity` may name: those of the scenario who move, the driver's car not among them, and whether they are there.
+struct Hideable {
+  std::string name;
+  bool shown = false;
+};
+std::vector<Hideable> hideable(const Model& model, const scenario::ScenarioState& state);
 
 /// What may be triggered now: acts and events that have not begun.
 std::vector<std::string> triggers(const scenario::Scenario& scenario, const scenario::ScenarioState& state);

@@ -1,7 +1,7 @@
 #pragma once
 /// Small pictures of what a screen shows, for the operator's page.
 ///
-/// A picture that was read back anyway is made smaller at once (some 0.2 ms), and packed on a thread of its own: a frame never waits for that.
+/// A picture that was read back anyway is made smaller at once (0.6 ms), and packed on a thread of its own: a frame never waits for that.
 /// One that comes while the last is being packed is left out.
 
 #include <cstdint>

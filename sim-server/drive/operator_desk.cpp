@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/regular_file.hpp"
+#include "engine/simulation/effects/effects_stage.hpp"
 #include "engine/simulation/operator_command.hpp"
 #include "logging/questionnaire.hpp"
 #include "program/resources.hpp"
@@ -39,6 +40,7 @@ page::DriveFacts facts_of(const ServerOptions& options, const LoadedDrive& loade
                          .driver = simulation::driver_participant};
   if (rating)
     facts.rating = page::RatingScale{rating->title(), rating->item().text, rating->item().least, rating->item().labels};
+  for (const std::string_view part : simulation::part_names()) facts.things.emplace_back(part);
   for (const auto& condition : simulation::conditions())
     facts.conditions.push_back({std::string(condition.name), condition.least, condition.most});
   return facts;
@@ -117,6 +119,8 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
     const auto answered = rating_->answers().find(view.rating.minute);
     if (answered != rating_->answers().end()) view.rating.value = answered->second;
   }
+  for (auto& entity : simulation::hideable(*loaded_.model, scenario))
+    view.entities.emplace_back(std::move(entity.name), entity.shown);
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/road/road_network.hpp"
@@ -34,6 +35,7 @@ struct DriveFacts {
   bool has_traffic = false;  ///< Its density can be changed.
   ParticipantId driver = 0;
   std::optional<RatingScale> rating;
+  std::vector<std::string> things;  ///< That can be placed on the road.
 };
 
 struct ScreenView {
@@ -74,6 +76,8 @@ struct DriveView {
   std::vector<ScreenView> screens;
   std::vector<double> conditions;  ///< As DriveFacts::conditions.
   RatingView rating;
+  std::vector<std::pair<std::string, bool>>
+      entities;                       ///< Of the scenario, who may be hidden, and whether they are there.
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
 };
 

@@ -201,6 +201,7 @@ std::string hello_text(const DriveFacts& facts, const RoadMap& map, std::uint64_
                {"driver", facts.driver},
                {"has_traffic", facts.has_traffic},
                {"rating", std::move(rating)},
+               {"things", facts.things},
                {"conditions", std::move(conditions)},
                {"models", std::move(models)},
                {"road", std::move(shapes)}});
@@ -226,6 +227,9 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
   json["rating"] = {{"minute", view.rating.minute}, {"answered", view.rating.value.has_value()}};
   if (view.rating.value) json["rating"]["value"] = *view.rating.value;
+  Json entities = Json::array();
+  for (const auto& [name, is_there] : view.entities) entities.push_back({{"name", name}, {"shown", is_there}});
+  json["entities"] = std::move(entities);
   Json conditions = Json::array();
   for (const double value : view.conditions) conditions.push_back(rounded(value, 0.0001));
   json["conditions"] = std::move(conditions);

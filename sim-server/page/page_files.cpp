@@ -29,6 +29,9 @@ constexpr std::string_view map_js =
 constexpr std::string_view sickness_js =
 #include "sim-server/page/web/sickness.js.inc"
     ;
+constexpr std::string_view things_js =
+#include "sim-server/page/web/things.js.inc"
+    ;
 constexpr std::string_view operator_js =
 #include "sim-server/page/web/operator.js.inc"
     ;
@@ -51,6 +54,7 @@ std::vector<Resource> page_files() {
           {"/screens.js", script, screens_js},
           {"/map.js", script, map_js},
           {"/sickness.js", script, sickness_js},
+          {"/things.js", script, things_js},
           {"/operator.js", script, operator_js},
           {"/start.js", script, start_js},
           {"/page.js", script, page_js}};

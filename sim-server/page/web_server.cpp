@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <deque>
 #include <exception>
 #include <future>
@@ -15,7 +14,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -28,6 +26,7 @@
 #include <boost/beast/websocket.hpp>
 
 #include "sim-server/page/request_checks.hpp"
+#include "sim-server/page/signals_away.hpp"
 
 namespace septet::page {
 namespace {
@@ -43,9 +42,6 @@ using Response = http::response<http::string_body>;
 
 constexpr auto patience = std::chrono::seconds(10);  // For a request and its answer.
 constexpr std::string_view subprotocol = "septet";
-constexpr std::string_view page_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
-    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 beast::string_view view(std::string_view text) { return {text.data(), text.size()}; }
@@ -261,22 +257,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::response_serializer<http::string_body>> serializer_;
   std::array<char, 4096> rest_{};
   std::size_t drained_ = 0;
-};
-
-/// No signal is delivered to a thread that is made while this lives: they are the program's.
-class SignalsAway {
- public:
-  SignalsAway() {
-    sigset_t all;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsAway() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsAway(const SignalsAway&) = delete;
-  SignalsAway& operator=(const SignalsAway&) = delete;
-
- private:
-  sigset_t before_{};
 };
 
 }  // namespace

@@ -30,6 +30,11 @@ struct Resource {
   std::string_view body;
 };
 
+/// The Content-Security-Policy of the resources: what the page may load and reach is this server's own.
+inline constexpr std::string_view page_policy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; "
+    "frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+
 /// What is made or read when it is asked for.
 struct FoundResource {
   std::string type, body;

@@ -17,7 +17,7 @@ namespace septet::simulation {
 namespace {
 
 /// In the order of debris::Part.
-constexpr std::array<std::string_view, debris::part_count> part_names{
+constexpr std::array<std::string_view, debris::part_count> part_name_table{
     "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab"};
 
 Vec3 place_of(const debris::Piece& piece) { return debris::from_eigen(piece.body.position_m.front()); }
@@ -52,10 +52,12 @@ std::vector<EffectOffer> debris_offers(const debris::State& debris) {
 }  // namespace
 
 std::optional<debris::Part> part_of_name(std::string_view name) {
-  const auto found = std::ranges::find(part_names, name);
-  if (found == part_names.end()) return std::nullopt;
-  return static_cast<debris::Part>(found - part_names.begin());
+  const auto found = std::ranges::find(part_name_table, name);
+  if (found == part_name_table.end()) return std::nullopt;
+  return static_cast<debris::Part>(found - part_name_table.begin());
 }
+
+std::span<const std::string_view> part_names() { return part_name_table; }
 
 EffectsState initial_effects(const scenario::Scenario& scenario, const scenario::ScenarioState& storyboard,
                              std::uint64_t seed) {
@@ -65,13 +67,17 @@ EffectsState initial_effects(const scenario::Scenario& scenario, const scenario:
     const scenario::Entity& entity = scenario.entities[i];
     const auto part = part_of_name(entity.type_name);
     if (entity.kind != scenario::EntityKind::misc_object || !part || !storyboard.entities[i].active) continue;
-    RigidTransform place = storyboard.entities[i].world_from_entity;
-    const double half = 0.5 * debris::part_recipe(*part).size_m.z;
-    place.position_m += place.orientation * Vec3(0.0, 0.0, half + 0.002);
-    debris::spawn_part(state.debris, *part, place, Vec3(0.0), Vec3(0.0), state.random);
-    state.debris.pieces.back().asleep = true;
+    stand_part(*part, storyboard.entities[i].world_from_entity, state);
   }
   return state;
+}
+
+void stand_part(debris::Part part, const RigidTransform& feet, EffectsState& state) {
+  RigidTransform place = feet;
+  const double half = 0.5 * debris::part_recipe(part).size_m.z;
+  place.position_m += place.orientation * Vec3(0.0, 0.0, half + 0.002);
+  debris::spawn_part(state.debris, part, place, Vec3(0.0), Vec3(0.0), state.random);
+  state.debris.pieces.back().asleep = true;
 }
 
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,

@@ -9,6 +9,7 @@
 /// inputs give the same hash.
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,11 @@ EffectsState initial_effects(const scenario::Scenario& scenario, const scenario:
 
 /// "bumper", "door", "lamp", "windscreen", "traffic-cone", "barrier-post", "ice-slab".
 std::optional<debris::Part> part_of_name(std::string_view name);
+
+/// The names of all parts, as people write them.
+std::span<const std::string_view> part_names();
+/// Stands a part on its feet, at rest: `feet` is where it touches the ground.
+void stand_part(debris::Part part, const RigidTransform& feet, EffectsState& state);
 
 /// Puts a part on the roof of a vehicle, which is `vehicle` among the participants: see scenario::EffectAction. Of a slab of ice
 /// comes what has not melted.

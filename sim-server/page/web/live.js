@@ -9,6 +9,7 @@ function make_drive() {
   $('thumbnails').replaceChildren();
   make_conditions();
   make_sickness();
+  make_things();
   make_road();
 }
 
@@ -52,6 +53,7 @@ function show_state() {
   show_sickness();
   s.conditions.forEach((value, i) => sliders[i] && sliders[i](value));
   show_triggers();
+  show_entities();
   show_screens();
   age_thumbnails();
   show_near();

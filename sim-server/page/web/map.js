@@ -112,7 +112,10 @@ function move(dx, dy) {
 }
 
 let held = null;
-canvas.onpointerdown = (event) => { held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId); };
+canvas.onpointerdown = (event) => {
+  if (placing && mine) return place_at(view.x + (event.offsetX - canvas.clientWidth / 2) / view.scale, view.y - (event.offsetY - canvas.clientHeight / 2) / view.scale);
+  held = [event.clientX, event.clientY]; canvas.setPointerCapture(event.pointerId);
+};
 canvas.onpointermove = (event) => {
   if (!held) return;
   move(event.clientX - held[0], event.clientY - held[1]);

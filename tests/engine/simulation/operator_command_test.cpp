@@ -11,8 +11,11 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
   SetConditions set;
   for (const Condition& condition : conditions())
     set.values.emplace_back(&condition, condition.least + (condition.most - condition.least) * (1.0 / 3.0));
-  for (const OperatorCommand& command : {OperatorCommand(set), OperatorCommand(SetTraffic{3000}),
-                                         OperatorCommand(TriggerElement{"a story::its act = x"})}) {
+  for (const OperatorCommand& command :
+       {OperatorCommand(set), OperatorCommand(SetTraffic{3000}),
+        OperatorCommand(TriggerElement{"a story::its act = x"}),
+        OperatorCommand(PlacePart{"traffic-cone", 1.0 / 3.0, -1e6 / 7.0}),
+        OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
     CHECK(*read == command);
@@ -41,6 +44,14 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "trigger element=",
                            "trigger",
                            "TRAFFIC vehicles=1",
+                           "place x_m=1 y_m=2 part=house",
+                           "place x_m=1 y_m=2 part=",
+                           "place x_m=nan y_m=2 part=traffic-cone",
+                           "place x_m=1 y_m=1e300 part=traffic-cone",
+                           "place x_m=1 part=traffic-cone y_m=2",
+                           "place y_m=1 x_m=2 part=traffic-cone",
+                           "hide entity=",
+                           "show",
                            "conditions friction_scale=0"})
     CHECK_MESSAGE(!parse_operator_command(text).has_value(), text);
 }
