@@ -62,6 +62,12 @@ inline constexpr std::array tables{
 inline constexpr Table saved_states{"saved_states",
                                     "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
 
+/// Of ticks at which the head was not at rest; sessions of earlier builds lack it.
+inline constexpr Table head_positions{
+    "head_positions",
+    "CREATE TABLE head_positions(tick INTEGER PRIMARY KEY, forward_m REAL NOT NULL, left_m REAL NOT NULL, "
+    "up_m REAL NOT NULL, turn_rad REAL NOT NULL)"};
+
 /// Finds the keyframe before a time without reading the table.
 inline constexpr std::string_view keyframe_index =
     "CREATE INDEX keyframes ON snapshots(simulated_time_s) WHERE baseline_tick IS NULL";

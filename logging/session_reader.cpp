@@ -1,5 +1,9 @@
 #include "logging/session_reader.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "logging/packed_snapshot.hpp"
@@ -34,6 +38,13 @@ Expected<void> check_format(const Database& database) {
                      database.where(), "use an unaltered session file");
   }
   return {};
+}
+
+/// Of those that earlier builds did not write.
+Expected<bool> has_table(const Database& database, const Table& table) {
+  return database
+      .query_integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", table.name))
+      .map([](std::int64_t count) { return count > 0; });
 }
 
 template <class T>
@@ -221,7 +232,19 @@ Expected<SnapshotCursor> SessionReader::snapshots() const {
 }
 
 Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const {
-  return read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
+  auto inputs = read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
+  const auto has_heads = has_table(state_->database, head_positions);
+  if (!has_heads) return tl::unexpected(has_heads.error());
+  if (!inputs || !*has_heads) return inputs;
+  const auto heads = read_rows(prepare_range(state_->database, "*", head_positions.name, range, "tick"), read_head);
+  if (!heads) return tl::unexpected(heads.error());
+  auto input = inputs->begin();
+  for (const HeadRecord& record : *heads) {
+    input = std::lower_bound(input, inputs->end(), record.tick,
+                             [](const InputRecord& of, Tick tick) { return of.tick < tick; });
+    if (input != inputs->end() && input->tick == record.tick) input->input.head = record.head;
+  }
+  return inputs;
 }
 Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
   return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"), read_scene_edit);
@@ -241,10 +264,9 @@ Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const 
 }
 
 Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
-  const auto has_table = state_->database.query_integer(
-      "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'saved_states'");
-  if (!has_table) return tl::unexpected(has_table.error());
-  if (*has_table == 0) return std::optional<StateRecord>();
+  const auto has_states = has_table(state_->database, saved_states);
+  if (!has_states) return tl::unexpected(has_states.error());
+  if (!*has_states) return std::optional<StateRecord>();
   auto rows =
       read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"),
                 read_state);

@@ -198,6 +198,11 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   if (!seat) return tl::unexpected(seat.error());
   seat->show = std::move(can->show);
   drive.by_person = !seat->look;
+  if (const auto& tracking = drive.loaded.rig.head; tracking && drive.by_person) {
+    auto tracker = car_io::HeadTracker::open(*tracking);
+    if (!tracker) return tl::unexpected(tracker.error());
+    seat->head = std::move(*tracker);
+  }
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());

@@ -21,7 +21,7 @@ namespace septet::control {
 enum class LaneMessage : std::uint8_t { scene = 0, control = 1 };
 
 /// Of these messages; who speaks another one is refused.
-inline constexpr std::uint16_t protocol_version = 2;
+inline constexpr std::uint16_t protocol_version = 3;
 
 /// Screen → server, first of all.
 struct Hello {
@@ -111,7 +111,7 @@ struct CarFeedback {
 
 /// Screen → server: the person at this screen wants the drive to end. It is answered by Finish.
 struct Quit {
-  bool by_escape = false;  ///< By the Escape key; otherwise by closing the window.
+  enum class How : std::uint8_t { window_closed, escape, restart } how = How::window_closed;
 };
 
 /// Server → screen: what the driver is to read on the screen ahead, until the next notice.

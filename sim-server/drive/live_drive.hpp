@@ -12,6 +12,7 @@
 #include "car-io/actuators.hpp"
 #include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
+#include "car-io/head/head_tracker.hpp"
 #include "car-io/vibration_dose.hpp"
 #include "car-io/wheel_torque.hpp"
 #include "engine/core/message_limit.hpp"
@@ -35,7 +36,8 @@ struct DriverSeat {
   double steering_lock_rad = 7.85;  ///< Where the hand wheel ends.
   /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
   std::function<std::optional<Error>(const car_io::Instruments&)> show;
-  std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
+  std::shared_ptr<RemoteCar> remote;        ///< Of a car on another machine.
+  std::optional<car_io::HeadTracker> head;  ///< Nothing: the rig has no head tracker, or nobody's head to track.
 };
 
 class LiveDrive final : public TickSource {

@@ -142,8 +142,9 @@ void stand_still(ScreenLoop& loop) {
   const control::Notice before = loop.host.notice();
   const auto say = [&] {
     const bool by_driver = loop.host.pause_requested();
-    const control::Notice notice{by_driver ? "Paused. Escape: go on. Enter: end the drive" : "Paused by the operator",
-                                 before.keys, by_driver};
+    const control::Notice notice{
+        by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator", before.keys,
+        by_driver};
     if (loop.host.notice() != notice) {
       loop.host.give_notice(notice);
       if (by_driver) loop.environment.message("paused by the driver");
