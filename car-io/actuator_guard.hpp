@@ -14,6 +14,11 @@ struct ActuatorGuard {
   bool is_cut = false;
 
   void rearm() { is_cut = false; }
+  /// Without falling: an emergency stop.
+  void stop() {
+    is_cut = true;
+    share = 0.0;
+  }
   /// Whether it is this fault that cuts: true once until it is re-armed.
   bool trip(bool fault) {
     const bool is_new = fault && !is_cut;

@@ -57,7 +57,7 @@ struct ActuatorWriter::State {
     if (guard.trip(is_silent) && options.sticky)
       problem = Error{fmt::format("fan, shaker and wheel force are cut, for the simulation was silent for {:.0f} ms",
                                   options.silent_after_s * 1000.0),
-                      "the car's device", "look why; pausing the drive and going on lets them run again"};
+                      "the car's device", "look why; re-arm them, or pause the drive and go on"};
     return guard.pass(newest, std::chrono::duration<double>(now - std::exchange(guarded_at, now)).count());
   }
 
@@ -147,6 +147,18 @@ void ActuatorWriter::set(const Actuators& actuators) {
   state_->newest = actuators;
   state_->set_at = Clock::now();
   if (is_rest(actuators)) state_->guard.rearm();
+}
+
+void ActuatorWriter::stop() {
+  if (!state_) return;
+  const std::lock_guard lock(state_->mutex);
+  state_->guard.stop();
+}
+
+bool ActuatorWriter::is_cut() const {
+  if (!state_) return false;
+  const std::lock_guard lock(state_->mutex);
+  return state_->guard.is_cut;
 }
 
 std::optional<Error> ActuatorWriter::take_error() {

@@ -37,6 +37,10 @@ class ActuatorWriter {
   ~ActuatorWriter();
 
   void set(const Actuators& actuators);
+  /// Everything to 0 with the next report, as after a fault: an emergency stop. It stays there until what is at rest is set.
+  void stop();
+  /// Whether a fault holds everything at 0.
+  bool is_cut() const;
   /// A device that is there and takes no output reports, or whose watchdog does not hold, once; that a sticky writer was cut;
   /// that it is away is for who reads it to say.
   std::optional<Error> take_error();

@@ -20,7 +20,8 @@ CarReading CarConnection::poll(double now_s) {
   reading.is_connected = device_ != nullptr;
   const bool beats = options_.layout->sequence_byte.has_value() || options_.repeats;
   reading.is_stale = !reading.is_connected || !fresh_at_s_ || (beats && now_s - *fresh_at_s_ > options_.stale_after_s);
-  reading.input = reading.is_stale ? released(input_) : input_;
+  reading.input = reading.is_stale || switches_.emergency_stop ? released(input_) : input_;
+  reading.switches = {switches_.emergency_stop, switches_.rearm && !reading.is_stale};
   return reading;
 }
 
@@ -35,6 +36,7 @@ void CarConnection::read(double now_s, CarReading& reading) {
   }
   if (!*newest) return;
   const auto input = decode_report(*options_.layout, options_.calibration, **newest);
+  if (input) switches_ = read_switches(*options_.layout, **newest);
   reading.report = std::move(**newest);
   if (!input) {
     ++refused_reports_;

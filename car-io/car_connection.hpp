@@ -27,6 +27,7 @@ struct CarConnectionOptions {
 
 struct CarReading {
   DriverInput input;            ///< What the simulation shall use.
+  CarSwitches switches;         ///< Of a stale car the emergency stop as it last was, and nobody who re-arms.
   std::optional<Bytes> report;  ///< The newest report that came since the last poll, as it was read.
   bool is_connected = false;
   bool is_stale = false;  ///< Also while not connected.
@@ -56,7 +57,8 @@ class CarConnection {
   CarConnectionOptions options_;
   std::unique_ptr<HidDevice> device_;
   std::optional<double> next_try_s_;
-  DriverInput input_;                 ///< As last decoded.
+  DriverInput input_;  ///< As last decoded; likewise:
+  CarSwitches switches_;
   std::optional<double> fresh_at_s_;  ///< When the sequence last moved, or the last report came where there is none.
   std::uint64_t refused_reports_ = 0;
   std::optional<Error> error_;

@@ -16,7 +16,8 @@ constexpr std::array septet_car_buttons{
     ButtonField{indicator_left, septet_buttons + 0}, ButtonField{indicator_right, septet_buttons + 1},
     ButtonField{hazard_lights, septet_buttons + 2},  ButtonField{horn, septet_buttons + 3},
     ButtonField{low_beam, septet_buttons + 4},       ButtonField{high_beam, septet_buttons + 5},
-    ButtonField{parking_brake, septet_buttons + 6}};
+    ButtonField{parking_brake, septet_buttons + 6},  ButtonField{emergency_stop, septet_buttons + 7},
+    ButtonField{rearm, septet_buttons + 8}};
 
 // Button n of the G29, in Linux' order, is bit 4 + n.
 constexpr std::array g29_buttons{
@@ -135,6 +136,10 @@ Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::b
       .brake = read_axis(layout.brake, report),
       .clutch = read_axis(layout.clutch, report),
   };
+}
+
+CarSwitches read_switches(const CarLayout& layout, std::span<const std::byte> report) {
+  return {is_pressed(layout, emergency_stop, report), is_pressed(layout, rearm, report)};
 }
 
 Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,

@@ -40,6 +40,8 @@ enum class CarButton : std::uint8_t {
   gear_5,
   gear_6,
   gear_reverse,
+  emergency_stop,
+  rearm,
 };
 
 struct ButtonField {
@@ -69,6 +71,9 @@ struct AxisReadings {
   double steering = 0.0, accelerator = 0.0, brake = 0.0, clutch = 0.0;
 };
 Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::byte> report);
+
+/// Of a report that is one of the layout's (`decode_report` has taken it); a layout without them has none pressed.
+CarSwitches read_switches(const CarLayout& layout, std::span<const std::byte> report);
 
 /// The calibration comes from the rig, which has checked it.
 Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,

@@ -89,7 +89,8 @@ tl::unexpected<Error> refused(std::span<const std::byte> report, std::uint8_t id
 
 std::span<const std::uint8_t> car_report_descriptor() { return descriptor; }
 
-std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input, double steering_lock_rad) {
+std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input, double steering_lock_rad,
+                                                             const CarSwitches& switches) {
   Bytes bytes;
   ByteWriter out(bytes);
   out.put(controls_report_id);
@@ -101,7 +102,9 @@ std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& 
                           input.horn,
                           input.low_beam,
                           input.high_beam,
-                          input.parking_brake};
+                          input.parking_brake,
+                          switches.emergency_stop,
+                          switches.rearm};
   std::uint16_t bits = 0;
   for (std::size_t i = 0; i < std::size(buttons); ++i)
     bits = static_cast<std::uint16_t>(bits | (buttons[i] ? 1u << i : 0u));

@@ -25,10 +25,19 @@ inline constexpr double default_steering_lock_rad = 2.5 * std::numbers::pi;
 /// What the device tells the host about its reports (HID 1.11, 6.2.2).
 std::span<const std::uint8_t> car_report_descriptor();
 
+/// What a car says of its own safety, beside the driver's controls.
+struct CarSwitches {
+  bool emergency_stop =
+      false;           ///< The contact of the emergency stop, which has cut the power of fan and amplifier itself.
+  bool rearm = false;  ///< The button that lets fan, shaker and wheel force run again, while it is held.
+  bool operator==(const CarSwitches&) const = default;
+};
+
 /// Input report of these controls; what is beyond a field's range is taken to its end. A sequence
 /// is the caller's.
 std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& input,
-                                                             double steering_lock_rad = default_steering_lock_rad);
+                                                             double steering_lock_rad = default_steering_lock_rad,
+                                                             const CarSwitches& switches = {});
 
 /// What the car's actuators shall do, 0 to 1.
 struct Actuators {

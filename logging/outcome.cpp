@@ -22,6 +22,8 @@ std::uint64_t from_hex(const std::string& text) {
   return value;
 }
 
+Json optional_number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
 Json json_of(const ScreenOutcome& screen) {
   return {{"name", screen.name},
           {"frames", screen.frames},
@@ -33,6 +35,8 @@ Json json_of(const ScreenOutcome& screen) {
           {"frame_ms_p99", number(screen.frame_ms_p99)},
           {"submit_ms_p50", number(screen.submit_ms_p50)},
           {"submit_ms_p99", number(screen.submit_ms_p99)},
+          {"report_to_picture_ms_p50", optional_number(screen.report_to_picture_ms_p50)},
+          {"report_to_picture_ms_p99", optional_number(screen.report_to_picture_ms_p99)},
           {"connected_s", screen.connected_s},
           {"left_s", screen.left_s},
           {"left_behind_s", screen.left_behind_s},
@@ -41,6 +45,12 @@ Json json_of(const ScreenOutcome& screen) {
 
 /// A number that `number` wrote.
 double real(const Json& json) { return json.is_null() ? std::nan("") : json.get<double>(); }
+
+/// Earlier builds did not tell.
+std::optional<double> optional_real(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  return found == json.end() || found->is_null() ? std::nullopt : std::optional(found->get<double>());
+}
 
 ScreenOutcome screen_of(const Json& json) {
   ScreenOutcome screen;
@@ -54,6 +64,8 @@ ScreenOutcome screen_of(const Json& json) {
   screen.frame_ms_p99 = real(json.at("frame_ms_p99"));
   screen.submit_ms_p50 = real(json.at("submit_ms_p50"));
   screen.submit_ms_p99 = real(json.at("submit_ms_p99"));
+  screen.report_to_picture_ms_p50 = optional_real(json, "report_to_picture_ms_p50");
+  screen.report_to_picture_ms_p99 = optional_real(json, "report_to_picture_ms_p99");
   json.at("connected_s").get_to(screen.connected_s);
   json.at("left_s").get_to(screen.left_s);
   json.at("left_behind_s").get_to(screen.left_behind_s);

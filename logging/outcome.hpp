@@ -3,6 +3,7 @@
 /// file (meta row `outcome`, as JSON), so that summary and report can be made again from the file alone.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ScreenOutcome {
   double frame_ms_p50 = 0.0,
          frame_ms_p99 = 0.0;  ///< From picture to picture: drawing, device, display and waiting for others.
   double submit_ms_p50 = 0.0, submit_ms_p99 = 0.0;  ///< Of that, until the picture was handed to the device.
+  /// Of all its lives, in real time: from reading the driver's controls to the screen's word that a picture with them is shown. Nothing
+  /// in lockstep, and where it has shown none.
+  std::optional<double> report_to_picture_ms_p50, report_to_picture_ms_p99;
   std::vector<double> connected_s, left_s,
       left_behind_s;          ///< When, in simulated time; more than one `connected_s`: it came back.
   bool has_reported = false;  ///< At the end it was there and said what it had seen.

@@ -103,10 +103,12 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto answer = prepare_answer_insert(database);
   auto state = database.prepare("INSERT INTO saved_states VALUES(?,?)");
   auto head = database.prepare("INSERT INTO head_positions VALUES(" + placeholders(5) + ")");
-  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &head})
+  auto actuators = database.prepare("INSERT INTO actuators VALUES(" + placeholders(6) + ")");
+  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators, &head})
     if (!*statement) return tl::unexpected(statement->error());
   return InsertStatements{std::move(*snapshot), std::move(*input),  std::move(*edit),  std::move(*sample),
-                          std::move(*event),    std::move(*answer), std::move(*state), std::move(*head)};
+                          std::move(*event),    std::move(*answer), std::move(*state), std::move(*actuators),
+                          std::move(*head)};
 }
 
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value) {
@@ -204,6 +206,29 @@ Expected<SceneEdit> read_scene_edit(const Statement& row) {
 Expected<void> insert(Statement& statement, const StateRecord& state) {
   RowBinder(statement).add(state.tick).add_bytes(state.data);
   return statement.run();
+}
+
+Expected<void> insert(Statement& statement, const ActuatorRecord& actuators) {
+  RowBinder(statement)
+      .add(actuators.tick)
+      .add(actuators.fan)
+      .add(actuators.vibration)
+      .add(actuators.vibration_hz)
+      .add(actuators.steering)
+      .add(actuators.is_cut);
+  return statement.run();
+}
+
+Expected<ActuatorRecord> read_actuators(const Statement& row) {
+  ActuatorRecord actuators;
+  RowReader in(row);
+  in.to(actuators.tick);
+  in.to(actuators.fan);
+  in.to(actuators.vibration);
+  in.to(actuators.vibration_hz);
+  in.to(actuators.steering);
+  in.to(actuators.is_cut);
+  return actuators;
 }
 
 Expected<StateRecord> read_state(const Statement& row) {

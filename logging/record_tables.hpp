@@ -15,7 +15,7 @@ struct HeadRecord {
 };
 
 struct InsertStatements {
-  Statement snapshot, input, scene_edit, sample, event, answer, state, head;
+  Statement snapshot, input, scene_edit, sample, event, answer, state, actuators, head;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
 Expected<Statement> prepare_answer_insert(const Database& database);  ///< Also of a session that lacks later tables.
@@ -29,12 +29,14 @@ Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);
 Expected<void> insert(Statement& statement, const QuestionnaireRecord& answer);
 Expected<void> insert(Statement& statement, const StateRecord& state);
+Expected<void> insert(Statement& statement, const ActuatorRecord& actuators);
 
 Expected<SessionInfo> read_info(const Database& database);
 Expected<InputRecord> read_input(const Statement& row);  ///< Without the head.
 Expected<HeadRecord> read_head(const Statement& row);
 Expected<SceneEdit> read_scene_edit(const Statement& row);  ///< Columns tick, data.
 Expected<StateRecord> read_state(const Statement& row);
+Expected<ActuatorRecord> read_actuators(const Statement& row);
 Expected<Sample> read_sample(const Statement& row);
 Expected<Event> read_event(const Statement& row);                 ///< Without the id.
 Expected<QuestionnaireRecord> read_answer(const Statement& row);  ///< Without the id.

@@ -56,6 +56,14 @@ struct StateRecord {
   bool operator==(const StateRecord&) const = default;
 };
 
+/// What fan, shaker and wheel force were told, shares of what they can; steering is positive to the left.
+struct ActuatorRecord {
+  Tick tick = 0;
+  double fan = 0.0, vibration = 0.0, vibration_hz = 0.0, steering = 0.0;
+  bool is_cut = false;  ///< A fault or the emergency stop held them at 0, or let them fall.
+  bool operator==(const ActuatorRecord&) const = default;
+};
+
 /// The vehicle ahead in the driver's lane.
 struct Leader {
   ParticipantId participant = 0;

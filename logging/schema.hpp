@@ -61,6 +61,10 @@ inline constexpr std::array tables{
 /// Sessions of earlier builds lack it.
 inline constexpr Table saved_states{"saved_states",
                                     "CREATE TABLE saved_states(tick INTEGER PRIMARY KEY, data BLOB NOT NULL)"};
+/// Likewise.
+inline constexpr Table actuators{"actuators",
+                                 "CREATE TABLE actuators(tick INTEGER PRIMARY KEY, fan REAL, vibration REAL, "
+                                 "vibration_hz REAL, steering REAL, is_cut INTEGER)"};
 
 /// Of ticks at which the head was not at rest; sessions of earlier builds lack it.
 inline constexpr Table head_positions{

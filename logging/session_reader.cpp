@@ -40,13 +40,6 @@ Expected<void> check_format(const Database& database) {
   return {};
 }
 
-/// Of those that earlier builds did not write.
-Expected<bool> has_table(const Database& database, const Table& table) {
-  return database
-      .query_integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", table.name))
-      .map([](std::int64_t count) { return count > 0; });
-}
-
 template <class T>
 Expected<std::vector<T>> read_rows(Expected<Statement> statement, Expected<T> (*read)(const Statement&)) {
   if (!statement) return tl::unexpected(statement.error());
@@ -72,6 +65,13 @@ Expected<std::optional<std::int64_t>> query_tick(const Database& database, std::
   const auto row = statement->step();
   if (!row) return tl::unexpected(row.error());
   return *row && !statement->is_null(0) ? std::optional(statement->integer(0)) : std::nullopt;
+}
+
+/// Of those that files of earlier builds lack.
+Expected<bool> has_table_called(const Database& database, std::string_view name) {
+  return database
+      .query_integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name))
+      .transform([](std::int64_t count) { return count > 0; });
 }
 
 Expected<Statement> prepare_range(const Database& database, std::string_view columns, std::string_view table,
@@ -233,7 +233,7 @@ Expected<SnapshotCursor> SessionReader::snapshots() const {
 
 Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const {
   auto inputs = read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
-  const auto has_heads = has_table(state_->database, head_positions);
+  const auto has_heads = has_table_called(state_->database, head_positions.name);
   if (!has_heads) return tl::unexpected(has_heads.error());
   if (!inputs || !*has_heads) return inputs;
   const auto heads = read_rows(prepare_range(state_->database, "*", head_positions.name, range, "tick"), read_head);
@@ -263,8 +263,15 @@ Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const 
                    read_answer);
 }
 
+Expected<std::vector<ActuatorRecord>> SessionReader::actuators(TickRange range) const {
+  const auto has_actuators = has_table_called(state_->database, "actuators");
+  if (!has_actuators) return tl::unexpected(has_actuators.error());
+  if (!*has_actuators) return std::vector<ActuatorRecord>();
+  return read_rows(prepare_range(state_->database, "*", "actuators", range, "tick"), read_actuators);
+}
+
 Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
-  const auto has_states = has_table(state_->database, saved_states);
+  const auto has_states = has_table_called(state_->database, saved_states.name);
   if (!has_states) return tl::unexpected(has_states.error());
   if (!*has_states) return std::optional<StateRecord>();
   auto rows =

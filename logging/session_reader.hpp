@@ -69,6 +69,8 @@ class SessionReader {
   Expected<std::vector<Sample>> samples(TickRange range = {}) const;
   Expected<std::vector<Event>> events(TickRange range = {}) const;
   Expected<std::vector<QuestionnaireRecord>> questionnaire() const;
+  /// Empty also in sessions of earlier builds.
+  Expected<std::vector<ActuatorRecord>> actuators(TickRange range = {}) const;
   /// The last saved state at or before a tick, if there is one.
   Expected<std::optional<StateRecord>> saved_state(Tick at_or_before) const;
 

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Record = std::variant<std::shared_ptr<const TakenSnapshot>, InputRecord, SceneEdit, Sample, Event,
-                            QuestionnaireRecord, StateRecord>;
+                            QuestionnaireRecord, StateRecord, ActuatorRecord>;
 
 /// The memory that a record keeps while it is queued, roughly.
 std::size_t bytes_of(const Record& record) {
@@ -41,6 +41,7 @@ std::size_t bytes_of(const Record& record) {
     std::size_t operator()(const Event& event) const { return event.detail.capacity(); }
     std::size_t operator()(const QuestionnaireRecord&) const { return 0; }
     std::size_t operator()(const StateRecord& state) const { return state.data.capacity(); }
+    std::size_t operator()(const ActuatorRecord&) const { return 0; }
   };
   return sizeof record + std::visit(Extra{}, record);
 }
@@ -61,7 +62,7 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
       "PRAGMA synchronous=FULL; PRAGMA locking_mode=NORMAL; BEGIN; ",
       page_bytes, application_id, format_version);
   for (const Table& table : tables) sql += fmt::format("{}; ", table.sql);
-  sql += fmt::format("{}; {}; ", saved_states.sql, head_positions.sql);
+  sql += fmt::format("{}; {}; {}; ", saved_states.sql, actuators.sql, head_positions.sql);
   sql += keyframe_index;
   if (auto done = database->execute(sql); !done) return tl::unexpected(done.error());
   if (auto done = insert_info(*database, info); !done) return tl::unexpected(done.error());
@@ -194,6 +195,7 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
     Expected<void> operator()(const Event& record) { return insert(state.inserts.event, record); }
     Expected<void> operator()(const QuestionnaireRecord& record) { return insert(state.inserts.answer, record); }
     Expected<void> operator()(const StateRecord& record) { return insert(state.inserts.state, record); }
+    Expected<void> operator()(const ActuatorRecord& record) { return insert(state.inserts.actuators, record); }
   };
   for (const Record& record : batch)
     if (auto done = std::visit(Insert{*this}, record); !done) return done;
@@ -247,6 +249,7 @@ void SessionWriter::record(Sample sample) { state_->push(sample); }
 void SessionWriter::record(Event event) { state_->push(std::move(event)); }
 void SessionWriter::record(QuestionnaireRecord answer) { state_->push(std::move(answer)); }
 void SessionWriter::record(StateRecord state) { state_->push(std::move(state)); }
+void SessionWriter::record(ActuatorRecord actuators) { state_->push(actuators); }
 
 std::optional<Error> SessionWriter::take_error() {
   const std::lock_guard lock(state_->error_mutex);

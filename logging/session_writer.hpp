@@ -51,6 +51,7 @@ class SessionWriter {
   void record(Event event);
   void record(QuestionnaireRecord answer);
   void record(StateRecord state);
+  void record(ActuatorRecord actuators);
 
   /// The error that ended the recording, once; afterwards and before, nothing.
   std::optional<Error> take_error();

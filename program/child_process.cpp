@@ -52,7 +52,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
   envp.reserve(variables.size() + 1);
   for (auto& variable : variables) envp.push_back(variable.data());
   envp.push_back(nullptr);
-  const std::string log = options.log.string();
+  const std::string log = options.log.string(), folder = options.folder.string();
 
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
@@ -71,6 +71,7 @@ Expected<ChildProcess> ChildProcess::start(const ChildOptions& options) {
       const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
       if (file >= 0) ::dup2(file, STDERR_FILENO);
     }
+    if (!folder.empty() && ::chdir(folder.c_str()) != 0) give_up(folder, ::strerrordesc_np(errno), 127);
     ::execve(argv[0], argv.data(), envp.data());
     give_up(options.program, ::strerrordesc_np(errno), 127);
   }

@@ -17,6 +17,7 @@ struct ChildOptions {
   std::vector<std::string> arguments;
   std::map<std::string, std::string> environment;  ///< Added to this process's own.
   std::filesystem::path log;                       ///< Where its standard error goes; empty: to this process's.
+  std::filesystem::path folder = {};               ///< In which it works; empty: in this process's.
 };
 
 /// How a child ended.

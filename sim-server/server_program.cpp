@@ -197,6 +197,7 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, can->controls, progress);
   if (!seat) return tl::unexpected(seat.error());
   seat->show = std::move(can->show);
+  seat->bus_is_lost = std::move(can->is_lost);
   drive.by_person = !seat->look;
   if (const auto& tracking = drive.loaded.rig.head; tracking && drive.by_person) {
     auto tracker = car_io::HeadTracker::open(*tracking);
@@ -330,11 +331,15 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     static const std::vector<HostedScreen> none;
     return watched ? watched->screens() : none;
   };
+  GoWord console;
+  environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
+    if (drive.live && drive.live->actuators_cut() && console.take_rearm())
+      if (const auto why_not = drive.live->rearm_actuators("console"))
+        progress.message("fan, shaker and wheel force stay at 0: " + *why_not);
+    if (desk) desk->attend(newest, what, hosted(), program::monotonic_s());
+  };
   if (desk) {
     desk->log_to(*drive.log);
-    environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
-      desk->attend(newest, what, hosted(), program::monotonic_s());
-    };
     environment.is_paused = [&] { return desk->is_paused(); };
   }
   environment.report = [&](const Progress& now) { show(now, progress); };
@@ -345,8 +350,12 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
   };
   environment.show = [&](const std::string& text) { progress.message(text); };
   if (rig.sound && !options.lockstep && !options.no_screens)
-    environment.hear = drive_sound(rig, drive.live ? &drive.loaded.model->car : nullptr,
-                                   drive.session ? &*drive.session : nullptr, drive.store, environment.message);
+    environment.hear =
+        drive_sound(rig, drive.live ? &drive.loaded.model->car : nullptr, drive.session ? &*drive.session : nullptr,
+                    drive.store, environment.message, [&drive] {
+                      // The shaker hangs on the same device, and what it plays on is nobody's any more.
+                      if (drive.live) drive.live->cut_actuators("the sound has stopped");
+                    });
   ServeResult result;
   std::vector<HostedScreen> screens;
   if (!endpoint) {
@@ -361,8 +370,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
       const net::UdpSocket* waiting[] = {&sockets.lane};
       net::wait_readable(waiting, seconds);
     };
-    GoWord go;
-    environment.told_to_go = [&] { return go.said() || (desk && desk->told_to_go()); };
+    environment.told_to_go = [&] { return console.said() || (desk && desk->told_to_go()); };
     net::AllowedClientsWatch watch(options.keys / "allowed-clients");
     environment.changed_list = [&]() -> std::optional<std::vector<net::AllowedClient>> {
       auto list = watch.changed(program::monotonic_s());

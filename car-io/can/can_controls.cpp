@@ -12,6 +12,8 @@
 namespace septet::car_io {
 namespace {
 
+bool is_on(double value) { return value >= 0.5; }
+
 class CanControlsDevice final : public HidDevice {
  public:
   CanControlsDevice(std::unique_ptr<CanBus> bus, CanPlan plan, double steering_lock_rad)
@@ -35,7 +37,8 @@ class CanControlsDevice final : public HidDevice {
       ++input_.sequence;
       has_come_.assign(has_come_.size(), false);
     }
-    const auto report = encode_controls(input_, steering_lock_rad_);
+    const auto report = encode_controls(input_, steering_lock_rad_,
+                                        {is_on(controls_.emergency_stop_switch), is_on(controls_.rearm_switch)});
     return Bytes(report.begin(), report.end());
   }
   Expected<void> write(std::span<const std::byte>) override { return takes_none(); }
@@ -78,8 +81,6 @@ class CanControlsDevice final : public HidDevice {
   DriverInput input_;
   std::vector<bool> has_come_;  ///< Of the heard messages, since the sequence moved.
 };
-
-bool is_on(double value) { return value >= 0.5; }
 
 double share(double percent) { return std::clamp(percent / 100.0, 0.0, 1.0); }
 

@@ -49,6 +49,8 @@ constexpr Quantity<CanControls> controls[] = {
     {"parking_brake_switch", &CanControls::parking_brake_switch},
     {"selector_position", &CanControls::selector_position},
     {"gear_position", &CanControls::gear_position},
+    {"emergency_stop_switch", &CanControls::emergency_stop_switch},
+    {"rearm_switch", &CanControls::rearm_switch},
 };
 constexpr std::size_t axes = 4;  // The first of the controls.
 

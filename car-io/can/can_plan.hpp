@@ -41,6 +41,7 @@ struct CanControls {
   double low_beam_switch = 1.0, high_beam_switch = 0.0, parking_brake_switch = 0.0;
   double selector_position = 3.0;  ///< As GearSelector.
   double gear_position = 0.0;      ///< −1 reverse, 0 neutral, 1…6.
+  double emergency_stop_switch = 0.0, rearm_switch = 0.0;
 };
 
 template <class Values>

@@ -172,6 +172,11 @@ void InstrumentThread::set(const Instruments& instruments) {
   state_->sender.set(instruments, State::now_s());
 }
 
+bool InstrumentThread::is_lost() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->sender.is_lost();
+}
+
 std::optional<Error> InstrumentThread::take_error() {
   const std::lock_guard lock(state_->mutex);
   return state_->sender.take_error();

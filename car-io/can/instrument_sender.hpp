@@ -39,6 +39,8 @@ class InstrumentSender {
                   lost = 0;  ///< Frames sent, dropped at a full queue, and times the interface was lost.
   };
   const Counts& counts() const { return counts_; }
+  /// The interface was there, and is not now.
+  bool is_lost() const { return counts_.lost > 0 && !bus_; }
 
  private:
   void send(std::size_t message, const Instruments& instruments, double now_s);
@@ -67,6 +69,7 @@ class InstrumentThread {
   ~InstrumentThread();  ///< Sends the last word.
   void set(const Instruments& instruments);
   std::optional<Error> take_error();
+  bool is_lost() const;
 
  private:
   struct State;

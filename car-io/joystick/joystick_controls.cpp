@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "car-io/car_report.hpp"
+#include "car-io/usb_device.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -25,7 +26,7 @@ class JoystickDevice final : public HidDevice {
     if (!state) return tl::unexpected(state.error());
     DriverInput input = advance(driver_, controls_, **state, steering_lock_rad_);
     input.sequence = ++sequence_;
-    const auto report = encode_controls(input, steering_lock_rad_);
+    const auto report = encode_controls(input, steering_lock_rad_, switches_of(controls_, **state));
     return Bytes(report.begin(), report.end());
   }
   Expected<void> write(std::span<const std::byte> report) override {
@@ -103,6 +104,17 @@ DriverInput advance(JoystickDriver& driver, const std::vector<rig::JoystickContr
   return input;
 }
 
+CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const InputState& state) {
+  const auto is_on = [&](std::string_view name) {
+    const auto control = std::ranges::find(controls, name, &rig::JoystickControl::name);
+    if (control == controls.end()) return false;
+    if (!control->is_axis) return state.down.contains(control->code);
+    const auto axis = state.axes.find(control->code);
+    return axis != state.axes.end() && axis_share(*control, axis->second.value) > 0.5;
+  };
+  return {is_on("emergency_stop"), is_on("rearm")};
+}
+
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,
                               double steering_lock_rad) {
   return [open = std::move(open), controls = std::move(controls),
@@ -118,7 +130,7 @@ OpenHidDevice car_opener(const rig::Car& car) {
     return joystick_opener(
         [address = InputAddress{car.vendor_id, car.product_id, car.serial}] { return open_input_device(address); },
         car.joystick, car.calibration.steering_lock_rad);
-  return [address = HidAddress{car.vendor_id, car.product_id, car.serial}] { return open_hid_device(address); };
+  return hid_opener(car);
 }
 
 }  // namespace septet::car_io

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "car-io/car_report.hpp"
 #include "car-io/hid_device.hpp"
 #include "car-io/joystick/input_device.hpp"
 #include "engine/rig/rig.hpp"
@@ -26,6 +27,9 @@ struct JoystickDriver {
 };
 DriverInput advance(JoystickDriver& driver, const std::vector<rig::JoystickControl>& controls, const InputState& state,
                     double steering_lock_rad);
+
+/// Its emergency stop and re-arm buttons, where [car.joystick] names some.
+CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const InputState& state);
 
 using OpenInputDevice = std::function<Expected<std::unique_ptr<InputDevice>>()>;
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,

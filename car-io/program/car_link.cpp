@@ -83,6 +83,8 @@ void CarLink::take_rig(const std::string& text) {
 
 void CarLink::report(double now_s) {
   const CarReading reading = connection_->poll(now_s);
+  // Here at once; the server hears of it with the report and keeps it so.
+  if (reading.switches.emergency_stop) writer_->stop();
   if (const auto error = connection_->take_error()) {
     messages_.push_back(describe(*error));
     if (!reading.is_connected) problem_ = error->what;

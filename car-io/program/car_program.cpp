@@ -37,6 +37,7 @@ OpenHidDevice find_device(const rig::Car& car) { return car_opener(car); }
 struct CarHere {
   rig::Car car;
   const CarLayout* layout = nullptr;
+  OpenHidDevice open;  ///< For more of it: what goes through libusb is one program's and one opener's.
   std::unique_ptr<HidDevice> device;
 };
 
@@ -47,9 +48,10 @@ Expected<CarHere> open_car(const std::filesystem::path& file) {
   if (!rig) return tl::unexpected(rig.error());
   const auto layout = find_car_layout(rig->car.source == rig::CarSource::joystick ? "septet-car" : rig->car.layout);
   if (!layout) return tl::unexpected(layout.error());
-  auto device = find_device(rig->car)();
+  const auto open = find_device(rig->car);
+  auto device = open();
   if (!device) return tl::unexpected(device.error());
-  return CarHere{rig->car, *layout, std::move(*device)};
+  return CarHere{rig->car, *layout, open, std::move(*device)};
 }
 
 Expected<CarHere> open_car_with_actuators(const std::filesystem::path& file) {
@@ -147,7 +149,7 @@ Expected<void> run_trial(const TrialOptions& options) {
   program::catch_stop_signals();
   auto here = open_car_with_actuators(options.rig);
   if (!here) return tl::unexpected(here.error());
-  ActuatorWriter writer(find_device(here->car),
+  ActuatorWriter writer(here->open,
                         {.layout = here->layout, .has_steering_force = here->car.actuators.steering_most > 0.0});
   std::optional<Error> fault;
   const auto hold = [&](const Actuators& actuators, double seconds) {
@@ -198,7 +200,9 @@ Expected<void> run_lesson(const std::string& name, LearnOptions options) {
       {"gear_4", "gear 4"},
       {"gear_5", "gear 5"},
       {"gear_6", "gear 6"},
-      {"gear_reverse", "reverse"}};
+      {"gear_reverse", "reverse"},
+      {"emergency_stop", "press the emergency stop, if there is one that this device reads, and release it"},
+      {"rearm", "press what shall let the actuators run again after a fault (held for a second while driving)"}};
   std::vector<rig::JoystickControl> controls;
   for (const auto& question : questions) {
     JoystickLesson lesson;
@@ -234,8 +238,7 @@ Expected<void> run_actuators(const ActuateOptions& options) {
   program::catch_stop_signals();
   auto here = open_car_with_actuators(options.rig);
   if (!here) return tl::unexpected(here.error());
-  ActuatorWriter writer(find_device(here->car),
-                        {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
+  ActuatorWriter writer(here->open, {.layout = here->layout, .has_steering_force = options.actuators.steering != 0.0});
   std::optional<Error> fault;
   for (const double end_s = program::monotonic_s() + options.seconds;
        program::monotonic_s() < end_s && !program::should_stop(); sleep_s(0.02)) {

@@ -12,11 +12,12 @@ namespace {
 
 /// A worker from which nothing has come for this many times as long as its tiles take is taken for slower than it was.
 constexpr double late = 3.0;
+constexpr double whole_frame = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 BucketSchedule::BucketSchedule(std::size_t frames, std::uint32_t tiles_per_frame, const BucketScheduleOptions& options)
-    : frames_(frames), tiles_per_frame_(tiles_per_frame), options_(options), unbegun_(frames) {
+    : frames_(frames), tiles_per_frame_(tiles_per_frame), options_(options), costs_(tiles_per_frame), unbegun_(frames) {
   SEPTET_CHECK(tiles_per_frame > 0, "frames of no tiles");
 }
 
@@ -77,13 +78,13 @@ double BucketSchedule::speed_of_all() const {
   return speed;
 }
 
-/// Tiles a second. One of which nothing is known yet is as fast as the others are, thread by thread.
+/// Cost a second. One of which nothing is known yet is as fast as the others are, thread by thread.
 double BucketSchedule::speed_of(const Worker& worker) const {
-  if (worker.tiles > 0.0) return worker.tiles / std::max(worker.busy_s, 1e-9);
-  double tiles_per_s = 0.0, threads = 0.0;
+  if (worker.cost > 0.0) return worker.cost / std::max(worker.busy_s, 1e-9);
+  double cost_per_s = 0.0, threads = 0.0;
   for (const Worker& other : workers_)
-    if (other.tiles > 0.0) tiles_per_s += other.tiles / std::max(other.busy_s, 1e-9), threads += other.threads;
-  return threads > 0.0 ? worker.threads * tiles_per_s / threads : worker.threads;
+    if (other.cost > 0.0) cost_per_s += other.cost / std::max(other.busy_s, 1e-9), threads += other.threads;
+  return threads > 0.0 ? worker.threads * cost_per_s / threads : worker.threads;
 }
 
 double BucketSchedule::time_to_ready_s(const Worker& worker, std::size_t frame) const {
@@ -100,14 +101,18 @@ BucketSchedule::Left BucketSchedule::left_of(const Worker& worker, double now_s)
     if (left.in_hands == 0) left.first = tile;
     if (left.in_hands < worker.threads) {
       ++left.in_hands;
+      left.in_hands_cost += costs_[tile];
     } else {
-      if (left.unbegun++ == 0) left.first_unbegun = tile;
+      if (left.unbegun_cost == 0.0) left.first_unbegun = tile;
+      left.unbegun_cost += costs_[tile];
     }
   }
   const double so_far_s = now_s - worker.began_s;
-  left.per_s = worker.came > 0 ? worker.came / std::max(worker.last_came_s - worker.began_s, 1e-9) : speed_of(worker);
-  if (now_s - worker.last_came_s > late * worker.threads / left.per_s + worker.ready_s)
-    left.per_s = std::max(1.0, static_cast<double>(worker.came)) / std::max(so_far_s, 1e-9);
+  left.per_s = worker.came > 0.0 ? worker.came / std::max(worker.last_came_s - worker.began_s, 1e-9) : speed_of(worker);
+  left.ease = left.per_s / speed_of(worker);
+  if (now_s - worker.last_came_s >
+      late * std::max<double>(worker.threads, left.in_hands_cost) / left.per_s + worker.ready_s)
+    left.per_s = std::max(1.0, worker.came) / std::max(so_far_s, 1e-9);
   return left;
 }
 
@@ -120,11 +125,13 @@ bool BucketSchedule::is_over(const Worker& worker) const {
 }
 
 /// The first tiles between two that are not dealt, as far as they lie together.
-TileRun BucketSchedule::take(std::size_t number, std::uint32_t from, std::uint32_t end, std::uint64_t most) {
+TileRun BucketSchedule::take(std::size_t number, std::uint32_t from, std::uint32_t end, double most_cost) {
   Frame& frame = begin(number);
   TileRun run{number, from, 0};
   while (run.first < end && frame.dealt[run.first]) ++run.first;
-  for (run.end = run.first; run.end < end && run.end - run.first < most && !frame.dealt[run.end]; ++run.end) {
+  double cost = 0.0;
+  for (run.end = run.first; run.end < end && cost < most_cost && !frame.dealt[run.end]; ++run.end) {
+    cost += costs_[run.end];
     frame.dealt[run.end] = true;
     --frame.undealt;
   }
@@ -134,19 +141,16 @@ TileRun BucketSchedule::take(std::size_t number, std::uint32_t from, std::uint32
 std::optional<TileRun> BucketSchedule::undealt_for(std::size_t number) {
   const Worker& worker = workers_[number];
   std::optional<std::size_t> chosen;
-  std::uint64_t undealt = std::uint64_t{unbegun_} * tiles_per_frame_;
+  double undealt = static_cast<double>(unbegun_) * tiles_per_frame_;
   for (const auto& [frame, state] : begun_) {
-    undealt += state.undealt;
+    for (std::uint32_t tile = 0; state.undealt > 0 && tile < tiles_per_frame_; ++tile)
+      if (!state.dealt[tile]) undealt += costs_[tile];
     if (state.undealt > 0 && (worker.frame == frame || (!chosen && unbegun_ == 0))) chosen = frame;
   }
   std::size_t workers = 0;
   for (const Worker& each : workers_) workers += each.gone ? 0 : 1;
-  std::uint64_t most = tiles_per_frame_;
-  if (unbegun_ < workers) {
-    const double share = speed_of(worker) / speed_of_all();
-    most = std::max<std::uint64_t>(worker.threads,
-                                   static_cast<std::uint64_t>(std::ceil(0.5 * share * static_cast<double>(undealt))));
-  }
+  double most = whole_frame;
+  if (unbegun_ < workers) most = std::max<double>(worker.threads, 0.5 * undealt * speed_of(worker) / speed_of_all());
   if (!chosen && unbegun_ > 0) chosen = next_frame_;
   if (!chosen) return std::nullopt;
   return take(*chosen, 0, tiles_per_frame_, most);
@@ -161,7 +165,7 @@ std::optional<TileRun> BucketSchedule::equal_bucket_for(std::size_t number) {
       const auto at = [&](std::uint64_t bucket) {
         return static_cast<std::uint32_t>(bucket * tiles_per_frame_ / buckets);
       };
-      const TileRun run = take(frame, at(n), at(n + 1), tiles_per_frame_);
+      const TileRun run = take(frame, at(n), at(n + 1), whole_frame);
       if (run.first < run.end) return run;
     }
     return std::nullopt;
@@ -183,17 +187,20 @@ std::optional<Deal> BucketSchedule::split_for(std::size_t number, double now_s) 
     const Worker& other = workers_[n];
     if (n == number || !other.run) continue;
     const Left left = left_of(other, now_s);
-    const double time_left_s = (left.unbegun + 0.5 * left.in_hands) / left.per_s;
-    if (left.unbegun == 0 || time_left_s <= longest_s) continue;
-    const double own_per_s = left.per_s * speed_of(worker) / speed_of(other);
+    const double time_left_s = (left.unbegun_cost + 0.5 * left.in_hands_cost) / left.per_s;
+    if (left.unbegun_cost == 0.0 || time_left_s <= longest_s) continue;
+    const double own_per_s = left.ease * speed_of(worker);
     const double share =
         (time_left_s - time_to_ready_s(worker, other.run->frame)) * left.per_s * own_per_s / (left.per_s + own_per_s);
-    if (share < 0.5) continue;
-    const auto wanted = std::min(left.unbegun, std::max(1u, static_cast<std::uint32_t>(std::min(share, 1e9))));
+    if (share < 0.5 * std::min(1.0, costs_[other.run->end - 1])) continue;
     const std::vector<bool>& done = begun_.at(other.run->frame).done;
+    // One tile at least, and no more than the share.
     std::uint32_t from = other.run->end;
-    for (std::uint32_t taken = 0; taken < wanted && from > left.first_unbegun;)
-      if (!done[--from]) ++taken;
+    for (double taken = 0.0; from > left.first_unbegun; --from) {
+      if (done[from - 1]) continue;
+      if (taken > 0.0 && taken + costs_[from - 1] > share) break;
+      taken += costs_[from - 1];
+    }
     longest_s = time_left_s;
     best =
         Deal{{other.run->frame, from, other.run->end}, Deal::Shortened{n, {other.run->frame, other.run->first, from}}};
@@ -204,8 +211,11 @@ std::optional<Deal> BucketSchedule::split_for(std::size_t number, double now_s) 
 /// Tiles that others have begun, where this worker would be done with them sooner.
 std::optional<TileRun> BucketSchedule::repeat_for(std::size_t number, double now_s) const {
   const Worker& worker = workers_[number];
+  const auto cost_of_one = [](const Left& left) {
+    return left.in_hands > 0 ? left.in_hands_cost / left.in_hands : 1.0;
+  };
   const auto expected_s = [&](const Worker& other, const Left& left) {
-    const double takes_s = other.threads / left.per_s;
+    const double takes_s = cost_of_one(left) * other.threads / left.per_s;
     const double since_s = now_s - other.last_came_s;
     return since_s < takes_s ? takes_s - since_s : since_s;
   };
@@ -221,8 +231,9 @@ std::optional<TileRun> BucketSchedule::repeat_for(std::size_t number, double now
       if (&third != &other && third.run && third.run->frame == other.run->frame && third.run->first <= left.first &&
           left.first < third.run->end)
         sooner_s = std::min(sooner_s, expected_s(third, left_of(third, now_s)));
-    const double own_per_s = left.per_s * speed_of(worker) / speed_of(other);
-    const double saved_s = sooner_s - time_to_ready_s(worker, other.run->frame) - worker.threads / own_per_s;
+    const double own_per_s = left.ease * speed_of(worker);
+    const double saved_s =
+        sooner_s - time_to_ready_s(worker, other.run->frame) - cost_of_one(left) * worker.threads / own_per_s;
     if (saved_s <= most_saved_s) continue;
     most_saved_s = saved_s;
     const std::vector<bool>& done = begun_.at(other.run->frame).done;
@@ -236,7 +247,7 @@ std::optional<TileRun> BucketSchedule::repeat_for(std::size_t number, double now
 void BucketSchedule::hold(Worker& worker, const TileRun& run, double now_s) {
   worker.run = run;
   worker.began_s = worker.last_came_s = now_s;
-  worker.came = 0;
+  worker.came = 0.0;
   worker.frame = run.frame;
 }
 
@@ -258,14 +269,15 @@ std::optional<Deal> BucketSchedule::deal(std::size_t number, double now_s) {
   return deal;
 }
 
-bool BucketSchedule::finish(std::size_t number, std::size_t frame, std::uint32_t tile, double now_s) {
+bool BucketSchedule::finish(std::size_t number, std::size_t frame, std::uint32_t tile, double now_s, double cpu_s) {
   Worker& worker = workers_[number];
   if (worker.run && worker.run->frame == frame && worker.run->first <= tile && tile < worker.run->end) {
     worker.busy_s += now_s - worker.last_came_s;
-    worker.tiles += 1.0;
     worker.last_came_s = now_s;
-    ++worker.came;
+    worker.cost += costs_[tile];
+    worker.came += costs_[tile];
   }
+  if (tile < tiles_per_frame_) costs_.learn(tile, cpu_s, worker.machine);
   const auto begun = begun_.find(frame);
   const bool fresh = begun != begun_.end() && tile < tiles_per_frame_ && !begun->second.done[tile];
   if (fresh) {
@@ -280,10 +292,11 @@ bool BucketSchedule::finish(std::size_t number, std::size_t frame, std::uint32_t
   return fresh;
 }
 
-std::uint64_t BucketSchedule::tiles_of_begun_frames() const {
-  std::uint64_t tiles = 0;
-  for (const auto& [number, frame] : begun_) tiles += tiles_per_frame_ - frame.left;
-  return tiles;
+double BucketSchedule::share_of_begun_frames() const {
+  double cost = 0.0;
+  for (const auto& [number, frame] : begun_)
+    for (std::uint32_t tile = 0; tile < tiles_per_frame_; ++tile) cost += frame.done[tile] ? costs_[tile] : 0.0;
+  return cost / tiles_per_frame_;
 }
 
 }  // namespace septet::raytrace

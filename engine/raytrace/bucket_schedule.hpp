@@ -9,6 +9,8 @@
 /// it had begun. The others are what Johansson et al., "Distributed Ray Tracing in an Open Source Environment", describe:
 /// equal buckets, and equal buckets that are shared out beforehand.
 ///
+/// How much a run is, is told by what its tiles cost in the frames before (TileCosts), where that is known.
+///
 /// Which worker traces a tile changes no bit of it, nor how often it is traced: the first result counts.
 
 #include <cstdint>
@@ -16,6 +18,8 @@
 #include <optional>
 #include <set>
 #include <vector>
+
+#include "engine/raytrace/tile_costs.hpp"
 
 namespace septet::raytrace {
 
@@ -63,16 +67,16 @@ class BucketSchedule {
 
   /// What this worker, which has nothing to do, is to do; nothing: to ask again later.
   std::optional<Deal> deal(std::size_t worker, double now_s);
-  /// A tile has come. False: it was there already.
-  bool finish(std::size_t worker, std::size_t frame, std::uint32_t tile, double now_s);
+  /// A tile has come, which has cost so much processor time (0: not known). False: it was there already.
+  bool finish(std::size_t worker, std::size_t frame, std::uint32_t tile, double now_s, double cpu_s = 0.0);
   /// How long this worker took to make ready for its run's frame.
   void was_ready_after(std::size_t worker, double duration_s) { workers_[worker].ready_s = duration_s; }
 
   bool is_free(std::size_t worker) const { return !workers_[worker].run && !workers_[worker].gone; }
   bool has_frame(std::size_t frame) const { return done_frames_.contains(frame); }
   bool has_all() const { return done_frames_.size() == frames_; }
-  /// Tiles of the frames that are begun and not whole.
-  std::uint64_t tiles_of_begun_frames() const;
+  /// What is done of the frames that are begun and not whole, by cost: 1 is one frame.
+  double share_of_begun_frames() const;
   std::uint64_t splits() const { return splits_; }
   std::uint64_t traced_twice() const { return traced_twice_; }
 
@@ -82,8 +86,9 @@ class BucketSchedule {
     bool gone = false;
     std::optional<TileRun> run;
     double began_s = 0.0, last_came_s = 0.0;  ///< Of this run.
-    std::uint32_t came = 0;                   ///< Tiles of this run.
-    double busy_s = 0.0, tiles = 0.0;         ///< Of all its runs.
+    double came = 0.0;                        ///< Cost of this run's tiles that have come.
+    double busy_s = 0.0, cost = 0.0;          ///< Of all its runs.
+    TileCosts::Machine machine;
     double ready_s = 0.0;
     std::optional<std::size_t> frame;  ///< Which it is ready for.
   };
@@ -93,12 +98,15 @@ class BucketSchedule {
   };
   /// What a worker still has to do: tiles in its hands, and behind them those that it has not begun.
   struct Left {
-    std::uint32_t first = 0, in_hands = 0, first_unbegun = 0, unbegun = 0;
-    double per_s = 0.0;  ///< Tiles a second, as its run has gone so far.
+    std::uint32_t first = 0, in_hands = 0, first_unbegun = 0;
+    double in_hands_cost = 0.0, unbegun_cost = 0.0;
+    double per_s =
+        0.0;  ///< Cost a second, as its run has gone so far, the time since its last tile too where that is long.
+    double ease = 1.0;  ///< Of its run's tiles: how much faster they have come than this worker's did before.
   };
 
   Frame& begin(std::size_t frame);
-  TileRun take(std::size_t frame, std::uint32_t from, std::uint32_t end, std::uint64_t most);
+  TileRun take(std::size_t frame, std::uint32_t from, std::uint32_t end, double most_cost);
   std::optional<TileRun> undealt_for(std::size_t worker);
   std::optional<TileRun> equal_bucket_for(std::size_t worker);
   std::optional<Deal> split_for(std::size_t worker, double now_s) const;
@@ -113,6 +121,7 @@ class BucketSchedule {
   std::size_t frames_;
   std::uint32_t tiles_per_frame_;
   BucketScheduleOptions options_;
+  TileCosts costs_;
   std::vector<Worker> workers_;
   std::map<std::size_t, Frame> begun_;  ///< Not whole.
   std::set<std::size_t> done_frames_;

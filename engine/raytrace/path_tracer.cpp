@@ -51,16 +51,6 @@ class Path {
   LightSample draw_lamp(const glm::vec3& from_m, float& distance_m);
   LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
   float headlight_weights(const glm::vec3& from_m) const;
-  /// Chance with which a lamp is drawn, from a place.
-  float weight_of(const Lamp& lamp, const glm::vec3& from_m) const {
-    const glm::vec3 way = lamp.middle_m + lamp.way_m * time_ - from_m;
-    return lamp.power / std::max(glm::dot(way, way), lamp.radius_m * lamp.radius_m);
-  }
-  float lamp_weights(const glm::vec3& from_m) const {
-    float sum = 0.0f;
-    for (const Lamp& lamp : world_.lamps()) sum += weight_of(lamp, from_m);
-    return sum;
-  }
   Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
   bool meet_smoke(const Ray& ray, float edge_m, SurfacePoint& point);
 
@@ -71,7 +61,7 @@ class Path {
   float time_ = 0.0f;               ///< While the shutter is open.
   float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
   glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
-  float lamp_weights_ = 0.0f;       ///< Of all lamps, from there.
+  LampWeights lamp_weights_;        ///< From there.
   std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
   bool scattered_ = false;          ///< It has been at a surface that scatters.
   bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
@@ -99,25 +89,19 @@ void Path::meet_sky(const glm::vec3& direction) {
 void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
   if (point.emission == glm::vec3(0.0f)) return;
   float weight = 1.0f;
-  if (pdf_ > 0.0f && point.lamp != no_lamp) {
+  if (pdf_ > 0.0f && point.lamp != no_lamp && lamp_weights_.sum() > 0.0f) {
     const Lamp& lamp = world_.lamps()[point.lamp];
     const glm::vec3 way = point.position_m - from_m_;
     const float cosine = std::max(1e-6f, -glm::dot(point.flat_normal, ray.direction));
     const float per_sr = glm::dot(way, way) / (cosine * lamp.cumulative_area.back());
-    weight = mis_weight(pdf_, chance(Kind::lamp) * weight_of(lamp, from_m_) / lamp_weights_ * per_sr);
+    weight = mis_weight(pdf_, chance(Kind::lamp) * lamp_weights_.chance(point.lamp) * per_sr);
   }
   light_ += throughput_ * point.emission * (weight * (scattered_ ? point.lights_up : 1.0f));
 }
 
 LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
-  const std::vector<Lamp>& lamps = world_.lamps();
-  float rest = random_.uniform() * lamp_weights_;
-  std::size_t chosen = 0;
-  for (; chosen + 1 < lamps.size(); ++chosen) {
-    rest -= weight_of(lamps[chosen], from_m);
-    if (rest < 0.0f) break;
-  }
-  const Lamp& lamp = lamps[chosen];
+  const std::size_t chosen = lamp_weights_.drawn(random_.uniform());
+  const Lamp& lamp = world_.lamps()[chosen];
   const float area = lamp.cumulative_area.back();
   const auto triangle = std::min<std::size_t>(
       static_cast<std::size_t>(
@@ -144,7 +128,7 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
     const SurfacePoint there = world_.point(ray, {distance_m, lamp.place, seen, u, v});
     emission = there.emission * there.lights_up;
   }
-  return {direction, emission, weight_of(lamp, from_m) / lamp_weights_ * distance_m * distance_m / (cosine * area)};
+  return {direction, emission, lamp_weights_.chance(chosen) * distance_m * distance_m / (cosine * area)};
 }
 
 /// A headlight's light on a surface that looks at it; as in the rasteriser near the lamp, where it is no point, it does not grow without limit.
@@ -218,13 +202,13 @@ void Path::choose_chances(const SurfacePoint& point) {
   const Sky& sky = world_.sky();
   const instant::SkyLight& light = *world_.instant().light;
   const float seen_sky = std::max(point.share_of_sky, 0.02f);
-  lamp_weights_ = world_.lamps().empty() ? 0.0f : lamp_weights(point.position_m);
+  world_.lamp_row().weigh(point.position_m, point.flat_normal, time_, lamp_weights_);
   chances_ = {
       sky.has_sun()
           ? luminance(light.light_irradiance) * seen_sky *
                 (point.in_smoke ? 1.0f : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
           : 0.0f,
-      sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_,
+      sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_.sum(),
       headlight_weights(point.position_m)};
   float sum = 0.0f;
   for (const float weight : chances_) sum += weight;

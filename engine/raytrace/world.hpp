@@ -11,6 +11,7 @@
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
+#include "engine/raytrace/lamps.hpp"
 #include "engine/raytrace/sky.hpp"
 #include "engine/raytrace/smoke.hpp"
 #include "engine/raytrace/surface.hpp"
@@ -36,20 +37,6 @@ struct SurfacePoint {
   float share_of_sky = 1.0f;  ///< As the rasteriser guesses it; here only a guess at which lights matter.
   std::uint32_t place = 0;
   std::uint32_t lamp = no_lamp;  ///< Which lamp's light it gives.
-};
-
-/// Triangles that shine alike and lie together, such as one tube under a tunnel's roof.
-struct Lamp {
-  std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
-  std::vector<glm::vec3> corners_m;    ///< Three a triangle.
-  std::vector<float> cumulative_area;  ///< m².
-  std::vector<glm::vec3> normals;      ///< One a triangle.
-  glm::vec3 middle_m{0.0f};
-  float radius_m = 0.0f;
-  float power = 0.0f;        ///< Area times luminance.
-  glm::vec3 emission{0.0f};  ///< With which it lights.
-  glm::vec3 way_m{0.0f};     ///< Until time 1.
-  bool textured = false;     ///< Its image colours the emission.
 };
 
 /// A closed body of clear matter, such as ice, of which light takes two interfaces and what lies between.
@@ -81,6 +68,7 @@ class World : public Openings {
   }
   const instant::Instant& instant() const { return instant_; }
   const std::vector<Lamp>& lamps() const { return lamps_; }
+  const LampRow& lamp_row() const { return lamp_row_; }
   /// Nothing shines that can only be met by chance.
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
   const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
@@ -160,6 +148,7 @@ class World : public Openings {
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
   std::vector<glm::vec3> headlight_ways_m_;
   std::vector<Lamp> lamps_;
+  LampRow lamp_row_;
   bool all_lamps_are_drawn_ = true;
   std::vector<bool> cut_;  ///< For each material, whether its image has holes.
   scene::SurfaceMaterial no_material_;

@@ -16,7 +16,6 @@
 namespace septet::raytrace {
 namespace {
 
-constexpr std::size_t most_lamps = 256;
 constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
 /// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
 /// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Measured in scenarios/tunnel-fire 7.8 s after its
@@ -153,6 +152,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   const auto finish = [&] {
     lamp.middle_m = 0.5f * (low + high);
     lamp.radius_m = 0.5f * glm::length(high - low);
+    if (lamp.triangle_count > 0) lamp.axis /= std::max(lamp.cumulative_area.back(), 1e-30f);
     if (lamp.triangle_count > 0) lamp.power = lamp.cumulative_area.back() * luminance(emission);
     if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
   };
@@ -176,6 +176,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     lamp.corners_m.insert(lamp.corners_m.end(), c.begin(), c.end());
     const glm::vec3 across = glm::cross(c[1] - c[0], c[2] - c[0]);
     const float twice_area = glm::length(across);
+    lamp.axis += 0.5f * across;
     lamp.cumulative_area.push_back(before + 0.5f * twice_area);
     lamp.normals.push_back(across / std::max(twice_area, 1e-30f));
     ++lamp.triangle_count;
@@ -190,8 +191,9 @@ void World::add_lamps(const std::vector<Place>& places) {
   // The others are met by chance alone; where there are so many they are far or weak.
   const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };
   std::stable_sort(lamps_.begin(), lamps_.end(), [&](const Lamp& a, const Lamp& b) { return weight(a) > weight(b); });
-  all_lamps_are_drawn_ = lamps_.size() <= most_lamps;
-  if (!all_lamps_are_drawn_) lamps_.resize(most_lamps);
+  all_lamps_are_drawn_ = lamps_.size() <= LampWeights::most;
+  if (!all_lamps_are_drawn_) lamps_.resize(LampWeights::most);
+  lamp_row_ = LampRow(lamps_);
   for (std::uint32_t n = 0; n < lamps_.size(); ++n) placed_[lamps_[n].place].lamps.push_back(n);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
                           const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                          std::span<const SmokePuff> smoke) {
+                          std::span<const SmokePuff> smoke, const DetailOf& detail = {}) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -30,9 +30,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
     return mesh.seen && mesh.radius_m * mesh.radius_m > least * least * glm::dot(centre_m, centre_m) &&
            intersects(volume, centre_m, mesh.radius_m);
   };
-  prepared.draws = prepare_draws(context, scene, instant.parts, dynamic, eye_m, is_seen, [&](std::uint32_t material) {
-    return material < scene.materials.size() ? material : no_group;
-  });
+  prepared.draws = prepare_draws(
+      context, scene, instant.parts, dynamic, eye_m, is_seen,
+      [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
   const ViewUniforms uniforms = view_uniforms(view, instant, shadows);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
@@ -53,6 +53,12 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.streak_count = static_cast<std::uint32_t>(streaks.size());
   context.statistics.instances += prepared.draws.instances;
   return prepared;
+}
+
+/// Of a picture of a quarter of a turn, beside the screen of a thousand pixels that levels of detail are made for.
+DetailOf surroundings_detail(std::uint32_t side_px) {
+  const float times = std::max(1.0f, 512.0f / static_cast<float>(std::max(1u, side_px)));
+  return {{0.0f, times}, {10.0f * times, times}};
 }
 
 /// Vehicles cast the shadow of the form that they show at this distance: a texel of the far cascade is no finer. Near by it is the form that
@@ -84,13 +90,12 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   std::uint32_t solid = no_group;
   for (std::uint32_t i = 0; i < scene.materials.size() && solid == no_group; ++i)
     if (!scene.materials[i].cut && !scene.materials[i].blended) solid = i;
-  return prepare_draws(
-      context, scene, instant.parts, dynamic, shadows.eye_m, casts,
-      [&](std::uint32_t material) {
-        if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
-        return scene.materials[material].cut ? material : solid;
-      },
-      caster_ranges_m[index]);
+  return prepare_draws(context, scene, instant.parts, dynamic, shadows.eye_m, casts,
+                       [&](std::uint32_t material) {
+                         if (material >= scene.materials.size() || scene.materials[material].blended) return no_group;
+                         return scene.materials[material].cut ? material : solid;
+                       },
+                       {{}, {caster_ranges_m[index], 1.0f}});
 }
 
 }  // namespace
@@ -109,7 +114,8 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
     frame.ice_upload = upload_ice(context, instant.ice);
     frame.around = surrounding_views(middle_of_ice(instant.ice, eye_m), instant.ice_surroundings_px);
     for (const FrameView& view : frame.around)
-      frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
+      frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke,
+                                                surroundings_detail(instant.ice_surroundings_px)));
   }
   for (std::size_t i = 0; i < cascade_count; ++i)
     frame.casters[i] = prepare_casters(context, scene, instant, frame.shadows, i, dynamic);

@@ -22,7 +22,7 @@ using document::TableReader;
 constexpr std::string_view joystick_controls[] = {
     "steering", "accelerator", "brake",     "clutch",        "indicator_left", "indicator_right", "hazard_lights",
     "horn",     "low_beam",    "high_beam", "parking_brake", "reverse",        "gear_1",          "gear_2",
-    "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse"};
+    "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse",   "emergency_stop",  "rearm"};
 
 View read_inset(const toml::table& table, const std::vector<Mirror>& mirrors, std::string_view file, Error& error) {
   TableReader reader(table, file, "screen.inset", error);
@@ -186,6 +186,17 @@ std::vector<JoystickControl> read_joystick(const toml::table& table, std::string
   return controls;
 }
 
+UsbEndpoints read_usb(const toml::table& table, std::string_view file, Error& error) {
+  TableReader reader(table, file, "car.usb", error);
+  constexpr std::int64_t direction_in = 0x80, most_endpoints = 15;  // USB 2.0, 9.6.6.
+  UsbEndpoints usb;
+  usb.interface = static_cast<std::uint8_t>(reader.get_integer("interface", usb.interface, 0, 255));
+  usb.in = static_cast<std::uint8_t>(reader.get_integer("in", usb.in, direction_in + 1, direction_in + most_endpoints));
+  usb.out = static_cast<std::uint8_t>(reader.get_integer("out", usb.out, 0, most_endpoints));
+  reader.finish(documented_in);
+  return usb;
+}
+
 Car read_car(const toml::table& table, std::string_view file, Error& error) {
   TableReader reader(table, file, "car", error);
   Car car;
@@ -196,6 +207,11 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.serial = reader.get_string("serial", car.serial);
   car.machine = read_machine(reader);
   car.keyboard_screen = reader.get_string("keyboard_screen", car.keyboard_screen);
+  car.access = static_cast<HidAccess>(reader.get_choice("access", 0, {"automatic", "hidraw", "libusb"}));
+  if (const auto* usb = reader.get_table("usb")) car.usb = read_usb(*usb, file, error);
+  if (car.usb && car.access == HidAccess::hidraw)
+    reader.report("access", "car.access is \"hidraw\", and [car.usb] names endpoints, which libusb opens",
+                  "leave one of them out");
   car.layout = reader.get_string("layout", car.layout);
   car.vehicle = reader.get_string("vehicle", car.vehicle);
   car.driver = reader.get_string("driver", car.driver);

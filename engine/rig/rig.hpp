@@ -115,12 +115,24 @@ struct JoystickControl {
   double dead_zone = 0.0;  ///< Share of the travel that reads as 0.
 };
 
+/// How a HID device is opened: through its hidraw node, or past the kernel's driver by libusb; automatic: hidraw, else libusb.
+enum class HidAccess : std::uint8_t { automatic, hidraw, libusb };
+
+/// Of a USB device that is no HID device: where its reports come from and go to.
+struct UsbEndpoints {
+  std::uint8_t interface = 0;
+  std::uint8_t in = 0x81;  ///< Interrupt or bulk, as the next.
+  std::uint8_t out = 0;    ///< 0: it takes outputs as requests (car-io/REPORTS.md).
+};
+
 struct Car {
   CarSource source = CarSource::simulated_driver;
   std::uint16_t vendor_id = 0x1209, product_id = 0x0001;
   std::string serial;
   std::string machine;          ///< Host with the device, where septet-car runs; empty: the server's own machine.
   std::string keyboard_screen;  ///< Whose keyboard or gamepad drives; empty: any screen's at the server's own machine.
+  HidAccess access = HidAccess::automatic;
+  std::optional<UsbEndpoints> usb;    ///< Then it is opened by libusb.
   std::string layout = "septet-car";  ///< Report layout of the device (car-io/REPORTS.md).
   std::string vehicle = "volvo-s80";  ///< Parameter file below vehicles/.
   std::string driver = "plain";       ///< Which simulated driver.

@@ -341,6 +341,13 @@ class Session:
         return self._table("questionnaire")
 
     @property
+    def actuators(self):
+        """What fan, shaker and wheel force were told, ten rows a second; empty in sessions of earlier builds."""
+        if self._database.execute("SELECT count(*) FROM sqlite_schema WHERE name = 'actuators'").fetchone()[0]:
+            return self._table("actuators")
+        return pandas.DataFrame(columns=["tick", "fan", "vibration", "vibration_hz", "steering", "is_cut"])
+
+    @property
     def driver_inputs(self):
         """The input of every tick, without the raw reports."""
         return self._table("driver_inputs").drop(columns="report")

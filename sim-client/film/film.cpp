@@ -97,7 +97,8 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
   std::vector<fs::path> pictures;
   for (const FilmFrame& frame : frames->plan().frames) pictures.push_back(folder->picture(frame.number));
   made.encoding = true;
-  const auto whole = encode_film(ffmpeg, pictures, options.frames_per_second, options.out, [&] { return go_on(made); });
+  const auto whole = encode_film(ffmpeg, pictures, options.frames_per_second / options.every, options.out,
+                                 [&] { return go_on(made); });
   if (!whole) return tl::unexpected(whole.error());
   made.stopped = !*whole;
   std::error_code ignored;

@@ -47,6 +47,7 @@ struct FilmOptions {
   std::set<Layer> layers;
   raytrace::BucketScheduleOptions schedule;  ///< Of what is traced; the pictures are the same.
   std::filesystem::path statistics;          ///< File that tells who traced what (traced/statistics.hpp); empty: none.
+  std::uint32_t every = 1;                   ///< Only the first of so many frames.
   std::optional<double> from_s,
       to_s;  ///< Only what the film shows between; of a film without a script, its beginning and end.
 };
@@ -75,6 +76,7 @@ struct FilmMade {
   bool encoding = false;          ///< All pictures are there, and a film is made of them.
   bool stopped = false;           ///< `go_on` has said no.
   double share_of_next = 0.0;     ///< Of the frames that are being drawn together: 1 is one frame.
+  double kept_of_next = 0.0;      ///< What was there of them already.
   std::size_t workers = 0;        ///< That trace: programs, this one too.
   std::string notice;             ///< What was noticed last that does not stop the film: who has given up.
   std::uint64_t bad_samples = 0;  ///< Whose light was not a number: black.

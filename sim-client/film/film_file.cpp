@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 #include <fmt/core.h>
 
-#include "engine/core/regular_file.hpp"
 #include "engine/document/text_file.hpp"
 #include "program/child_process.hpp"
+#include "program/last_line.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
@@ -21,16 +20,6 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
-/// What is said last: the reason, mostly.
-std::string last_line(const fs::path& log) {
-  const auto text = read_regular_file(log, 1 << 20);
-  std::string line, last = "it says nothing";
-  if (text)
-    for (std::istringstream stream(*text); std::getline(stream, line);)
-      if (!line.empty()) last = line;
-  return last;
-}
-
 }  // namespace
 
 Expected<bool> is_film_file(const fs::path& name) {
@@ -40,6 +29,12 @@ Expected<bool> is_film_file(const fs::path& name) {
     if (extension == other)
       return failure("Septet makes no " + extension, name.string(), "write .mp4 (H.264) or .mkv (FFV1, without loss)");
   return false;
+}
+
+Expected<fs::path> pictures_folder(const fs::path& name) {
+  const auto is_file = is_film_file(name);
+  if (!is_file) return tl::unexpected(is_file.error());
+  return *is_file ? fs::path(name.string() + ".pictures") : name;
 }
 
 Expected<fs::path> find_ffmpeg() {
@@ -94,7 +89,8 @@ Expected<bool> encode_film(const fs::path& ffmpeg, std::span<const fs::path> pic
   }
   if (end->code != 0) {
     fs::remove(part, ignored);
-    return failure("ffmpeg has made no film of the pictures: " + last_line(log), film.string(),
+    const std::string why = program::last_line(log);
+    return failure("ffmpeg has made no film of the pictures: " + (why.empty() ? "it says nothing" : why), film.string(),
                    "the pictures are in " + folder.string() + "; add --resume to try again");
   }
   std::error_code error;

@@ -12,6 +12,9 @@ namespace septet::film {
 /// Whether a name asks for one: .mp4 (H.264, small) or .mkv (FFV1, without loss). Error: that of a video which is neither.
 Expected<bool> is_film_file(const std::filesystem::path& name);
 
+/// Where the pictures of the film of this name lie: there, or of one file beside it. Error: as is_film_file.
+Expected<std::filesystem::path> pictures_folder(const std::filesystem::path& name);
+
 /// ffmpeg as PATH has it. Error: it is not installed.
 Expected<std::filesystem::path> find_ffmpeg();
 

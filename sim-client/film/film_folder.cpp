@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include <fmt/core.h>
@@ -17,6 +19,8 @@
 #include "engine/document/text_file.hpp"
 #include "engine/exr/exr.hpp"
 #include "engine/image/png.hpp"
+#include "program/clock.hpp"
+#include "program/stop_signal.hpp"
 #include "sim-client/film/traced/layers.hpp"
 
 namespace septet::film {
@@ -24,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_record_bytes = 1 << 20;
+constexpr double patience_s = 60.0;  ///< For programs to end whose mpirun, or whoever else has started them, is gone.
 
 std::string hash_of(std::string_view text) {
   StateHash hash;
@@ -91,6 +96,11 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
   return record;
 }
 
+std::optional<FilmRecord> begun_in(const fs::path& folder) {
+  auto record = read_record(folder / "film.json");
+  return record ? std::optional(std::move(*record)) : std::nullopt;
+}
+
 Expected<void> FilmFolder::check_is_free(const fs::path& path, bool resume) {
   std::error_code error;
   if (!fs::exists(path, error) || (fs::is_directory(path, error) && fs::is_empty(path, error))) return {};
@@ -125,6 +135,15 @@ Expected<FilmFolder> FilmFolder::open(const fs::path& path, const FilmRecord& fi
   if (auto written = document::write_text_file(record, document::text_of(json)); !written)
     return tl::unexpected(written.error());
   return folder;
+}
+
+void FilmFolder::wait_until_free(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  const double until_s = program::monotonic_s() + patience_s;
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0 && program::monotonic_s() < until_s && !program::stop_signal())
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ::close(file);
 }
 
 FilmFolder::FilmFolder(FilmFolder&& other) noexcept

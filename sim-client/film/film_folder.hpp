@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "engine/core/expected.hpp"
@@ -17,6 +18,8 @@ namespace septet::film {
 
 /// What all pictures of a film depend on, by name: "size" → "1280x720".
 using FilmRecord = std::map<std::string, std::string>;
+/// What film was begun in the folder; nothing where there is none.
+std::optional<FilmRecord> begun_in(const std::filesystem::path& folder);
 Expected<FilmRecord> film_record(const FilmOptions& options, const logging::SessionInfo& session);
 
 class FilmFolder {
@@ -26,6 +29,8 @@ class FilmFolder {
   /// Makes the folder, or takes what was begun there. Error: it cannot be written, another film was begun there, or somebody
   /// draws there now.
   static Expected<FilmFolder> open(const std::filesystem::path& path, const FilmRecord& film, bool resume);
+  /// Until nobody draws there any more; not for ever, for whoever was told to end may hang.
+  static void wait_until_free(const std::filesystem::path& path);
   FilmFolder(FilmFolder&& other) noexcept;
   FilmFolder& operator=(FilmFolder&&) = delete;
   ~FilmFolder();

@@ -156,7 +156,8 @@ Expected<FilmFrames> FilmFrames::open(const FilmOptions& options) {
   auto plan = plan_film(std::move(*script), options.frames_per_second, *span_s);
   if (!plan) return tl::unexpected(plan.error());
   std::erase_if(plan->frames, [&](const FilmFrame& frame) {
-    return !(frame.instant_s >= options.from_s.value_or(frame.instant_s) - time_slack_s &&
+    return (frame.number - 1) % options.every != 0 ||
+           !(frame.instant_s >= options.from_s.value_or(frame.instant_s) - time_slack_s &&
              frame.instant_s <= options.to_s.value_or(frame.instant_s) + time_slack_s);
   });
   if (plan->frames.empty())

@@ -36,6 +36,7 @@ Expected<CanSeat> open_can_seat(const rig::Rig& rig, const std::filesystem::path
     sender->set(instruments);
     return sender->take_error();
   };
+  seat.is_lost = [sender] { return sender->is_lost(); };
   return seat;
 }
 

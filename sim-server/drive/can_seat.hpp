@@ -15,6 +15,7 @@ namespace septet::server {
 struct CanSeat {
   std::function<std::optional<Error>(const car_io::Instruments&)>
       show;                        ///< Empty: the DBC file has no instruments, or there is no bus.
+  std::function<bool()> is_lost;   ///< Whether the bus was there and is not now; empty likewise.
   car_io::OpenHidDevice controls;  ///< Of a rig whose car's source is its CAN bus.
 };
 

@@ -1,5 +1,6 @@
 #include "sim-server/drive/drive_sound.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include "engine/instant/scene_summary.hpp"
@@ -12,7 +13,7 @@ namespace septet::server {
 
 std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
     const rig::Rig& rig, const vehicle::VehicleParameters* car, const logging::SessionReader* session,
-    const scene::Store& store, std::function<void(const std::string&)> message) {
+    const scene::Store& store, std::function<void(const std::string&)> message, std::function<void()> lost) {
   audio::CarSound sound{.ear_m = rig.eye_point_m};
   if (car) sound = frame::car_sound(*car, rig.eye_point_m);
   if (session)
@@ -24,8 +25,10 @@ std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
   auto boxes = frame::echo_boxes(instant::summarise(scene::resolve(store)));
   const auto live = std::make_shared<LiveSound>(
       SoundFeeder(device_opener(rig.sound.value_or(rig::Sound{})), sound, std::move(boxes)));
-  return [live, message = std::move(message)](const std::shared_ptr<const TakenSnapshot>& tick) {
+  return [live, message = std::move(message), lost = std::move(lost),
+          times_lost = std::uint64_t{0}](const std::shared_ptr<const TakenSnapshot>& tick) mutable {
     live->add(tick);
+    if (live->counts().lost > std::exchange(times_lost, live->counts().lost)) lost();
     while (const auto text = live->take_message()) message(*text);
   };
 }

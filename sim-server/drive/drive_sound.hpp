@@ -14,9 +14,9 @@
 namespace septet::server {
 
 /// Hands each tick to a thread that plays (host/live_sound.hpp). `car`: that is driven, or null; then `session` says which one it was. The
-/// scene says where it echoes. `message`: is there a device, is it lost.
+/// scene says where it echoes. `message`: is there a device, is it lost. `lost`: a device that was there plays no more.
 std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
     const rig::Rig& rig, const vehicle::VehicleParameters* car, const logging::SessionReader* session,
-    const scene::Store& store, std::function<void(const std::string&)> message);
+    const scene::Store& store, std::function<void(const std::string&)> message, std::function<void()> lost);
 
 }  // namespace septet::server

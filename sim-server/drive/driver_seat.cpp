@@ -81,6 +81,7 @@ void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const ca
     writer->set(actuators);
     return writer->take_error();
   };
+  seat.actuators_are_cut = [writer] { return writer->is_cut(); };
 }
 
 }  // namespace septet::server

@@ -1,6 +1,8 @@
 #include "sim-server/drive/live_drive.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -18,6 +20,11 @@ constexpr Tick silent_screen_ticks = 120;
 
 /// So often the log keeps the whole state, to begin there when the drive is run again.
 constexpr Tick saved_state_ticks = 10 * static_cast<Tick>(simulation::tick_rate_hz);
+
+/// The re-arm button, so that nobody does it in passing.
+constexpr int rearm_held_for_ticks = 120;
+/// What writes to the actuators is re-armed by what is at rest, a word that may be lost on its way to a car on another machine.
+constexpr int rest_after_rearming_ticks = 12;
 
 /// More than the trembling of a device that nobody touches.
 bool is_moved(const DriverInput& now, const DriverInput& found) {
@@ -71,6 +78,7 @@ logging::InputRecord LiveDrive::read_input(const std::optional<DriverInput>& con
     was_fresh_ = was_fresh_ || !reading.is_stale;
     is_stale_ = was_fresh_ && reading.is_stale;
     record.input = reading.input;
+    watch_switches(reading.switches);
     record.report = reading.report;
     if (const auto error = seat_.car->take_error()) tell(describe(*error));
     if (reading.is_connected && !car_was_there_ && state_.diagnostics.input_stale_ticks > 0)
@@ -101,13 +109,67 @@ void LiveDrive::tell(const std::string& what) {
   if (log_) log_->record_message("car", *said);
 }
 
+void LiveDrive::cut_actuators(const std::string& why) {
+  if (cut_why_) return;
+  cut_why_ = why;
+  guard_.trip(true);
+  if (log_) log_->record_message("actuators_cut", "why=" + printable(why));
+  if (seat_.actuate)
+    tell(fmt::format("fan, shaker and wheel force are cut, for {}; re-arm them, or pause the drive and go on", why));
+}
+
+void LiveDrive::watch_switches(const car_io::CarSwitches& switches) {
+  if (switches.emergency_stop && !stop_is_pressed_) {
+    is_stopped_ = true;
+    guard_.stop();
+    cut_why_ = "the emergency stop was pressed";
+    if (log_) log_->record_message("emergency_stop", "pressed=1");
+    tell("EMERGENCY STOP: fan, shaker and wheel force are at 0 until it is released and somebody re-arms them");
+  } else if (!switches.emergency_stop && stop_is_pressed_) {
+    if (log_) log_->record_message("emergency_stop", "pressed=0");
+    tell("the emergency stop is released; the actuators wait to be re-armed");
+  }
+  stop_is_pressed_ = switches.emergency_stop;
+  rearm_held_ticks_ = switches.rearm ? std::min(rearm_held_ticks_ + 1, rearm_held_for_ticks + 1) : 0;
+  if (rearm_held_ticks_ == rearm_held_for_ticks && cut_why_) rearm_actuators("button");
+}
+
+std::optional<std::string> LiveDrive::rearm_actuators(const std::string& by) {
+  if (!seat_.actuate && !cut_why_) return "this drive moves no actuators";
+  if (stop_is_pressed_) return "the emergency stop is still pressed";
+  if (is_stale_) return "the controls are still silent";
+  is_stopped_ = false;
+  cut_why_.reset();
+  guard_.rearm();
+  guard_.share = 0.0;
+  resting_ticks_ = rest_after_rearming_ticks;
+  if (log_) log_->record_message("actuators_rearmed", "by=" + printable(by));
+  tell("fan, shaker and wheel force are re-armed");
+  return std::nullopt;
+}
+
+std::string LiveDrive::alarm() const {
+  if (!is_stopped_) return {};
+  return stop_is_pressed_ ? "Emergency stop" : "Emergency stop: released, waits to be re-armed";
+}
+
+/// What has stopped beside the simulation since the last tick.
+void LiveDrive::watch_faults() {
+  if (is_stale_) cut_actuators("the controls have stopped");
+  const bool bus_is_lost = seat_.bus_is_lost && seat_.bus_is_lost();
+  if (bus_is_lost && !std::exchange(bus_was_lost_, bus_is_lost)) cut_actuators("the CAN bus is lost");
+  bus_was_lost_ = bus_is_lost;
+  // It has said so itself.
+  if (!cut_why_ && resting_ticks_ == 0 && seat_.actuators_are_cut && seat_.actuators_are_cut()) {
+    cut_why_ = "the simulation was silent";
+    guard_.trip(true);
+  }
+}
+
 void LiveDrive::move_actuators() {
+  watch_faults();
   if (!seat_.actuate) return;
   constexpr double tick_s = 1.0 / simulation::tick_rate_hz;
-  if (guard_.trip(is_stale_))
-    tell(
-        "fan, shaker and wheel force are cut, for the controls have stopped; pausing the drive and going on lets them "
-        "run again");
   auto motion = car_motion(*model_, state_);
   motion.steering_torque_nm = car_io::wheel_torque_nm(wheel_torque_,
                                                       {.column_torque_nm = motion.steering_torque_nm,
@@ -115,8 +177,14 @@ void LiveDrive::move_actuators() {
                                                        .speed_mps = motion.speed_mps,
                                                        .lock_rad = seat_.steering_lock_rad},
                                                       seat_.actuators.steering_full_nm, tick_s);
-  const auto wanted = guard_.pass(car_io::actuators_for(motion, seat_.actuators), tick_s);
-  if (const auto error = seat_.actuate(state_.tick, within_dose(wanted, tick_s))) tell(describe(*error));
+  const bool rests = resting_ticks_ > 0;
+  if (rests) --resting_ticks_;
+  const auto passed = rests ? car_io::Actuators{} : guard_.pass(car_io::actuators_for(motion, seat_.actuators), tick_s);
+  const auto done = within_dose(passed, tick_s);
+  if (log_ && logging::is_sample_due(state_.tick, simulation::tick_rate_hz))
+    log_->record_actuators(
+        {state_.tick, done.fan, done.vibration, done.vibration_hz, done.steering, cut_why_.has_value()});
+  if (const auto error = seat_.actuate(state_.tick, done)) tell(describe(*error));
 }
 
 /// A shaker that has shaken for a day rests until the next drive.
@@ -159,8 +227,13 @@ Expected<void> LiveDrive::command(const simulation::OperatorCommand& command) {
 }
 
 void LiveDrive::stand_still() {
+  // Nobody takes ticks, and yet somebody may press the emergency stop.
+  if (seat_.car) watch_switches(seat_.car->poll(waited_s_ + state_.time_s()).switches);
   if (!seat_.actuate) return;
-  guard_.rearm();
+  if (!is_stopped_) {
+    guard_.rearm();
+    cut_why_.reset();
+  }
   if (const auto error = seat_.actuate(state_.tick, {})) tell(describe(*error));
 }
 

@@ -36,7 +36,10 @@ struct DriverSeat {
   double steering_lock_rad = 7.85;  ///< Where the hand wheel ends.
   /// Shows speed, revolutions and lamps on a cluster that is no screen's; empty: there is none. Never waits. Answers what is wrong, once.
   std::function<std::optional<Error>(const car_io::Instruments&)> show;
-  std::shared_ptr<RemoteCar> remote;        ///< Of a car on another machine.
+  std::function<bool()> bus_is_lost;  ///< Of the CAN bus of that cluster, which was there. Empty: there is none.
+  std::function<bool()>
+      actuators_are_cut;              ///< By what writes to them, for the drive was silent. Empty: it never does that.
+  std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
   std::optional<car_io::HeadTracker> head;  ///< Nothing: the rig has no head tracker, or nobody's head to track.
 };
 
@@ -51,6 +54,13 @@ class LiveDrive final : public TickSource {
   /// Between two ticks: done now and logged, so that the drive run again has it too. Error: this drive cannot do that, or not now.
   Expected<void> command(const simulation::OperatorCommand& command);
   const simulation::State& state() const { return state_; }
+  /// A fault beside the ticks (sound that has stopped): fan, shaker and wheel force fall to 0 until somebody re-arms.
+  void cut_actuators(const std::string& why);
+  /// Lets them run again, over a second. Answers why not.
+  std::optional<std::string> rearm_actuators(const std::string& by);
+  /// Why they are at 0; nothing while they run.
+  const std::optional<std::string>& actuators_cut() const { return cut_why_; }
+  bool has_actuators() const { return seat_.actuate != nullptr; }
   /// Whom to tell of what happens, beside the log, with the simulated time.
   void watch_events(std::function<void(const simulation::Event&, double)> told) { told_ = std::move(told); }
 
@@ -61,6 +71,7 @@ class LiveDrive final : public TickSource {
   /// A person is ready when a screen sends controls, or those of the device are no longer as they were found.
   bool driver_is_ready(const std::optional<DriverInput>& controls, double waited_s) override;
   void stand_still() override;
+  std::string alarm() const override;
   double tick_rate_hz() const override { return simulation::tick_rate_hz; }
   std::vector<std::string> take_messages() override { return std::exchange(messages_, {}); }
   const Snapshot& newest() const { return newest_->snapshot(); }
@@ -68,6 +79,8 @@ class LiveDrive final : public TickSource {
  private:
   LiveDrive(std::shared_ptr<const simulation::Model> model, DriverSeat seat, simulation::State state);
   logging::InputRecord read_input(const std::optional<DriverInput>& controls);
+  void watch_switches(const car_io::CarSwitches& switches);
+  void watch_faults();
   void move_actuators();
   car_io::Actuators within_dose(car_io::Actuators wanted, double dt_s);
   void show_instruments(const DriverInput& input);
@@ -86,6 +99,11 @@ class LiveDrive final : public TickSource {
   std::shared_ptr<const TakenSnapshot> newest_;
   bool car_was_there_ = false;
   bool was_fresh_ = false, is_stale_ = false;  ///< Whether the controls have ever come, and whether they have stopped.
+  bool stop_is_pressed_ = false,
+       is_stopped_ = false;  ///< The emergency stop now, and since it was pressed until re-armed.
+  bool bus_was_lost_ = false;
+  int rearm_held_ticks_ = 0, resting_ticks_ = 0;
+  std::optional<std::string> cut_why_;
   car_io::ActuatorGuard guard_;
   car_io::VibrationDose dose_;
   car_io::WheelTorqueState wheel_torque_;

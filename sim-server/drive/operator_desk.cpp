@@ -79,6 +79,10 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
                        .is_paused = is_paused_,
                        .wall_s = now_s,
                        .real_time_factor = real_time_factor_,
+                       .has_actuators = drive_.has_actuators(),
+                       .actuators_cut = drive_.actuators_cut(),
+                       .alarm = drive_.alarm(),
+                       .leader = {},
                        .screens = view_of(screens)};
   if (const auto leader = find_leader(newest_->snapshot(), loaded_.model->roads))
     view.leader = {leader->participant, leader->distance_gap_m, leader->speed_mps};
@@ -109,6 +113,9 @@ std::optional<std::string> OperatorDesk::fulfil(const page::OperatorWish& wish) 
   } else if (std::holds_alternative<page::GoOn>(wish.wish)) {
     told_to_go_ = true;
     if (std::exchange(is_paused_, false)) note(wish, "operator", "go_on");
+  } else if (std::holds_alternative<page::Rearm>(wish.wish)) {
+    if (auto why_not = drive_.rearm_actuators(wish.name.empty() ? "operator" : wish.name)) return why_not;
+    note(wish, "operator", "rearm");
   } else if (const auto* end = std::get_if<page::End>(&wish.wish)) {
     is_ended_ = true;
     note(wish, "operator", "end reason=" + end->reason);

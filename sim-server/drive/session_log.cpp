@@ -138,6 +138,8 @@ logging::DriveOutcome SessionLog::outcome(const ServeResult& result, const std::
     seen.frame_ms_p99 = report.frame_ms_p99;
     seen.submit_ms_p50 = report.submit_ms_p50;
     seen.submit_ms_p99 = report.submit_ms_p99;
+    seen.report_to_picture_ms_p50 = screen.report_to_picture.quantile_ms(0.5);
+    seen.report_to_picture_ms_p99 = screen.report_to_picture.quantile_ms(0.99);
     seen.connected_s = screen.connected_s;
     seen.left_s = screen.left_s;
     seen.left_behind_s = screen.left_behind_s;

@@ -38,6 +38,7 @@ class SessionLog {
   void record_state(logging::StateRecord state) {
     if (!samples_only_) writer_.record(std::move(state));
   }
+  void record_actuators(logging::ActuatorRecord actuators) { writer_.record(actuators); }
   void record_message(const std::string& kind, const std::string& text);
   std::optional<Error> take_error() { return writer_.take_error(); }
   /// In real time: that the disk has made the drive wait, and for how long so far; again with each further tenth of a second.

@@ -1,5 +1,6 @@
 #pragma once
-/// Whether the operator has told the server to go: Enter, or the line "go", on its standard input.
+/// What the operator has told the server on its standard input: to go (Enter, or the line "go"), and to let fan, shaker and wheel force run
+/// again (the line "rearm").
 
 #include <string>
 
@@ -9,9 +10,12 @@ class GoWord {
  public:
   /// Reads what has come, without waiting. Once said it stays said.
   bool said();
+  /// Each "rearm" once.
+  bool take_rearm();
 
  private:
-  bool said_ = false, closed_ = false;
+  void read();
+  bool said_ = false, rearm_ = false, closed_ = false;
   std::string line_;
 };
 

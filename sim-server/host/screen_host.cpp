@@ -181,6 +181,9 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
            now_s);
     // Nobody has shown what was not sent.
     const Tick newest = sent_.empty() ? 0 : sent_.back()->snapshot().tick;
+    if (const auto begun = std::ranges::find(begun_s_, presented->tick, &std::pair<Tick, double>::first);
+        begun != begun_s_.end() && screen->has_presented && presented->tick > screen->presented)
+      screen->report_to_picture.add(now_s - begun->second);
     screen->presented = std::max(screen->presented, std::min(presented->tick, newest));
     screen->has_presented = true;
     screen->left_behind = false;
@@ -317,6 +320,9 @@ void ScreenHost::publish(std::shared_ptr<const TakenSnapshot> taken, double now_
   publisher_.publish(taken->snapshot().tick, payload);
   for (HostedScreen& screen : screens_)
     if (screen.live() && !screen.unanswered_since_s) screen.unanswered_since_s = now_s;
+  constexpr std::size_t most_begun = 480;  // Four seconds: whoever shows a tick later has gone and come back.
+  if (!options_.welcome.lockstep) begun_s_.emplace_back(taken->snapshot().tick, now_s);
+  if (begun_s_.size() > most_begun) begun_s_.pop_front();
   sent_.push_back(std::move(taken));
   if (sent_.size() > net::BaselineOptions{}.history) sent_.pop_front();
 }

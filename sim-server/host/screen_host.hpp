@@ -24,6 +24,7 @@
 #include "engine/scene/store.hpp"
 #include "engine/world/taken_snapshot.hpp"
 #include "logging/drive_end.hpp"
+#include "sim-server/host/latency_record.hpp"
 #include "sim-server/host/playout_planner.hpp"
 #include "sim-server/host/remote_car.hpp"
 
@@ -55,7 +56,9 @@ struct HostedScreen {
   Tick presented = 0;
   bool has_presented = false;
   std::uint64_t frames = 0;
-  double frame_ms = 0.0;             ///< From picture to picture, of the newest.
+  double frame_ms = 0.0;  ///< From picture to picture, of the newest.
+  LatencyRecord
+      report_to_picture;  ///< From reading the driver's controls to its word that it shows that tick; in real time.
   std::uint64_t lost_baselines = 0;  ///< Ticks that it could not read, for what they differ from was lost on the way.
   std::uint32_t joined = 0;          ///< How often it has connected.
   double joined_s = 0.0;             ///< When it last did.
@@ -85,7 +88,8 @@ class ScreenHost {
   /// Tells of a command that the store has taken.
   void scene_changed(const scene::Command& command) { scene_.applied(command); }
 
-  /// Sends one tick to everybody, as a difference to what all live screens hold.
+  /// Sends one tick to everybody, as a difference to what all live screens hold. `now_s`: when the tick was begun, by reading the driver's
+  /// controls.
   void publish(std::shared_ptr<const TakenSnapshot> taken, double now_s);
   /// Sends the newest tick once more: in lockstep, where someone has not answered.
   void repeat_newest() { publisher_.repeat_newest(); }
@@ -152,6 +156,7 @@ class ScreenHost {
   std::map<std::string, MessageLimit> limits_;  ///< By the name in the list.
   std::map<net::ClientId, net::Address> unicast_;
   std::deque<std::shared_ptr<const TakenSnapshot>> sent_;  ///< Possible baselines, ascending tick.
+  std::deque<std::pair<Tick, double>> begun_s_;            ///< When the newest ticks were begun.
   std::optional<DriverInput> controls_;
   control::Notice notice_;
   std::optional<logging::DriveEnd> end_requested_;

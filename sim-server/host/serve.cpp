@@ -72,6 +72,14 @@ struct ScreenLoop : Loop {
   ScreenHost& host;
   const ServeOptions& options;
   bool can_pause = false;  ///< The world goes on by the clock, and has begun.
+  std::string alarm = {};  ///< As the driver reads it.
+
+  void show_alarm() {
+    if (auto now = source.alarm(); now != alarm) {
+      alarm = std::move(now);
+      host.give_notice({alarm, host.notice().keys});
+    }
+  }
 
   void pump() {
     if (environment.changed_list)
@@ -142,9 +150,11 @@ void stand_still(ScreenLoop& loop) {
   const control::Notice before = loop.host.notice();
   const auto say = [&] {
     const bool by_driver = loop.host.pause_requested();
+    const std::string alarm = loop.source.alarm();
     const control::Notice notice{
-        by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator", before.keys,
-        by_driver};
+        (alarm.empty() ? "" : alarm + ". ") +
+            (by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator"),
+        before.keys, by_driver};
     if (loop.host.notice() != notice) {
       loop.host.give_notice(notice);
       if (by_driver) loop.environment.message("paused by the driver");
@@ -179,6 +189,7 @@ void run_lockstep(ScreenLoop& loop) {
     }
     const auto snapshot = loop.take_tick(loop.host.take_controls());
     if (!snapshot) return;
+    loop.show_alarm();
     const Tick tick = snapshot->snapshot().tick;
     if (tick % loop.options.draw_every_ticks != 0) continue;
     loop.host.publish(snapshot, loop.environment.now_s());
@@ -244,6 +255,7 @@ void run_real_time(ScreenLoop& loop) {
     due_s += tick_s;
     const auto snapshot = loop.take_tick(loop.host.take_controls());
     if (!snapshot) return;
+    loop.show_alarm();
     loop.host.publish(snapshot, now_s);
     if (now_s - reported_s > 0.5) {
       reported_s = now_s;

@@ -29,6 +29,8 @@ class TickSource {
   /// The world stands still from here to the next tick: whatever moves in the driver's seat is to rest.
   /// Called again and again meanwhile.
   virtual void stand_still() {}
+  /// What the driver must read on the screen ahead as long as it holds: an emergency stop. Empty: nothing.
+  virtual std::string alarm() const { return {}; }
   virtual double tick_rate_hz() const = 0;
   /// What the operator should know since the last call.
   virtual std::vector<std::string> take_messages() { return {}; }

@@ -51,6 +51,9 @@ struct DriveView {
   bool is_paused = false;
   double wall_s = 0.0;            ///< Of any clock that goes on.
   double real_time_factor = 0.0;  ///< Simulated seconds a second, of late.
+  bool has_actuators = false;
+  std::optional<std::string> actuators_cut;  ///< Why fan, shaker and wheel force are at 0; nothing while they run.
+  std::string alarm;                         ///< What the driver reads: an emergency stop.
   std::optional<LeaderView> leader;
   std::vector<ScreenView> screens;
   std::vector<double> conditions;     ///< As DriveFacts::conditions.

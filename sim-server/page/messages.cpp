@@ -94,6 +94,8 @@ Expected<BrowserMessage> read_browser_message(std::string_view text) {
     message.wish = Pause{};
   else if (wish == "go_on")
     message.wish = GoOn{};
+  else if (wish == "rearm")
+    message.wish = Rearm{};
   else if (wish == "end")
     message.wish = End{text_member(json, "reason", most_note_characters)};
   else if (wish == "mark")
@@ -155,8 +157,12 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
                {"browsers", browsers},
                {"commander", nullptr},
                {"leader", nullptr},
+               {"actuators", nullptr},
                {"screens", screens_of(view, facts.tick_rate_hz)},
                {"triggers", view.triggers}};
+  if (view.has_actuators || view.actuators_cut)
+    json["actuators"] = {{"cut", view.actuators_cut ? Json(*view.actuators_cut) : Json(nullptr)},
+                         {"alarm", view.alarm}};
   if (commander) json["commander"] = {{"browser", commander->browser}, {"name", commander->name}};
   Json conditions = Json::array();
   for (const double value : view.conditions) conditions.push_back(rounded(value, 0.0001));

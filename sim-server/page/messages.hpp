@@ -22,6 +22,8 @@ struct Take {  ///< To be the one who commands; `by_force` also where somebody e
 };
 struct Release {};
 struct Pause {};
+/// Fan, shaker and wheel force may run again after a fault or an emergency stop.
+struct Rearm {};
 struct GoOn {};  ///< Also: drive without the screens that are missing.
 struct End {
   std::string reason;
@@ -33,7 +35,7 @@ struct Mark {
 struct Change {
   std::string command;
 };
-using Wish = std::variant<Take, Release, Pause, GoOn, End, Mark, Change>;
+using Wish = std::variant<Take, Release, Pause, GoOn, Rearm, End, Mark, Change>;
 
 struct BrowserMessage {
   std::uint64_t id = 0;  ///< Which the answer names.

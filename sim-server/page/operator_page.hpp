@@ -27,7 +27,7 @@ struct PageOptions {
   std::string token;                       ///< Of web_server.hpp.
 };
 
-/// Something that the one who commands wants: Pause, GoOn, End, Mark or Change.
+/// Something that the one who commands wants: Pause, GoOn, Rearm, End, Mark or Change.
 struct OperatorWish {
   BrowserId browser = 0;
   std::uint64_t id = 0;

@@ -47,6 +47,8 @@ TEST_CASE("a session reads back as it was recorded") {
                                      .observed_s = 412.5,
                                      .censored = true,
                                      .reason = "felt sick"};
+  const ActuatorRecord shaken{
+      .tick = 12, .fan = 0.25, .vibration = 0.5, .vibration_hz = 41.5, .steering = -1.0, .is_cut = true};
   {
     SessionWriter writer = must_create(path);
     for (Tick tick = 0; tick < 300; ++tick) writer.record(taken(drive_snapshot(tick)));
@@ -59,6 +61,7 @@ TEST_CASE("a session reads back as it was recorded") {
     writer.record(nobody);
     writer.record(answer);
     writer.record(drop_out);
+    writer.record(shaken);
     REQUIRE(writer.finish());
     CHECK(writer.committed_tick() == Tick{299});
     CHECK(writer.lost_records() == 0);
@@ -76,6 +79,8 @@ TEST_CASE("a session reads back as it was recorded") {
   CHECK(reader.samples().value() == std::vector{sample, no_leader});
   CHECK(reader.events().value() == std::vector{event, nobody});
   CHECK(reader.questionnaire().value() == std::vector{answer, drop_out});
+  CHECK(reader.actuators().value() == std::vector{shaken});
+  CHECK(reader.actuators({.first = 13, .last = 99}).value().empty());
 }
 
 TEST_CASE("every snapshot reads back in the bits that the screens were sent") {

@@ -11,13 +11,14 @@ import sys
 
 
 def said_by_debian(package):
-    """The licence of `Files: *` in a machine-readable copyright file; None where there is none."""
+    """The licence of `Files: *` in a machine-readable copyright file; None where there is none, or only prose."""
     file = pathlib.Path(f"/usr/share/doc/{package}/copyright")
     if not file.exists():
         return None
     for paragraph in re.split(r"\n\s*\n", file.read_text(errors="replace")):
         if re.search(r"^Files:\s*\*\s*$", paragraph, re.M):
-            return re.search(r"^License:\s*(.*)$", paragraph, re.M)[1].strip()
+            said = re.search(r"^License:[ \t]*(\S.*)$", paragraph, re.M)
+            return said and said[1].strip()
     return None
 
 

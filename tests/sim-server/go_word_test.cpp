@@ -31,6 +31,16 @@ struct Input {
 
 }  // namespace
 
+TEST_CASE("each rearm is said once, also behind the word go") {
+  const Input input;
+  GoWord word;
+  CHECK_FALSE(word.take_rearm());
+  input.say("\nrearm\nrear\n");
+  CHECK(word.said());
+  CHECK(word.take_rearm());
+  CHECK_FALSE(word.take_rearm());
+}
+
 TEST_CASE("go or an empty line is the word and nothing else is, in however many pieces it comes") {
   const Input input;
   GoWord word;

@@ -31,16 +31,21 @@ bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radiu
                      [&](const glm::vec3& normal) { return glm::dot(normal, centre_m) >= -radius_m; });
 }
 
+float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const Detail& detail) {
+  const float away_m = glm::length(origin_m);
+  return std::max({away_m, detail.least_m, (away_m - placed.radius_m) * detail.times});
+}
+
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
-                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, float least_range_m) {
+                    const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, const Detail& detail) {
   Batch batch;
   const auto close = [&] {
     if (batch.count > 0) list.batches.push_back(batch);
   };
   for (const PlacedMesh& mesh : placed) {
     const glm::vec3 origin(mesh.origin_m - eye_m);
-    const float square = std::max(glm::dot(origin, origin), least_range_m * least_range_m);
-    if (square < mesh.visible_from_m * mesh.visible_from_m || square >= mesh.visible_to_m * mesh.visible_to_m) continue;
+    const float range_m = detail_range_m(mesh, origin, detail);
+    if (range_m < mesh.visible_from_m || range_m >= mesh.visible_to_m) continue;
     const glm::vec3 centre = origin + mesh.centre_m;
     if (!keep(mesh, centre)) continue;
     if (batch.count == 0 || batch.mesh != mesh.mesh) {

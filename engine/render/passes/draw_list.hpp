@@ -47,12 +47,18 @@ struct DrawList {
 using ViewVolume = std::array<glm::vec3, 4>;
 ViewVolume view_volume(const FrameView& view);
 
+/// From how far off the level of detail is taken in which a mesh is shown.
+struct Detail {
+  float least_m = 0.0f;  ///< What is nearer is shown as it is there.
+  float times = 1.0f;    ///< Of a coarse picture: what is further off than it is wide, as if so many times as far.
+};
+float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const Detail& detail);
+
 /// The meshes of `placed` (ordered by mesh) that are within their range of the eye and that `keep` wants, given the centre
-/// relative to the eye and the radius. Batches come in the order of their meshes. What is nearer than `least_range_m` is
-/// shown in the level of detail that it has there.
+/// relative to the eye and the radius. Batches come in the order of their meshes.
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
                     const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
-                    float least_range_m = 0.0f);
+                    const Detail& detail = {});
 
 bool intersects(const ViewVolume& volume, const glm::vec3& centre_m, float radius_m);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/parallel_for.hpp"
@@ -46,7 +47,9 @@ bool add_piece(StaticGeometry& geometry, std::uint32_t block, std::uint32_t firs
   piece.first_part = static_cast<std::uint32_t>(geometry.parts.size());
   for (const scene::MeshPart& part : mesh.parts) {
     if (part.index_count == 0 || !holds(mesh, part)) continue;
-    geometry.parts.push_back({part.material, static_cast<std::uint32_t>(geometry.indices.size()), part.index_count});
+    geometry.parts.push_back({part.material, static_cast<std::uint32_t>(geometry.indices.size()), part.index_count,
+                              static_cast<std::uint32_t>(geometry.clumps.size())});
+    geometry.clumps.resize(geometry.clumps.size() + (part.index_count + clump_indices - 1) / clump_indices);
     for (std::uint32_t i = 0; i < part.index_count; ++i)
       geometry.indices.push_back(first_vertex + mesh.indices[part.first_index + i]);
   }
@@ -66,6 +69,29 @@ void fill_vertices(StaticBlock& block, std::uint32_t first_vertex, const Vec3& p
   SurfaceVertex* target = block.vertices.data() + first_vertex;
   for (const SurfaceVertex& vertex : mesh.vertices)
     *target++ = {origin + turn * vertex.position_m, normal_turn * vertex.normal, vertex.uv};
+}
+
+void fill_clumps(StaticGeometry& geometry, const StaticPiece& piece) {
+  const std::vector<SurfaceVertex>& vertices = geometry.blocks[piece.block].vertices;
+  for (std::uint32_t at = piece.first_part; at < piece.first_part + piece.part_count; ++at) {
+    const StaticPart& part = geometry.parts[at];
+    for (std::uint32_t first = 0; first < part.index_count; first += clump_indices) {
+      glm::vec3 low(INFINITY), high(-INFINITY);
+      for (std::uint32_t i = first; i < std::min(first + clump_indices, part.index_count); ++i) {
+        const glm::vec3& corner = vertices[geometry.indices[part.first_index + i]].position_m;
+        low = glm::min(low, corner), high = glm::max(high, corner);
+      }
+      geometry.clumps[part.first_clump + first / clump_indices] = {0.5f * (low + high), 0.5f * (high - low)};
+    }
+  }
+}
+
+bool is_outside(const StaticClump& clump, const glm::vec3& origin_m, const ViewVolume& volume) {
+  constexpr float slack_m = 0.01f;
+  const glm::vec3 middle = origin_m + clump.middle_m;
+  return std::any_of(volume.begin(), volume.end(), [&](const glm::vec3& normal) {
+    return glm::dot(normal, middle) + glm::dot(glm::abs(normal), clump.half_m) < -slack_m;
+  });
 }
 
 }  // namespace
@@ -112,20 +138,21 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
         find_stripe_edges(geometry.blocks[piece.block].vertices,
                           std::span(geometry.indices).subspan(part.first_index, part.index_count));
     }
+    fill_clumps(geometry, piece);
   });
   return geometry;
 }
 
 Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
                 const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep,
-                const std::function<std::uint32_t(std::uint32_t)>& group_of) {
+                const std::function<std::uint32_t(std::uint32_t)>& group_of, const Detail& detail,
+                const ViewVolume* volume) {
   std::vector<std::pair<float, std::uint32_t>> seen;
   for (std::uint32_t i = 0; i < geometry.pieces.size(); ++i) {
     const PlacedMesh& placed = geometry.pieces[i].placed;
     const glm::vec3 origin(placed.origin_m - eye_m);
-    const float square = glm::dot(origin, origin);
-    if (square < placed.visible_from_m * placed.visible_from_m || square >= placed.visible_to_m * placed.visible_to_m)
-      continue;
+    const float range_m = detail_range_m(placed, origin, detail);
+    if (range_m < placed.visible_from_m || range_m >= placed.visible_to_m) continue;
     const glm::vec3 centre = origin + placed.centre_m;
     if (keep(placed, centre)) seen.emplace_back(glm::dot(centre, centre), i);
   }
@@ -150,13 +177,24 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    result.draws[i].first_index = static_cast<std::uint32_t>(result.indices.size());
-    for (const std::uint32_t part : parts[i]) {
-      const auto first = geometry.indices.begin() + geometry.parts[part].first_index;
-      result.indices.insert(result.indices.end(), first, first + geometry.parts[part].index_count);
+    GatheredDraw& draw = result.draws[i];
+    draw.first_index = static_cast<std::uint32_t>(result.indices.size());
+    const glm::vec3 origin(geometry.blocks[draw.block].origin_m - eye_m);
+    for (const std::uint32_t index : parts[i]) {
+      const StaticPart& part = geometry.parts[index];
+      const auto all = geometry.indices.begin() + part.first_index;
+      if (!volume) {
+        result.indices.insert(result.indices.end(), all, all + part.index_count);
+        continue;
+      }
+      for (std::uint32_t first = 0; first < part.index_count; first += clump_indices)
+        if (!is_outside(geometry.clumps[part.first_clump + first / clump_indices], origin, *volume))
+          result.indices.insert(result.indices.end(), all + first,
+                                all + std::min(first + clump_indices, part.index_count));
     }
-    result.draws[i].index_count = static_cast<std::uint32_t>(result.indices.size()) - result.draws[i].first_index;
+    draw.index_count = static_cast<std::uint32_t>(result.indices.size()) - draw.first_index;
   }
+  std::erase_if(result.draws, [](const GatheredDraw& draw) { return draw.index_count == 0; });
   return result;
 }
 

@@ -21,7 +21,15 @@ namespace septet::render {
 struct StaticPart {
   std::uint32_t material = 0;
   std::uint32_t first_index = 0, index_count = 0;
+  std::uint32_t first_clump = 0;
 };
+
+/// The box around some consecutive triangles of a part, from the block's origin: of a wide piece a view takes what it may see.
+struct StaticClump {
+  glm::vec3 middle_m{0.0f}, half_m{0.0f};
+};
+/// Of each clump but a part's last.
+inline constexpr std::uint32_t clump_indices = 3 * 32;
 
 /// One instance.
 struct StaticPiece {
@@ -40,6 +48,7 @@ struct StaticGeometry {
   std::vector<StaticBlock> blocks;
   std::vector<StaticPiece> pieces;
   std::vector<StaticPart> parts;
+  std::vector<StaticClump> clumps;
   std::vector<std::uint32_t> indices;
 };
 
@@ -64,10 +73,12 @@ struct Gathered {
 inline constexpr std::uint32_t no_group = std::numeric_limits<std::uint32_t>::max();
 
 /// The pieces within their range of the eye that `keep` wants, nearest first. `group_of` says which of a block's materials
-/// are drawn together, and returns no_group for those that are not drawn.
+/// are drawn together, and returns no_group for those that are not drawn. With a `volume`, clumps outside of it
+/// are left out.
 Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
                 const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
-                const std::function<std::uint32_t(std::uint32_t material)>& group_of);
+                const std::function<std::uint32_t(std::uint32_t material)>& group_of, const Detail& detail = {},
+                const ViewVolume* volume = nullptr);
 
 /// Where a block lies from the eye.
 InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m);

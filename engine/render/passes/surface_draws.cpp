@@ -31,16 +31,16 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
 
 SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
                            const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,
-                           float least_participant_range_m) {
+                           const DetailOf& detail, const ViewVolume* volume) {
   SurfaceDraws draws;
   DrawList instanced;
-  append_visible(instanced, scene.placed, eye_m, keep);
-  append_visible(instanced, participants, eye_m, keep, least_participant_range_m);
+  append_visible(instanced, scene.placed, eye_m, keep, detail.still);
+  append_visible(instanced, participants, eye_m, keep, detail.participants);
   sort_by_distance(instanced);
   for (const Batch& batch : instanced.batches) add_batch(draws.list, scene.meshes[batch.mesh], batch, group_of);
   append_dynamic(dynamic, eye_m, keep, group_of, draws.list, instanced.records);
 
-  const Gathered gathered = gather(scene.still, eye_m, keep, group_of);
+  const Gathered gathered = gather(scene.still, eye_m, keep, group_of, detail.still, volume);
   draws.instances = static_cast<std::uint32_t>(instanced.records.size()) + gathered.pieces;
   const FrameData indices = store(context, std::span<const std::uint32_t>(gathered.indices));
   std::map<std::uint32_t, std::uint32_t> record_of_block;

@@ -31,10 +31,15 @@ using Keep = std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>;
 /// Which material stands for this one, so that both may be drawn at once; no_group: it is not drawn.
 using GroupOf = std::function<std::uint32_t(std::uint32_t material)>;
 
-/// Participants nearer than `least_participant_range_m` are drawn in the level of detail that they have there.
+/// Of what stands still and of participants.
+struct DetailOf {
+  Detail still, participants;
+};
+
+/// `keep` tells what may be seen as a whole, `volume` what of wide things.
 SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::span<const PlacedMesh> participants,
                            const DynamicSurfaces& dynamic, const Vec3& eye_m, const Keep& keep, const GroupOf& group_of,
-                           float least_participant_range_m = 0.0f);
+                           const DetailOf& detail = {}, const ViewVolume* volume = nullptr);
 
 /// Records one draw and counts it; binds its buffers unless `bound`, the last draw's, were the same.
 void record_draw(PassContext& context, const SurfaceDraw& draw, SurfaceDraw& bound);

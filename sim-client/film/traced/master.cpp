@@ -144,9 +144,10 @@ Expected<void> Master::take_up() {
       if (auto queued = writer_.finish(numbers_[frame], std::move(kept_.at(frame)), kept_file(frame)); !queued)
         return queued;
       kept_.erase(frame);
-      ++made_.frames;
+      ++made_.frames, ++made_.kept;
     }
   }
+  made_.kept_of_next = schedule_.share_of_begun_frames();
   return {};
 }
 
@@ -169,7 +170,7 @@ Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
       encoded.size() != encoded_tile_size(std::size_t{tiles_[tile].width} * tiles_[tile].height))
     return {};
   const auto finished = [&] {
-    const bool counts = schedule_.finish(from.in_schedule, frame, tile, now_s_);
+    const bool counts = schedule_.finish(from.in_schedule, frame, tile, now_s_, cpu_s);
     if (!options_.statistics.empty())
       statistics_.tiles.push_back({numbers_[frame], tile, from.number, cpu_s, now_s_, counts});
     return counts;
@@ -318,7 +319,7 @@ Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const Fi
   double told_s = 0.0, asked_s = 0.0;
   while (result && !schedule_.has_all()) {
     now_s_ = program::monotonic_s();
-    made_.share_of_next = static_cast<double>(schedule_.tiles_of_begun_frames()) / static_cast<double>(tiles_.size());
+    made_.share_of_next = schedule_.share_of_begun_frames();
     made_.workers = static_cast<std::size_t>(std::ranges::count_if(workers_, &Worker::traces));
     tell_quality();
     if (!go_on(made_)) break;

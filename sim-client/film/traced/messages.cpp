@@ -1,5 +1,6 @@
 #include "sim-client/film/traced/messages.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 
@@ -115,6 +116,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(options.frames_per_second);
   writer.put(options.width_px), writer.put(options.height_px), writer.put(options.samples);
   writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
+  writer.put(options.every);
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
   writer.put(static_cast<std::uint8_t>(told.script.has_value()));
   writer.put_string(told.script.value_or(""));
@@ -132,6 +134,7 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.samples = reader.get<std::uint32_t>();
   options.error = reader.get_double();
   options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
+  options.every = std::max(1u, reader.get<std::uint32_t>());
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
   const bool has_script = reader.get<std::uint8_t>() != 0;
   std::string script = reader.get_string(longest_text);

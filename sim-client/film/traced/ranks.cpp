@@ -1,7 +1,5 @@
 #include "sim-client/film/traced/ranks.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,13 +24,13 @@
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-client/film/film_file.hpp"
+#include "sim-client/film/film_folder.hpp"
 
 namespace septet::film {
 namespace fs = std::filesystem;
 namespace {
 
 using namespace std::chrono_literals;
-constexpr double patience_s = 60.0;  ///< For programs to end whose mpirun is gone.
 
 /// Standard error of mpirun: what the programs say, and what it says itself.
 class Said {
@@ -78,16 +76,6 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
   return newest;
 }
 
-/// Nobody draws in the folder, or nobody stops to in time.
-void wait_until_free(const fs::path& folder) {
-  const double until_s = program::monotonic_s() + patience_s;
-  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  while (::flock(file, LOCK_EX | LOCK_NB) != 0 && program::monotonic_s() < until_s && !program::stop_signal())
-    std::this_thread::sleep_for(50ms);
-  ::close(file);
-}
-
 std::vector<std::string> mpirun_arguments(const RanksOptions& options) {
   std::vector<std::string> arguments{"--enable-recovery", "--oversubscribe", "--bind-to", "none"};
   if (options.ranks > 0)
@@ -116,10 +104,11 @@ Expected<StartEnd> start_once(const fs::path& mpirun, const RanksOptions& option
     while (const auto line = child->read_line(wait)) {
       const std::string_view text = *line, words = last_words;
       int status = 0;
-      if (!text.starts_with(words))
-        program::announce(text);
-      else if (std::from_chars(text.data() + words.size(), text.data() + text.size(), status).ec == std::errc())
+      if (!text.starts_with(words)) {
+        if (!options.quiet) program::announce(text);
+      } else if (std::from_chars(text.data() + words.size(), text.data() + text.size(), status).ec == std::errc()) {
         end.status = status;
+      }
     }
   };
   while (true) {
@@ -158,10 +147,8 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
                    "run it as another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1");
   if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
     return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
-  const auto is_file = is_film_file(options.out);
-  if (!is_file) return tl::unexpected(is_file.error());
-  fs::path folder = options.out;
-  if (*is_file) folder += ".pictures";
+  const auto folder = pictures_folder(options.out);
+  if (!folder) return tl::unexpected(folder.error());
   const auto notes = program::TemporaryFolder::make("septet-ranks");
   if (!notes) return tl::unexpected(notes.error());
   const fs::path log = notes->path() / "mpirun.txt";
@@ -172,16 +159,16 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
   program::ProgressLine progress;
   Said said(log);
   for (bool first = true;; first = false) {
-    const auto before = newest_in(folder);
+    const auto before = newest_in(*folder);
     const auto end = start_once(*mpirun, options, all, log, said, progress);
     if (!end) return tl::unexpected(end.error());
     if (end->status && !end->hosts_changed) return *end->status;
-    wait_until_free(folder);
+    FilmFolder::wait_until_free(*folder);
     if (program::should_stop()) {
       progress.message(fmt::format("septet: stopped; add --resume to go on with {}", options.out.string()));
       return program::failed_status;
     }
-    const bool came = newest_in(folder) > before;
+    const bool came = newest_in(*folder) > before;
     if (end->hosts_changed) {
       progress.message(fmt::format("septet: {} has changed; the film goes on with it", options.hosts.string()));
     } else if (!came) {
@@ -196,7 +183,7 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
       progress.message(
           "septet: the film's first program or mpirun was lost; what is finished is kept and the rest goes on");
     }
-    if (fs::exists(folder / "film.json") && !options.resume && std::ranges::find(all, "--resume") == all.end())
+    if (fs::exists(*folder / "film.json") && !options.resume && std::ranges::find(all, "--resume") == all.end())
       all.push_back("--resume");
   }
 }

@@ -18,6 +18,7 @@ struct RanksOptions {
   std::filesystem::path hosts;  ///< In Open MPI's words, a machine a line; empty: this machine alone.
   std::filesystem::path out;    ///< As FilmOptions.
   bool resume = false;
+  bool quiet = false;  ///< Nothing is said at the end: the film is a trial.
 };
 
 /// The film by `arguments` of septet-film, without those of this file. The exit status of the program that made it.

@@ -170,6 +170,9 @@ function show_state() {
   $('phase').textContent = ended ? 'ended' : s.paused ? 'paused' : s.phase;
   $('pause').textContent = s.paused || s.phase.startsWith('waiting') ? 'Go on' : 'Pause';
   if (ended) alarm(`The drive has ${s.phase}.`);
+  else if (s.actuators && s.actuators.alarm) alarm(`${s.actuators.alarm}. Fan, shaker and wheel force are at 0.`);
+  else if (s.actuators && s.actuators.cut) alarm(`Fan, shaker and wheel force are cut: ${s.actuators.cut}.`);
+  $('rearm').hidden = !(s.actuators && s.actuators.cut);
   show_command();
   $('driven').textContent = s.sim_s === undefined ? '–' : `${s.sim_s.toFixed(1)}${hello.planned_s ? ` / ${hello.planned_s}` : ''} s`;
   $('tick').textContent = s.tick ?? '–';
@@ -408,6 +411,7 @@ $('name').onchange = () => {
   if (mine) ask({ do: 'take', name: $('name').value }, show_command);
 };
 $('pause').onclick = () => command({ do: $('pause').textContent === 'Pause' ? 'pause' : 'go_on' });
+$('rearm').onclick = () => command({ do: 'rearm' });
 $('end').onclick = () => { $('ending').returnValue = ''; $('ending').showModal(); };
 $('ending').onclose = () => { if ($('ending').returnValue === 'yes') command({ do: 'end', reason: $('reason').value }); };
 $('markform').onsubmit = (event) => {

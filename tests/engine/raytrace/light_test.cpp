@@ -1,13 +1,16 @@
 // Light of lamps, sky and sun through the whole tracer, and what rough surfaces make of it, against closed forms.
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
+#include "engine/raytrace/lamps.hpp"
 #include "tests/engine/raytrace/traced_scenes.hpp"
 
 namespace septet::raytrace {
@@ -81,6 +84,61 @@ TEST_CASE("a lamp lights a wall by the rectangle's form factor however rough the
     CHECK(mean.sigma < 0.004 * 0.6 * 7.0 * share);
     CHECK(std::abs(mean.radiance.x - 0.6 * 7.0 * share) < 4.0 * mean.sigma);
   }
+}
+
+TEST_CASE("lamps are drawn with the chances that are told and only such as may light the surface") {
+  std::vector<Lamp> lamps(21);
+  for (std::size_t n = 0; n < lamps.size(); ++n) {
+    const auto across = static_cast<float>(n);
+    // Over the surface, partly below it and below it, by turns.
+    lamps[n].middle_m = {across - 7.0f, 1.0f, n % 3 == 0 ? 2.0f : n % 3 == 1 ? -0.1f : -0.3f};
+    lamps[n].radius_m = 0.2f;
+    lamps[n].axis = {0.0f, 0.0f, n % 2 ? -1.0f : 0.3f};
+    lamps[n].power = 1.0f + across;
+  }
+  LampWeights weights;
+  LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, 0.0f, weights);
+  std::vector<int> drawn(lamps.size());
+  constexpr int draws = 1 << 16;
+  for (int n = 0; n < draws; ++n) ++drawn.at(weights.drawn((static_cast<float>(n) + 0.5f) / draws));
+  for (std::size_t n = 0; n < lamps.size(); ++n) {
+    CAPTURE(n);
+    CHECK(drawn[n] == doctest::Approx(draws * weights.chance(n)).epsilon(1e-3).scale(draws));
+    CHECK((weights.chance(n) > 0.0f) == (n % 3 != 2));
+  }
+  CHECK(weights.drawn(0.99999994f) == 19);
+  // In the air no side is dark.
+  LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, glm::vec3(0.0f), 0.0f, weights);
+  for (std::size_t n = 0; n < lamps.size(); ++n) CHECK(weights.chance(n) > 0.0f);
+  // While the shutter is open it is where it is then.
+  lamps.resize(1);
+  lamps[0].way_m = {0.0f, 0.0f, -4.0f};
+  LampRow(lamps).weigh({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, 1.0f, weights);
+  CHECK(weights.sum() == 0.0f);
+}
+
+TEST_CASE(
+    "under a long row of lamps a wall has the sum of their light and little noise, for those are looked at that "
+    "matter") {
+  scene::SurfaceMaterial white, lamp;
+  white.base_color = glm::vec3(0.6f);
+  white.roughness = 1.0f;
+  lamp.base_color = glm::vec3(0.0f);
+  lamp.emission = glm::vec3(7.0f);
+  scene::ResolvedScene scene;
+  add_part(scene, wall(5.0f, 60.0f), white);
+  // Flat ones 1 m away, of which the further shine past the wall more than at it; and as many behind it.
+  double share = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const float y0 = 0.3f + 0.9f * static_cast<float>(n), y1 = y0 + 0.3f, z = 0.1f;
+    add_part(scene, {glm::vec3(4.0f, y0, -z), {4.0f, y1, -z}, {4.0f, y1, z}, {4.0f, y0, z}}, lamp);
+    add_part(scene, {glm::vec3(6.0f, y1, -z), {6.0f, y0, -z}, {6.0f, y0, z}, {6.0f, y1, z}}, lamp);
+    share += 2.0 * (of_corner(y1, z) - of_corner(y0, z));
+  }
+  const double known = 0.6 * 7.0 * share;
+  const PictureMean mean = mean_of(traced(scene, needle({5.0, 0.0, 0.0}, 0.0, even_sky(0.0f)), direct(128)));
+  CHECK(mean.sigma < 0.006 * known);
+  CHECK(std::abs(mean.radiance.x - known) < 4.0 * mean.sigma);
 }
 
 TEST_CASE("a sky lights a wall by the integral of its radiance and the cosine") {

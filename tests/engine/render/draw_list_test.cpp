@@ -99,4 +99,13 @@ TEST_CASE("a record takes a point of the object to where it lies from the eye th
   CHECK(glm::length(placed_m - expected) < 1e-5);
 }
 
+TEST_CASE("a coarse picture shows far forms where they lie further off than they are wide") {
+  PlacedMesh placed;
+  placed.radius_m = 10.0f;
+  CHECK(detail_range_m(placed, {30.0f, 0.0f, 0.0f}, {}) == 30.0f);
+  CHECK(detail_range_m(placed, {30.0f, 0.0f, 0.0f}, {0.0f, 16.0f}) == 320.0f);
+  CHECK(detail_range_m(placed, {9.0f, 0.0f, 0.0f}, {0.0f, 16.0f}) == 9.0f);
+  CHECK(detail_range_m(placed, {9.0f, 0.0f, 0.0f}, {150.0f, 16.0f}) == 150.0f);
+}
+
 }  // namespace septet::render

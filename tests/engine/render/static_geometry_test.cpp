@@ -1,12 +1,14 @@
 #include "engine/render/passes/static_geometry.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "engine/core/random.hpp"
+#include "engine/render/passes/ice_tiles.hpp"
 
 namespace septet::render {
 namespace {
@@ -94,6 +96,43 @@ TEST_CASE("a frame gathers just the pieces in range and one draw for each block 
       REQUIRE(gathered.indices[draw.first_index + i] < geometry.blocks[draw.block].vertices.size());
   }
   CHECK(counted == gathered.indices.size());
+}
+
+TEST_CASE("of a wide mesh a view takes the clumps that it may see, and with all views around an eye none is missed") {
+  scene::ResolvedScene scene = scattered(1);
+  scene::SurfaceMesh& wide = scene.meshes[0];
+  wide = {};
+  constexpr std::uint32_t cells = 100;
+  for (std::uint32_t i = 0; i < cells; ++i)
+    for (std::uint32_t j = 0; j < cells; ++j)
+      for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {0, 1}}) {
+        wide.indices.push_back(static_cast<std::uint32_t>(wide.vertices.size()));
+        wide.vertices.push_back({{float(i) + float(x), float(j) + float(y), 0.3f * float(j % 3)}, {0, 0, 1}, {}});
+      }
+  wide.parts = {{0, 3 * cells * cells, 0}};
+  wide.bounds_min_m = glm::vec3(0.0f);
+  wide.bounds_max_m = glm::vec3(cells, cells, 1.0f);
+  scene.instances[0].world_from_object = {{20.0, -30.0, 2.0}, {}};
+  scene.instances[0].scale = glm::vec3(1.0f);
+  const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
+  const Vec3 eye_m(61.3, 11.7, 3.0);
+  std::vector<bool> taken(wide.indices.size(), false);
+  std::size_t drawn = 0;
+  for (const FrameView& view : surrounding_views(eye_m, 32)) {
+    const ViewVolume volume = view_volume(view);
+    const Gathered seen = gather(geometry, eye_m, everything, own_material, {}, &volume);
+    drawn += seen.indices.size();
+    for (const std::uint32_t index : seen.indices) taken[index] = true;
+    const glm::vec3 origin(geometry.blocks[0].origin_m - eye_m);
+    std::vector<bool> here(wide.indices.size(), false);
+    for (const std::uint32_t index : seen.indices) here[index] = true;
+    int missed = 0;
+    for (std::uint32_t i = 0; i < wide.indices.size(); ++i)
+      missed += intersects(volume, origin + geometry.blocks[0].vertices[i].position_m, 0.0f) && !here[i];
+    CHECK(missed == 0);
+  }
+  CHECK(std::ranges::find(taken, false) == taken.end());
+  CHECK(drawn < 3 * wide.indices.size());
 }
 
 TEST_CASE("materials of one group share a draw and those of none are left out") {

@@ -41,6 +41,22 @@ TEST_CASE("a CAN bus that cannot be is refused with its place") {
   }
 }
 
+TEST_CASE("a car that is no HID device is named by its endpoints and hidraw has none") {
+  const auto rig = read_rig(with("[car]\nsource = \"hid\"\n[car.usb]\ninterface = 2\nin = 0x83\nout = 4\n"), "r");
+  REQUIRE_MESSAGE(rig.has_value(), (rig ? "" : describe(rig.error())));
+  REQUIRE(rig->car.usb.has_value());
+  CHECK((rig->car.usb->interface == 2 && rig->car.usb->in == 0x83 && rig->car.usb->out == 4));
+  CHECK(rig->car.access == HidAccess::automatic);
+  CHECK_FALSE(read_rig(with("[car]\nsource = \"hid\"\n"), "r")->car.usb.has_value());
+  CHECK(read_rig(with("[car]\nsource = \"hid\"\naccess = \"libusb\"\n"), "r")->car.access == HidAccess::libusb);
+  for (const char* wrong : {"access = \"usbfs\"\n", "[car.usb]\nin = 1\n", "[car.usb]\nin = 0x80\n",
+                            "[car.usb]\nin = 0x90\n", "[car.usb]\nout = 0x81\n", "[car.usb]\ninterface = -1\n",
+                            "[car.usb]\nendpoint = 1\n", "access = \"hidraw\"\n[car.usb]\n"}) {
+    CAPTURE(wrong);
+    CHECK_FALSE(read_rig(with("[car]\nsource = \"hid\"\n" + std::string(wrong)), "r").has_value());
+  }
+}
+
 TEST_CASE("a joystick's controls are axes with two ends or buttons and nothing else") {
   const std::string car = "[car]\nsource = \"joystick\"\n";
   const auto rig = read_rig(

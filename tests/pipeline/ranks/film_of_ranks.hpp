@@ -18,7 +18,7 @@ inline const std::map<std::string, std::string> for_mpirun{{"OMPI_ALLOW_RUN_AS_R
 
 struct SmallFilm {
   const TemporaryFolder folder;
-  std::string samples = "6";
+  std::string samples = "6", size = "152x104";
 
   SmallFilm() {
     auto writer = logging::must_create(folder / "session.sqlite");
@@ -33,7 +33,7 @@ struct SmallFilm {
                                  "--out",
                                  out.string(),
                                  "--size",
-                                 "152x104",
+                                 size,
                                  "--renderer",
                                  "traced",
                                  "--samples",

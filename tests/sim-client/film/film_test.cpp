@@ -208,6 +208,9 @@ TEST_CASE("a film says how far it is and how long the rest will take") {
         "1 of 4 frames and 50 % of the next, 10 min left");
   CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2}, 1.0) == "2 of 4 frames");
   CHECK(progress_text({.frames = 3, .planned = 4, .kept = 2}, 20.0) == "3 of 4 frames, 20 s left");
+  // Half of the next was kept too: what is done since is a quarter of a frame in 20 s.
+  CHECK(progress_text({.frames = 2, .planned = 4, .kept = 2, .share_of_next = 0.75, .kept_of_next = 0.5}, 16.0) ==
+        "2 of 4 frames and 75 % of the next, 80 s left");
   CHECK(progress_text({.frames = 0, .planned = 4, .bad_samples = 3}, 1.0) ==
         "0 of 4 frames, 3 samples without light that is a number");
   CHECK(progress_text({.frames = 4, .planned = 4, .encoding = true}, 20.0) ==

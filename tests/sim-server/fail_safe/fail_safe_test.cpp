@@ -25,19 +25,22 @@ struct SeatedDrive {
       told = actuators;
       return std::nullopt;
     };
+    seat.bus_is_lost = [this] { return bus_is_lost; };
     const LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
     live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(seat)).value();
   }
   void drive(int ticks, bool sends) {
     for (int i = 0; i < ticks; ++i) {
       input.sequence = static_cast<std::uint8_t>(input.sequence + (sends ? 1 : 0));
-      port.send(car_io::encode_controls(input));
+      port.send(car_io::encode_controls(input, car_io::default_steering_lock_rad, switches));
       REQUIRE(live->next(std::nullopt).has_value());
     }
   }
   bool is_off() const { return told.fan == 0.0 && told.vibration == 0.0 && told.steering == 0.0; }
 
   car_io::SimulatedHidPort port;
+  car_io::CarSwitches switches;
+  bool bus_is_lost = false;
   DriverInput input{.accelerator = 0.5};
   car_io::Actuators told;
   std::unique_ptr<LiveDrive> live;
@@ -81,6 +84,85 @@ TEST_CASE("a car that is pulled out and plugged in again has still fan and shake
   seated.live->stand_still();
   seated.drive(121, true);
   CHECK(seated.told.fan > 0.19);
+}
+
+TEST_CASE("an emergency stop is in force with its own tick and outlasts its release and a pause until it is re-armed") {
+  SeatedDrive seated({});
+  seated.drive(60, true);
+  CHECK(seated.live->alarm().empty());
+  const double accelerated = seated.live->state().input.accelerator;
+  CHECK(accelerated == doctest::Approx(0.5).epsilon(0.01));
+  seated.switches.emergency_stop = true;
+  seated.drive(1, true);
+  CHECK(seated.is_off());
+  CHECK(seated.live->alarm() == "Emergency stop");
+  CHECK(seated.live->state().input.accelerator == 0.0);
+  CHECK(messages_with(*seated.live, "EMERGENCY STOP") == 1);
+  CHECK(seated.live->rearm_actuators("operator") == "the emergency stop is still pressed");
+  seated.switches.emergency_stop = false;
+  seated.drive(60, true);
+  CHECK(seated.is_off());
+  seated.live->stand_still();
+  seated.drive(60, true);
+  CHECK(seated.is_off());
+  CHECK(seated.live->alarm().find("re-armed") != std::string::npos);
+  CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
+  seated.drive(12, true);
+  CHECK(car_io::is_rest(seated.told));  // What writes on another machine is re-armed by it.
+  seated.drive(1, true);
+  CHECK(seated.told.fan < 0.02);
+  seated.drive(120, true);
+  CHECK(seated.told.fan > 0.19);
+  CHECK(seated.live->alarm().empty());
+}
+
+TEST_CASE("an emergency stop that is pressed and let go while the world stands still is in force when it goes on") {
+  SeatedDrive seated({});
+  seated.drive(60, true);
+  const auto stand_with = [&](bool pressed) {
+    seated.port.send(car_io::encode_controls(seated.input, 1.0, {.emergency_stop = pressed}));
+    seated.live->stand_still();
+  };
+  stand_with(true);
+  stand_with(false);
+  seated.drive(60, true);
+  CHECK(seated.is_off());
+}
+
+TEST_CASE("the re-arm button does it when it is held for a second and not before") {
+  SeatedDrive seated({});
+  seated.drive(60, true);
+  seated.drive(60, false);
+  CHECK(seated.is_off());
+  seated.switches.rearm = true;
+  seated.drive(100, true);
+  seated.switches.rearm = false;
+  seated.drive(1, true);
+  seated.switches.rearm = true;
+  seated.drive(110, true);
+  CHECK(seated.live->actuators_cut().has_value());
+  seated.drive(20 + 120, true);
+  CHECK_FALSE(seated.live->actuators_cut().has_value());
+  CHECK(seated.told.fan > 0.19);
+}
+
+TEST_CASE("a lost instruments' bus and sound that has stopped cut fan and shaker within 200 ms, each once") {
+  SeatedDrive seated({});
+  const auto falls = [&](const std::string& why) {
+    seated.drive(25, true);
+    CHECK(seated.is_off());
+    CHECK(seated.live->actuators_cut() == why);
+    CHECK_FALSE(seated.live->rearm_actuators("operator").has_value());
+    seated.drive(140, true);
+    CHECK(seated.told.fan > 0.19);
+  };
+  seated.drive(60, true);
+  seated.bus_is_lost = true;
+  falls("the CAN bus is lost");  // Lost for good, and yet the operator has decided to go on.
+  seated.bus_is_lost = false;
+  seated.drive(1, true);
+  seated.live->cut_actuators("the sound has stopped");
+  falls("the sound has stopped");
 }
 
 TEST_CASE("a shaker that has shaken for a day is cut and the fan blows on") {

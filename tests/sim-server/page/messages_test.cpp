@@ -16,6 +16,7 @@ TEST_CASE("each wish is read as it was written") {
   CHECK(std::get<Change>(read_browser_message(R"({"id":4,"do":"change","command":"traffic vehicles=3"})")->wish)
             .command == "traffic vehicles=3");
   CHECK(std::holds_alternative<Pause>(read_browser_message(R"({"id":5,"do":"pause"})")->wish));
+  CHECK(std::holds_alternative<Rearm>(read_browser_message(R"({"id":6,"do":"rearm"})")->wish));
   CHECK(std::holds_alternative<GoOn>(read_browser_message(R"({"id":6,"do":"go_on"})")->wish));
   CHECK(std::holds_alternative<Release>(read_browser_message(R"({"id":7,"do":"release"})")->wish));
   CHECK(read_browser_message(R"({"id":18446744073709551615,"do":"pause"})")->id ==
@@ -60,6 +61,17 @@ TEST_CASE("a state with numbers gone bad is still JSON, with nothing in their pl
   CHECK(state["conditions"][1] == 2.0);
   CHECK(state["commander"]["name"] == "Anna");
   CHECK(json::parse(state_text({}, {}, 1, std::nullopt, 0))["commander"].is_null());
+}
+
+TEST_CASE("a state says why actuators are cut and what the driver reads, and nothing where there are none") {
+  const auto said = [](const DriveView& view) {
+    return json::parse(state_text(view, {}, 1, std::nullopt, 0))["actuators"];
+  };
+  CHECK(said({}).is_null());
+  CHECK(said({.has_actuators = true})["cut"].is_null());
+  const auto cut = said({.actuators_cut = "the CAN bus is lost", .alarm = "Emergency stop"});
+  CHECK(cut["cut"] == "the CAN bus is lost");
+  CHECK(cut["alarm"] == "Emergency stop");
 }
 
 TEST_CASE("who is behind is told against the foremost screen, and who is away has no such time") {

@@ -1,0 +1,118 @@
+#ifndef SEPTET_FIRMWARE_H
+#define SEPTET_FIRMWARE_H
+/// What the microcontroller in the car does, without the microcontroller: reports in and out (car-io/REPORTS.md), contacts debounced, axes
+/// calibrated, and outputs that are safe whatever the host does. C11, no heap, no floating point, no clock and no pins of its own: a port gives
+/// it readings, the time in milliseconds (which wraps) and the reports of its USB stack, and puts out what it answers (README.md).
+///
+///     septet_start(&device);                                       once
+///     septet_take_report(&device, bytes, size, now_ms);            from the USB stack, as an output report comes
+///     septet_step(&device, &readings, now_ms, &outputs);           every millisecond or so
+///     septet_pack_controls(&device, report);                       for each input report, 100 times a second or more
+///
+/// One thread: call all of it from one place, or with interrupts held off.
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+  SEPTET_FIRMWARE_VERSION = 0x0100,
+  SEPTET_CONTROLS_ID = 1,
+  SEPTET_ACTUATORS_ID = 2,
+  SEPTET_DEVICE_ID = 3,
+  SEPTET_STEERING_ID = 4,
+  SEPTET_CONTROLS_BYTES = 15,
+  SEPTET_ACTUATORS_BYTES = 7,
+  SEPTET_DEVICE_BYTES = 5,
+  SEPTET_STEERING_BYTES = 4,
+  SEPTET_USUAL_WATCHDOG_MS = 250,
+  SEPTET_LONGEST_WATCHDOG_MS = 1000,
+  SEPTET_BUTTONS = 16,
+  SEPTET_EMERGENCY_STOP_BIT = 7,
+  SEPTET_REARM_BIT = 8
+};
+
+/// For the USB stack; the one that the host compares with (car-io/car_report.cpp).
+extern const uint8_t septet_report_descriptor[];
+extern const uint16_t septet_report_descriptor_bytes;
+
+/// Raw readings (of an analogue converter, an encoder) at both ends: hand wheel full right, straight, full left; pedal released and floored.
+/// They may count either way round.
+typedef struct {
+  int32_t at_least, at_centre, at_most;
+  int32_t dead_zone; ///< Raw steps around straight, or from released, that read as 0.
+} septet_axis;
+
+/// What the pins say now.
+typedef struct {
+  int32_t steering, accelerator, brake, clutch; ///< Raw.
+  uint16_t buttons;                             ///< By their bits of the report; emergency stop and re-arm are among them.
+  uint8_t selector, gear;                       ///< As the report has them: 0 park … 4 manual; 0 reverse, 1 neutral, 2 … 7.
+  int16_t head;                                 ///< INT16_MIN: no head tracker.
+} septet_readings;
+
+/// What the port puts out. Everything is off after a reset.
+typedef struct {
+  bool fan_power, amplifier_power, motor_power; ///< Relays: a fan without its PWM runs at full speed, so that its supply is cut.
+  uint16_t fan;                                 ///< Duty of the PWM, 0 to 65535.
+  uint16_t vibration;                           ///< Amplitude likewise, of vibration_hz.
+  uint8_t vibration_hz;
+  int16_t steering; ///< −32767 turns the wheel to the left with all that the motor has.
+  uint32_t vibration_phase;
+} septet_outputs;
+
+/// Why the outputs are off.
+typedef enum {
+  SEPTET_RUNS = 0,
+  SEPTET_NOT_ARMED = 1,      ///< Nobody has sent a report at rest since the reset, or since what follows was over.
+  SEPTET_HOST_SILENT = 2,    ///< No new output report within the watchdog's time.
+  SEPTET_EMERGENCY_STOP = 3, ///< Its contact is open now.
+} septet_state;
+
+typedef struct {
+  septet_axis steering, accelerator, brake, clutch; ///< Set by the port after septet_start.
+  // What follows is the core's own.
+  septet_readings now; ///< Debounced.
+  uint16_t raw_buttons;
+  uint8_t settled_ms[SEPTET_BUTTONS];
+  uint8_t sequence;
+  uint16_t watchdog_ms;
+  septet_state state;
+  bool is_fed, has_steering;
+  uint8_t fed_sequence, steering_sequence;
+  uint32_t fed_ms, steering_ms, stepped_ms;
+  uint16_t wanted_fan, wanted_vibration;
+  uint8_t wanted_hz;
+  int16_t wanted_steering;
+  septet_outputs outputs;
+} septet_device;
+
+/// As after a reset: all off, emergency stop taken for pressed until its contact has been closed for 50 ms.
+void septet_start(septet_device *device);
+
+/// An output report (ids 2 and 4), or the feature report that sets the watchdog (id 3), as it came. False: it is none, and nothing is changed.
+bool septet_take_report(septet_device *device, const uint8_t *report, uint32_t size, uint32_t now_ms);
+
+/// Debounces, watches, moves the outputs no faster than is safe: to 0 at once, to full in a second, the motor in 50 ms.
+void septet_step(septet_device *device, const septet_readings *readings, uint32_t now_ms, septet_outputs *outputs);
+
+/// The next input report.
+void septet_pack_controls(septet_device *device, uint8_t report[SEPTET_CONTROLS_BYTES]);
+/// The feature report that the host reads.
+void septet_pack_device(const septet_device *device, uint8_t report[SEPTET_DEVICE_BYTES]);
+
+/// −32767 full right… as the report counts: full right is 32767. What lies beyond an end is the end; ends that are one read as 0.
+int16_t septet_wheel(const septet_axis *axis, int32_t raw);
+/// 0 released to 65535 floored; at_centre does not count.
+uint16_t septet_pedal(const septet_axis *axis, int32_t raw);
+
+/// The shaker's next sample, −32767 to 32767, where the port plays it itself; `rate_hz` samples a second, at least 1000. The wave never jumps.
+int16_t septet_vibration_sample(septet_outputs *outputs, uint32_t rate_hz);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,68 @@
+#pragma once
+/// Lamps that are looked at from a place, and which of many: each by about what it would give there if nothing shaded it.
+///
+/// A lamp is weighed by its power over the square of its distance and by the two cosines, the surface's and its own, both as wide as the
+/// lamp may reach from its middle. (Drawing lights by their estimated share: Shirley, Wang and Zimmerman, "Monte Carlo Techniques for
+/// Direct Lighting Calculations", 1996.) No lamp that may give something has the weight 0. Frame: that of World.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace septet::raytrace {
+
+/// Triangles that shine alike and lie together, such as one tube under a tunnel's roof.
+struct Lamp {
+  std::uint32_t place = 0, first_triangle = 0, triangle_count = 0;
+  std::vector<glm::vec3> corners_m;    ///< Three a triangle.
+  std::vector<float> cumulative_area;  ///< m².
+  std::vector<glm::vec3> normals;      ///< One a triangle.
+  glm::vec3 middle_m{0.0f};
+  float radius_m = 0.0f;
+  /// Mean of its triangles' normals by area: of length 1 where it is flat, 0 where it shines to all sides.
+  glm::vec3 axis{0.0f};
+  float power = 0.0f;        ///< Area times luminance.
+  glm::vec3 emission{0.0f};  ///< With which it lights.
+  glm::vec3 way_m{0.0f};     ///< Until time 1.
+  bool textured = false;     ///< Its image colours the emission.
+};
+
+/// The lamps' weights at one place.
+class LampWeights {
+ public:
+  static constexpr std::size_t most = 256;
+
+  float sum() const { return sum_; }
+  /// Chance with which `drawn` gives it; there is light.
+  float chance(std::size_t lamp) const { return weights_[lamp] / sum_; }
+  /// Which one a uniform number in [0, 1) draws; there is light.
+  std::size_t drawn(float uniform) const;
+
+ private:
+  friend class LampRow;
+  static constexpr std::size_t block = 8;
+  std::array<float, most> weights_;
+  std::array<float, most / block> blocks_;  ///< Their sums by eight.
+  std::size_t block_count_ = 0;
+  float sum_ = 0.0f;
+};
+
+/// Lamps as many numbers of each kind in a row, so that they are weighed eight at a time.
+class LampRow {
+ public:
+  LampRow() = default;
+  /// At most LampWeights::most.
+  explicit LampRow(std::span<const Lamp> lamps);
+  /// `normal`: of the surface, unit; 0 in the air. `time`: while the shutter is open.
+  void weigh(const glm::vec3& from_m, const glm::vec3& normal, float time, LampWeights& weights) const;
+
+ private:
+  enum Number { x, y, z, way_x, way_y, way_z, axis_x, axis_y, axis_z, to_all_sides, radius, power, numbers };
+  std::array<std::vector<float>, numbers> rows_;  ///< Filled up to whole blocks by lamps without power.
+};
+
+}  // namespace septet::raytrace
