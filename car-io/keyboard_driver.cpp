@@ -29,14 +29,46 @@ void move_switches(KeyboardDriver& driver, const KeyStates& keys) {
   if (is_new(keys.low_beam, driver.previous.low_beam)) input.low_beam = !input.low_beam;
   input.high_beam = keys.high_beam;
   input.horn = keys.horn;
-  input.parking_brake = keys.parking_brake;
+  if (is_new(keys.set_parking_brake, driver.previous.set_parking_brake))
+    driver.parking_brake_is_set = !driver.parking_brake_is_set;
+  input.parking_brake = keys.parking_brake || driver.parking_brake_is_set;
   driver.previous = keys;
   ++input.sequence;
+}
+
+/// The head turns at a limited rate, and the pictures with it.
+void look(KeyboardDriver& driver, double target_rad, double dt_s) {
+  double& heading_rad = driver.input.gaze_heading_rad;
+  heading_rad = approach(heading_rad, target_rad, driver.settings.look_rate_radps * dt_s);
+  driver.input.head.turn_rad = heading_rad;
+}
+
+/// Gears by hand, from neutral on, or the automatic gearbox.
+void choose_gearbox(KeyboardDriver& driver, const KeyStates& keys, double speed_mps) {
+  DriverInput& input = driver.input;
+  if (!is_new(keys.manual, driver.previous.manual) || std::abs(speed_mps) > standstill_mps) return;
+  input.selector = input.selector == GearSelector::manual ? GearSelector::drive : GearSelector::manual;
+  input.gear = 0;
+  driver.reverse_armed = false;
+}
+
+/// The left foot and the lever. What the gearbox makes of a gear without the clutch is its affair.
+void move_clutch_and_lever(KeyboardDriver& driver, const KeyStates& keys, double dt_s) {
+  const KeyboardSettings& settings = driver.settings;
+  DriverInput& input = driver.input;
+  const double up_time_s = keys.accelerate ? settings.clutch_bite_time_s : settings.clutch_drop_time_s;
+  input.clutch =
+      approach(input.clutch, keys.clutch ? 1.0 : 0.0, dt_s / (keys.clutch ? settings.clutch_press_time_s : up_time_s));
+  if (input.selector != GearSelector::manual) return;
+  const int steps = (is_new(keys.gear_up, driver.previous.gear_up) ? 1 : 0) -
+                    (is_new(keys.gear_down, driver.previous.gear_down) ? 1 : 0);
+  input.gear = static_cast<std::int8_t>(std::clamp(input.gear + steps, -1, static_cast<int>(settings.gears)));
 }
 
 /// Drive or reverse, by which pedal key is pressed anew at a standstill.
 void choose_direction(KeyboardDriver& driver, const KeyStates& keys, double speed_mps) {
   GearSelector& selector = driver.input.selector;
+  if (selector == GearSelector::manual) return;
   if (std::abs(speed_mps) > standstill_mps) {
     driver.reverse_armed = false;
     return;
@@ -62,7 +94,9 @@ double largest_steering_rad(const KeyboardSettings& settings, double speed_mps) 
 DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_mps, double dt_s) {
   const KeyboardSettings& settings = driver.settings;
   DriverInput& input = driver.input;
+  choose_gearbox(driver, keys, speed_mps);
   choose_direction(driver, keys, speed_mps);
+  move_clutch_and_lever(driver, keys, dt_s);
   const bool reverse = input.selector == GearSelector::reverse;
   input.accelerator = move_pedal(input.accelerator, reverse ? keys.brake : keys.accelerate, settings, dt_s);
   input.brake = move_pedal(input.brake, reverse ? keys.accelerate : keys.brake, settings, dt_s);
@@ -72,7 +106,7 @@ DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_
   const bool returns = target == 0.0 || target * input.steering_wheel_rad < 0.0;
   const double rate_radps = largest / (returns ? settings.return_time_s : settings.steer_time_s);
   input.steering_wheel_rad = approach(input.steering_wheel_rad, target, rate_radps * dt_s);
-  input.gaze_heading_rad = settings.look_angle_rad * ((keys.look_left ? 1.0 : 0.0) - (keys.look_right ? 1.0 : 0.0));
+  look(driver, settings.look_angle_rad * ((keys.look_left ? 1.0 : 0.0) - (keys.look_right ? 1.0 : 0.0)), dt_s);
   move_switches(driver, keys);
   return input;
 }
@@ -90,7 +124,7 @@ DriverInput advance(GamepadDriver& driver, const GamepadState& gamepad, double s
   input.steering_wheel_rad = approach(input.steering_wheel_rad, target, settings.steering_rate_radps * dt_s);
   input.accelerator = (finite(gamepad.right_trigger, -1.0) + 1.0) / 2.0;
   input.brake = (finite(gamepad.left_trigger, -1.0) + 1.0) / 2.0;
-  input.gaze_heading_rad = -finite(gamepad.right_stick_x, 0.0) * std::numbers::pi / 2.0;
+  look(driver.switches, -finite(gamepad.right_stick_x, 0.0) * std::numbers::pi / 2.0, dt_s);
   if (is_new(gamepad.reverse, driver.previous_reverse) && std::abs(speed_mps) <= standstill_mps)
     input.selector = input.selector == GearSelector::reverse ? GearSelector::drive : GearSelector::reverse;
   driver.previous_reverse = gamepad.reverse;

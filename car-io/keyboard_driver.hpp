@@ -6,6 +6,8 @@
 /// acceleration at any speed. Pedals rise and fall with their own rates. Pure functions over plain
 /// state; the caller owns the clock.
 
+#include <cstdint>
+
 #include "engine/world/driver_input.hpp"
 
 namespace septet::car_io {
@@ -14,7 +16,11 @@ namespace septet::car_io {
 struct KeyStates {
   bool left = false, right = false;
   bool accelerate = false, brake = false;
-  bool parking_brake = false;
+  bool parking_brake = false;               ///< While held.
+  bool set_parking_brake = false;           ///< Each press sets or releases it.
+  bool manual = false;                      ///< Each press at a standstill: gears by hand, and back to drive.
+  bool clutch = false;                      ///< The pedal, while held.
+  bool gear_up = false, gear_down = false;  ///< Each press, with gears by hand.
   bool indicator_left = false,
        indicator_right = false;                  ///< Each press switches; the other one or the same switches back.
   bool hazard_lights = false, low_beam = false;  ///< Each press switches.
@@ -32,7 +38,11 @@ struct KeyboardSettings {
   double steer_time_s = 0.45;                         ///< From straight to the target.
   double return_time_s = 0.25;                        ///< From the target to straight.
   double press_time_s = 0.35, release_time_s = 0.15;  ///< Of a pedal.
+  /// A foot is quick to the clutch's floor. It comes up slowly where the other one gives gas, and drops off it otherwise.
+  double clutch_press_time_s = 0.12, clutch_bite_time_s = 1.6, clutch_drop_time_s = 0.15;
+  std::int8_t gears = 6;  ///< A car with fewer takes its highest.
   double look_angle_rad = 0.9;
+  double look_rate_radps = 5.0;  ///< A head turns by 50° in less than 0.2 s.
 };
 
 /// What is remembered from tick to tick.
@@ -42,6 +52,7 @@ struct KeyboardDriver {
   KeyStates previous;
   bool reverse_armed = false;  ///< The brake key was let go at a standstill, so that pressing it
                                ///< again means reverse.
+  bool parking_brake_is_set = false;
 };
 
 /// The hand-wheel angle that full steering means at this speed.
@@ -49,7 +60,7 @@ double largest_steering_rad(const KeyboardSettings& settings, double speed_mps);
 
 /// The input after `dt_s` more of these keys. `speed_mps` is the car's, along its x axis. Held
 /// still, the brake key pressed anew drives backwards, and the accelerator key then brakes, as
-/// players of games expect.
+/// players of games expect. With gears by hand the brake key only brakes, and reverse is a gear below neutral.
 DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_mps, double dt_s);
 
 /// Of a gamepad in the standard arrangement (as GLFW maps them): sticks −1 to 1, triggers −1

@@ -15,6 +15,7 @@ enum class DriveEnd : std::uint8_t {
   session_end,    ///< Of a replay: the session holds no more.
   window_closed,  ///< By the person at a screen.
   escape,         ///< Pressed at a screen.
+  restart,        ///< Asked for at a screen: `septet drive` begins the same drive again.
   by_operator,    ///< On the operator's page.
   interrupted,    ///< SIGINT: Ctrl-C.
   terminated,     ///< SIGTERM.

@@ -87,6 +87,12 @@ std::optional<std::uint64_t> parse_unsigned(const std::string& text) {
 
 }  // namespace
 
+Expected<Statement> prepare_answer_insert(const Database& database) {
+  return database.prepare(
+      "INSERT INTO questionnaire(item, question, answer, value, observed_s, censored, reason) "
+      "VALUES(?,?,?,?,?,?,?)");
+}
+
 Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto snapshot = database.prepare("INSERT INTO snapshots VALUES(?,?,?,?,?)");
   auto input = database.prepare("INSERT INTO driver_inputs VALUES(" + placeholders(16) + ")");
@@ -94,15 +100,15 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto sample = database.prepare("INSERT INTO samples VALUES(" + placeholders(26) + ")");
   auto event =
       database.prepare("INSERT INTO events(tick, simulated_time_s, kind, participant, detail) VALUES(?,?,?,?,?)");
-  auto answer = database.prepare(
-      "INSERT INTO questionnaire(item, question, answer, value, observed_s, censored, reason) "
-      "VALUES(?,?,?,?,?,?,?)");
+  auto answer = prepare_answer_insert(database);
   auto state = database.prepare("INSERT INTO saved_states VALUES(?,?)");
+  auto head = database.prepare("INSERT INTO head_positions VALUES(" + placeholders(5) + ")");
   auto actuators = database.prepare("INSERT INTO actuators VALUES(" + placeholders(6) + ")");
-  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators})
+  for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators, &head})
     if (!*statement) return tl::unexpected(statement->error());
   return InsertStatements{std::move(*snapshot), std::move(*input),  std::move(*edit),  std::move(*sample),
-                          std::move(*event),    std::move(*answer), std::move(*state), std::move(*actuators)};
+                          std::move(*event),    std::move(*answer), std::move(*state), std::move(*actuators),
+                          std::move(*head)};
 }
 
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value) {
@@ -165,6 +171,22 @@ Expected<InputRecord> read_input(const Statement& row) {
   input.indicator = static_cast<IndicatorStalk>(indicator);
   in.to_all(input.hazard_lights, input.horn, input.low_beam, input.high_beam, input.parking_brake,
             input.gaze_heading_rad, input.sequence);
+  return record;
+}
+
+Expected<void> insert_head(Statement& statement, const InputRecord& record) {
+  const Head& head = record.input.head;
+  if (head == Head{}) return {};
+  RowBinder row(statement);
+  row.add(record.tick).add(head.from_rest_m.x).add(head.from_rest_m.y).add(head.from_rest_m.z).add(head.turn_rad);
+  return statement.run();
+}
+
+Expected<HeadRecord> read_head(const Statement& row) {
+  HeadRecord record;
+  RowReader in(row);
+  in.to(record.tick);
+  in.to_all(record.head.from_rest_m.x, record.head.from_rest_m.y, record.head.from_rest_m.z, record.head.turn_rad);
   return record;
 }
 

@@ -8,14 +8,22 @@
 
 namespace septet::logging {
 
+/// Of a tick at which the head was not at rest.
+struct HeadRecord {
+  Tick tick = 0;
+  Head head;
+};
+
 struct InsertStatements {
-  Statement snapshot, input, scene_edit, sample, event, answer, state, actuators;
+  Statement snapshot, input, scene_edit, sample, event, answer, state, actuators, head;
 };
 Expected<InsertStatements> prepare_inserts(const Database& database);
+Expected<Statement> prepare_answer_insert(const Database& database);  ///< Also of a session that lacks later tables.
 
 Expected<void> insert_info(const Database& database, const SessionInfo& info);
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value);
 Expected<void> insert(Statement& statement, const InputRecord& record);
+Expected<void> insert_head(Statement& statement, const InputRecord& record);  ///< No row of a head at rest.
 Expected<void> insert(Statement& statement, const SceneEdit& edit);
 Expected<void> insert(Statement& statement, const Sample& sample);
 Expected<void> insert(Statement& statement, const Event& event);
@@ -24,7 +32,8 @@ Expected<void> insert(Statement& statement, const StateRecord& state);
 Expected<void> insert(Statement& statement, const ActuatorRecord& actuators);
 
 Expected<SessionInfo> read_info(const Database& database);
-Expected<InputRecord> read_input(const Statement& row);
+Expected<InputRecord> read_input(const Statement& row);  ///< Without the head.
+Expected<HeadRecord> read_head(const Statement& row);
 Expected<SceneEdit> read_scene_edit(const Statement& row);  ///< Columns tick, data.
 Expected<StateRecord> read_state(const Statement& row);
 Expected<ActuatorRecord> read_actuators(const Statement& row);

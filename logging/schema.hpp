@@ -66,6 +66,12 @@ inline constexpr Table actuators{"actuators",
                                  "CREATE TABLE actuators(tick INTEGER PRIMARY KEY, fan REAL, vibration REAL, "
                                  "vibration_hz REAL, steering REAL, is_cut INTEGER)"};
 
+/// Of ticks at which the head was not at rest; sessions of earlier builds lack it.
+inline constexpr Table head_positions{
+    "head_positions",
+    "CREATE TABLE head_positions(tick INTEGER PRIMARY KEY, forward_m REAL NOT NULL, left_m REAL NOT NULL, "
+    "up_m REAL NOT NULL, turn_rad REAL NOT NULL)"};
+
 /// Finds the keyframe before a time without reading the table.
 inline constexpr std::string_view keyframe_index =
     "CREATE INDEX keyframes ON snapshots(simulated_time_s) WHERE baseline_tick IS NULL";

@@ -62,10 +62,10 @@ Expected<void> add_answers(const std::filesystem::path& session, const std::vect
   if (!replace.empty())
     done = database->execute(
         fmt::format("DELETE FROM questionnaire WHERE substr(item, 1, {}) = {}", replace.size(), quoted(replace)));
-  auto inserts = prepare_inserts(*database);
-  if (!inserts) return tl::unexpected(inserts.error());
+  auto statement = prepare_answer_insert(*database);
+  if (!statement) return tl::unexpected(statement.error());
   for (const QuestionnaireRecord& answer : answers)
-    if (done) done = insert(inserts->answer, answer);
+    if (done) done = insert(*statement, answer);
   if (done) done = database->execute("COMMIT");
   if (!done && database->in_transaction()) (void)database->execute("ROLLBACK");
   return done;

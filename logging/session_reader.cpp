@@ -1,5 +1,9 @@
 #include "logging/session_reader.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "logging/packed_snapshot.hpp"
@@ -228,7 +232,19 @@ Expected<SnapshotCursor> SessionReader::snapshots() const {
 }
 
 Expected<std::vector<InputRecord>> SessionReader::inputs(TickRange range) const {
-  return read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
+  auto inputs = read_rows(prepare_range(state_->database, "*", "driver_inputs", range, "tick"), read_input);
+  const auto has_heads = has_table_called(state_->database, head_positions.name);
+  if (!has_heads) return tl::unexpected(has_heads.error());
+  if (!inputs || !*has_heads) return inputs;
+  const auto heads = read_rows(prepare_range(state_->database, "*", head_positions.name, range, "tick"), read_head);
+  if (!heads) return tl::unexpected(heads.error());
+  auto input = inputs->begin();
+  for (const HeadRecord& record : *heads) {
+    input = std::lower_bound(input, inputs->end(), record.tick,
+                             [](const InputRecord& of, Tick tick) { return of.tick < tick; });
+    if (input != inputs->end() && input->tick == record.tick) input->input.head = record.head;
+  }
+  return inputs;
 }
 Expected<std::vector<SceneEdit>> SessionReader::scene_edits(TickRange range) const {
   return read_rows(prepare_range(state_->database, "tick, data", "scene_edits", range, "id"), read_scene_edit);
@@ -248,16 +264,16 @@ Expected<std::vector<QuestionnaireRecord>> SessionReader::questionnaire() const 
 }
 
 Expected<std::vector<ActuatorRecord>> SessionReader::actuators(TickRange range) const {
-  const auto has_table = has_table_called(state_->database, "actuators");
-  if (!has_table) return tl::unexpected(has_table.error());
-  if (!*has_table) return std::vector<ActuatorRecord>();
+  const auto has_actuators = has_table_called(state_->database, "actuators");
+  if (!has_actuators) return tl::unexpected(has_actuators.error());
+  if (!*has_actuators) return std::vector<ActuatorRecord>();
   return read_rows(prepare_range(state_->database, "*", "actuators", range, "tick"), read_actuators);
 }
 
 Expected<std::optional<StateRecord>> SessionReader::saved_state(Tick at_or_before) const {
-  const auto has_table = has_table_called(state_->database, "saved_states");
-  if (!has_table) return tl::unexpected(has_table.error());
-  if (!*has_table) return std::optional<StateRecord>();
+  const auto has_states = has_table_called(state_->database, saved_states.name);
+  if (!has_states) return tl::unexpected(has_states.error());
+  if (!*has_states) return std::optional<StateRecord>();
   auto rows =
       read_rows(prepare_range(state_->database, "tick, data", "saved_states", {0, at_or_before}, "tick DESC LIMIT 1"),
                 read_state);

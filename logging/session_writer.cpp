@@ -62,7 +62,7 @@ Expected<Database> create_database(const std::filesystem::path& path, const Sess
       "PRAGMA synchronous=FULL; PRAGMA locking_mode=NORMAL; BEGIN; ",
       page_bytes, application_id, format_version);
   for (const Table& table : tables) sql += fmt::format("{}; ", table.sql);
-  sql += fmt::format("{}; {}; ", saved_states.sql, actuators.sql);
+  sql += fmt::format("{}; {}; {}; ", saved_states.sql, actuators.sql, head_positions.sql);
   sql += keyframe_index;
   if (auto done = database->execute(sql); !done) return tl::unexpected(done.error());
   if (auto done = insert_info(*database, info); !done) return tl::unexpected(done.error());
@@ -186,7 +186,10 @@ Expected<void> SessionWriter::State::write_all(const std::vector<Record>& batch)
     Expected<void> operator()(const std::shared_ptr<const TakenSnapshot>& record) {
       return state.write_snapshot(record);
     }
-    Expected<void> operator()(const InputRecord& record) { return insert(state.inserts.input, record); }
+    Expected<void> operator()(const InputRecord& record) {
+      if (auto done = insert(state.inserts.input, record); !done) return done;
+      return insert_head(state.inserts.head, record);
+    }
     Expected<void> operator()(const SceneEdit& record) { return insert(state.inserts.scene_edit, record); }
     Expected<void> operator()(const Sample& record) { return insert(state.inserts.sample, record); }
     Expected<void> operator()(const Event& record) { return insert(state.inserts.event, record); }

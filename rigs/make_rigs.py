@@ -31,10 +31,50 @@ def screen(name, from_deg, to_deg, height_deg, width_px, distance_m=2.4, pitch_d
     return "[[screen]]\n" + "\n".join(lines) + "\n" + extra + "\n"
 
 
-def inset(left, top, width, height, from_deg, to_deg, height_deg, distance_m=1.0):
-    text = screen("x", from_deg, to_deg, height_deg, 100, distance_m)
-    corners = "\n".join(line for line in text.splitlines() if line.endswith("]") and line.startswith(("lower", "upper")))
-    return f"[[screen.inset]]\nmirrored = true\nleft = {left}\ntop = {top}\nwidth = {width}\nheight = {height}\n{corners}\n"
+def mirror(name, place, behind_deg, width_m, height_m, zone_deg, radius_m=0.0):
+    """A glass at `place` in which the driver sees what lies towards the azimuth behind_deg, level: its normal halves the angle between
+    that and the way to the eyes."""
+    def unit(v):
+        length = math.sqrt(sum(x * x for x in v))
+        return [x / length for x in v]
+
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+    azimuth = math.radians(behind_deg)
+    to_eye = unit([EYE[i] - place[i] for i in range(3)])
+    normal = unit([a + b for a, b in zip(to_eye, (math.cos(azimuth), math.sin(azimuth), 0.0))])
+    right = unit(cross((0.0, 0.0, 1.0), normal))  # As the driver sees it.
+    up = cross(normal, right)
+
+    def corner(across, upward):
+        point = [place[i] + 0.5 * (across * width_m * right[i] + upward * height_m * up[i]) for i in range(3)]
+        return f"[{', '.join(f'{value:.6f}' for value in point)}]"
+
+    radius = f"radius_m = {radius_m}\n" if radius_m else ""
+    return (f'[[mirror]]\nname = "{name}"\n{radius}zone_from_deg = {zone_deg[0]}\nzone_to_deg = {zone_deg[1]}\n'
+            f"lower_left_m = {corner(-1, -1)}\nlower_right_m = {corner(1, -1)}\nupper_left_m = {corner(-1, 1)}\n\n")
+
+
+# Sizes of glass: the door mirrors' are convex (UN R46 class III: at least 1.2 m), the inside one is flat. Heads turn less than eyes, so that
+# the zones reach well towards the front, and meet between the two right ones.
+LEFT, INSIDE, RIGHT = "left mirror", "inside mirror", "right mirror"
+ASPECT = {LEFT: 0.19 / 0.112, INSIDE: 0.25 / 0.085, RIGHT: 0.19 / 0.112}
+
+
+def mirrors(right_deg):
+    return (mirror(LEFT, (1.95, 0.95, 1.0), 171, 0.19, 0.112, (25, 75), 1.4)
+            + mirror(INSIDE, (1.80, 0.0, 1.30), 180, 0.25, 0.085, (-45, -20))
+            + mirror(RIGHT, (1.95, -0.95, 1.0), right_deg, 0.19, 0.112, (-80, -45), 1.4))
+
+
+MIRRORS = mirrors(187)
+
+
+def inset(name, left, top, width, pixels):
+    """The mirror on a screen of so many pixels, as wide a share of it as `width`."""
+    height = width * pixels[0] / pixels[1] / ASPECT[name]
+    return f'[[screen.inset]]\nmirror = "{name}"\nleft = {left}\ntop = {top}\nwidth = {width}\nheight = {height:.4f}\n'
 
 
 def write(name, comment, body):
@@ -42,22 +82,25 @@ def write(name, comment, body):
     (HERE / f"{name}.toml").write_text(f'{comment}\nname = "{name}"\n{eye}\n\n{body}')
 
 
-AHEAD = [f"ahead-{number}" for number in range(1, 6)]
-seven = "[car]\nsource = \"simulated-driver\"\nvehicle = \"volvo-s80\"\n\n"
-for i, name in enumerate(AHEAD):
-    seven += screen(name, 110 - 44 * i, 66 - 44 * i, 30, 640)
 # Behind: 60 degrees around the rear, seen through the rear window and the car's own mirrors.
+seven = "[car]\nsource = \"simulated-driver\"\nvehicle = \"volvo-s80\"\n\n" + mirrors(174)  # Turned in until it meets the screens behind.
+for i in range(5):
+    seven += screen(f"ahead-{i + 1}", 110 - 44 * i, 66 - 44 * i, 30, 640)
 seven += screen("behind-right", 210, 180, 30, 448)
 seven += screen("behind-left", 180, 150, 30, 448)
 write("seven-screens", "# Seven projection screens around a complete car: 220 x 30 degrees ahead on five, 60 x 30 degrees behind on two.\n"
-      "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) Made by make_rigs.py.", seven)
+      "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) The mirrors are the car's own. Made by make_rigs.py.", seven)
 
-mirror_ahead = inset(0.40, 0.02, 0.22, 0.13, 195, 165, 9)
-desk = [("left", inset(0.80, 0.60, 0.18, 0.19, 184, 158, 15)), ("middle", "instruments = true\n" + mirror_ahead), ("right", inset(0.02, 0.60, 0.18, 0.19, 202, 176, 15))]
-three = "[car]\nsource = \"automatic\"\n\n" + "".join(
-    screen(name, 90 - 60 * i, 30 - 60 * i, 34, 1920, 0.8, height_px=1080, extra=f"monitor = {i}\nshow_interior = true\n{more}") for i, (name, more) in enumerate(desk))
+MONITOR = (1920, 1080)
+desk = [("left", inset(LEFT, 0.80, 0.60, 0.18, MONITOR)), ("middle", "instruments = true\n" + inset(INSIDE, 0.40, 0.02, 0.22, MONITOR)),
+        ("right", inset(RIGHT, 0.02, 0.60, 0.18, MONITOR))]
+three = "[car]\nsource = \"automatic\"\n\n" + MIRRORS + "".join(
+    screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
+    for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 
-mirrors = mirror_ahead + inset(0.01, 0.58, 0.17, 0.17, 184, 158, 15) + inset(0.82, 0.58, 0.17, 0.17, 202, 176, 15)
+WINDOW = (1280, 747)
+insets = inset(INSIDE, 0.40, 0.02, 0.22, WINDOW) + inset(LEFT, 0.01, 0.58, 0.17, WINDOW) + inset(RIGHT, 0.82, 0.58, 0.17, WINDOW)
 write("desktop", "# One window on a desktop, with the three mirrors as insets. Made by make_rigs.py.",
-      "[car]\nsource = \"keyboard\"\n\n" + screen("desktop", 37, -37, 38.7, 1280, 0.7, extra="show_interior = true\ninstruments = true\n" + mirrors))
+      "[car]\nsource = \"keyboard\"\n\n" + MIRRORS
+      + screen("desktop", 37, -37, 38.7, WINDOW[0], 0.7, extra="show_interior = true\ninstruments = true\n" + insets))

@@ -199,6 +199,11 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   seat->show = std::move(can->show);
   seat->bus_is_lost = std::move(can->is_lost);
   drive.by_person = !seat->look;
+  if (const auto& tracking = drive.loaded.rig.head; tracking && drive.by_person) {
+    auto tracker = car_io::HeadTracker::open(*tracking);
+    if (!tracker) return tl::unexpected(tracker.error());
+    seat->head = std::move(*tracker);
+  }
   drive.remote_car = seat->remote;
   auto traffic = open_traffic(options.traffic, *drive.loaded.model);
   if (!traffic) return tl::unexpected(traffic.error());

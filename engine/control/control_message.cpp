@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/core.h>
 
@@ -65,6 +66,9 @@ void fields(Controls& m, Visitor& v) {
   v(i.parking_brake);
   v.within(i.gaze_heading_rad, -7.0, 7.0);
   v(i.sequence);
+  for (double* part : {&i.head.from_rest_m.x, &i.head.from_rest_m.y, &i.head.from_rest_m.z})
+    v.within(*part, -farthest_head_m, farthest_head_m);
+  v.within(i.head.turn_rad, -std::numbers::pi, std::numbers::pi);
 }
 template <class Visitor>
 void fields(Finish& m, Visitor& v) {
@@ -106,7 +110,7 @@ void fields(CarFeedback& m, Visitor& v) {
 }
 template <class Visitor>
 void fields(Quit& m, Visitor& v) {
-  v(m.by_escape);
+  v.enumeration(m.how, Quit::How::window_closed, Quit::How::restart);
 }
 template <class Visitor>
 void fields(Notice& m, Visitor& v) {

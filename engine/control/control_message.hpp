@@ -113,7 +113,7 @@ struct CarFeedback {
 
 /// Screen → server: the person at this screen wants the drive to end. It is answered by Finish.
 struct Quit {
-  bool by_escape = false;  ///< By the Escape key; otherwise by closing the window.
+  enum class How : std::uint8_t { window_closed, escape, restart } how = How::window_closed;
 };
 
 /// Server → screen: what the driver is to read on the screen ahead, until the next notice.

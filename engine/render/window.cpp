@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::array<int, key_count> glfw_keys{
     GLFW_KEY_UP, GLFW_KEY_DOWN, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD,
-    GLFW_KEY_A,  GLFW_KEY_D,    GLFW_KEY_E,    GLFW_KEY_F,     GLFW_KEY_H,     GLFW_KEY_L,     GLFW_KEY_Q,
-    GLFW_KEY_S,  GLFW_KEY_W,    GLFW_KEY_X,    GLFW_KEY_F1,    GLFW_KEY_ENTER, GLFW_KEY_ESCAPE};
+    GLFW_KEY_A,  GLFW_KEY_B,    GLFW_KEY_D,    GLFW_KEY_E,     GLFW_KEY_F,     GLFW_KEY_G,     GLFW_KEY_H,
+    GLFW_KEY_L,  GLFW_KEY_M,    GLFW_KEY_P,    GLFW_KEY_Q,     GLFW_KEY_R,     GLFW_KEY_S,     GLFW_KEY_V,
+    GLFW_KEY_W,  GLFW_KEY_X,    GLFW_KEY_F1,   GLFW_KEY_ENTER, GLFW_KEY_ESCAPE};
 
 std::string glfw_error() {
   const char* text = nullptr;

@@ -2,44 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <set>
 
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
+#include "engine/core/printable.hpp"
 #include "engine/document/table_reader.hpp"
 #include "engine/document/toml_table.hpp"
+#include "engine/rig/sight_reader.hpp"
 
 namespace septet::rig {
 namespace {
 
 using document::TableReader;
 
-constexpr const char* documented_in = "rigs/README.md";
-
 constexpr std::string_view joystick_controls[] = {
     "steering", "accelerator", "brake",     "clutch",        "indicator_left", "indicator_right", "hazard_lights",
     "horn",     "low_beam",    "high_beam", "parking_brake", "reverse",        "gear_1",          "gear_2",
     "gear_3",   "gear_4",      "gear_5",    "gear_6",        "gear_reverse",   "emergency_stop",  "rearm"};
 
-void read_window(TableReader& reader, Window& window) {
-  window.lower_left_m = reader.get_point("lower_left_m");
-  window.lower_right_m = reader.get_point("lower_right_m");
-  window.upper_left_m = reader.get_point("upper_left_m");
-  const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m;
-  const double width = glm::length(right), height = glm::length(up);
-  if (width < 0.01 || height < 0.01)
-    reader.report("lower_left_m", "the corners of a screen lie on each other", "give its corners at least 1 cm apart");
-  else if (std::abs(glm::dot(right, up)) > 1e-4 * width * height)
-    reader.report("upper_left_m", "the corners of a screen are not those of a rectangle",
-                  "make the edge lower_left to lower_right perpendicular to the edge lower_left to upper_left");
-}
-
-View read_inset(const toml::table& table, std::string_view file, Error& error) {
+View read_inset(const toml::table& table, const std::vector<Mirror>& mirrors, std::string_view file, Error& error) {
   TableReader reader(table, file, "screen.inset", error);
   View view;
-  view.mirrored = reader.get_bool("mirrored", true);
+  if (table.contains("mirror")) {
+    const std::string name = reader.get_string("mirror", "");
+    const auto found = std::ranges::find(mirrors, name, &Mirror::name);
+    if (found == mirrors.end()) {
+      reader.report("mirror", fmt::format("there is no mirror \"{}\"", printable(name)),
+                    "name a [[mirror]] of the rig");
+    } else {
+      view.mirror = static_cast<std::size_t>(found - mirrors.begin());
+      view.window = found->glass;
+    }
+  }
+  view.mirrored = view.mirror ? true : reader.get_bool("mirrored", true);
   view.left = reader.get_double("left", 0.0, 0.0, 1.0);
   view.top = reader.get_double("top", 0.0, 0.0, 1.0);
   view.width = reader.get_double("width", 0.2, 0.01, 1.0);
@@ -47,7 +46,7 @@ View read_inset(const toml::table& table, std::string_view file, Error& error) {
   if (view.left + view.width > 1.0 || view.top + view.height > 1.0)
     reader.report("left", "an inset reaches over the edge of its screen",
                   "keep left + width and top + height at most 1");
-  read_window(reader, view.window);
+  if (!table.contains("mirror")) read_window(reader, view.window);
   reader.finish(documented_in);
   return view;
 }
@@ -62,7 +61,7 @@ std::string read_machine(TableReader& reader) {
   return machine;
 }
 
-Screen read_screen(const toml::table& table, std::string_view file, Error& error) {
+Screen read_screen(const toml::table& table, const std::vector<Mirror>& mirrors, std::string_view file, Error& error) {
   TableReader reader(table, file, "screen", error);
   Screen screen;
   screen.name = reader.get_string("name", "");
@@ -83,7 +82,8 @@ Screen read_screen(const toml::table& table, std::string_view file, Error& error
   View whole;
   read_window(reader, whole.window);
   screen.views.push_back(whole);
-  for (const toml::table* inset : reader.get_tables("inset")) screen.views.push_back(read_inset(*inset, file, error));
+  for (const toml::table* inset : reader.get_tables("inset"))
+    screen.views.push_back(read_inset(*inset, mirrors, file, error));
   reader.finish(documented_in);
   return screen;
 }
@@ -343,14 +343,24 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   if (rig.car.source == CarSource::can && (!rig.can || !rig.car.machine.empty()))
     reader.report("car", "car.source is \"can\", and the rig has no CAN bus at the server's own machine",
                   "add a [can] table, and leave car.machine out");
+  if (const auto* table = reader.get_table("head")) rig.head = read_head(*table, name, error);
   std::set<std::string> names;
+  for (const toml::table* table : reader.get_tables("mirror")) {
+    rig.mirrors.push_back(read_mirror(*table, rig.eye_point_m, name, error));
+    if (!names.insert(rig.mirrors.back().name).second)
+      reader.report("mirror", fmt::format("two mirrors are called \"{}\"", rig.mirrors.back().name),
+                    "give each its own name");
+  }
+  if (rig.mirrors.size() > 16) reader.report("mirror", "the rig has more than 16 mirrors", "leave some out");
+  names.clear();
   for (const toml::table* table : reader.get_tables("screen")) {
-    rig.screens.push_back(read_screen(*table, name, error));
+    rig.screens.push_back(read_screen(*table, rig.mirrors, name, error));
     if (!names.insert(rig.screens.back().name).second)
       reader.report("screen", fmt::format("two screens are called \"{}\"", rig.screens.back().name),
                     "give each its own name");
   }
   check_keyboard(rig, reader);
+  if (error.what.empty()) check_sight(rig, reader);
   if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");
   if (rig.screens.size() > 64) reader.report("screen", "the rig has more than 64 screens", "split it");
   reader.finish(documented_in);

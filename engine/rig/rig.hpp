@@ -5,6 +5,7 @@
 /// the rear axle). Reading a rig is the only function that can fail, and its errors name file, line and remedy.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -24,10 +25,20 @@ struct Window {
   Vec3 upper_right_m() const { return lower_right_m + upper_left_m - lower_left_m; }
 };
 
+/// A mirror of the car: where its glass is, whether a real one hangs there or a screen shows what is seen in it.
+struct Mirror {
+  std::string name;
+  Window glass;           ///< As the driver sees it from the eye point.
+  double radius_m = 0.0;  ///< Of a convex glass's curvature; 0: flat.
+  double from_rad = 0.0,
+         to_rad = 0.0;  ///< Headings of the head, to the left, that count as a look at it: from ≤ heading < to.
+};
+
 /// One picture within a screen: the whole of it, or an inset such as a mirror.
 struct View {
   Window window;
-  bool mirrored = false;  ///< Flipped left to right, as seen in a mirror.
+  std::optional<std::size_t> mirror;  ///< What is seen in this one of the rig's; `window` is then its glass.
+  bool mirrored = false;              ///< Flipped left to right, as seen in a mirror.
   /// Where it lies on the screen, as fractions from the upper left corner.
   double left = 0.0, top = 0.0, width = 1.0, height = 1.0;
 };
@@ -146,6 +157,21 @@ struct Can {
   std::vector<CanSignal> signals;
 };
 
+/// Which number of a head tracker is meant, and which way it counts.
+struct HeadAxis {
+  enum class Of : std::uint8_t { x, y, z, yaw, pitch, roll } of = Of::x;
+  bool inverted = false;
+};
+
+/// Where a head tracker's UDP datagrams come in, in OpenTrack's format (car-io/head).
+struct HeadTracking {
+  std::string listen = "127.0.0.1";  ///< The server's own address that they come to.
+  std::uint16_t port = 4242;
+  HeadAxis forward{HeadAxis::Of::z, true}, left{HeadAxis::Of::x, true}, up{HeadAxis::Of::y, false},
+      turn_left{HeadAxis::Of::yaw, true};
+  Vec3 reach_m{0.3, 0.3, 0.2};  ///< How far to each side of the eye point the eyes may be, along the car's axes.
+};
+
 /// Where the driver hears the drive, at the server's own machine.
 struct Sound {
   std::string device;  ///< OpenAL's name of it; empty: the usual one.
@@ -157,10 +183,12 @@ struct Rig {
   std::string name;
   Vec3 eye_point_m{0.0};
   std::vector<Screen> screens;
+  std::vector<Mirror> mirrors;
   Network network;
   Car car;
   std::optional<Can> can;
   std::optional<Sound> sound;
+  std::optional<HeadTracking> head;
 };
 
 /// The screens whose keyboard or gamepad drives: none unless the rig's car is driven so.

@@ -185,6 +185,7 @@ DriverCar driver_car(const Model& model, const State& state, const vehicle::Vehi
   car.clutch = state.input.clutch;
   car.yaw_rate_radps = outputs.yaw_rate_radps;
   car.gaze_heading_rad = state.input.gaze_heading_rad;
+  car.head = state.input.head;
   // Lateral position is that of the middle of the front axle (SAE J2944, reference point 2), which the driver steers.
   const Vec3 front = outputs.world_from_vehicle * Vec3(model.car.body.wheelbase_m, 0.0, 0.0);
   const auto place = road::locate(model.roads, {front.x, front.y}, state.car_road ? &*state.car_road : nullptr, 60.0);

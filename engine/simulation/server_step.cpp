@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
@@ -23,12 +24,15 @@ namespace {
 /// What came as no number counts as 0: nobody touches that control.
 std::uint32_t reset_bad_numbers(DriverInput& input) {
   std::uint32_t count = 0;
-  for (double* value :
-       {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch, &input.gaze_heading_rad})
+  Vec3& head_m = input.head.from_rest_m;
+  for (double* value : {&input.steering_wheel_rad, &input.accelerator, &input.brake, &input.clutch,
+                        &input.gaze_heading_rad, &head_m.x, &head_m.y, &head_m.z, &input.head.turn_rad})
     if (!std::isfinite(*value)) {
       *value = 0.0;
       ++count;
     }
+  head_m = glm::clamp(head_m, -farthest_head_m, farthest_head_m);
+  input.head.turn_rad = std::clamp(input.head.turn_rad, -std::numbers::pi, std::numbers::pi);
   return count;
 }
 

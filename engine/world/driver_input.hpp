@@ -3,11 +3,23 @@
 
 #include <cstdint>
 
+#include "engine/math/rigid_transform.hpp"
+
 namespace septet {
 
 enum class IndicatorStalk : std::int8_t { right = -1, off = 0, left = 1 };
 /// Selector of an automatic gearbox; `manual` means that `DriverInput::gear` counts.
 enum class GearSelector : std::uint8_t { park, reverse, neutral, drive, manual };
+
+/// Where the driver's eyes are, and how far the pictures are turned for them. At rest all is 0.
+struct Head {
+  Vec3 from_rest_m{0.0};  ///< From the rig's eye point, along the car's axes.
+  double turn_rad =
+      0.0;  ///< Of the pictures around the eyes, to the left: whoever looks aside by a key has one screen to look at.
+  bool operator==(const Head&) const = default;
+};
+/// Further no head is moved; rigs set narrower limits.
+inline constexpr double farthest_head_m = 1.0;
 
 struct DriverInput {
   double steering_wheel_rad = 0.0;  ///< Hand-wheel angle, positive to the left, lock at about ±7.85 (2½ turns in all).
@@ -22,9 +34,10 @@ struct DriverInput {
   bool low_beam = true;
   bool high_beam = false;
   bool parking_brake = false;
-  /// Where the driver's head points, from the eye tracker or the simulated driver; positive to the left.
+  /// Where the driver's head points, from the head tracker, the keys or the simulated driver; positive to the left.
   double gaze_heading_rad = 0.0;
   std::uint8_t sequence = 0;  ///< Counts the device's reports; standing still means a stale device.
+  Head head;
 
   bool operator==(const DriverInput&) const = default;
 };

@@ -64,6 +64,9 @@ Snapshot interpolate(const Snapshot& before, const Snapshot& after, double time_
   const double t = std::max(0.0, (time_s - before.simulated_time_s) / seconds);
   Snapshot result = before;
   result.simulated_time_s = std::max(time_s, before.simulated_time_s);
+  Head& head = result.driver_car.head;
+  head.from_rest_m = glm::mix(head.from_rest_m, after.driver_car.head.from_rest_m, t);
+  head.turn_rad = glm::mix(head.turn_rad, after.driver_car.head.turn_rad, t);
   for (auto& participant : result.participants)
     if (const Participant* later = find_participant(after, participant.id))
       participant = interpolate(participant, *later, seconds, t);

@@ -12,6 +12,7 @@
 
 #include "engine/core/bytes.hpp"
 #include "engine/math/rigid_transform.hpp"
+#include "engine/world/driver_input.hpp"
 #include "engine/world/lamps.hpp"
 #include "engine/world/vehicle_model.hpp"
 
@@ -54,6 +55,7 @@ struct DriverCar {
   double road_s_m = 0.0;
   double lateral_position_m = 0.0;  ///< From the centre of the lane, positive to the left as the driver sees it.
   double lane_width_m = 0.0;
+  Head head;  ///< The same for all screens of the rig.
 };
 
 /// Weather and light (OpenSCENARIO 1.3 Environment).

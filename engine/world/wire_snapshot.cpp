@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "engine/core/check.hpp"
@@ -12,7 +13,7 @@ namespace septet {
 namespace {
 
 constexpr std::uint8_t format_version = 2;
-enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2, flag_game = 4 };
+enum Flags : std::uint8_t { flag_has_baseline = 1, flag_environment = 2, flag_game = 4, flag_head = 8 };
 
 // The doubles of the environment and of the driver's car, in the order of SNAPSHOT.md.
 template <class Env, class Visit>
@@ -63,6 +64,21 @@ GameStanding get_game(ByteReader& reader) {
   if (game.end > GameEnd::time) reader.fail();
   for (double* value : {&game.points, &game.survived_s, &game.leader_m, &game.away_s}) *value = get_finite(reader);
   return game;
+}
+
+void put_head(ByteWriter& writer, const Head& head) {
+  for (const double value : {head.from_rest_m.x, head.from_rest_m.y, head.from_rest_m.z, head.turn_rad})
+    writer.put(value);
+}
+/// Nearer than what no head does is not a matter of form: a picture from there would be one of nothing.
+Head get_head(ByteReader& reader) {
+  Head head;
+  for (double* value : {&head.from_rest_m.x, &head.from_rest_m.y, &head.from_rest_m.z, &head.turn_rad})
+    *value = get_finite(reader);
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(head.from_rest_m[i]) > farthest_head_m) reader.fail();
+  if (std::abs(head.turn_rad) > std::numbers::pi) reader.fail();
+  return head;
 }
 
 /// Ascending ids as first id, then gaps.
@@ -254,7 +270,7 @@ void read_effects(ByteReader& reader, std::vector<EffectKeyframe>& effects, Tick
 SnapshotHeader read_header(ByteReader& reader, std::uint8_t& flags) {
   if (reader.get<std::uint8_t>() != format_version) reader.fail();
   flags = reader.get<std::uint8_t>();
-  if (flags & ~(flag_has_baseline | flag_environment | flag_game)) reader.fail();
+  if (flags & ~(flag_has_baseline | flag_environment | flag_game | flag_head)) reader.fail();
   SnapshotHeader header;
   header.tick = reader.get_varint();
   if (flags & flag_has_baseline) {
@@ -314,7 +330,7 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   ByteWriter writer(out);
   writer.put(format_version);
   writer.put(static_cast<std::uint8_t>((baseline ? flag_has_baseline : 0) | (environment ? flag_environment : 0) |
-                                       (rest.game ? flag_game : 0)));
+                                       (rest.game ? flag_game : 0) | (rest.driver_car.head != Head{} ? flag_head : 0)));
   writer.put_varint(rest.tick);
   if (baseline) writer.put_varint(rest.tick - baseline->rest.tick);
   writer.put(rest.simulated_time_s);
@@ -331,6 +347,7 @@ void encode(const WireSnapshot& wire, const WireSnapshot* baseline, Participants
   writer.put_varint(rest.diagnostics.collisions);
   writer.put_varint(rest.diagnostics.input_stale_ticks);
   if (rest.game) put_game(writer, *rest.game);
+  if (car.head != Head{}) put_head(writer, car.head);
 
   if (participants == Participants::told)
     put_participants(writer, baseline, wire);
@@ -387,6 +404,7 @@ Expected<WireSnapshot> decode_snapshot(std::span<const std::byte> bytes, const W
   rest.diagnostics.collisions = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
   rest.diagnostics.input_stale_ticks = static_cast<std::uint32_t>(reader.get_count(0xffffffffu));
   if (flags & flag_game) rest.game = get_game(reader);
+  if (flags & flag_head) car.head = get_head(reader);
 
   wire.participants = expected_participants(baseline, rest.simulated_time_s);
   read_participants(reader, wire.participants);

@@ -9,8 +9,12 @@
 namespace septet {
 
 SEPTET_MEMBERS(Lamps, bits)
-SEPTET_MEMBERS(DriverInput, steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights,
-               horn, low_beam, high_beam, parking_brake, gaze_heading_rad, sequence)
+SEPTET_MEMBERS(Head, from_rest_m, turn_rad)
+// The head moves pictures, and nothing in the world.
+SEPTET_MEMBER_GROUPS(DriverInput,
+                     hashed(steering_wheel_rad, accelerator, brake, clutch, selector, gear, indicator, hazard_lights,
+                            horn, low_beam, high_beam, parking_brake, gaze_heading_rad, sequence),
+                     kept(head))
 SEPTET_MEMBERS(Environment, sun_azimuth_rad, sun_elevation_rad, sun_illuminance_lux, visibility_m, cloud_cover,
                rain_mm_per_h, road_wetness, snow_cover, temperature_k, wind_speed_mps, wind_direction_rad)
 SEPTET_MEMBERS(GameStanding, level, end, points, survived_s, leader_m, away_s)

@@ -26,6 +26,12 @@ std::vector<GlanceArea> left_hand_drive_mirrors() {
           {"right mirror", -80 * degree, -45 * degree}};
 }
 
+std::vector<GlanceArea> glance_areas(const rig::Rig& rig) {
+  std::vector<GlanceArea> areas;
+  for (const rig::Mirror& mirror : rig.mirrors) areas.push_back({mirror.name, mirror.from_rad, mirror.to_rad});
+  return areas.empty() ? left_hand_drive_mirrors() : areas;
+}
+
 std::optional<Glance> advance(GlanceDetector& detector, const Sample& sample) {
   const auto area = std::ranges::find_if(detector.settings.areas, [&](const GlanceArea& a) {
     return a.from_rad <= sample.gaze_heading_rad && sample.gaze_heading_rad < a.to_rad;

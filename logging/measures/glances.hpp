@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/rig/rig.hpp"
 #include "logging/records.hpp"
 
 namespace septet::logging {
@@ -26,6 +27,9 @@ struct GlanceArea {
 /// in the middle, 0.45 m ahead) they lie at 44° left, 39° right and 66° right. Heads turn less than
 /// eyes, so that each area reaches well towards the front.
 std::vector<GlanceArea> left_hand_drive_mirrors();
+
+/// Those of the rig's mirrors; where it names none, those of a left-hand-drive car.
+std::vector<GlanceArea> glance_areas(const rig::Rig& rig);
 
 struct Glance {
   Tick tick = 0;  ///< Of its first sample.

@@ -10,6 +10,7 @@ Units stand in the columns' names; positions are of the middle of the rear axle 
 z up. A session whose writer was killed, or is still writing, opens as well. The file is opened for reading only.
 """
 
+import json
 import math
 import sqlite3
 import struct
@@ -26,7 +27,7 @@ PACKED_VERSION = 3
 
 LAMPS = ("brake", "reverse", "indicator_left", "indicator_right", "low_beam", "high_beam", "rear_fog", "beacon", "siren", "horn")
 
-_ENVIRONMENT = ("sun_azimuth_rad", "sun_elevation_rad", "sun_illuminance_lux", "visibility_m", "cloud_cover", "rain_mm_per_h",
+ENVIRONMENT = ("sun_azimuth_rad", "sun_elevation_rad", "sun_illuminance_lux", "visibility_m", "cloud_cover", "rain_mm_per_h",
                 "road_wetness", "snow_cover", "temperature_k", "wind_speed_mps", "wind_direction_rad")
 _DRIVER_CAR = ("speed_mps", "engine_radps", "steering_wheel_rad", "steering_torque_nm", "accelerator", "brake", "clutch",
                "yaw_rate_radps", "gaze_heading_rad", "road_s_m", "lateral_position_m", "lane_width_m")
@@ -104,7 +105,7 @@ class _Bytes:
 class Snapshot:
     """One tick as it lies in the file: `fields` has a row of integers for each participant of `ids`, ascending."""
 
-    __slots__ = ("tick", "time_s", "state_hash", "environment", "car", "game", "ids", "fields", "went_wrong")
+    __slots__ = ("tick", "time_s", "state_hash", "environment", "car", "game", "head", "ids", "fields", "went_wrong")
 
 
 def _rounded(values):
@@ -128,7 +129,7 @@ def _decode(data, baseline):
     """The snapshot in `data`, a difference to `baseline` where it names one."""
     read = _Bytes(data)
     version, flags = read.u8(), read.u8()
-    if version != SNAPSHOT_VERSION or flags & ~7:
+    if version != SNAPSHOT_VERSION or flags & ~15:
         raise SessionError(f"snapshot of version {version}, flags {flags}: this reader knows version {SNAPSHOT_VERSION}")
     snapshot = Snapshot()
     snapshot.tick = read.varint()
@@ -140,10 +141,11 @@ def _decode(data, baseline):
         baseline = None
     (snapshot.time_s,) = read.doubles(1)
     snapshot.state_hash = read.u64()
-    snapshot.environment = read.doubles(len(_ENVIRONMENT)) if flags & 2 else baseline.environment
+    snapshot.environment = read.doubles(len(ENVIRONMENT)) if flags & 2 else baseline.environment
     ids = (read.varint(), read.signed(), read.varint(), read.signed())
     snapshot.car = ids + read.doubles(len(_DRIVER_CAR)) + tuple(read.varint() for _ in _DIAGNOSTICS)
     snapshot.game = (read.varint(), read.u8(), *read.doubles(4)) if flags & 4 else None
+    snapshot.head = read.doubles(4) if flags & 8 else (0.0, 0.0, 0.0, 0.0)
 
     ids, fields = np.empty(0, np.int64), np.empty((0, len(_FIELDS)), np.int64)
     if baseline is not None:
@@ -231,9 +233,18 @@ def _orientations(fields):
     return quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)
 
 
+def motion_of(snapshot):
+    """Everybody's motion at one tick: column to array, the rows those of `snapshot.ids`."""
+    return _motion(snapshot.fields)
+
+
 def _participant_frame(ticks, times, ids, fields):
+    return pandas.DataFrame({"tick": ticks, "simulated_time_s": times, "participant": ids} | _motion(fields))
+
+
+def _motion(fields):
     w, x, y, z = _orientations(fields).T
-    frame = {"tick": ticks, "simulated_time_s": times, "participant": ids}
+    frame = {}
     for index, name in enumerate(_FIELDS):
         if name == "orientation":
             if index == _LARGEST:
@@ -241,7 +252,7 @@ def _participant_frame(ticks, times, ids, fields):
                           "heading_rad": np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))}
         else:
             frame[name] = fields[:, index] if index < _POSITION.start else fields[:, index] * _UNITS[index]
-    return pandas.DataFrame(frame)
+    return frame
 
 
 class Session:
@@ -285,6 +296,36 @@ class Session:
         return {(role, name): content for role, name, content in self._database.execute("SELECT role, name, content FROM files")}
 
     @property
+    def has_snapshots(self):
+        """False of a drive whose log kept samples alone."""
+        return self._database.execute("SELECT EXISTS (SELECT 1 FROM snapshots)").fetchone()[0] == 1
+
+    def vehicle_models(self):
+        """What a participant's `model` is, by its index. Sessions of earlier builds do not say it."""
+        text = self.meta.get("vehicle_models")
+        if text is None:
+            raise SessionError(f"{self.path}: the session does not say what its vehicles are; it is of an earlier build: drive it again")
+        try:
+            return json.loads(text)
+        except json.JSONDecodeError as error:
+            raise SessionError(f"{self.path}: its vehicle_models are no JSON: use an unaltered session") from error
+
+    def who(self):
+        """Everybody who ever took part: name, what they are, and from when to when; one row a participant."""
+        return self._who(_Seen().of(self.snapshots()))
+
+    def _who(self, seen):
+        names = json.loads(self.meta.get("participant_names", "{}"))
+        models = self.vehicle_models() if "vehicle_models" in self.meta else []
+        rows = []
+        for number, (index, first_s, last_s) in sorted(seen.times.items()):
+            model = models[index] if index < len(models) else {}
+            rows.append((number, names.get(str(number), f"traffic {number}"), number == seen.driver, model.get("name", ""), model.get("kind", ""),
+                         model.get("length_m"), model.get("width_m"), model.get("height_m"), first_s, last_s))
+        return pandas.DataFrame(rows, columns=["participant", "name", "is_driver", "vehicle", "kind", "length_m", "width_m", "height_m",
+                                               "first_seen_s", "last_seen_s"])
+
+    @property
     def samples(self):
         """Ten rows a second: position in the lane, headway, controls. `time_headway_s` is added, NaN at a standstill."""
         samples = self._table("samples")
@@ -323,28 +364,81 @@ class Session:
 
     def participants(self, every=1):
         """Everybody's motion: one row a participant and tick, of every `every`-th tick."""
-        taken = [s for s in self.snapshots() if s.tick % every == 0]
-        counts = [len(s.ids) for s in taken]
-        if not taken:
-            return _participant_frame([], [], [], np.empty((0, len(_FIELDS)), np.int64))
-        return _participant_frame(np.repeat([s.tick for s in taken], counts), np.repeat([s.time_s for s in taken], counts),
-                                  np.concatenate([s.ids for s in taken]), np.concatenate([s.fields for s in taken]))
+        return _participants(self._each(every))
 
     def driver_car(self, every=1):
         """The driver's car as its instruments show it, and what went wrong so far; one row a tick."""
-        columns = ["tick", "simulated_time_s", "participant", "gear", "road", "lane", *_DRIVER_CAR, *_DIAGNOSTICS]
-        rows = [(s.tick, s.time_s, *s.car) for s in self.snapshots() if s.tick % every == 0]
-        return pandas.DataFrame(rows, columns=columns)
+        return _driver_car(self._each(every))
+
+    def head(self, every=1):
+        """Where the driver's eyes were beside the rig's eye point, and how far the pictures were turned to the left; one row a tick."""
+        return _head(self._each(every))
 
     def game(self, every=12):
         """How a game stands, ten times a second unless told otherwise; no row where the scenario is none."""
-        rows = [(s.tick, s.time_s, *s.game) for s in self.snapshots() if s.tick % every == 0 and s.game is not None]
-        return pandas.DataFrame(rows, columns=["tick", "simulated_time_s", "level", "end", "points", "survived_s", "leader_m", "away_s"])
+        return _game(self._each(every))
 
     def environment(self, every=120):
         """Weather and light, once a second unless told otherwise."""
-        rows = [(s.tick, s.time_s, *s.environment) for s in self.snapshots() if s.tick % every == 0]
-        return pandas.DataFrame(rows, columns=["tick", "simulated_time_s", *_ENVIRONMENT])
+        return _environment(self._each(every))
+
+    def motion_tables(self, every=12):
+        """All of these by name, and `who`, in one pass over the snapshots."""
+        seen = _Seen()
+        taken = [s for s in seen.passing(self.snapshots()) if s.tick % every == 0]
+        return {"who": self._who(seen), "participants": _participants(taken), "driver_car": _driver_car(taken), "head": _head(taken),
+                "environment": _environment(taken), "game": _game(taken)}
+
+    def _each(self, every):
+        return [s for s in self.snapshots() if s.tick % every == 0]
+
+
+class _Seen:
+    """Who has been seen: id to model, first and last time."""
+
+    def __init__(self):
+        self.times, self.driver = {}, None
+
+    def passing(self, snapshots):
+        for s in snapshots:
+            self.driver = s.car[0] if self.driver is None else self.driver
+            for number, model in zip(s.ids.tolist(), s.fields[:, 0].tolist()):
+                first = self.times.get(number)
+                self.times[number] = (model, first[1] if first else s.time_s, s.time_s)
+            yield s
+
+    def of(self, snapshots):
+        for _ in self.passing(snapshots):
+            pass
+        return self
+
+
+def _participants(taken):
+    counts = [len(s.ids) for s in taken]
+    if not taken:
+        return _participant_frame([], [], [], np.empty((0, len(_FIELDS)), np.int64))
+    return _participant_frame(np.repeat([s.tick for s in taken], counts), np.repeat([s.time_s for s in taken], counts),
+                              np.concatenate([s.ids for s in taken]), np.concatenate([s.fields for s in taken]))
+
+
+def _frame_of(taken, columns, values):
+    return pandas.DataFrame([(s.tick, s.time_s, *values(s)) for s in taken], columns=["tick", "simulated_time_s", *columns])
+
+
+def _driver_car(taken):
+    return _frame_of(taken, ["participant", "gear", "road", "lane", *_DRIVER_CAR, *_DIAGNOSTICS], lambda s: s.car)
+
+
+def _head(taken):
+    return _frame_of(taken, ["forward_m", "left_m", "up_m", "turn_rad"], lambda s: s.head)
+
+
+def _game(taken):
+    return _frame_of([s for s in taken if s.game is not None], ["level", "end", "points", "survived_s", "leader_m", "away_s"], lambda s: s.game)
+
+
+def _environment(taken):
+    return _frame_of(taken, ENVIRONMENT, lambda s: s.environment)
 
 
 def open(path):  # pylint: disable=redefined-builtin

@@ -43,7 +43,10 @@ DriveMeasures compute_drive_measures(const DriveRecords& records, const MeasureS
   measures.lateral_position =
       compute_lateral_position_statistics(samples, measures.lane_changes, settings.lateral_position);
   measures.histogram = compute_lateral_position_histogram(samples);
-  measures.glances = find_glances(samples, settings.glances);
+  GlanceSettings glances = settings.glances;
+  if (!records.glance_areas.empty()) glances.areas = records.glance_areas;
+  measures.glance_areas = glances.areas;
+  measures.glances = find_glances(samples, glances);
   if (!measures.glances.empty())
     measures.between_glances_s = measures.duration_s / static_cast<double>(measures.glances.size());
   measures.following = compute_following(samples, settings.following);

@@ -49,6 +49,7 @@ struct DriveMeasures {
   LateralPositionHistogram histogram;
   std::vector<LaneChange> lane_changes;
   std::optional<double> between_lane_changes_s;
+  std::vector<GlanceArea> glance_areas;  ///< Whose glances were looked for.
   std::vector<Glance> glances;
   std::optional<double> between_glances_s;  ///< Duration over their number.
   FollowingMeasures following;

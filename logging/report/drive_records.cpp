@@ -30,8 +30,12 @@ Expected<DriveRecords> read_drive_records(const SessionReader& reader) {
   if (!inputs) return tl::unexpected(inputs.error());
   auto events = reader.events();
   if (!events) return tl::unexpected(events.error());
-  DriveRecords records{std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second};
+  DriveRecords records{
+      std::move(*samples), std::move(*inputs), std::move(*events), {}, reader.info().ticks_per_second, {}};
   records.speed_limits_mps = speed_limits_of(reader.info(), records.samples);
+  const auto& files = reader.info().files;
+  if (const auto file = std::ranges::find(files, "rig", &SourceFile::role); file != files.end())
+    if (const auto rig = rig::read_rig(file->content, file->name)) records.glance_areas = glance_areas(*rig);
   return records;
 }
 

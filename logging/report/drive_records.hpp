@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/expected.hpp"
+#include "logging/measures/glances.hpp"
 #include "logging/records.hpp"
 #include "logging/session_reader.hpp"
 
@@ -17,6 +18,7 @@ struct DriveRecords {
   /// One for each sample, of the lane it is in; nothing where none is posted or the road is not known. Empty: of none is known.
   std::vector<std::optional<double>> speed_limits_mps;
   double ticks_per_second = 120.0;
+  std::vector<GlanceArea> glance_areas;  ///< Of the rig that was sat in; empty: it is not known.
 };
 
 Expected<DriveRecords> read_drive_records(const SessionReader& reader);

@@ -61,7 +61,7 @@ std::string measure_table(const DriveMeasures& measures, const MeasureSettings& 
            "Simulated time over the number of lane changes.");
 
   std::string areas;
-  for (const GlanceArea& area : settings.glances.areas)
+  for (const GlanceArea& area : measures.glance_areas)
     areas += fmt::format("{}{} {}", areas.empty() ? "" : ", ",
                          std::ranges::count(measures.glances, area.name, &Glance::area), area.name);
   rows.add("Mirror glances", fmt::format("{}", measures.glances.size()),

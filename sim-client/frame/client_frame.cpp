@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/instant/mirror_view.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/traffic_light.hpp"
 
@@ -33,12 +34,20 @@ instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& scree
 
 }  // namespace
 
-Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen) {
+Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head) {
+  const Vec3 eye_m = rig.eye_point_m + head.from_rest_m;
+  const Quat turn = orientation_from_angles(head.turn_rad, 0.0, 0.0);
+  const auto turned = [&](const rig::Window& window) -> instant::ScreenCorners {
+    const auto corner = [&](const Vec3& corner_m) { return eye_m + turn * (corner_m - eye_m); };
+    return {corner(window.lower_left_m), corner(window.lower_right_m), corner(window.upper_left_m)};
+  };
   ScreenViews result;
   result.show_interior = screen.show_interior;
   for (const rig::View& view : screen.views) {
-    const auto projection = instant::off_axis_view(
-        {view.window.lower_left_m, view.window.lower_right_m, view.window.upper_left_m}, rig.eye_point_m);
+    const instant::ScreenCorners corners{view.window.lower_left_m, view.window.lower_right_m, view.window.upper_left_m};
+    const bool is_whole = &view == &screen.views.front();
+    const auto projection = view.mirror ? instant::mirror_view(corners, eye_m, rig.mirrors[*view.mirror].radius_m)
+                                        : instant::off_axis_view(is_whole ? turned(view.window) : corners, eye_m);
     if (!projection) {
       Error error = projection.error();
       error.where = fmt::format("rig {}, screen {}: {}", rig.name, screen.name, error.where);

@@ -14,14 +14,15 @@
 
 namespace septet::frame {
 
-/// A screen's views with their projections, computed once: the rig does not move. Or those of a camera.
+/// A screen's views with their projections from where the eyes are. Or those of a camera.
 struct ScreenViews {
   std::vector<instant::FrameView> views;
   bool show_interior = false;
 };
 
-/// Refuses a screen that the eye point does not see from the front.
-Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen);
+/// The screen is a window for eyes at `head`; where that is turned, the window has gone round with them. Mirrors stay where the car has
+/// them. Refuses a screen that the eyes do not see from its front.
+Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head = {});
 
 /// `shown` as seen from a viewpoint, in whose frame the views are given.
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,

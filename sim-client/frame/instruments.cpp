@@ -91,9 +91,11 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
 
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
-  const double row_px = std::clamp(std::floor(screen.height_px / 32.0), 8.0, 30.0),
-               step_px = row_px + 4.0;  // A box is 4 px higher than its line.
   const double rows = static_cast<double>(car_io::driving_keys().size()) + (headline.empty() ? 0.0 : 1.5);
+  constexpr double box_px = 4.0;  // A box is that much higher than its line.
+  const double fits_px = 0.72 * screen.height_px / rows - box_px;
+  const double row_px = std::clamp(std::floor(std::min(screen.height_px / 32.0, fits_px)), 8.0, 30.0),
+               step_px = row_px + box_px;
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
   const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 11.0 * row_px));
   if (!headline.empty()) {

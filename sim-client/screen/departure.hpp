@@ -10,20 +10,20 @@ namespace septet::screen {
 
 class Departure {
  public:
-  Departure(bool by_escape, double now_s) : by_escape_(by_escape), since_s_(now_s) {}
+  Departure(control::Quit::How how, double now_s) : how_(how), since_s_(now_s) {}
 
   /// To be called after each pump of the link, until the server has finished the drive. True: nobody is there to be told. A screen
   /// that was not given the processor waits on: only time in which it has listened in vain says that the server is gone.
   bool is_in_vain(ScreenLink& link, double now_s) {
     if (link.state() == net::ClientState::connected && told_welcome_ != link.welcomes()) {
-      link.send(control::Quit{by_escape_}, net::Reliability::reliable);
+      link.send(control::Quit{how_}, net::Reliability::reliable);
       told_welcome_ = link.welcomes();
     }
     return now_s - since_s_ > 2.0 && link.server_is_gone();
   }
 
  private:
-  bool by_escape_;
+  control::Quit::How how_;
   double since_s_;
   std::optional<std::uint32_t> told_welcome_;  ///< Of which connection the server has been told.
 };

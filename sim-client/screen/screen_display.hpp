@@ -28,7 +28,7 @@ class Display {
 
   virtual render::Renderer& renderer() = 0;
   /// Handles what the window system has to say; whether the person wants to leave, or to pause, by what: a key once when it is pressed.
-  enum class Leaving : std::uint8_t { no, closed, escape, enter };
+  enum class Leaving : std::uint8_t { no, closed, escape, restart, enter };
   virtual Leaving poll_leaving() = 0;
   /// What keyboard or gamepad say, for a rig whose car is one; nothing before they are touched, and for an off-screen display.
   virtual std::optional<DriverInput> controls(double now_s, double speed_mps) = 0;

@@ -73,6 +73,7 @@ class Session {
   rig::Rig rig_;
   const rig::Screen* screen_ = nullptr;
   frame::ScreenViews views_;
+  Head head_;  ///< For which the views are.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_;
@@ -103,6 +104,7 @@ Expected<void> Session::take_welcome() {
   auto views = frame::screen_views(rig_, *screen_);
   if (!views) return tl::unexpected(views.error());
   views_ = std::move(*views);
+  head_ = {};
   drawn_tick_.reset();
   resolver_.forget();
   uploaded_revision_ = 0;
@@ -140,6 +142,9 @@ Expected<void> Session::bring_scene_up() {
 
 Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
   const double begun_s = program::monotonic_s();
+  // A snapshot from outside may name a place behind a screen: then the eyes stay where they were.
+  if (const Head& head = snapshot.driver_car.head; head != head_)
+    if (auto views = frame::screen_views(rig_, *screen_, head_ = head)) views_ = std::move(*views);
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
   effects_.add_to(input);
   if (message)
@@ -315,8 +320,13 @@ Expected<void> Session::run() {
       const auto leaving = display_->poll_leaving();
       const bool can_ask = !link_.server_is_gone() && !link_.welcome()->lockstep;
       const bool is_paused = link_.notice().paused || pause.is_pausing();
-      if (leaving == closed || (leaving == escape && !can_ask) || (leaving == enter && is_paused)) {
-        departure.emplace(leaving != closed, now_s);
+      if (leaving == closed || (leaving == escape && !can_ask) ||
+          ((leaving == enter || leaving == restart) && is_paused)) {
+        using How = control::Quit::How;
+        departure.emplace(leaving == closed    ? How::window_closed
+                          : leaving == restart ? How::restart
+                                               : How::escape,
+                          now_s);
         continue;
       }
       if (leaving == escape) pause.toggle(link_);

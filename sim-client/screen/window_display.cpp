@@ -44,10 +44,14 @@ class WindowDisplay final : public Display {
     touched_ = touched_ || window_->was_touched() || (pad && is_held(*pad));
     if (window_->should_close()) return Leaving::closed;
     // Both are asked: a window forgets a short press only when it is asked for it.
-    const bool escape = window_->is_down(Key::escape), enter = window_->is_down(Key::enter);
+    const bool escape = window_->is_down(Key::escape), restart = window_->is_down(Key::r),
+               enter = window_->is_down(Key::enter);
     const bool is_escape = !std::exchange(escape_was_down_, escape) && escape;
+    const bool is_restart = !std::exchange(restart_was_down_, restart) && restart;
     const bool is_enter = !std::exchange(enter_was_down_, enter) && enter;
-    return is_escape ? Leaving::escape : is_enter ? Leaving::enter : Leaving::no;
+    if (is_escape) return Leaving::escape;
+    if (is_restart) return Leaving::restart;
+    return is_enter ? Leaving::enter : Leaving::no;
   }
   std::optional<DriverInput> controls(double now_s, double speed_mps) override {
     const double dt_s = last_s_ ? now_s - *last_s_ : 0.0;
@@ -73,7 +77,7 @@ class WindowDisplay final : public Display {
   std::optional<double> last_s_;
   double used_s_ = -let_go_after_s;
   bool touched_ = false, keys_asked_for_ = false, keys_key_was_down_ = false;
-  bool escape_was_down_ = false, enter_was_down_ = false;
+  bool escape_was_down_ = false, restart_was_down_ = false, enter_was_down_ = false;
 };
 
 }  // namespace

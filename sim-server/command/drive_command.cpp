@@ -169,14 +169,17 @@ program::ChildOptions screen_options(const DriveOptions& options, const rig::Scr
 struct Ending {
   bool driven = false;  ///< There is something to look at.
   int status = logging::failed_status;
-  std::string text;  ///< The last line; empty where the server has said all.
+  std::string text;    ///< The last line; empty where the server has said all.
+  bool again = false;  ///< The driver wants to begin again.
 };
 
 /// What the server's "ended NAME TEXT" says, and what its exit tells without it.
 Ending ending_of(const program::ChildExit& exit, const std::optional<std::string>& last_words, bool was_ready) {
   if (last_words) {
     const auto text = last_words->find(' ', std::string_view("ended ").size());
-    return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1)};
+    const std::string name(logging::name_of(logging::DriveEnd::restart));
+    return {true, exit.code, text == std::string::npos ? *last_words : last_words->substr(text + 1),
+            last_words->starts_with("ended " + name + ' ')};
   }
   if (exit.signal != 0 && program::stop_signal() && !was_ready)
     return {false, logging::stopped_status, "stopped before the drive began"};
@@ -287,6 +290,28 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
   return done;
 }
 
+/// One drive and what there is to look at after it, in a folder of its own.
+Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, const rig::Rig& rig) {
+  const auto folder = DriveFolder::prepare(options.out);
+  if (!folder) return tl::unexpected(folder.error());
+  options.out = folder->path();
+  auto ending = run_processes(options, rig_file, rig);
+  if (!ending || !ending->driven) folder->undo();
+  if (!ending) return tl::unexpected(ending.error());
+  int& status = ending->status;
+  if (ending->driven) {
+    if (!folder->aside().empty()) program::say(fmt::format("The earlier drive is in {}", folder->aside().string()));
+    const auto shown = show_results(options, rig, status);
+    if (!shown && status == logging::finished_status) {
+      program::say("septet: " + describe(shown.error()));
+      status = logging::failed_status;
+    }
+  }
+  if (!ending->text.empty())
+    (status == logging::failed_status && !ending->driven ? program::say : program::announce)(ending->text);
+  return ending;
+}
+
 }  // namespace
 
 Expected<int> run_drive(DriveOptions options) {
@@ -309,24 +334,11 @@ Expected<int> run_drive(DriveOptions options) {
   const auto out = folder_of(options);
   if (!out) return tl::unexpected(out.error());
   options.out = *out;
-  const auto folder = DriveFolder::prepare(options.out);
-  if (!folder) return tl::unexpected(folder.error());
-  options.out = folder->path();
-  const auto ending = run_processes(options, *rig_file, *rig);
-  if (!ending || !ending->driven) folder->undo();
-  if (!ending) return tl::unexpected(ending.error());
-  int status = ending->status;
-  if (ending->driven) {
-    if (!folder->aside().empty()) program::say(fmt::format("The earlier drive is in {}", folder->aside().string()));
-    const auto shown = show_results(options, *rig, status);
-    if (!shown && status == logging::finished_status) {
-      program::say("septet: " + describe(shown.error()));
-      status = logging::failed_status;
-    }
+  for (const fs::path chosen = options.out;; program::say("\nThe drive begins again.")) {
+    options.out = chosen;
+    const auto ended = drive_once(options, *rig_file, *rig);
+    if (!ended || !ended->again) return ended.map([](const Ending& ending) { return ending.status; });
   }
-  if (!ending->text.empty())
-    (status == logging::failed_status && !ending->driven ? program::say : program::announce)(ending->text);
-  return status;
 }
 
 }  // namespace septet::server

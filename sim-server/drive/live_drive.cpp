@@ -258,6 +258,10 @@ Expected<std::shared_ptr<const TakenSnapshot>> LiveDrive::next(const std::option
   if (end_) return std::shared_ptr<const TakenSnapshot>();
   if (seat_.look) seat_.look(newest_->snapshot());
   logging::InputRecord input = read_input(controls);
+  if (seat_.head) {
+    seat_.head->move(input.input, 1.0 / simulation::tick_rate_hz);
+    if (const auto message = seat_.head->take_message()) tell(*message);
+  }
   std::vector<simulation::Event> events = std::exchange(events_, {});
   const auto before = newest_;
   newest_ = memory_.share(simulation::server_step(*model_, input.input, state_, events, memory_.spare()));

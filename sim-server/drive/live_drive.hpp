@@ -12,6 +12,7 @@
 #include "car-io/actuators.hpp"
 #include "car-io/can/can_plan.hpp"
 #include "car-io/car_connection.hpp"
+#include "car-io/head/head_tracker.hpp"
 #include "car-io/vibration_dose.hpp"
 #include "car-io/wheel_torque.hpp"
 #include "engine/core/message_limit.hpp"
@@ -39,6 +40,7 @@ struct DriverSeat {
   std::function<bool()>
       actuators_are_cut;              ///< By what writes to them, for the drive was silent. Empty: it never does that.
   std::shared_ptr<RemoteCar> remote;  ///< Of a car on another machine.
+  std::optional<car_io::HeadTracker> head;  ///< Nothing: the rig has no head tracker, or nobody's head to track.
 };
 
 class LiveDrive final : public TickSource {

@@ -19,6 +19,7 @@
 #include "logging/report/summary.hpp"
 #include "logging/session_reader.hpp"
 #include "logging/subject.hpp"
+#include "sim-server/drive/who_is_who.hpp"
 
 namespace septet::server {
 namespace {
@@ -58,13 +59,16 @@ Expected<SessionLog> SessionLog::create(const LoadedDrive& drive, const ServerOp
   for (const auto& text : drive_options.about)
     if (auto added = add_to_subject(subject, text); !added) return tl::unexpected(added.error());
   info.other.merge(logging::meta_of(subject));
+  info.other.merge(who_is_who(*drive.model));
   logging::WriterOptions options;
   const bool real_time = !drive_options.lockstep && !drive_options.no_screens;
   // Half a minute of a disk that stands still costs a driver nothing. A drive that is computed as fast as it goes has to wait anyway.
   if (real_time) options.queue_bytes = std::size_t{256} << 20;
   auto writer = logging::SessionWriter::create(drive_options.out / "session.sqlite", info, options);
   if (!writer) return tl::unexpected(writer.error());
-  return SessionLog(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
+  SessionLog log(std::move(*writer), drive.model, real_time, drive_options.log_samples_only);
+  log.observer_.glances.settings.areas = logging::glance_areas(drive.rig);
+  return log;
 }
 
 void SessionLog::record_scene(const scene::Store& store) {

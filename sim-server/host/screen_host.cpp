@@ -192,7 +192,10 @@ void ScreenHost::on_control(net::ClientId client, const ControlMessage& message,
   } else if (const auto* controls = std::get_if<Controls>(&message)) {
     if (options_.drivers.contains(screen->name)) controls_ = controls->input;
   } else if (const auto* quit = std::get_if<Quit>(&message)) {
-    end_requested_ = quit->by_escape ? logging::DriveEnd::escape : logging::DriveEnd::window_closed;
+    using enum Quit::How;
+    end_requested_ = quit->how == escape    ? logging::DriveEnd::escape
+                     : quit->how == restart ? logging::DriveEnd::restart
+                                            : logging::DriveEnd::window_closed;
   } else if (const auto* pause = std::get_if<Pause>(&message)) {
     pause_requested_ = pause->paused;
   } else if (const auto* thumbnail = std::get_if<Thumbnail>(&message)) {

@@ -153,7 +153,7 @@ void stand_still(ScreenLoop& loop) {
     const std::string alarm = loop.source.alarm();
     const control::Notice notice{
         (alarm.empty() ? "" : alarm + ". ") +
-            (by_driver ? "Paused. Escape: go on. Enter: end the drive" : "Paused by the operator"),
+            (by_driver ? "Paused. Escape: go on. R: begin again. Enter: end" : "Paused by the operator"),
         before.keys, by_driver};
     if (loop.host.notice() != notice) {
       loop.host.give_notice(notice);

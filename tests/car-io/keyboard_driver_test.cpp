@@ -66,6 +66,21 @@ TEST_CASE("braking to a stop does not reverse but pressing the brake anew does")
   CHECK(hold(driver, {.accelerate = true}, 0.0, 0.1).selector == GearSelector::drive);
 }
 
+TEST_CASE("a look key turns head and pictures to its side at once but not in a jump and lets them back") {
+  KeyboardDriver driver;
+  const KeyStates left{.look_left = true}, right{.look_right = true};
+  const double aside = driver.settings.look_angle_rad;
+  const DriverInput begun = hold(driver, left, 20.0, 2 * dt_s);
+  CHECK(begun.gaze_heading_rad > 0.0);
+  CHECK(begun.gaze_heading_rad < 0.2 * aside);
+  const DriverInput there = hold(driver, left, 20.0, 0.3);
+  CHECK(there.gaze_heading_rad == doctest::Approx(aside));
+  CHECK(there.head.turn_rad == there.gaze_heading_rad);
+  CHECK(hold(driver, {}, 20.0, 0.3).head.turn_rad == 0.0);
+  CHECK(hold(driver, right, 20.0, 0.3).head.turn_rad == doctest::Approx(-aside));
+  CHECK(hold(driver, {.look_left = true, .look_right = true}, 20.0, 0.5).head.turn_rad == 0.0);
+}
+
 TEST_CASE("an indicator key switches once per press") {
   KeyboardDriver driver;
   CHECK(hold(driver, {.indicator_left = true}, 10.0, 0.3).indicator == IndicatorStalk::left);

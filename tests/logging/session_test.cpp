@@ -22,6 +22,7 @@ TEST_CASE("a session reads back as it was recorded") {
   with_report.input.low_beam = false;
   with_report.input.gaze_heading_rad = -0.6;
   with_report.input.sequence = 255;
+  with_report.input.head = {{0.1 + 1e-17, -0.2, 0.05}, 0.9};
   const InputRecord from_keyboard{.tick = 1, .report = std::nullopt, .input = {}};
   const SceneEdit edit{.tick = 1, .command = Bytes(3, std::byte{9})};
   Sample sample = take_sample(drive_snapshot(0), Leader{4, 21.5, 26.3, 24.0});

@@ -24,10 +24,12 @@ Bytes bytes_of(const std::string& text) {
 
 bool is_refused(const Bytes& bytes) { return !decode_control(bytes).has_value(); }
 
-const DriverInput all_touched{-2.0, 0.25, 0.5, 0.75, GearSelector::manual, 3, IndicatorStalk::left, true, true, false,
-                              true, true, 0.5, 200};
+const DriverInput all_touched{
+    -2.0, 0.25, 0.5, 0.75, GearSelector::manual,      3, IndicatorStalk::left, true, true, false,
+    true, true, 0.5, 200,  {{0.25, -0.5, 0.125}, 0.5}};
 const std::string input_bytes =
-    "00000000000000c0 000000000000d03f 000000000000e03f 000000000000e83f 04 03 01 01 01 00 01 01 000000000000e03f c8";
+    "00000000000000c0 000000000000d03f 000000000000e03f 000000000000e83f 04 03 01 01 01 00 01 01 000000000000e03f c8 "
+    "000000000000d03f 000000000000e0bf 000000000000c03f 000000000000e03f";
 
 /// Every message with the bytes that CONTROL.md demands.
 std::vector<std::pair<ControlMessage, std::string>> written_messages() {
@@ -48,7 +50,7 @@ std::vector<std::pair<ControlMessage, std::string>> written_messages() {
       {CarWelcome{"rig"}, "01 0a 03 726967"},
       {CarReport{6, "ab", "gone"}, "01 0b 06000000 02 6162 04 676f6e65"},
       {CarFeedback{4, 0.25f, 0.5f, 2.0f, -1.0f}, "01 0c 0400000000000000 0000803e 0000003f 00000040 000080bf"},
-      {Quit{true}, "01 0d 01"},
+      {Quit{Quit::How::escape}, "01 0d 01"},
       {Notice{"go", true, false}, "01 0e 02 676f 01 00"},
       {Pause{true}, "01 0f 01"},
       {Thumbnail{3, std::string("\0\xff", 2)}, "01 10 0300000000000000 02 00ff"},
@@ -82,7 +84,7 @@ TEST_CASE("a control message that is cut short or followed by more is refused") 
   }
   CHECK(is_refused(bytes_of("00 05 0500000000000000 0000803e")));  // A scene message.
   CHECK(is_refused(bytes_of("01 10 00")));                         // A kind that there is not.
-  CHECK(is_refused(bytes_of("01 0d 02")));                         // A flag is 0 or 1.
+  CHECK(is_refused(bytes_of("01 0d 03")));                         // A flag is 0 or 1.
 }
 
 TEST_CASE("texts are read up to their limits and written no longer than that") {

@@ -65,6 +65,28 @@ TEST_CASE("quantisation stays within its stated bounds") {
   }
 }
 
+TEST_CASE("the head travels exactly and only while it is not at rest") {
+  Random random(3);
+  Snapshot snapshot = random_snapshot(random, 5, 2);
+  Bytes at_rest, moved;
+  encode_snapshot(to_wire(snapshot), nullptr, at_rest);
+  snapshot.driver_car.head = {{0.1, -0.25, 0.05}, -0.9};
+  encode_snapshot(to_wire(snapshot), nullptr, moved);
+  CHECK(moved.size() == at_rest.size() + 4 * sizeof(double));
+  const auto decoded = decode_snapshot(moved, nullptr);
+  REQUIRE(decoded);
+  CHECK(decoded->rest.driver_car.head == snapshot.driver_car.head);
+  CHECK(decode_snapshot(at_rest, nullptr)->rest.driver_car.head == Head{});
+  // No screen is asked to draw from where no head can be.
+  for (const Head& nowhere :
+       {Head{{1.5, 0, 0}, 0.0}, Head{{0, 0, -1e300}, 0.0}, Head{{0, std::nan(""), 0}, 0.0}, Head{{}, 4.0}}) {
+    snapshot.driver_car.head = nowhere;
+    Bytes bytes;
+    encode_snapshot(to_wire(snapshot), nullptr, bytes);
+    CHECK_FALSE(decode_snapshot(bytes, nullptr));
+  }
+}
+
 TEST_CASE("a keyframe and a difference decode to exactly what was encoded") {
   Random random(2);
   Snapshot first = random_snapshot(random, 10, 100);

@@ -1,0 +1,57 @@
+#include "sim-server/drive/who_is_who.hpp"
+
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/document/json.hpp"
+#include "engine/world/vehicle_model.hpp"
+
+namespace septet::server {
+namespace {
+
+constexpr std::pair<ParticipantKind, std::string_view> kinds[] = {{ParticipantKind::car, "car"},
+                                                                  {ParticipantKind::van, "van"},
+                                                                  {ParticipantKind::lorry, "lorry"},
+                                                                  {ParticipantKind::bus, "bus"},
+                                                                  {ParticipantKind::motorcycle, "motorcycle"},
+                                                                  {ParticipantKind::bicycle, "bicycle"},
+                                                                  {ParticipantKind::pedestrian, "pedestrian"},
+                                                                  {ParticipantKind::ambulance, "ambulance"}};
+
+std::string_view name_of(ParticipantKind kind) {
+  for (const auto& [of, name] : kinds)
+    if (of == kind) return name;
+  return "object";
+}
+
+}  // namespace
+
+std::map<std::string, std::string> who_is_who(const simulation::Model& model) {
+  document::Json models = document::Json::array(), names = document::Json::object();
+  for (const VehicleModel& vehicle : vehicle_models()) {
+    document::Json row;
+    row["name"] = vehicle.name;
+    row["kind"] = name_of(vehicle.kind);
+    row["length_m"] = vehicle.length_m;
+    row["width_m"] = vehicle.width_m;
+    row["height_m"] = vehicle.height_m;
+    row["wheelbase_m"] = vehicle.wheelbase_m;
+    row["rear_overhang_m"] = vehicle.rear_overhang_m;
+    row["track_m"] = vehicle.track_m;
+    row["wheel_radius_m"] = vehicle.wheel_radius_m;
+    models.push_back(std::move(row));
+  }
+  const auto& entities = model.scenario.entities;
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    const bool is_driver = i == static_cast<std::size_t>(model.driver_entity);
+    const auto id = is_driver ? simulation::driver_participant
+                              : simulation::first_scripted_participant + static_cast<ParticipantId>(i);
+    names[std::to_string(id)] = entities[i].name;
+  }
+  return {{"vehicle_models", document::text_of(models)}, {"participant_names", document::text_of(names)}};
+}
+
+}  // namespace septet::server

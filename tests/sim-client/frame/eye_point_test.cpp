@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/world/interpolate.hpp"
+#include "sim-client/frame/client_frame.hpp"
+#include "tests/shipped_files.hpp"
+
+namespace septet::frame {
+namespace {
+
+rig::Rig rig_of(const std::string& name) {
+  auto rig = rig::read_rig(shipped_text("rigs/" + name + ".toml"), name);
+  REQUIRE(rig);
+  return *rig;
+}
+
+/// Where a point of the car's frame is on a view, fractions from its lower left as drawn before any flip.
+Vec2 drawn_at(const instant::FrameView& view, const Vec3& point_m) {
+  const glm::dvec4 clip = view.projection.clip_from_eye_relative * glm::dvec4(point_m - view.projection.eye_m, 1.0);
+  REQUIRE(clip.w > 0.0);
+  return {0.5 * (1.0 + clip.x / clip.w), 0.5 * (1.0 - clip.y / clip.w)};
+}
+
+/// Where the straight line from the eye to the point passes the window.
+Vec2 passed_at(const rig::Window& window, const Vec3& eye_m, const Vec3& point_m) {
+  const Vec3 right = window.lower_right_m - window.lower_left_m, up = window.upper_left_m - window.lower_left_m;
+  const Vec3 back = glm::cross(right, up), way = point_m - eye_m;
+  const Vec3 at = eye_m + way * (glm::dot(window.lower_left_m - eye_m, back) / glm::dot(way, back));
+  return {glm::dot(at - window.lower_left_m, right) / glm::dot(right, right),
+          glm::dot(at - window.lower_left_m, up) / glm::dot(up, up)};
+}
+
+}  // namespace
+
+TEST_CASE("from wherever the head is each screen stays a window onto the same world") {
+  const rig::Rig rig = rig_of("seven-screens");
+  for (const Vec3& moved_m : {Vec3(0.0), Vec3(0.2, 0.1, -0.1), Vec3(-0.3, -0.3, 0.2)})
+    for (const rig::Screen& screen : rig.screens) {
+      const auto views = screen_views(rig, screen, {moved_m, 0.0});
+      REQUIRE(views);
+      const rig::Window& window = screen.views.front().window;
+      const Vec3 beyond_m = 3.0 * (0.4 * window.lower_left_m + 0.6 * window.upper_right_m());
+      const Vec2 drawn = drawn_at(views->views.front(), beyond_m);
+      const Vec2 passed = passed_at(window, rig.eye_point_m + moved_m, beyond_m);
+      CHECK(drawn.x == doctest::Approx(passed.x).epsilon(1e-9));
+      CHECK(drawn.y == doctest::Approx(passed.y).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("whoever looks aside sees in the middle of the screen what lies aside and the mirrors where they are") {
+  const rig::Rig rig = rig_of("desktop");
+  const rig::Screen& screen = rig.screens.front();
+  const double turn_rad = 0.7;
+  const auto ahead = screen_views(rig, screen), aside = screen_views(rig, screen, {{}, turn_rad});
+  REQUIRE(ahead);
+  REQUIRE(aside);
+  const Vec3 far_ahead_m = rig.eye_point_m + Vec3(100.0, 0.0, 0.0);
+  const Vec3 far_aside_m = rig.eye_point_m + 100.0 * Vec3(std::cos(turn_rad), std::sin(turn_rad), 0.0);
+  CHECK(glm::distance(drawn_at(ahead->views[0], far_ahead_m), drawn_at(aside->views[0], far_aside_m)) < 1e-9);
+  CHECK(drawn_at(aside->views[0], far_ahead_m).x > 1.0);  // It has gone out to the right.
+  for (std::size_t i = 1; i < ahead->views.size(); ++i) {
+    CHECK(ahead->views[i].mirrored);
+    CHECK(ahead->views[i].projection.eye_m == aside->views[i].projection.eye_m);
+    CHECK(ahead->views[i].projection.clip_from_eye_relative == aside->views[i].projection.clip_from_eye_relative);
+  }
+}
+
+TEST_CASE("a car behind and to the left is in the left mirror and one straight behind in the inside one") {
+  const rig::Rig rig = rig_of("desktop");
+  const auto views = screen_views(rig, rig.screens.front());
+  REQUIRE(views);
+  const auto shows = [&](const std::string& name, const Vec3& point_m) {
+    for (std::size_t i = 0; i < views->views.size(); ++i) {
+      const auto& mirror = rig.screens.front().views[i].mirror;
+      if (!mirror || rig.mirrors[*mirror].name != name) continue;
+      const Vec2 at = drawn_at(views->views[i], point_m);
+      return at.x >= 0.0 && at.x <= 1.0 && at.y >= 0.0 && at.y <= 1.0;
+    }
+    return false;
+  };
+  const Vec3 left_lane(-12.0, 3.6, 0.8), same_lane(-30.0, 0.0, 0.8), right_lane(-12.0, -3.6, 0.8);
+  CHECK(shows("left mirror", left_lane));
+  CHECK_FALSE(shows("left mirror", right_lane));
+  CHECK(shows("right mirror", right_lane));
+  CHECK_FALSE(shows("right mirror", left_lane));
+  CHECK(shows("inside mirror", same_lane));
+}
+
+TEST_CASE("between two ticks the head is between its two places") {
+  Snapshot before, after;
+  after.tick = 1;
+  after.simulated_time_s = 0.5;
+  after.driver_car.head = {{0.1, -0.2, 0.04}, 0.8};
+  const Head half = interpolate(before, after, 0.25).driver_car.head;
+  CHECK(half.from_rest_m.y == doctest::Approx(-0.1));
+  CHECK(half.turn_rad == doctest::Approx(0.4));
+  CHECK(interpolate(before, after, 0.5).driver_car.head == after.driver_car.head);
+}
+
+}  // namespace septet::frame
