@@ -106,9 +106,9 @@ Expected<InsertStatements> prepare_inserts(const Database& database) {
   auto actuators = database.prepare("INSERT INTO actuators VALUES(" + placeholders(6) + ")");
   for (auto* statement : {&snapshot, &input, &edit, &sample, &event, &answer, &state, &actuators, &head})
     if (!*statement) return tl::unexpected(statement->error());
-  return InsertStatements{std::move(*snapshot), std::move(*input),  std::move(*edit),  std::move(*sample),
-                          std::move(*event),    std::move(*answer), std::move(*state), std::move(*actuators),
-                          std::move(*head)};
+  return InsertStatements{std::move(*snapshot), std::move(*input),     std::move(*edit),
+                          std::move(*sample),   std::move(*event),     std::move(*answer),
+                          std::move(*state),    std::move(*actuators), std::move(*head)};
 }
 
 Expected<void> insert_meta(const Database& database, const std::string& key, const std::string& value) {

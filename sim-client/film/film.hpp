@@ -14,6 +14,10 @@
 #include "engine/raytrace/ray_tracer.hpp"
 #include "sim-client/film/camera_path.hpp"
 
+namespace septet::program {
+class Machines;
+}
+
 namespace septet::film {
 
 enum class FilmRenderer : std::uint8_t {
@@ -85,11 +89,11 @@ struct FilmMade {
   double error = 0.0, samples = 0.0;
 };
 
-class Machines;
+using program::Machines;
 
 /// Draws the film. `go_on` hears how far it is before each frame and while frames are traced; where it says no, the film ends there.
 /// While a frame is traced, preview.png in the folder shows what there is of it. What is finished stays whatever happens: pictures, and of
-/// frames that are traced their tiles. `others` help to trace (traced/machines.hpp); null: nobody.
+/// frames that are traced their tiles. `others` help to trace (program/machines.hpp); null: nobody.
 Expected<FilmMade> make_film(const FilmOptions& options, const std::function<bool(const FilmMade&)>& go_on,
                              Machines* others = nullptr);
 

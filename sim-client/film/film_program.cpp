@@ -182,9 +182,9 @@ Expected<int> run_film(FilmArguments arguments, std::vector<std::string> words, 
 }
 
 int run_alone_or_by_mpirun(const std::function<int(Machines*)>& work) {
-  const auto number = number_by_mpirun();
+  const auto number = program::number_by_mpirun();
   if (!number) return work(nullptr);
-  auto machines = start_machines();
+  auto machines = program::start_machines();
   if (!machines) {
     if (*number == 0) program::say("septet: " + describe(machines.error()));
     return program::failed_status;

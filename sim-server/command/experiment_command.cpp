@@ -1,16 +1,27 @@
 #include "sim-server/command/experiment_command.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "logging/session_reader.hpp"
+#include "program/child_process.hpp"
 #include "program/console.hpp"
+#include "program/machines.hpp"
+#include "program/run.hpp"
 #include "program/stop_signal.hpp"
+#include "sim-server/command/experiment_ranks.hpp"
 #include "sim-server/command/experiment_results.hpp"
 #include "sim-server/command/experiment_run.hpp"
 #include "sim-server/command/experiment_study.hpp"
@@ -36,9 +47,7 @@ std::vector<std::string> missing_answers(const Study& study, const std::vector<f
   return missing;
 }
 
-}  // namespace
-
-Expected<int> run_experiment(const ExperimentOptions& options) {
+Expected<int> run_here(const ExperimentOptions& options, program::Machines* others) {
   const auto study = read_study(options);
   if (!study) return tl::unexpected(study.error());
   for (const auto& group : study->experiment.groups)
@@ -48,7 +57,7 @@ Expected<int> run_experiment(const ExperimentOptions& options) {
   const auto held = HeldFolder::hold(*study);
   if (!held) return tl::unexpected(held.error());
   program::catch_stop_signals();
-  ExperimentRun run(*study, options);
+  ExperimentRun run(*study, options, others);
   if (auto gone_on = run.go_on(); !gone_on) return tl::unexpected(gone_on.error());
   if (run.finished() < run.subjects()) {
     program::announce(fmt::format("stopped: {} of {} subjects are finished; the same command goes on", run.finished(),
@@ -63,6 +72,46 @@ Expected<int> run_experiment(const ExperimentOptions& options) {
   program::announce(fmt::format("{}: {} subjects; beside it subjects.csv, subjects.json, experiment.json",
                                 (study->folder / "report.html").string(), run.subjects()));
   return 0;
+}
+
+/// mpirun takes this program's place.
+Expected<int> run_by_ranks(const ExperimentOptions& options) {
+  const auto mpirun = program::find_mpirun("--ranks");
+  if (!mpirun) return tl::unexpected(mpirun.error());
+  if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
+    return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
+  std::vector<std::string> arguments = program::mpirun_arguments(options.ranks, options.hosts);
+  arguments.insert(arguments.begin(), mpirun->string());
+  const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
+  add({(program::own_folder() / "septet").string(), "experiment", options.file});
+  if (!options.out.empty()) add({"--out", options.out.string()});
+  if (!options.only.empty()) add({"--only", options.only});
+  if (options.jobs > 0) add({"--jobs", std::to_string(options.jobs)});
+  std::vector<char*> texts;
+  for (std::string& argument : arguments) texts.push_back(argument.data());
+  texts.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execv(mpirun->c_str(), texts.data());
+  return failure(fmt::format("mpirun cannot be started ({})", std::strerror(errno)), mpirun->string(),
+                 "check the package openmpi-bin");
+}
+
+}  // namespace
+
+Expected<int> run_experiment(const ExperimentOptions& options) {
+  const auto number = program::number_by_mpirun();
+  if (!number && (options.ranks > 0 || !options.hosts.empty())) return run_by_ranks(options);
+  if (!number) return run_here(options, nullptr);
+  auto machines = program::start_machines();
+  if (!machines) return *number > 0 ? Expected<int>(program::failed_status) : tl::unexpected(machines.error());
+  if (*number > 0) {
+    const int status = drive_for_experiment(**machines, options.jobs);
+    (*machines)->will_end_with(status);
+    return status;
+  }
+  auto status = run_here(options, machines->get());
+  (*machines)->will_end_with(status.value_or(program::failed_status));
+  return status;
 }
 
 Expected<int> run_experiment_next(const ExperimentOptions& options) {

@@ -10,14 +10,17 @@
 namespace septet::server {
 
 struct ExperimentOptions {
-  std::string file;           ///< A file, or a name below scenarios/experiments.
-  std::filesystem::path out;  ///< Empty: out/NAME.
-  std::size_t jobs = 0;       ///< Drives at once; 0: as many as there are processors.
-  std::string only;           ///< One participant's code: nobody else drives, and nothing is pooled.
+  std::string file;             ///< A file, or a name below scenarios/experiments.
+  std::filesystem::path out;    ///< Empty: out/NAME.
+  std::size_t jobs = 0;         ///< Drives at once; 0: as many as there are processors.
+  std::string only;             ///< One participant's code: nobody else drives, and nothing is pooled.
+  unsigned ranks = 0;           ///< Programs of mpirun that drive; 0: one for each of the hosts, or this program alone.
+  std::filesystem::path hosts;  ///< In Open MPI's words, a machine a line.
 };
 
 /// Runs what has not been run yet, and pools everybody: subjects.csv, subjects.json, report.html, experiment.json, experiment.toml, and
-/// below subjects/CODE the drives. Whatever stops it, the next call goes on with the drives that are not whole.
+/// below subjects/CODE the drives. Where mpirun has started several of this program they share the work (experiment_ranks.hpp); with `ranks` or
+/// `hosts` mpirun takes the place of this program. Whatever stops it, the next call goes on with the drives that are not whole.
 Expected<int> run_experiment(const ExperimentOptions& options);
 
 /// Says who is next, what they drive and by which command, and what is still missing.

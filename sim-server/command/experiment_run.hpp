@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "engine/core/expected.hpp"
 #include "program/console.hpp"
+#include "sim-server/command/experiment_ranks.hpp"
 #include "sim-server/command/experiment_study.hpp"
 
 namespace septet::server {
@@ -15,7 +17,8 @@ struct RunningDrive;
 
 class ExperimentRun {
  public:
-  ExperimentRun(const Study& study, const ExperimentOptions& options);
+  /// `others`: programs that mpirun has started drive too; null: nobody.
+  ExperimentRun(const Study& study, const ExperimentOptions& options, program::Machines* others = nullptr);
   ~ExperimentRun();
 
   std::size_t subjects() const { return stands_.size(); }
@@ -28,12 +31,17 @@ class ExperimentRun {
 
  private:
   Expected<void> take_ended();
+  /// Starts the next waiting subject's drive, here or elsewhere; false: nobody is free.
+  Expected<bool> start_next();
+  /// The drive at this place of those that are going on has ended.
+  Expected<void> take(RunningDrive drive, const program::ChildExit& exit);
   void show();
 
   const Study& study_;
   std::map<std::size_t, Stand> stands_;
   std::vector<std::size_t> waiting_;
   std::vector<RunningDrive> running_;
+  std::optional<ExperimentRanks> others_;
   std::size_t jobs_ = 1, finished_ = 0;
   double total_s_ = 0.0, done_s_ = 0.0, found_s_ = 0.0, begun_s_ = 0.0;
   program::ProgressLine progress_;

@@ -126,8 +126,14 @@ std::vector<std::string> drive_arguments(const Experiment& experiment, const Pla
   const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
   if (!condition.name.empty()) add({"--condition", condition.name});
   if (!group.driver.empty()) add({"--driver", group.driver});
-  for (const auto* parameters : {&part.parameters, &condition.parameters})
-    for (const auto& parameter : *parameters) add({"--parameter=" + parameter});
+  // What both say is the condition's, for that is what is compared.
+  const auto is_of_condition = [&](const std::string& parameter) {
+    const std::string name = parameter.substr(0, parameter.find('=') + 1);
+    return std::ranges::any_of(condition.parameters, [&](const auto& other) { return other.starts_with(name); });
+  };
+  for (const auto& parameter : part.parameters)
+    if (!is_of_condition(parameter)) add({"--parameter=" + parameter});
+  for (const auto& parameter : condition.parameters) add({"--parameter=" + parameter});
   add({"--out", folder.string()});
   return arguments;
 }

@@ -15,6 +15,13 @@ void add_experiment_commands(CLI::App& app, Options& options) {
   experiment->add_option("--jobs", options.experiment.jobs, "Drives at once")
       ->default_str("as many as there are processors")
       ->check(CLI::Range(1, 1024));
+  experiment
+      ->add_option("--ranks", options.experiment.ranks,
+                   "Programs of mpirun that share the work (docs/experiments.md); 1 to 1024")
+      ->default_str("this program alone, or one for each host")
+      ->check(CLI::Range(1, 1024));
+  experiment->add_option("--hosts", options.experiment.hosts, "File with the machines that drive, one a line")
+      ->default_str("this machine");
   auto* next =
       experiment->add_subcommand("next", "Who is next, what they drive, by which command, and what is missing");
   next->add_option("file", options.experiment.file, "TOML file, or ambulance-24")->required();

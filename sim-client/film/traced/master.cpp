@@ -21,6 +21,7 @@
 
 namespace septet::film {
 namespace fs = std::filesystem;
+using program::Mail;
 namespace {
 
 constexpr int own_worker = 0;
@@ -308,7 +309,7 @@ void Master::deal() {
 
 Expected<void> Master::run(FilmFrames& frames, const std::function<bool(const FilmMade&)>& go_on) {
   if (auto taken = take_up(); !taken) return taken;
-  const unsigned threads = others_ ? share_of_processors() : std::max(1u, std::thread::hardware_concurrency());
+  const unsigned threads = others_ ? program::share_of_processors() : std::max(1u, std::thread::hardware_concurrency());
   own_.send(own_worker, hello_message(threads));
   std::jthread own([&] {
     if (const auto traced = trace_for_master(own_, frames, options_, threads, {}); !traced)

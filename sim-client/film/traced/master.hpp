@@ -5,9 +5,9 @@
 /// The master itself traces nothing: it sleeps until something comes. The worker in its program uses the same processors, so none
 /// is idle for the master's sake.
 
+#include "program/machines.hpp"
 #include "sim-client/film/film_folder.hpp"
 #include "sim-client/film/film_frames.hpp"
-#include "sim-client/film/traced/machines.hpp"
 
 namespace septet::film {
 

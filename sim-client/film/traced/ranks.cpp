@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include "program/child_process.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
+#include "program/machines.hpp"
 #include "program/run.hpp"
 #include "program/stop_signal.hpp"
 #include "program/temporary_folder.hpp"
@@ -76,17 +76,6 @@ std::optional<fs::file_time_type> newest_in(const fs::path& folder) {
   return newest;
 }
 
-std::vector<std::string> mpirun_arguments(const RanksOptions& options) {
-  std::vector<std::string> arguments{"--enable-recovery", "--oversubscribe", "--bind-to", "none"};
-  if (options.ranks > 0)
-    arguments.insert(arguments.end(), {"-n", fmt::format("{}", options.ranks)});
-  else
-    arguments.insert(arguments.end(), {"--npernode", "1"});
-  if (!options.hosts.empty()) arguments.insert(arguments.end(), {"--hostfile", options.hosts.string()});
-  arguments.push_back((program::own_folder() / "septet-film").string());
-  return arguments;
-}
-
 struct StartEnd {
   std::optional<int> status;  ///< Of the film's first program; nothing: it was lost.
   int of_mpirun = 0;
@@ -137,14 +126,8 @@ Expected<StartEnd> start_once(const fs::path& mpirun, const RanksOptions& option
 }  // namespace
 
 Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string> arguments) {
-  const auto mpirun = program::find_program("mpirun");
-  if (!mpirun)
-    return failure("there is no mpirun, which starts a film's programs", "--ranks",
-                   "install the package openmpi-bin, or leave --ranks and --hosts out");
-  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
-  if (::geteuid() == 0 && !(is_set("OMPI_ALLOW_RUN_AS_ROOT") && is_set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM")))
-    return failure("mpirun does not work for root", "--ranks",
-                   "run it as another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1");
+  const auto mpirun = program::find_mpirun("--ranks");
+  if (!mpirun) return tl::unexpected(mpirun.error());
   if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
     return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
   const auto folder = pictures_folder(options.out);
@@ -152,7 +135,8 @@ Expected<int> film_by_ranks(const RanksOptions& options, std::vector<std::string
   const auto notes = program::TemporaryFolder::make("septet-ranks");
   if (!notes) return tl::unexpected(notes.error());
   const fs::path log = notes->path() / "mpirun.txt";
-  std::vector<std::string> all = mpirun_arguments(options);
+  std::vector<std::string> all = program::mpirun_arguments(options.ranks, options.hosts);
+  all.push_back((program::own_folder() / "septet-film").string());
   all.insert(all.end(), std::make_move_iterator(arguments.begin()), std::make_move_iterator(arguments.end()));
   all.push_back("--one-of-ranks");
   program::catch_stop_signals();

@@ -195,7 +195,7 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
 }
 
 Expected<void> serve(Machines& machines, program::ProcessMark& master_process) {
-  const unsigned threads = share_of_processors();
+  const unsigned threads = program::share_of_processors();
   machines.send(master, hello_message(threads));
   auto folder = program::TemporaryFolder::make("septet-film");
   if (!folder) return tl::unexpected(folder.error());
@@ -216,7 +216,7 @@ std::optional<double> pace_of_test() {
   std::istringstream paces(text);
   std::string pace;
   for (int n = 0; std::getline(paces, pace, ','); ++n)
-    if (n == number_by_mpirun().value_or(0)) return std::clamp(std::atof(pace.c_str()), 0.001, 1.0);
+    if (n == program::number_by_mpirun().value_or(0)) return std::clamp(std::atof(pace.c_str()), 0.001, 1.0);
   return std::nullopt;
 }
 

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "program/machines.hpp"
 #include "program/process_mark.hpp"
 #include "sim-client/film/film_frames.hpp"
-#include "sim-client/film/traced/machines.hpp"
 
 namespace septet::film {
 

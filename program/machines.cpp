@@ -1,4 +1,4 @@
-#include "sim-client/film/traced/machines.hpp"
+#include "program/machines.hpp"
 
 #include <dlfcn.h>
 #include <sched.h>
@@ -12,7 +12,7 @@
 
 #include "program/child_process.hpp"
 
-namespace septet::film {
+namespace septet::program {
 namespace {
 
 std::optional<int> number_in(const char* variable) {
@@ -31,9 +31,8 @@ std::optional<int> number_by_mpirun() {
 
 Expected<std::unique_ptr<Machines>> start_machines() {
   std::error_code ignored;
-  auto file = program::own_folder() / "septet-mpi.so";  // As it is built; else as it is installed.
-  if (!std::filesystem::exists(file, ignored))
-    file = program::own_folder().parent_path() / "lib/septet/modules/septet-mpi.so";
+  auto file = own_folder() / "septet-mpi.so";  // As it is built; else as it is installed.
+  if (!std::filesystem::exists(file, ignored)) file = own_folder().parent_path() / "lib/septet/modules/septet-mpi.so";
   if (!std::filesystem::exists(file, ignored))
     return failure("this Septet was built without Open MPI", "mpirun",
                    "install the package libopenmpi-dev and build again, or leave mpirun out");
@@ -48,6 +47,28 @@ Expected<std::unique_ptr<Machines>> start_machines() {
   return (*static_cast<const StartMachines*>(start))();
 }
 
+Expected<std::filesystem::path> find_mpirun(const std::string& option) {
+  const auto mpirun = find_program("mpirun");
+  if (!mpirun)
+    return failure("there is no mpirun, which starts the programs", option,
+                   "install the package openmpi-bin, or leave --ranks and --hosts out");
+  const auto is_set = [](const char* name) { return std::getenv(name) != nullptr; };
+  if (::geteuid() == 0 && !(is_set("OMPI_ALLOW_RUN_AS_ROOT") && is_set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM")))
+    return failure("mpirun does not work for root", option,
+                   "run it as another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1");
+  return *mpirun;
+}
+
+std::vector<std::string> mpirun_arguments(unsigned ranks, const std::filesystem::path& hosts) {
+  std::vector<std::string> arguments{"--enable-recovery", "--oversubscribe", "--bind-to", "none"};
+  if (ranks > 0)
+    arguments.insert(arguments.end(), {"-n", std::to_string(ranks)});
+  else
+    arguments.insert(arguments.end(), {"--npernode", "1"});
+  if (!hosts.empty()) arguments.insert(arguments.end(), {"--hostfile", hosts.string()});
+  return arguments;
+}
+
 unsigned share_of_processors() {
   cpu_set_t all;
   CPU_ZERO(&all);
@@ -59,4 +80,4 @@ unsigned share_of_processors() {
   return static_cast<unsigned>(std::max(1, CPU_COUNT(&all) / beside));
 }
 
-}  // namespace septet::film
+}  // namespace septet::program

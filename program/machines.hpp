@@ -1,18 +1,21 @@
 #pragma once
-/// The programs that trace one film, on this machine and others, as seen by one of them: messages between a master, number 0, and
+/// The programs that do one work, on this machine and others, as seen by one of them: messages between a master, number 0, and
 /// workers.
 ///
 /// Open MPI carries them, in a module of its own (mpi_module_main.cpp), which is loaded only where mpirun has started the program:
 /// Septet is built and runs without it. Between two programs messages keep their order. A worker may be lost at any time; nobody is
 /// told, what is sent to it is lost, and nothing more comes from it. One thread.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/core/bytes.hpp"
 #include "engine/core/expected.hpp"
 
-namespace septet::film {
+namespace septet::program {
 
 struct Mail {
   int from = 0;
@@ -45,8 +48,13 @@ std::optional<int> number_by_mpirun();
 /// All that mpirun has started; waits for them. Error: this Septet was built without Open MPI, or it is not installed.
 Expected<std::unique_ptr<Machines>> start_machines();
 
+/// mpirun, ready to work for this user. Error, at `option`: it is not installed, or wants to be told that it may work for root.
+Expected<std::filesystem::path> find_mpirun(const std::string& option);
+/// What it is told to go on where a program dies, with so many programs (0: one for each host) on the machines of a file (empty: this one).
+std::vector<std::string> mpirun_arguments(unsigned ranks, const std::filesystem::path& hosts);
+
 /// How many threads are this program's share of its machine, beside the others that mpirun has started there. It may run on all
 /// processors from then on: mpirun binds each program to one, which is not meant for a program of many threads.
 unsigned share_of_processors();
 
-}  // namespace septet::film
+}  // namespace septet::program

@@ -14,9 +14,9 @@
 #include <list>
 #include <thread>
 
-#include "sim-client/film/traced/machines.hpp"
+#include "program/machines.hpp"
 
-namespace septet::film {
+namespace septet::program {
 namespace {
 
 constexpr int tag = 15;
@@ -141,4 +141,4 @@ extern const StartMachines septet_start_machines;
 const StartMachines septet_start_machines = start;
 }
 
-}  // namespace septet::film
+}  // namespace septet::program
