@@ -69,7 +69,8 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
         if (const auto problem = read_layers(text, options.layers); !problem.empty())
           throw CLI::ValidationError(problem);
       });
-  app.add_flag("!--no-sound", options.sound, "Leave out what the driver heard")->default_str("");
+  app.add_flag_callback(
+      "--no-sound", [&options] { options.sound = false; }, "Leave out what the driver heard");
   app.add_flag("--resume", options.resume, "Go on with a film that was stopped: what is drawn is not drawn again");
   app.add_flag("--software", options.software,
                "Draw without a graphics card, pixel for pixel as off-screen screens do");

@@ -1,16 +1,17 @@
 #include "sim-server/command/experiment_command.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -74,26 +75,44 @@ Expected<int> run_here(const ExperimentOptions& options, program::Machines* othe
   return 0;
 }
 
-/// mpirun takes this program's place.
+/// What the first program of mpirun says last, before its exit status: mpirun itself ends with 0 also where that one was killed.
+constexpr std::string_view last_words = "septet experiment has ended with status ";
+
+/// By programs that mpirun starts.
 Expected<int> run_by_ranks(const ExperimentOptions& options) {
   const auto mpirun = program::find_mpirun("--ranks");
   if (!mpirun) return tl::unexpected(mpirun.error());
   if (std::error_code error; !options.hosts.empty() && !fs::is_regular_file(options.hosts, error))
     return failure("there is no such file", options.hosts.string(), "write the names of machines, one a line");
   std::vector<std::string> arguments = program::mpirun_arguments(options.ranks, options.hosts);
-  arguments.insert(arguments.begin(), mpirun->string());
   const auto add = [&](std::initializer_list<std::string> more) { arguments.insert(arguments.end(), more); };
-  add({(program::own_folder() / "septet").string(), "experiment", options.file});
+  add({(program::own_folder() / "septet").string(), "experiment", options.file, "--one-of-ranks"});
   if (!options.out.empty()) add({"--out", options.out.string()});
   if (!options.only.empty()) add({"--only", options.only});
   if (options.jobs > 0) add({"--jobs", std::to_string(options.jobs)});
-  std::vector<char*> texts;
-  for (std::string& argument : arguments) texts.push_back(argument.data());
-  texts.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execv(mpirun->c_str(), texts.data());
-  return failure(fmt::format("mpirun cannot be started ({})", std::strerror(errno)), mpirun->string(),
-                 "check the package openmpi-bin");
+  program::catch_stop_signals();
+  auto child = program::ChildProcess::start(
+      {.program = mpirun->string(), .arguments = std::move(arguments), .environment = {}, .log = {}});
+  if (!child) return tl::unexpected(child.error());
+  std::optional<int> status;
+  for (bool told_to_stop = false;;) {
+    const auto exit = child->poll();
+    while (const auto line = child->read_line(std::chrono::milliseconds(exit ? 0 : 100))) {
+      const std::string_view text = *line;
+      if (int number = 0; !text.starts_with(last_words))
+        program::announce(text);
+      else if (std::from_chars(text.data() + last_words.size(), text.data() + text.size(), number).ec == std::errc())
+        status = number;
+    }
+    if (exit) break;
+    if (!told_to_stop && program::should_stop()) {
+      told_to_stop = true;
+      child->send_signal(SIGTERM);
+    }
+  }
+  if (status) return *status;
+  return failure("the experiment's first program or mpirun was lost", "--ranks",
+                 "give the command again: finished drives are kept");
 }
 
 }  // namespace
@@ -110,8 +129,10 @@ Expected<int> run_experiment(const ExperimentOptions& options) {
     return status;
   }
   auto status = run_here(options, machines->get());
+  if (!status) program::say("septet: " + describe(status.error()));
+  if (options.one_of_ranks) program::announce(fmt::format("{}{}", last_words, status.value_or(program::failed_status)));
   (*machines)->will_end_with(status.value_or(program::failed_status));
-  return status;
+  return status.value_or(program::failed_status);
 }
 
 Expected<int> run_experiment_next(const ExperimentOptions& options) {

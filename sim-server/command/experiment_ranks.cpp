@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <system_error>
 #include <thread>
@@ -30,7 +31,7 @@ enum class Word : std::uint8_t {
   drive,        ///< First: number, arguments.
   part,         ///< Driver: number, name of a file of the drive, bytes that follow those before.
   ended,        ///< Driver: number, exit status, signal, its log.
-  still_there,  ///< Both: nothing new.
+  still_there,  ///< Both: nothing new. Of the first: its process.
   end,          ///< First: no more is to be done; 1 where some are lost.
 };
 
@@ -160,7 +161,12 @@ Expected<std::vector<ExperimentRanks::Ended>> ExperimentRanks::take_ended() {
   const double now_s = program::monotonic_s();
   if (now_s - told_s_ < still_there_every_s) return ended;
   told_s_ = now_s;
-  for (int rank = 1; rank < machines_.count(); ++rank) machines_.send(rank, message(Word::still_there));
+  Bytes bytes = message(Word::still_there);
+  ByteWriter writer(bytes);
+  const auto process = program::own_process_mark();
+  writer.put_string(process.machine);
+  writer.put(process.number);
+  for (int rank = 1; rank < machines_.count(); ++rank) machines_.send(rank, bytes);
   std::vector<std::pair<int, std::string>> lost;
   for (const auto& [number, rank] : ranks_) {
     if (program::is_there(rank.process) == std::optional(false))
@@ -196,8 +202,13 @@ class ExperimentDriver {
       while (const auto mail = machines_.receive()) obey(*mail);
       take_ended();
       const double now_s = program::monotonic_s();
-      if (now_s - heard_s_ > longest_silence_s) return {};  // The first program is gone.
       if (now_s - told_s_ > still_there_every_s) {
+        // On this machine its end is seen, elsewhere its silence.
+        if (now_s - heard_s_ > longest_silence_s || (first_ && program::is_there(*first_) == std::optional(false))) {
+          machines_.note_loss();
+          return failure("the experiment's first program is gone", "mpirun",
+                         "give the command again: finished drives are kept");
+        }
         told_s_ = now_s;
         machines_.send(0, message(Word::still_there));
       }
@@ -218,6 +229,12 @@ class ExperimentDriver {
     heard_s_ = program::monotonic_s();
     ByteReader reader(mail.bytes);
     const auto word = static_cast<Word>(reader.get<std::uint8_t>());
+    if (word == Word::still_there) {
+      program::ProcessMark first;
+      first.machine = reader.get_string(longest_text);
+      first.number = reader.get<std::int32_t>();
+      if (reader.ok()) first_ = std::move(first);
+    }
     if (word == Word::end) {
       is_over_ = true;
       if (reader.get<std::uint8_t>() != 0) machines_.note_loss();
@@ -290,6 +307,7 @@ class ExperimentDriver {
   std::size_t jobs_;
   fs::path folder_;
   std::vector<Going> going_;
+  std::optional<program::ProcessMark> first_;
   double heard_s_ = 0.0, told_s_ = 0.0;
   bool is_over_ = false;
 };
@@ -301,7 +319,7 @@ int drive_for_experiment(Machines& machines, std::size_t jobs) {
   const std::size_t share = program::share_of_processors();
   const auto done = ExperimentDriver(machines, jobs > 0 ? jobs : share).run();
   if (done) return 0;
-  program::say("septet: " + describe(done.error()));
+  if (machines.own_number() == 1) program::say("septet: " + describe(done.error()));  // One is enough.
   return program::failed_status;
 }
 

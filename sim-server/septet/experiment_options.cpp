@@ -22,6 +22,7 @@ void add_experiment_commands(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1024));
   experiment->add_option("--hosts", options.experiment.hosts, "File with the machines that drive, one a line")
       ->default_str("this machine");
+  experiment->add_flag("--one-of-ranks", options.experiment.one_of_ranks)->group("");
   auto* next =
       experiment->add_subcommand("next", "Who is next, what they drive, by which command, and what is missing");
   next->add_option("file", options.experiment.file, "TOML file, or ambulance-24")->required();

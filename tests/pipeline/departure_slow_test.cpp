@@ -16,7 +16,9 @@ bool leave(SimulatedRig& rig, screen::Departure& departure, double end_s) {
   return false;
 }
 
-screen::Departure escape(SimulatedRig& rig) { return {control::Quit::How::escape, rig.screen(0).machine->clock_s(rig.now_s())}; }
+screen::Departure escape(SimulatedRig& rig) {
+  return {control::Quit::How::escape, rig.screen(0).machine->clock_s(rig.now_s())};
+}
 
 }  // namespace
 

@@ -116,6 +116,8 @@ TEST_CASE("a drive on the motorway that is saved and restored goes on as if noth
     check_that_it_goes_on("motorway-ambulance", 1, saved);
   for (const SavedDrive& saved : drive_and_save("rescue-lane", "tired", 2, {1500}))
     check_that_it_goes_on("rescue-lane", 2, saved);
+  for (const SavedDrive& saved : drive_and_save("first-lesson", "plain", 1, {1500}))
+    check_that_it_goes_on("first-lesson", 1, saved);
 }
 
 TEST_CASE("a drive that is saved in the middle of smoke goes on as if nothing had been") {
@@ -140,8 +142,8 @@ TEST_CASE("no shipped scenario is without a drive that is saved") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEPTET_SOURCE_DIR) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
-  CHECK(shipped ==
-        std::set<std::string>{"ambulance-game", "motorway-ambulance", "rescue-lane", "tunnel-fire", "winter-lorry"});
+  CHECK(shipped == std::set<std::string>{"ambulance-game", "first-lesson", "motorway-ambulance", "rescue-lane",
+                                         "tunnel-fire", "winter-lorry"});
 }
 
 TEST_CASE(

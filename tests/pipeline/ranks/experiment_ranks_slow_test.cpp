@@ -78,7 +78,9 @@ TEST_CASE("a program of mpirun that is killed costs what it was driving and the 
     CAPTURE(out);
     auto launcher = experiment.begin(out, {"--ranks", "3", "--jobs", "1"});
     REQUIRE(becomes_true([&] { return experiment.finished(out) > 0 || launcher.poll(); }));
-    const auto process = rank_of(launcher.process_id(), victim);
+    const auto mpirun = mpirun_of(launcher.process_id());
+    REQUIRE(mpirun.has_value());
+    const auto process = rank_of(*mpirun, victim);
     REQUIRE(process.has_value());
     REQUIRE(::kill(*process, SIGKILL) == 0);
     const int code = exit_code(launcher);
