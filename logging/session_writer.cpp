@@ -249,7 +249,7 @@ void SessionWriter::record(Sample sample) { state_->push(sample); }
 void SessionWriter::record(Event event) { state_->push(std::move(event)); }
 void SessionWriter::record(QuestionnaireRecord answer) { state_->push(std::move(answer)); }
 void SessionWriter::record(StateRecord state) { state_->push(std::move(state)); }
-void SessionWriter::record(ActuatorRecord actuators) { state_->push(actuators); }
+void SessionWriter::record(ActuatorRecord record) { state_->push(record); }
 
 std::optional<Error> SessionWriter::take_error() {
   const std::lock_guard lock(state_->error_mutex);

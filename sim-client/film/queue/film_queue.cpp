@@ -16,6 +16,7 @@
 #include <utility>
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
