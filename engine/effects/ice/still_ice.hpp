@@ -6,7 +6,7 @@
 ///
 /// Melting is that of a temperature index: a surface loses `melt_m_per_kh` for each kelvin above freezing and each hour
 /// (R. Hock, "Temperature index melt modelling in mountain areas", J. Hydrology 282, 2003, describes the method; 8 mm a day and
-/// kelvin is what models of ice sheets take for ice, those of EISMINT-Greenland and PISM among them). With D = ∫ max(0, T − 273.15 K) dt,
+/// kelvin is the default of the models of ice sheets PISM and PyPDD). With D = ∫ max(0, T − 273.15 K) dt,
 ///     sheet, slab:  h(D) = max(0, h₀ − kD)            one side: the other one lies on something
 ///     icicle:       r(D) = max(0, r₀ − kD),  L(D) = L₀ r(D)/r₀      a cone keeps its slope
 
