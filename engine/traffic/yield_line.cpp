@@ -85,8 +85,9 @@ std::vector<YieldLine> yield_lines(const road::RoadNetwork& network) {
     const auto order = [](const YieldLine& line) { return std::tuple(line.s_m, line.along_s, line.kind); };
     const auto begin = lines.begin() + static_cast<std::ptrdiff_t>(first);
     std::ranges::stable_sort(begin, lines.end(), {}, order);
-    const auto twice = std::ranges::unique(begin, lines.end(), {}, order);
-    lines.erase(twice.begin(), twice.end());
+    const auto same = [&](const YieldLine& a, const YieldLine& b) { return order(a) == order(b); };
+    lines.erase(std::unique(begin, lines.end(), same),
+                lines.end());  // Not std::ranges::unique: clang 14 cannot compile it.
   }
   return lines;
 }
