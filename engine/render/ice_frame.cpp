@@ -26,8 +26,8 @@ void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, c
 IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
                             const Instant& instant, const IceFrame& frame) {
   constexpr std::array<const char*, ice_image_count> names{
-      "ice front",    "ice back",           "ice beyond",        "ice beyond back", "ice inside", "ice depth",
-      "surroundings", "surroundings depth", "surroundings cube", "second cube",     "third cube", "fourth cube"};
+      "ice front", "ice back",     "ice beyond",         "ice beyond back",   "ice inside",
+      "ice depth", "surroundings", "surroundings depth", "surroundings cube", "second cube"};
   IceResources resources{};
   for (std::size_t i = 0; i < ice_image_count; ++i)
     resources[i] = frame.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);

@@ -55,7 +55,7 @@ struct IceNeighbourhoods {
   std::vector<Vec3> middles_m;  ///< From where the surroundings of each are seen: what is near to the eye weighs most.
   std::vector<std::uint32_t> of_body;  ///< One a body.
 };
-inline constexpr std::size_t most_neighbourhoods = 4;
+inline constexpr std::size_t most_neighbourhoods = 2;
 IceNeighbourhoods ice_neighbourhoods(std::span<const ice::IceBody> bodies, const Vec3& eye_m);
 /// Those that some tile is in, whose `around` is told; the others are left out.
 std::vector<Vec3> seen_neighbourhoods(const IceNeighbourhoods& neighbourhoods, IceTiles& tiles);

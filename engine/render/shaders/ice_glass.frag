@@ -43,6 +43,7 @@ float feathers(vec2 place, float pixel_m) {
   // Each fades to its mean where a pixel no longer tells one from the next.
   float fine = 1.0 - smoothstep(0.0007, 0.0020, pixel_m), coarse = 1.0 - smoothstep(0.004, 0.015, pixel_m);
   float grain = textureLod(noise, place * 7.0, 0.0).r, wander = 6.0 * grain;
+  if (coarse <= 0.0) return 1.0;
   float barbs = 0.5 + 0.5 * cos(along * (2.0 * pi / 0.0034) + wander);
   float twigs = 0.5 + 0.5 * cos((aside * 1.155 + 0.5 * along) * (2.0 * pi / 0.0013) + 2.0 * wander);
   float stem = exp(-aside * aside / (0.0007 * 0.0007));
@@ -56,6 +57,7 @@ vec3 light_from(vec3 n) { return mix(view.ground_irradiance.rgb, view.sky_irradi
 
 vec4 frost(vec3 eye, vec3 n, vec3 place) {
   vec2 across = dFdx(place.xy), down = dFdy(place.xy);
+  if (place.z < 5e-5) return vec4(0.0);  // So little hides less than a code.
   float pixel_m = sqrt(max(abs(across.x * down.y - across.y * down.x), 1e-12));
   float hidden = 1.0 - exp(-frost_m2pkg * place.z * feathers(place.xy, pixel_m));
   // Multiply scattered: what falls on either face leaves by both alike, and little is lost.

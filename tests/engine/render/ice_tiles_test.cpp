@@ -36,14 +36,14 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "of ice in many places four have surroundings of their own, the largest in the eye, and all others the nearest "
+    "of ice in many places two have surroundings of their own, the largest in the eye, and all others the nearest "
     "ones") {
   std::vector<ice::IceBody> bodies;
   for (int i = 0; i < 12; ++i) bodies.push_back(body_at({10.0 + 9.0 * i, 0.0, 0.0}, i == 7 ? 9.0f : 1.0f));
   const IceNeighbourhoods found = ice_neighbourhoods(bodies, Vec3(0.0));
   REQUIRE(found.middles_m.size() == most_neighbourhoods);
   // The nearest, and the large one although it is further off than most.
-  CHECK(glm::length(found.middles_m[found.of_body[0]] - bodies[0].origin_m) < 1.0);
+  CHECK(glm::length(found.middles_m[found.of_body[0]] - bodies[0].origin_m) < 2.0);
   CHECK(std::ranges::count(found.of_body, found.of_body[7]) > 1);
   CHECK(found.of_body[7] == found.of_body[11]);
   for (std::size_t i = 0; i < bodies.size(); ++i) CHECK(found.of_body[i] < most_neighbourhoods);
