@@ -156,8 +156,9 @@ PaneShape pane_on(std::span<const Vec3> triangles_m) {
 
 Vec3 place_on(const PaneShape& pane, double across, double up) {
   if (pane.empty()) return Vec3(0.0);
-  const double x = std::clamp(across, 0.0, 1.0) * static_cast<double>(pane.columns - 1),
-               y = std::clamp(up, 0.0, 1.0) * static_cast<double>(pane.rows - 1);
+  const auto within = [](double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; };  // Also what is no number.
+  const double x = within(across) * static_cast<double>(pane.columns - 1),
+               y = within(up) * static_cast<double>(pane.rows - 1);
   const auto i = std::min(static_cast<std::size_t>(x), pane.columns - 2),
              j = std::min(static_cast<std::size_t>(y), pane.rows - 2);
   const double u = x - static_cast<double>(i), v = y - static_cast<double>(j);
@@ -199,6 +200,7 @@ std::vector<IceVertex> star_surface(const PaneShape& pane, const Star& star) {
   std::vector<IceVertex> surface;
   const Place size(width_m(pane), height_m(pane));
   if (pane.empty() || !(size.x > 0.01) || !(size.y > 0.01) || !(star.reach_m > 0.0)) return surface;
+  if (!std::isfinite(star.across) || !std::isfinite(star.up)) return surface;
   const Place middle(star.across * size.x, star.up * size.y);
   const Drawing drawing{pane, size, surface};
   Random random(star.seed, 9);
