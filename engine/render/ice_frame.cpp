@@ -62,6 +62,7 @@ std::vector<ResourceUse> ice_reads(const IceResources& resources, const Prepared
   if (prepared.ice.beyond) seen.insert(seen.end(), {IceImage::beyond, IceImage::beyond_back});
   for (std::uint32_t around = 0; around < prepared.surroundings(); ++around) seen.push_back(cube_of(around));
   std::vector<ResourceUse> reads;
+  reads.reserve(seen.size());
   for (const IceImage image : seen) reads.push_back({resources[std::size_t(image)], Access::sampled});
   return reads;
 }

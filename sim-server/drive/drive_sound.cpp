@@ -13,7 +13,7 @@
 namespace septet::server {
 
 std::function<void(const std::shared_ptr<const TakenSnapshot>&)> drive_sound(
-    const rig::Rig& rig, std::shared_ptr<const simulation::Model> model, const logging::SessionReader* session,
+    const rig::Rig& rig, const std::shared_ptr<const simulation::Model>& model, const logging::SessionReader* session,
     const scene::Store& store, std::function<void(const std::string&)> message, std::function<void()> lost) {
   audio::CarSound sound{.ear_m = rig.eye_point_m};
   std::shared_ptr<const road::RoadNetwork> roads;

@@ -114,7 +114,7 @@ std::vector<QueuedFilm> FilmQueue::films() const {
   return films;
 }
 
-Expected<std::uint64_t> FilmQueue::add(QueuedFilm film) {
+Expected<std::uint64_t> FilmQueue::add(const QueuedFilm& film) {
   std::uint64_t next = 1;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(path_, error))

@@ -38,7 +38,7 @@ class FilmQueue {
   std::vector<QueuedFilm> films() const;
   std::size_t nonsense() const { return nonsense_; }
   /// The film gets the next number, whoever adds one beside it.
-  Expected<std::uint64_t> add(QueuedFilm film);
+  Expected<std::uint64_t> add(const QueuedFilm& film);
   Expected<void> write(const QueuedFilm& film) const;
   Expected<void> ask_to_cancel(std::uint64_t number) const;
   bool is_to_be_cancelled(std::uint64_t number) const;
