@@ -4,12 +4,15 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
 namespace septet::program {
 namespace {
+
+constexpr std::size_t longest_machine = 1 << 16;
 
 /// This start of the system, and whose processes are counted: a container counts its own.
 std::string own_machine() {
@@ -24,6 +27,18 @@ std::string own_machine() {
 }  // namespace
 
 ProcessMark own_process_mark() { return {own_machine(), ::getpid()}; }
+
+void put_process(ByteWriter& writer, const ProcessMark& process) {
+  writer.put_string(process.machine);
+  writer.put(static_cast<std::uint32_t>(process.number));
+}
+
+ProcessMark get_process(ByteReader& reader) {
+  ProcessMark process;
+  process.machine = reader.get_string(longest_machine);
+  process.number = static_cast<std::int32_t>(reader.get<std::uint32_t>());
+  return process;
+}
 
 std::optional<bool> is_there(const ProcessMark& process) {
   // 0 and less would mean whole groups of processes.

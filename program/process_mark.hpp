@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/core/bytes.hpp"
+
 namespace septet::program {
 
 struct ProcessMark {
@@ -14,6 +16,9 @@ struct ProcessMark {
 };
 
 ProcessMark own_process_mark();
+
+void put_process(ByteWriter& writer, const ProcessMark& process);
+ProcessMark get_process(ByteReader& reader);
 
 /// Whether the process is there; nothing where it runs on another machine.
 std::optional<bool> is_there(const ProcessMark& process);

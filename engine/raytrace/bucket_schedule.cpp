@@ -45,6 +45,7 @@ void BucketSchedule::skip_tile(std::size_t frame, std::uint32_t tile) {
   Frame& begun = begin(frame);
   if (begun.done[tile]) return;
   begun.done[tile] = begun.dealt[tile] = true;
+  begun.done_cost += costs_[tile];
   --begun.undealt;
   if (--begun.left == 0) begun_.erase(frame), done_frames_.insert(frame);
 }
@@ -283,6 +284,7 @@ bool BucketSchedule::finish(std::size_t number, std::size_t frame, std::uint32_t
   if (fresh) {
     if (!begun->second.dealt[tile]) begun->second.dealt[tile] = true, --begun->second.undealt;
     begun->second.done[tile] = true;
+    begun->second.done_cost += costs_[tile];
     if (--begun->second.left == 0) begun_.erase(begun), done_frames_.insert(frame);
   } else {
     ++traced_twice_;
@@ -294,8 +296,7 @@ bool BucketSchedule::finish(std::size_t number, std::size_t frame, std::uint32_t
 
 double BucketSchedule::share_of_begun_frames() const {
   double cost = 0.0;
-  for (const auto& [number, frame] : begun_)
-    for (std::uint32_t tile = 0; tile < tiles_per_frame_; ++tile) cost += frame.done[tile] ? costs_[tile] : 0.0;
+  for (const auto& [number, frame] : begun_) cost += std::min<double>(frame.done_cost, tiles_per_frame_);
   return cost / tiles_per_frame_;
 }
 

@@ -95,6 +95,7 @@ class BucketSchedule {
   struct Frame {
     std::vector<bool> dealt, done;
     std::uint32_t undealt = 0, left = 0;  ///< Not dealt; not done.
+    double done_cost = 0.0;
   };
   /// What a worker still has to do: tiles in its hands, and behind them those that it has not begun.
   struct Left {

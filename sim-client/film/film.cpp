@@ -88,7 +88,10 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
                    "take two samples a pixel or more with --samples");
   const auto is_file = is_film_file(options.out);
   if (!is_file) return tl::unexpected(is_file.error());
-  fs::path ffmpeg, pictures_in = options.out;
+  const auto found_in = pictures_folder(options.out);
+  if (!found_in) return tl::unexpected(found_in.error());
+  const fs::path& pictures_in = *found_in;
+  fs::path ffmpeg;
   if (*is_file) {
     std::error_code error;
     if (fs::exists(options.out, error))
@@ -96,7 +99,6 @@ Expected<FilmMade> make_film(const FilmOptions& options, const std::function<boo
     const auto found = find_ffmpeg();
     if (!found) return tl::unexpected(found.error());
     ffmpeg = *found;
-    pictures_in += ".pictures";
   }
   if (auto is_free = FilmFolder::check_is_free(pictures_in, options.resume); !is_free)
     return tl::unexpected(is_free.error());

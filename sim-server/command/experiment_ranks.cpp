@@ -114,7 +114,7 @@ Expected<void> ExperimentRanks::obey(const Mail& mail, std::vector<Ended>& ended
   if (word == Word::hello) {
     const bool is_same = reader.get_string(longest_text) == version_text();
     Rank rank{.jobs = std::min<std::size_t>(reader.get<std::uint32_t>(), most_jobs), .process = {}, .heard_s = now_s};
-    rank.process = {reader.get_string(longest_text), reader.get<std::int32_t>()};
+    rank.process = program::get_process(reader);
     if (reader.ok() && is_same && rank.jobs > 0)
       ranks_[mail.from] = rank;
     else
@@ -163,9 +163,7 @@ Expected<std::vector<ExperimentRanks::Ended>> ExperimentRanks::take_ended() {
   told_s_ = now_s;
   Bytes bytes = message(Word::still_there);
   ByteWriter writer(bytes);
-  const auto process = program::own_process_mark();
-  writer.put_string(process.machine);
-  writer.put(process.number);
+  program::put_process(writer, program::own_process_mark());
   for (int rank = 1; rank < machines_.count(); ++rank) machines_.send(rank, bytes);
   std::vector<std::pair<int, std::string>> lost;
   for (const auto& [number, rank] : ranks_) {
@@ -193,9 +191,7 @@ class ExperimentDriver {
     ByteWriter writer(hello);
     writer.put_string(version_text());
     writer.put(static_cast<std::uint32_t>(jobs_));
-    const auto process = program::own_process_mark();
-    writer.put_string(process.machine);
-    writer.put(process.number);
+    program::put_process(writer, program::own_process_mark());
     machines_.send(0, std::move(hello));
     heard_s_ = program::monotonic_s();
     while (!is_over_ && !program::should_stop()) {
@@ -230,9 +226,7 @@ class ExperimentDriver {
     ByteReader reader(mail.bytes);
     const auto word = static_cast<Word>(reader.get<std::uint8_t>());
     if (word == Word::still_there) {
-      program::ProcessMark first;
-      first.machine = reader.get_string(longest_text);
-      first.number = reader.get<std::int32_t>();
+      program::ProcessMark first = program::get_process(reader);
       if (reader.ok()) first_ = std::move(first);
     }
     if (word == Word::end) {

@@ -86,14 +86,14 @@ constexpr auto is_fresh = [](const CarReading& reading) { return reading.is_conn
 
 /// septet-car try, as another user where one is given.
 pid_t start_trial(const std::string& car_table, uid_t user = 0) {
-  std::ofstream("/tmp/rig.toml")
-      << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[[screen]]\nname = \"a\"\n"
-         "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n[car]\n"
-      << car_table;
+  const std::string rig = std::filesystem::temp_directory_path() / "rig.toml";
+  std::ofstream(rig) << "name = \"r\"\neye_point_m = [1.35, 0.37, 1.17]\n[[screen]]\nname = \"a\"\n"
+                        "lower_left_m = [2, 1, 0]\nlower_right_m = [2, -1, 0]\nupper_left_m = [2, 1, 1]\n[car]\n"
+                     << car_table;
   const pid_t child = fork();
   if (child == 0) {
     if (user != 0 && (setgid(user) != 0 || setuid(user) != 0)) _exit(126);
-    execl("/bin/septet-car", "septet-car", "try", "--rig", "/tmp/rig.toml", "--seconds", "60", "--fan", "0.5",
+    execl("/bin/septet-car", "septet-car", "try", "--rig", rig.c_str(), "--seconds", "60", "--fan", "0.5",
           "--vibration", "0.25", "--hz", "40", nullptr);
     _exit(127);
   }

@@ -155,6 +155,10 @@ bool FilmQueue::is_to_be_cancelled(std::uint64_t number) const {
   return fs::exists(named(path_, number, "cancel"), error);
 }
 
+bool FilmQueue::is_to_be_made(const QueuedFilm& film) const {
+  return (film.state == FilmState::waiting || film.state == FilmState::begun) && !is_to_be_cancelled(film.number);
+}
+
 fs::path FilmQueue::log(std::uint64_t number) const { return named(path_, number, "log"); }
 
 FilmQueue::Lock::Lock(Lock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}

@@ -42,6 +42,8 @@ class FilmQueue {
   Expected<void> write(const QueuedFilm& film) const;
   Expected<void> ask_to_cancel(std::uint64_t number) const;
   bool is_to_be_cancelled(std::uint64_t number) const;
+  /// It waits or is begun, and nobody has asked to cancel it.
+  bool is_to_be_made(const QueuedFilm& film) const;
   std::filesystem::path log(std::uint64_t number) const;
 
   /// Held by the program that makes films, until it ends. Nothing: another holds it.

@@ -44,16 +44,15 @@ Expected<int> queue_film(const QueueArguments& arguments, const fs::path& out) {
   std::error_code error;
   const fs::path here = fs::current_path(error), whole_out = fs::weakly_canonical(fs::absolute(out, error), error);
   for (const QueuedFilm& other : queue->films())
-    if (waits(other) && !queue->is_to_be_cancelled(other.number) && other.out == whole_out)
+    if (queue->is_to_be_made(other) && other.out == whole_out)
       return failure(fmt::format("film {} of the queue is to lie there", other.number), whole_out.string(),
                      "choose another name with --out");
   const auto number = queue->add({.arguments = arguments.film, .said_in = here, .out = whole_out});
   if (!number) return tl::unexpected(number.error());
   if (auto started = start_making_films(*queue); !started) return tl::unexpected(started.error());
   const auto films = queue->films();
-  const auto before = std::ranges::count_if(films, [&](const QueuedFilm& film) {
-    return waits(film) && film.number < *number && !queue->is_to_be_cancelled(film.number);
-  });
+  const auto before = std::ranges::count_if(
+      films, [&](const QueuedFilm& film) { return film.number < *number && queue->is_to_be_made(film); });
   program::announce(
       fmt::format("film {}: {}, {}; septet film status tells how far it is", *number, whole_out.string(),
                   before == 0 ? "begun" : fmt::format("after {} other{}", before, before == 1 ? "" : "s")));
@@ -67,9 +66,7 @@ Expected<int> show_queue(const QueueArguments& arguments) {
   const auto films = queue->films();
   for (const QueuedFilm& film : films) program::announce(status_line(*queue, film, somebody_works));
   if (films.empty()) program::announce("no films; septet film queue SESSION … adds one");
-  if (!somebody_works && std::ranges::any_of(films, [&](const QueuedFilm& film) {
-        return waits(film) && !queue->is_to_be_cancelled(film.number);
-      }))
+  if (!somebody_works && std::ranges::any_of(films, [&](const QueuedFilm& film) { return queue->is_to_be_made(film); }))
     program::announce("nobody makes them now; septet film queue goes on");
   if (queue->nonsense() > 0)
     program::say(fmt::format("septet: {} files in {} are no films of a queue; they are left alone", queue->nonsense(),

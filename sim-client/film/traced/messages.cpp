@@ -47,17 +47,6 @@ std::optional<double> get_optional(ByteReader& reader) {
   return there ? std::optional(number) : std::nullopt;
 }
 
-void put_process(ByteWriter& writer, const program::ProcessMark& process) {
-  writer.put_string(process.machine);
-  writer.put(static_cast<std::uint32_t>(process.number));
-}
-program::ProcessMark get_process(ByteReader& reader) {
-  program::ProcessMark process;
-  process.machine = reader.get_string(longest_text);
-  process.number = static_cast<std::int32_t>(reader.get<std::uint32_t>());
-  return process;
-}
-
 }  // namespace
 
 FrameFacts facts_of(const instant::Instant& instant) {
@@ -97,7 +86,7 @@ Bytes hello_message(unsigned threads) {
   ByteWriter writer(bytes);
   writer.put_string(version_text());
   writer.put(std::uint32_t{threads});
-  put_process(writer, program::own_process_mark());
+  program::put_process(writer, program::own_process_mark());
   return bytes;
 }
 
@@ -105,7 +94,7 @@ std::optional<Hello> read_hello(ByteReader& reader) {
   const std::string version = reader.get_string(longest_text);
   Hello hello;
   hello.threads = reader.get<std::uint32_t>();
-  hello.process = get_process(reader);
+  hello.process = program::get_process(reader);
   return reader.ok() && version == version_text() ? std::optional(hello) : std::nullopt;
 }
 
@@ -122,7 +111,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(static_cast<std::uint8_t>(told.script.has_value()));
   writer.put_string(told.script.value_or(""));
   writer.put(told.session_bytes);
-  put_process(writer, told.master);
+  program::put_process(writer, told.master);
   return bytes;
 }
 
@@ -143,7 +132,7 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   std::string script = reader.get_string(longest_text);
   if (has_script) told.script = std::move(script);
   told.session_bytes = reader.get<std::uint64_t>();
-  told.master = get_process(reader);
+  told.master = program::get_process(reader);
   return reader.ok() ? std::optional(std::move(told)) : std::nullopt;
 }
 
