@@ -102,7 +102,7 @@ void Renderer::State::create(const RendererOptions& wanted) {
   const bool multisampled = antialiasing == Antialiasing::multisampled && (samples & VK_SAMPLE_COUNT_4_BIT);
   formats.samples = multisampled ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
   smoothed = antialiasing == Antialiasing::smoothing;
-  create_frame_ring(ring, device);
+  create_frame_ring(ring, device, wanted.timed);
   create_pipeline_layout(layout, device);
   create_samplers(samplers, device);
   create_frame_targets(targets, memory, formats, wanted.width, wanted.height, smoothed);
@@ -171,15 +171,25 @@ void Renderer::State::draw_view(PassContext& context, const PreparedView& prepar
                                    environment.snow_cover > 0.0, !instant.soot.cover.empty()};
   push_records(context, soot);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
+  mark_pass(context, "opaque");
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
+  mark_pass(context, "cut-outs");
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::stripe, surface_light);
+  mark_pass(context, "stripes");
   draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
+  mark_pass(context, "sky");
   draw_seen_through();
+  mark_pass(context, "ice and glass");
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::blended, surface_light);
+  mark_pass(context, "blended");
   draw_wet_lamps(glow_pass, context, prepared.wet_lamps, prepared.wet_lamp_count);
+  mark_pass(context, "wet lamps");
   draw_smoke(smoke_pass, context, prepared.smoke, prepared.puff_count);
+  mark_pass(context, "smoke");
   draw_glows(glow_pass, context, prepared.glows, prepared.glow_count);
+  mark_pass(context, "glows");
   draw_precipitation(precipitation_pass, context, prepared.streaks, prepared.streak_count);
+  mark_pass(context, "precipitation");
 }
 
 void Renderer::State::draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant) {
@@ -222,6 +232,8 @@ void Renderer::State::draw(const Instant& instant) {
   statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
   PassContext context{device, memory, layout, samplers, formats, begin_frame(ring, device), statistics};
 
+  statistics.pass_times = begin_pass_marks(context.slot.marks, device, context.slot.commands);
+
   const bool new_light = table_light != instant.light;
   table_light = instant.light;
   exposure = instant.exposure;
@@ -260,6 +272,7 @@ void Renderer::State::draw(const Instant& instant) {
     for (std::size_t i = 0; i < cascade_count; ++i)
       draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
                    targets.shadow_map.layer_views[i]);
+    mark_pass(context, "shadows");
   });
   std::vector<ResourceUse> view_reads{{table, Access::sampled}, {shadow_map, Access::sampled}};
   std::optional<IceResources> ice;
@@ -280,10 +293,12 @@ void Renderer::State::draw(const Instant& instant) {
                    draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view,
                                     targets.smoothed() ? targets.mapped.view : targets.picture.view, targets.width,
                                     targets.height, instant.exposure.scale());
+                   mark_pass(context, "tone mapping");
                  });
   if (mapped)
     graph.add_pass("smoothing", {{{*mapped, Access::sampled}}, {{picture, Access::color_attachment}}}, [&] {
       draw_smoothed(smoothing_pass, context, targets.mapped.view, targets.picture.view, targets.width, targets.height);
+      mark_pass(context, "smoothing");
     });
   if (new_text)
     graph.add_pass("text atlas", {{}, {{atlas, Access::transfer_destination}}},
@@ -293,6 +308,7 @@ void Renderer::State::draw(const Instant& instant) {
         "overlay",
         {{{atlas, Access::sampled}, {picture, Access::color_attachment}}, {{picture, Access::color_attachment}}}, [&] {
           draw_overlay(*overlay_pass, context, instant.overlay, targets.picture.view, targets.width, targets.height);
+          mark_pass(context, "overlay");
         });
   graph.keep(picture, Access::transfer_source);
   const std::optional<std::uint32_t> window_image = next_window_image(context.slot);

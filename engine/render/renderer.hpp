@@ -14,6 +14,7 @@
 #include "engine/core/expected.hpp"
 #include "engine/image/image.hpp"
 #include "engine/instant/instant.hpp"
+#include "engine/render/pass_time.hpp"
 #include "engine/render/words.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -40,6 +41,7 @@ struct RendererOptions {
   bool validation = false;  ///< Turns the Khronos validation layer on; its messages are counted in the statistics.
   Antialiasing antialiasing = Antialiasing::automatic;
   Window* window = nullptr;  ///< Where to present; null draws off-screen. Outlives the renderer.
+  bool timed = false;        ///< The device's clock times each pass, for the statistics.
 };
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.
@@ -47,7 +49,8 @@ struct RenderStatistics {
   std::uint32_t triangles = 0;  ///< Submitted, shadows included.
   std::uint32_t shadow_triangles = 0;
   std::uint32_t draws = 0;
-  std::uint32_t instances = 0;  ///< That passed culling, shadows not included.
+  std::uint32_t instances = 0;       ///< That passed culling, shadows not included.
+  std::vector<PassTime> pass_times;  ///< Where frames are timed: of the newest frame whose times have come, in order.
   std::uint32_t validation_messages = 0;
   std::string first_validation_message;
 };

@@ -48,9 +48,10 @@ RigidTransform in_lane(int lane, double s_m) {
   return road::world_from_lane(road::evaluate_lane(motorway().network, {0, lane, s_m, 0.0}));
 }
 
-void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height,
-                          Antialiasing antialiasing) {
-  auto renderer = must(Renderer::create({width, height, DevicePreference::software, false, antialiasing, nullptr}));
+void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, Antialiasing antialiasing,
+                          bool timed = false) {
+  auto renderer =
+      must(Renderer::create({width, height, DevicePreference::software, false, antialiasing, nullptr, timed}));
   const Motorway& world = motorway();
   must(renderer.upload(world.scene));
   FrameInput input;
@@ -76,6 +77,7 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
     draw();
     triangles = std::max(triangles, double(renderer.statistics().triangles));
   }
+  for (const PassTime& pass : renderer.statistics().pass_times) state.counters[std::string(pass.name)] = pass.time_ms;
   state.counters["most_triangles"] = triangles;
   state.counters["draws"] = renderer.statistics().draws;
 }
@@ -87,6 +89,9 @@ BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, Antialiasing::automat
     ->Iterations(30)
     ->Repetitions(3)
     ->ReportAggregatesOnly();
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, Antialiasing::automatic, true)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(10);
 BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, Antialiasing::automatic)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()

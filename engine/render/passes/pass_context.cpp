@@ -115,4 +115,8 @@ void set_viewport(PassContext& context, const PixelRectangle& rectangle) {
   vkCmdSetScissor(context.slot.commands, 0, 1, &scissor);
 }
 
+void mark_pass(PassContext& context, std::string_view name) {
+  vulkan::mark_pass(context.slot.marks, context.slot.commands, name);
+}
+
 }  // namespace septet::render

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "engine/instant/frame_input.hpp"
 #include "engine/render/passes/draw_list.hpp"
@@ -42,6 +43,9 @@ struct PassContext {
   vulkan::FrameSlot& slot;
   RenderStatistics& statistics;
 };
+
+/// What was recorded since the last mark was this pass (a literal): its time is told where frames are timed.
+void mark_pass(PassContext& context, std::string_view name);
 
 /// Bytes that were copied into the frame's arena.
 struct FrameData {

@@ -165,18 +165,20 @@ void Upload::finish() {
   copies_.clear();
 }
 
-void create_frame_ring(FrameRing& ring, const Device& device) {
+void create_frame_ring(FrameRing& ring, const Device& device, bool timed) {
   ring.timeline = create_semaphore(device, VK_SEMAPHORE_TYPE_TIMELINE);
   for (FrameSlot& slot : ring.slots) {
     slot.pool = create_command_pool(device);
     slot.commands = allocate_commands(device, slot.pool);
     slot.image_acquired = create_semaphore(device, VK_SEMAPHORE_TYPE_BINARY);
+    if (timed) create_pass_marks(slot.marks, device);
   }
 }
 
 void destroy_frame_ring(FrameRing& ring, const Device& device, MemoryPool& pool) {
   for (FrameSlot& slot : ring.slots) {
     destroy_arena(slot.arena, pool);
+    destroy_pass_marks(slot.marks, device);
     if (slot.image_acquired) vkDestroySemaphore(device.device, slot.image_acquired, nullptr);
     if (slot.pool) vkDestroyCommandPool(device.device, slot.pool, nullptr);
   }

@@ -8,6 +8,7 @@
 
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/vulkan/memory.hpp"
+#include "engine/render/vulkan/pass_marks.hpp"
 
 namespace septet::render::vulkan {
 
@@ -69,6 +70,7 @@ struct FrameSlot {
   VkSemaphore image_acquired = VK_NULL_HANDLE;
   std::uint64_t finished_value = 0;  ///< Of the timeline, once the device is done with the slot.
   HostArena arena;
+  PassMarks marks;  ///< Without a pool where frames are not timed.
 };
 
 inline constexpr std::size_t frames_in_flight = 2;
@@ -79,7 +81,8 @@ struct FrameRing {
   std::uint64_t submitted = 0;
 };
 
-void create_frame_ring(FrameRing& ring, const Device& device);
+/// `timed`: passes are marked.
+void create_frame_ring(FrameRing& ring, const Device& device, bool timed);
 void destroy_frame_ring(FrameRing& ring, const Device& device, MemoryPool& pool);
 /// Waits until the slot of the next frame is free and begins its commands.
 FrameSlot& begin_frame(FrameRing& ring, const Device& device);
