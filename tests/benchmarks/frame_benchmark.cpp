@@ -1,8 +1,10 @@
 // One virtual screen on lavapipe, from the scenario's motorway with traffic: CPU time of drawing a frame and reading it
-// back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread.
+// back, the shaders' compilation not counted. LP_NUM_THREADS=0 keeps Mesa on one thread. By day, and in each weather by its name.
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 
@@ -48,23 +50,66 @@ RigidTransform in_lane(int lane, double s_m) {
   return road::world_from_lane(road::evaluate_lane(motorway().network, {0, lane, s_m, 0.0}));
 }
 
-void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, Antialiasing antialiasing,
+struct Weather {
+  Environment environment;
+  bool lamps = false;
+  double s_m = 500.0;  ///< Where the road is looked at.
+};
+
+Weather weather_named(std::string_view name) {
+  Weather weather{reference_day()};
+  Environment& environment = weather.environment;
+  weather.lamps = name != "day";
+  if (name == "dusk" || name == "rain_at_dusk") {
+    environment.sun_elevation_rad = 0.02;
+    environment.sun_illuminance_lux = 1500.0;
+  }
+  if (name == "rain_at_dusk") {
+    environment.rain_mm_per_h = 8.0;
+    environment.road_wetness = 0.8;
+    environment.cloud_cover = 1.0;
+    environment.visibility_m = 3000.0;
+    environment.temperature_k = 280.0;
+    environment.wind_speed_mps = 4.0;
+  } else if (name == "night") {
+    environment.sun_elevation_rad = -0.4;
+    environment.sun_illuminance_lux = 0.0;
+  } else if (name == "snow") {
+    environment.rain_mm_per_h = 2.0;
+    environment.snow_cover = 1.0;
+    environment.cloud_cover = 1.0;
+    environment.visibility_m = 1500.0;
+    environment.temperature_k = 268.0;
+    environment.wind_speed_mps = 4.0;
+  } else if (name == "fog") {
+    environment.cloud_cover = 1.0;
+    environment.visibility_m = 150.0;
+  } else if (name == "tunnel") {
+    weather.s_m = 3350.0;
+  }
+  return weather;
+}
+
+void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uint32_t height, std::string_view name,
                           bool timed = false) {
-  auto renderer =
-      must(Renderer::create({width, height, DevicePreference::software, false, antialiasing, nullptr, timed}));
+  auto renderer = must(
+      Renderer::create({width, height, DevicePreference::software, false, Antialiasing::automatic, nullptr, timed}));
   const Motorway& world = motorway();
   must(renderer.upload(world.scene));
+  const Weather weather = weather_named(name);
   FrameInput input;
-  input.environment = reference_day();
+  input.environment = weather.environment;
   for (int i = 0; i < 24; ++i) {
     DrawnParticipant car;
     car.prototype = static_cast<std::uint32_t>(i) % static_cast<std::uint32_t>(world.scene.prototypes.size());
-    car.world_from_vehicle = in_lane(-2 - i % 5, 500.0 + 25.0 * i);
+    car.world_from_vehicle = in_lane(-2 - i % 5, weather.s_m + 25.0 * i);
     car.paint = body_color(static_cast<std::uint8_t>(i));
+    car.lamps.set(Lamp::low_beam, weather.lamps);
     input.participants.push_back(car);
   }
-  double s_m = 490.0;
+  double s_m = weather.s_m - 10.0;
   const auto draw = [&] {
+    input.simulated_time_s += 0.1;
     input.views = {forward_view({0, 0, 0}, width, height)};
     input.views[0].world_from_car = in_lane(-4, s_m);
     must(renderer.draw(input));
@@ -82,23 +127,26 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
   state.counters["draws"] = renderer.statistics().draws;
 }
 
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, Antialiasing::automatic)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime()
-    ->Iterations(30)
-    ->Repetitions(3)
-    ->ReportAggregatesOnly();
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, Antialiasing::automatic, true)
+void thirty_frames_thrice(benchmark::internal::Benchmark* frame) {
+  frame->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime()
+      ->Iterations(30)
+      ->Repetitions(3)
+      ->ReportAggregatesOnly();
+}
+
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, "day")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, "day")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / dusk, 640, 420, "dusk")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / rain_at_dusk, 640, 420, "rain_at_dusk")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / night, 640, 420, "night")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / snow, 640, 420, "snow")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / fog, 640, 420, "fog")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / tunnel, 640, 420, "tunnel")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, "day", true)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(10);
-BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, Antialiasing::automatic)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime()
-    ->Iterations(30)
-    ->Repetitions(3)
-    ->ReportAggregatesOnly();
 
 }  // namespace
 }  // namespace septet::render
