@@ -38,6 +38,27 @@ std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSu
   return all;
 }
 
+/// Where participants stand. What has no height or hangs in the air hides nothing.
+std::vector<GroundContact> contacts_of(const std::vector<DrawnParticipant>& participants, const SceneSummary& scene) {
+  std::vector<GroundContact> contacts;
+  for (const DrawnParticipant& participant : participants) {
+    if (participant.prototype >= scene.bodies.size()) continue;
+    const BodyBounds& body = scene.bodies[participant.prototype];
+    const glm::vec3 half = 0.5f * (body.max_m - body.min_m), middle = 0.5f * (body.max_m + body.min_m);
+    if (!(half.x > 0.05f && half.y > 0.05f && body.max_m.z > 0.3f && body.min_m.z < 1.5f)) continue;
+    GroundContact contact;
+    contact.world_from_body = participant.world_from_vehicle;
+    contact.world_from_body.position_m = participant.world_from_vehicle * Vec3(middle.x, middle.y, 0.0);
+    contact.half_length_m = half.x;
+    contact.half_width_m = half.y;
+    contact.height_m = body.max_m.z;
+    contact.clearance_m = std::clamp(body.min_m.z, 0.1f, 0.8f);
+    contact.share_of_sky = share_of_sky(scene, participant.world_from_vehicle.position_m);
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
 /// The material of a prototype's first part that has one.
 std::uint32_t material_of(const SceneSummary& scene, std::uint32_t prototype) {
   if (prototype >= scene.prototypes.size()) return no_material;
@@ -66,6 +87,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.parts = std::move(placed.meshes);
   instant.lamps = std::move(placed.glows);
   instant.headlights = seen_headlights(std::move(placed.headlights), scene, *instant.light);
+  instant.contacts = contacts_of(input.participants, scene);
   for (DynamicMesh& mesh : input.meshes) {
     const std::uint32_t material = material_of(scene, mesh.prototype);
     if (material == no_material || mesh.vertices.empty()) continue;

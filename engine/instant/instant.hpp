@@ -51,6 +51,7 @@ struct Instant {
   /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
   /// exposure there is less than a camera's. None whose pool cannot be seen.
   std::vector<Headlight> headlights;
+  std::vector<GroundContact> contacts;  ///< Of participants, for renderers that do not find out by rays.
   std::vector<SmokePuff> smoke;
   SootField soot;
   std::vector<OverlayText> overlay;  ///< Over the finished picture.

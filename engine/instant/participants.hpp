@@ -27,6 +27,14 @@ struct Headlight {
   float intensity = 0.0f;                 ///< Where the beam is brightest, both together, in units of 8000 cd.
 };
 
+/// A body that stands on the ground and hides the sky from it: a box above its footprint.
+struct GroundContact {
+  RigidTransform world_from_body;  ///< The footprint's middle, on the ground; x along it.
+  float half_length_m = 0.0f, half_width_m = 0.0f, height_m = 0.0f;
+  float clearance_m = 0.1f;  ///< Below it.
+  float share_of_sky = 1.0f;
+};
+
 struct PlacedParticipants {
   std::vector<PlacedMesh> meshes;  ///< Ordered by mesh.
   std::vector<LampGlow> glows;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/common.hpp>
+
 namespace septet::instant {
 namespace {
 
@@ -17,6 +19,22 @@ MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::
   return summary;
 }
 
+/// Lamps on roofs and what is seen from afar alone are left out.
+BodyBounds body_of(const scene::Prototype& prototype, const std::vector<MeshSummary>& meshes) {
+  BodyBounds body{glm::vec3(1e9f), glm::vec3(-1e9f)};
+  for (const scene::Instance& part : prototype.parts) {
+    if (part.mesh >= meshes.size() || part.role != scene::PartRole::fixed || part.visible_from_m > 0.0f) continue;
+    const MeshBounds& bounds = meshes[part.mesh].bounds;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec3 share(corner & 1, corner >> 1 & 1, corner >> 2);
+      const glm::vec3 at(part.world_from_object * Vec3(glm::mix(bounds.min_m, bounds.max_m, share) * part.scale));
+      body.min_m = glm::min(body.min_m, at);
+      body.max_m = glm::max(body.max_m, at);
+    }
+  }
+  return body;
+}
+
 float least_share_of_sky(const scene::SurfaceMesh& mesh, const std::vector<scene::SurfaceMaterial>& materials) {
   float least = 1.0f;
   for (const scene::MeshPart& part : mesh.parts)
@@ -30,6 +48,8 @@ SceneSummary summarise(const scene::ResolvedScene& scene) {
   SceneSummary summary;
   summary.prototypes = scene.prototypes;
   for (const scene::SurfaceMesh& mesh : scene.meshes) summary.meshes.push_back(summary_of(mesh, scene.materials));
+  for (const scene::Prototype& prototype : scene.prototypes)
+    summary.bodies.push_back(body_of(prototype, summary.meshes));
   for (const scene::Instance& instance : scene.instances) {
     if (instance.mesh >= scene.meshes.size()) continue;
     const scene::SurfaceMesh& mesh = scene.meshes[instance.mesh];

@@ -18,6 +18,9 @@ struct MeshSummary {
   std::uint32_t first_material = no_material;  ///< Of its first part with triangles.
 };
 
+/// What of a prototype hides the sky from the ground: the bounds of its parts but wheels, in the vehicle's frame. None has min_m.x > max_m.x.
+using BodyBounds = MeshBounds;
+
 /// A box in which the sky is not seen, such as a stretch of tunnel: the bounds of an instance with such a material.
 struct Roof {
   RigidTransform object_from_world;
@@ -28,6 +31,7 @@ struct Roof {
 struct SceneSummary {
   std::vector<scene::Prototype> prototypes;
   std::vector<MeshSummary> meshes;  ///< One a mesh.
+  std::vector<BodyBounds> bodies;   ///< One a prototype.
   std::vector<Roof> roofs;
 };
 

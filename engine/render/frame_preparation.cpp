@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/render/passes/contact_pass.hpp"
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
@@ -44,6 +45,10 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
                    [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
+  const std::vector<ContactRecord> contacts =
+      contact_records(instant.contacts, eye_m, volume, static_cast<float>(pixel_slope));
+  prepared.contacts = store(context, std::span<const ContactRecord>(contacts));
+  prepared.contact_count = static_cast<std::uint32_t>(contacts.size());
   const std::vector<WetLampRecord> wet_lamps = wet_lamp_records(
       instant.lamps, eye_m, static_cast<float>(instant.environment.road_wetness), instant.emission_share);
   prepared.wet_lamps = store(context, std::span<const WetLampRecord>(wet_lamps));

@@ -17,6 +17,8 @@ struct PreparedView {
   FrameData uniforms;
   FrameData glows;
   std::uint32_t glow_count = 0;
+  FrameData contacts;
+  std::uint32_t contact_count = 0;
   FrameData wet_lamps;
   std::uint32_t wet_lamp_count = 0;
   FrameData streaks;

@@ -16,6 +16,7 @@
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/ice_frame.hpp"
+#include "engine/render/passes/contact_pass.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/glow_pass.hpp"
@@ -59,6 +60,7 @@ struct Renderer::State {
   SurfacePass surface_pass;
   ShadowPass shadow_pass;
   SkyPass sky_pass;
+  ContactPass contact_pass;
   GlowPass glow_pass;
   PrecipitationPass precipitation_pass;
   SmokePass smoke_pass;
@@ -120,6 +122,7 @@ void Renderer::State::create(const RendererOptions& wanted) {
   noise = create_texture(upload, texture_levels(side, side, texels, false));
   upload.finish();
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
+  create_contact_pass(contact_pass, device, layout, formats);
   create_glow_pass(glow_pass, device, layout, formats);
   create_precipitation_pass(precipitation_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);
@@ -143,6 +146,7 @@ void Renderer::State::destroy() {
   destroy_ice_pass(ice_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
   destroy_precipitation_pass(precipitation_pass, device);
+  destroy_contact_pass(contact_pass, device);
   destroy_glow_pass(glow_pass, device);
   destroy_sky_pass(sky_pass, device);
   destroy_shadow_pass(shadow_pass, device);
@@ -176,6 +180,11 @@ void Renderer::State::draw_view(PassContext& context, const PreparedView& prepar
   mark_pass(context, "cut-outs");
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::stripe, surface_light);
   mark_pass(context, "stripes");
+  if (prepared.contact_count > 0) {
+    draw_contacts(contact_pass, context, prepared.contacts, prepared.contact_count);
+    push_records(context, soot);
+  }
+  mark_pass(context, "contact shadows");
   draw_sky(sky_pass, context, environment.cloud_cover > 0.0, instant.light->night > 0.0f);
   mark_pass(context, "sky");
   draw_seen_through();

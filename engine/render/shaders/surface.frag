@@ -3,6 +3,7 @@
 #include "view.glsl"
 #include "material.glsl"
 #include "headlights.glsl"
+#include "sunlit.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
@@ -44,21 +45,6 @@ float soot_cover() {
     sum += weight.x * weight.y * weight.z * soot_in(low + step, size);
   }
   return sum;
-}
-
-// Share of the sun's light that arrives: one of two cascades, four texels compared and blended by the sampler.
-float sunlit(vec3 n, float facing) {
-  // The receiver is moved off its surface by about two texels of the cascade that it lies in.
-  vec3 near = (view.shadow_from_relative * vec4(relative, 1.0)).xyz;
-  vec2 near_edge = abs(near.xy - 0.5);
-  bool is_near = max(near_edge.x, near_edge.y) < 0.48;
-  float texel_m = is_near ? view.light_direction.w : view.sun_direction.w;
-  near += mat3(view.shadow_from_relative) * (n * (texel_m * (2.0 - 1.6 * facing)));
-  vec2 far = near.xy * view.far_from_near.xy + view.far_from_near.zw;
-  vec2 far_edge = abs(far - 0.5);
-  float fade = is_near ? 1.0 : clamp((0.49 - max(far_edge.x, far_edge.y)) * 20.0, 0.0, 1.0);
-  vec4 at = is_near ? vec4(near.xy, 0.0, near.z) : vec4(far, 1.0, near.z);
-  return 1.0 - fade + fade * texture(shadow_map, at);
 }
 
 // The road lies at a grazing angle, where a pixel's footprint is long: three samples along it, from a finer mip level.
@@ -132,7 +118,7 @@ void main() {
   vec3 to_light = view.light_direction.xyz;
   float facing = dot(n, to_light);
   float lit = share_of_sky;
-  lit *= sunlit(n, abs(facing));
+  lit *= sunlit(relative, n, abs(facing));
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;

@@ -1,0 +1,36 @@
+#pragma once
+/// Draws what bodies on the ground hide of the sky: under a closed cover, in a tunnel and at night no shadow ties a vehicle to its road.
+///
+/// One rectangle a body, over the ground alone, in closed form (shaders/contact.frag); a ray tracer finds the same by its rays.
+
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "engine/instant/participants.hpp"
+#include "engine/render/passes/pass_context.hpp"
+
+namespace septet::render {
+
+/// The twin of Contact in shaders/contact.vert.
+struct ContactRecord {
+  glm::vec4 middle{0.0f}, ahead{0.0f}, aside{0.0f}, light{0.0f};
+};
+
+struct ContactPass {
+  VkPipeline pipeline = VK_NULL_HANDLE;
+};
+
+void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                         const TargetFormats& formats);
+void destroy_contact_pass(ContactPass& pass, const vulkan::Device& device);
+
+/// Those that a view may see as more than a pixel (`pixel_rad` wide), the nearest `most_contacts`.
+inline constexpr std::size_t most_contacts = 48;
+std::vector<ContactRecord> contact_records(std::span<const GroundContact> contacts, const Vec3& eye_m,
+                                           const ViewVolume& volume, float pixel_rad);
+
+void draw_contacts(const ContactPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);
+
+}  // namespace septet::render
