@@ -186,12 +186,14 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   if (!loaded) return tl::unexpected(loaded.error());
   drive.loaded = std::move(*loaded);
   for (const auto& warning : drive.loaded.warnings) progress.message("not used: " + warning);
-  // Also where nobody looks on: the log keeps the scene, so that the drive can be shown later.
-  scene::SceneBuilder builder(drive.store);
-  scenery::build_vehicles(builder);
-  scenery::build_debris_looks(builder);
-  scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
-                            {.raised = drive.loaded.model->raised.get()});
+  // Also where nobody looks on: a whole log keeps the scene, so that the drive can be shown later.
+  if (!options.no_screens || !options.log_samples_only) {
+    scene::SceneBuilder builder(drive.store);
+    scenery::build_vehicles(builder);
+    scenery::build_debris_looks(builder);
+    scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
+                              {.raised = drive.loaded.model->raised.get()});
+  }
   auto can = open_can_seat(drive.loaded.rig, options.rig);
   if (!can) return tl::unexpected(can.error());
   auto seat = choose_seat(options, drive.loaded.rig.car, drive.loaded.model, can->controls, progress);

@@ -140,12 +140,13 @@ Expected<int> run_experiment_next(const ExperimentOptions& options) {
   if (!study) return tl::unexpected(study.error());
   const PlannedSubject* next = nullptr;
   Stand stand;
-  std::size_t finished = 0;
+  std::size_t finished = 0, forgotten = 0;
   std::string missing;
   for (const PlannedSubject& subject : study->plan) {
     const Stand own = stand_of(*study, subject);
     finished += own.is_finished;
-    if (own.is_finished)
+    forgotten += own.is_forgotten;
+    if (own.is_finished && !own.is_forgotten)
       for (const auto& questionnaire : missing_answers(*study, own.sessions))
         missing += fmt::format("  {} has not answered {}: septet session answer {} {}\n", subject.participant,
                                questionnaire, own.sessions.back().string(), questionnaire);
@@ -155,7 +156,8 @@ Expected<int> run_experiment_next(const ExperimentOptions& options) {
       stand = own;
     }
   }
-  fmt::print("{} of {} subjects are finished\n", finished, study->plan.size());
+  fmt::print("{} of {} subjects are finished{}\n", finished, study->plan.size(),
+             forgotten > 0 ? fmt::format(", {} of them forgotten", forgotten) : "");
   if (!missing.empty()) fmt::print("Missing:\n{}", missing);
   if (!next) return 0;
   std::string order;

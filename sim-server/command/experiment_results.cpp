@@ -61,6 +61,13 @@ std::string experiment_json(const Study& study) {
   return document::text_of(json);
 }
 
+/// What is said above the figures.
+std::string note_of(const std::string& note, std::size_t forgotten, std::size_t subjects) {
+  if (forgotten == 0) return note;
+  return fmt::format("{}{}{} of {} subjects {} forgotten, and {} in no figure here.", note, note.empty() ? "" : " ",
+                     forgotten, subjects, forgotten > 1 ? "were" : "was", forgotten > 1 ? "are" : "is");
+}
+
 }  // namespace
 
 Expected<void> note_playing_time(const Study& study, const PlannedSubject& subject) {
@@ -95,18 +102,20 @@ Expected<void> note_playing_time(const Study& study, const PlannedSubject& subje
 
 Expected<void> write_study(const Study& study) {
   std::vector<fs::path> sessions;
+  std::size_t forgotten = 0;
   for (const PlannedSubject& subject : study.plan) {
     // A run that was killed just then has not noted it; what is noted stays.
     if (auto noted = note_playing_time(study, subject); !noted) return noted;
-    auto own = stand_of(study, subject).sessions;
-    sessions.insert(sessions.end(), own.begin(), own.end());
+    const Stand stand = stand_of(study, subject);
+    forgotten += stand.is_forgotten;
+    sessions.insert(sessions.end(), stand.sessions.begin(), stand.sessions.end());
   }
   auto subjects = logging::pool_sessions(sessions, {});
   if (!subjects) return tl::unexpected(subjects.error());
   const auto written = document::write_text_file(study.folder / "experiment.json", experiment_json(study));
   if (!written) return written;
   return logging::write_group_report({.title = study.experiment.title,
-                                      .note = study.experiment.note,
+                                      .note = note_of(study.experiment.note, forgotten, study.plan.size()),
                                       .subjects = std::move(*subjects),
                                       .settings = {}},
                                      study.folder);

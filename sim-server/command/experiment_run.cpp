@@ -80,6 +80,10 @@ ExperimentRun::ExperimentRun(const Study& study, const ExperimentOptions& option
   for (std::size_t i = 0; i < study.plan.size(); ++i) {
     if (!options.only.empty() && study.plan[i].participant != options.only) continue;
     stands_[i] = stand_of(study, study.plan[i]);
+    if (stands_[i].is_forgotten) {
+      ++finished_;
+      continue;
+    }
     total_s_ += planned_s(study.plan[i]);
     done_s_ += stands_[i].total_s;
     if (stands_[i].is_finished)

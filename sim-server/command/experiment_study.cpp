@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -39,6 +42,13 @@ Expected<void> check_names(const Study& study) {
     if (const auto file = program::find_resource(name, "scenarios/questionnaires", ".toml"); !file)
       return tl::unexpected(file.error());
   return {};
+}
+
+fs::path list_of_forgotten(const fs::path& experiment) { return experiment / "forgotten.txt"; }
+
+bool is_forgotten(const fs::path& experiment, const std::string& participant) {
+  const auto list = read_regular_file(list_of_forgotten(experiment));
+  return list && ('\n' + *list).find('\n' + participant + '\n') != std::string::npos;
 }
 
 }  // namespace
@@ -87,9 +97,12 @@ FoundDrive find_drive(const fs::path& folder) {
   return found;
 }
 
-/// From what lies in the folder: the whole drives, up to the first that is not.
 Stand stand_of(const Study& study, const PlannedSubject& subject) {
   Stand stand;
+  if (is_forgotten(study.folder, subject.participant)) {
+    stand.is_finished = stand.is_forgotten = true;
+    return stand;
+  }
   for (; stand.drive < subject.drives.size(); ++stand.drive, stand.lap = 0, stand.done_s = 0.0) {
     const PlannedDrive& drive = subject.drives[stand.drive];
     const bool is_free = study.experiment.parts[drive.part].is_free();
@@ -144,15 +157,21 @@ std::string command_text(std::string command, const std::vector<std::string>& ar
   return command;
 }
 
+Expected<std::unique_ptr<HeldFolder>> HeldFolder::hold(const fs::path& folder) {
+  auto held = std::make_unique<HeldFolder>();
+  held->file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (held->file_ >= 0 && ::flock(held->file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return failure("this experiment is being run already", folder.string(),
+                   "wait for its end, or choose another folder with --out");
+  return held;
+}
+
 Expected<std::unique_ptr<HeldFolder>> HeldFolder::hold(const Study& study) {
   std::error_code error;
   fs::create_directories(study.folder / "subjects", error);
   if (error) return failure(error.message(), study.folder.string(), "choose a folder that can be written with --out");
-  auto held = std::make_unique<HeldFolder>();
-  held->file_ = ::open(study.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (held->file_ >= 0 && ::flock(held->file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    return failure("this experiment is being run already", study.folder.string(),
-                   "wait for its end, or choose another folder with --out");
+  auto held = hold(study.folder);
+  if (!held) return held;
   const fs::path own = study.folder / "experiment.toml";
   if (fs::exists(own, error)) {
     const auto earlier = read_regular_file(own);
@@ -175,6 +194,29 @@ Expected<std::unique_ptr<HeldFolder>> HeldFolder::hold(const Study& study) {
 
 HeldFolder::~HeldFolder() {
   if (file_ >= 0) ::close(file_);
+}
+
+std::optional<fs::path> experiment_of(const fs::path& session, const std::string& participant) {
+  std::error_code error;
+  const fs::path subject = fs::absolute(session, error).lexically_normal().parent_path().parent_path();
+  const fs::path subjects = subject.parent_path();
+  if (error || subject.filename() != participant || subjects.filename() != "subjects") return std::nullopt;
+  const fs::path experiment = subjects.parent_path();
+  return fs::exists(experiment / "experiment.toml", error) ? std::optional(experiment) : std::nullopt;
+}
+
+Expected<void> note_forgotten(const fs::path& experiment, const std::string& participant) {
+  const auto held = HeldFolder::hold(experiment);
+  if (!held) return tl::unexpected(held.error());
+  if (is_forgotten(experiment, participant)) return {};
+  const fs::path list = list_of_forgotten(experiment);
+  std::string text;
+  if (std::error_code error; fs::exists(list, error)) {
+    auto earlier = read_regular_file(list);
+    if (!earlier) return tl::unexpected(earlier.error());
+    text = std::move(*earlier);
+  }
+  return document::write_text_file(list, text + participant + '\n');
 }
 
 }  // namespace septet::server

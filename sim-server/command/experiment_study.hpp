@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Stand {
   double total_s = 0.0;  ///< Of all.
   std::vector<std::filesystem::path> sessions;
   bool is_finished = false;
+  bool is_forgotten = false;  ///< Finished, and without sessions.
 };
 /// From what lies in the folder: the whole drives, up to the first that is not.
 Stand stand_of(const Study& study, const logging::PlannedSubject& subject);
@@ -57,6 +59,8 @@ Stand stand_of(const Study& study, const logging::PlannedSubject& subject);
 class HeldFolder {
  public:
   static Expected<std::unique_ptr<HeldFolder>> hold(const Study& study);
+  /// A folder as it is: nothing is written there.
+  static Expected<std::unique_ptr<HeldFolder>> hold(const std::filesystem::path& folder);
   HeldFolder() = default;
   HeldFolder(const HeldFolder&) = delete;
   HeldFolder& operator=(const HeldFolder&) = delete;
@@ -65,5 +69,11 @@ class HeldFolder {
  private:
   int file_ = -1;
 };
+
+/// The experiment's folder, of a session below its `subjects/PARTICIPANT`; nothing where it lies elsewhere.
+std::optional<std::filesystem::path> experiment_of(const std::filesystem::path& session,
+                                                   const std::string& participant);
+/// Notes that this subject is not to be driven anew (a line of `forgotten.txt`). The experiment's folder is held meanwhile: refused while it is being run.
+Expected<void> note_forgotten(const std::filesystem::path& experiment, const std::string& participant);
 
 }  // namespace septet::server

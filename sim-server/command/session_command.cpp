@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <set>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +20,7 @@
 #include "logging/session_reader.hpp"
 #include "program/console.hpp"
 #include "program/resources.hpp"
+#include "sim-server/command/experiment_study.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -218,6 +221,12 @@ Expected<int> run_session_forget(const ForgetOptions& options) {
   if (theirs.empty())
     return failure(fmt::format("none of {} sessions is of {}", found->size(), printable(options.participant, 60)),
                    options.places.front().string(), "check the code and the folders");
+  // First of all: killed from here on, the experiment still does not drive them anew.
+  std::set<fs::path> experiments;
+  for (const fs::path& session : theirs)
+    if (auto experiment = experiment_of(session, options.participant)) experiments.insert(std::move(*experiment));
+  for (const fs::path& experiment : experiments)
+    if (auto noted = note_forgotten(experiment, options.participant); !noted) return tl::unexpected(noted.error());
   const auto done = options.delete_data ? delete_drives(theirs) : make_anonymous(theirs);
   if (!done) return tl::unexpected(done.error());
   for (const fs::path& session : theirs) {

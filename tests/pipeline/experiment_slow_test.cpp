@@ -49,12 +49,26 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
     CHECK_MESSAGE(is_same, name);
   }
 
+  // Who is forgotten is not driven anew, and is in no figure.
+  const auto forgotten = run("septet", {"session", "forget", "P02", (folder / "whole").string()}, folder / "f.log");
+  REQUIRE_MESSAGE(forgotten.code == 0, forgotten.error);
+  const auto without = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "w.log");
+  CHECK_MESSAGE(without.code == 0, without.error);
+  CHECK_FALSE(fs::exists(folder / "whole/subjects/P02"));
+  CHECK(fs::exists(folder / "whole/subjects/forgotten-1/game-01/session.sqlite"));
+  const std::string rest = content_of(folder / "whole/subjects.csv");
+  CHECK(std::count(rest.begin(), rest.end(), '\n') == 4);
+  CHECK(rest.find("P02") == std::string::npos);
+  CHECK(content_of(folder / "whole/report.html").find("1 of 4 subjects was forgotten") != std::string::npos);
+  auto next = start("septet", {"experiment", "next", file, "--out", (folder / "whole").string()}, folder / "n.log");
+  CHECK(next.read_line(patience).value_or("") == "4 of 4 subjects are finished, 1 of them forgotten");
+
   // Another file in the same folder is another experiment.
   write_text(folder / "e.toml", "title = \"other\"\n" + small_experiment);
   const auto other = run("septet", {"experiment", file, "--out", (folder / "whole").string()}, folder / "4.log");
   CHECK(other.code == 1);
   CHECK(other.error.find("another experiment") != std::string::npos);
-  CHECK(content_of(folder / "whole/subjects.csv") == table);
+  CHECK(content_of(folder / "whole/subjects.csv") == rest);
 }
 
 TEST_CASE("a participant who is forgotten is in no file of the drives any more and a report pools the rest") {
