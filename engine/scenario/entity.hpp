@@ -59,8 +59,8 @@ struct Entity {
 /// What a vehicle of this category (OpenSCENARIO's word) is drawn and driven as; a car for the rest.
 ParticipantKind kind_of_category(std::string_view category);
 
-/// The model of the same name as the entity's type; else, among those of its kind (category and
-/// role), the one nearest in length, width and height; else the nearest of any kind.
+/// The model of the same name as the entity's type; else the one that its role, category and name tell
+/// ("car_police"); else, among those of its kind (category and role), the one nearest in length, width and height; else the nearest of any kind.
 ModelIndex match_vehicle_model(const Entity& entity);
 
 }  // namespace septet::scenario

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/traffic/looks.hpp"
 #include "engine/traffic/traffic_stages.hpp"
 #include "engine/world/indicator.hpp"
 
@@ -75,7 +76,7 @@ void describe(const CorridorTraffic& traffic, std::size_t i, const VehicleModel&
   }
 
   participant.id = traffic.id[i];
-  participant.model = traffic.model[i];
+  participant.model = look_of(traffic.model[i], traffic.id[i]);
   participant.paint = traffic.paint[i];
   turn_about_up(world_from_line, turned, participant.world_from_vehicle.orientation);
   const double curvature_per_m =

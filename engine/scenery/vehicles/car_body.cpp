@@ -142,11 +142,27 @@ CarShape car_shape(const VehicleModel& model) {
   if (model.name == "hatchback") {
     s = {0.17f, 0.90f, 0.98f, 0.96f, 0.78f, 1.00f, 0.88f,  0.40f,
          1.22f, 0.42f, 0.14f, 0.68f, 0.72f, 0.86f, 0.045f, false};
-  } else if (model.name == "saloon") {
+  } else if (model.name == "saloon" || model.name == "taxi" || model.name == "police-car") {
     s.belt_rear_m = 0.96f;
     s.roof_rear_m = 1.10f;
     s.backlight_m = 0.50f;
     s.nose_half_width = 0.78f;
+  } else if (model.name == "coupe") {
+    s = {0.15f, 0.90f, 0.97f, 0.94f, 0.74f, 1.00f, 0.90f,  0.66f,
+         1.58f, 1.72f, 0.22f, 0.62f, 0.74f, 0.82f, 0.045f, false};
+  } else if (model.name == "sports-car") {
+    s = {0.13f, 0.80f, 0.86f, 0.82f, 0.62f, 0.88f, 0.80f,  0.72f,
+         1.50f, 1.42f, 0.50f, 0.60f, 0.72f, 0.86f, 0.040f, false};
+  } else if (model.name == "pick-up") {
+    s = {0.28f, 1.08f, 1.10f, 1.12f, 0.98f, 1.10f, 1.08f,  0.46f,
+         1.20f, 1.85f, 1.66f, 0.72f, 0.84f, 0.94f, 0.040f, false};
+  } else if (model.name == "mpv") {
+    s = {0.18f, 0.98f, 1.02f, 1.00f, 0.82f, 1.06f, 0.98f,  0.12f,
+         0.98f, 0.30f, 0.08f, 0.72f, 0.76f, 0.92f, 0.050f, true};
+  } else if (model.name == "dropside-van" || model.name == "box-van") {
+    // A cab with a low back, on which a bed or a box stands.
+    s = {0.24f, 1.28f, 1.20f, 1.22f, 0.98f, 1.00f, 0.98f, 0.22f,
+         1.02f, 3.00f, 2.72f, 0.82f, 0.82f, 0.98f, 0.05f, false};
   } else if (model.name == "estate") {
     s = {0.17f, 0.93f, 0.96f, 0.96f, 0.78f, 1.00f, 0.90f, 0.58f, 1.42f, 0.34f, 0.12f, 0.69f, 0.76f, 0.88f, 0.04f, true};
   } else if (model.name == "suv") {
@@ -232,7 +248,7 @@ PolygonMesh car_body_far(const VehicleModel& model, const CarShape& s) {
       const bool cabin = i >= 1 && i <= 3;
       // Windows: the sides between belt and roof, the slopes before and behind.
       const bool window = cabin && ((k == 1 || k == 3) || (k == 2 && i != 2));
-      const bool panel_van = model.kind != ParticipantKind::car && i != 3;
+      const bool panel_van = model.kind != ParticipantKind::car && model.name != "minibus" && i != 3;
       builder.material = index_of(k == 5 ? Finish::underbody : window && !panel_van ? Finish::glass : Finish::paint);
       builder.quad(at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
     }

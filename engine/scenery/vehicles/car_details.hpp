@@ -4,6 +4,7 @@
 
 #include "engine/geometry/mesh_measures.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 
 namespace septet::scenery {
@@ -25,10 +26,16 @@ geometry::PolygonMesh car_trim(const CarSurface& car);
 /// One part a lamp role, without visibility ranges.
 VehicleParts car_lamps(const CarSurface& car);
 
-/// Chequers and lettering of an ambulance.
-geometry::PolygonMesh ambulance_livery(const CarSurface& car);
+/// Chequers and lettering of ambulances and police cars; nothing on others.
+geometry::PolygonMesh livery(const CarSurface& car);
 
-/// The blue lamps on roof and grille.
-VehiclePart ambulance_beacons(const CarSurface& car);
+/// What the body wears where others have paint.
+Finish body_finish(const VehicleModel& model);
+
+/// The blue lamps on roof and grille, a taxi's sign.
+VehicleParts roof_parts(const CarSurface& car);
+
+/// What stands behind the cab of a van without a van's body.
+geometry::PolygonMesh van_load(const CarSurface& car);
 
 }  // namespace septet::scenery

@@ -1,8 +1,13 @@
 #include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <glm/common.hpp>
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/scenery/vehicles/car_details.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
+#include "engine/scenery/vehicles/lens.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
 
 namespace septet::scenery {
@@ -25,9 +30,8 @@ class LampPen {
     right(face, low, high);
   }
   void draw(Face face, glm::vec2 low, glm::vec2 high) {
-    const PatchOptions options = car_.level == DetailLevel::near     ? PatchOptions{0.014f, 0.12f}
-                                 : car_.level == DetailLevel::middle ? PatchOptions{0.020f, 0.0f}
-                                                                     : PatchOptions{0.030f, 0.0f};
+    if (car_.level != DetailLevel::near) return draw_plate(face, low, high);
+    const PatchOptions options{0.014f, 0.12f};
     MeshBuilder builder;
     builder.material = index_of(finish_);
     draw_patch(builder, car_.body, face, rectangle(face, low, high), options);
@@ -39,6 +43,19 @@ class LampPen {
   }
 
  private:
+  /// Flat, before the outermost point of the body that it covers.
+  void draw_plate(Face face, glm::vec2 low, glm::vec2 high) {
+    const bool ahead = face == Face::front;
+    std::optional<float> x;
+    for (const glm::vec2 at : {low, high, glm::vec2(low.x, high.y), glm::vec2(high.x, low.y), 0.5f * (low + high)})
+      if (const auto point = surface_point(car_.body, face, at))
+        x = !x ? point->x : ahead ? std::max(*x, point->x) : std::min(*x, point->x);
+    if (!x) return;
+    const glm::vec2 middle = 0.5f * (low + high);
+    parts_.push_back(lens_plate(name_, role_, finish_, ahead, {*x + (ahead ? 0.02f : -0.02f), middle.x, middle.y},
+                                glm::abs(high - low)));
+  }
+
   const CarSurface& car_;
   VehicleParts& parts_;
   const char* name_;
@@ -90,62 +107,6 @@ VehicleParts car_lamps(const CarSurface& car) {
       draw(Face::rear, {inner, middle + 0.004f}, {between - 0.004f, top});
   }
   return parts;
-}
-
-geometry::PolygonMesh ambulance_livery(const CarSurface& car) {
-  MeshBuilder builder;
-  const float front = static_cast<float>(car.model.wheelbase_m) - 0.30f,
-              rear = static_cast<float>(-car.model.rear_overhang_m) + 0.08f;
-  const PatchOptions flat{0.012f, 0.0f};
-  // Lengths of four chequers, so that they stay square.
-  builder.material = index_of(Finish::chequers);
-  const float low = 0.92f, high = 1.40f, length = (high - low) / 2 * 8;
-  for (float x = front; x - length * 0.4f > rear; x -= length) {
-    const float end = x - length < rear ? rear : x - length;
-    draw_patch_on_both_sides(builder, car.body, {{{{x, low}, {end, low}, {end, high}, {x, high}}}}, flat);
-  }
-  if (car.level == DetailLevel::far) return builder.take();
-  const float half = car.half_width_m() * 0.72f, hood = car.shape.hood_front_m;
-  draw_patch(builder, car.body, Face::rear, rectangle(Face::rear, {-half, 0.98f}, {half, 1.38f}), flat);
-  builder.material = index_of(Finish::lettering_mirrored);
-  draw_patch(builder, car.body, Face::front, rectangle(Face::front, {-0.58f, hood - 0.02f}, {0.58f, hood + 0.16f}),
-             flat);
-  if (car.level != DetailLevel::near) return builder.take();
-  builder.material = index_of(Finish::lettering);
-  draw_patch_on_both_sides(builder, car.body, {{{{0.25f, 2.08f}, {-0.95f, 2.08f}, {-0.95f, 2.30f}, {0.25f, 2.30f}}}},
-                           flat);
-  draw_patch(builder, car.body, Face::rear, rectangle(Face::rear, {-0.55f, 2.14f}, {0.55f, 2.34f}), flat);
-  return builder.take();
-}
-
-VehiclePart ambulance_beacons(const CarSurface& car) {
-  MeshBuilder builder;
-  builder.material = index_of(Finish::lens_beacon);
-  const auto axle = static_cast<float>(car.model.wheelbase_m), high = static_cast<float>(car.model.height_m);
-  const bool far = car.level == DetailLevel::far;
-  const auto bar = [&](float x, float from_y, float to_y) {
-    const auto roof = surface_point(car.body, Face::top, {x, (from_y + to_y) / 2});
-    const float low = roof ? roof->z - 0.05f : high - 0.3f;
-    const auto lamp = [&](float y0, float y1) {
-      builder.append(geometry::box({x - 0.11f, y0, low}, {x + 0.11f, y1, low + 0.2f},
-                                   car.level == DetailLevel::near ? 0.03f : 0.0f),
-                     glm::mat4(1.0f), true);
-    };
-    if (far) return lamp(-to_y, to_y);
-    lamp(from_y, to_y);
-    lamp(-to_y, -from_y);
-  };
-  bar(axle - 1.45f, 0.12f, 0.66f);
-  bar(static_cast<float>(-car.model.rear_overhang_m) + 0.55f, 0.44f, 0.74f);
-  if (car.level == DetailLevel::near)
-    for (const float side : {1.0f, -1.0f})
-      draw_patch(builder, car.body, Face::front,
-                 rectangle(Face::front, {side * 0.30f - 0.07f, car.shape.hood_front_m - 0.10f},
-                           {side * 0.30f + 0.07f, car.shape.hood_front_m - 0.05f}),
-                 {0.03f, 0.0f});
-  Placement place;
-  place.role = PartRole::beacon;
-  return {"beacon", builder.take(), 0, {place}};
 }
 
 }  // namespace septet::scenery

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/scenery/vehicles/cage.hpp"
@@ -11,10 +13,6 @@ namespace septet::scenery {
 namespace {
 
 using geometry::PolygonMesh;
-
-const char* name_of(DetailLevel level) {
-  return level == DetailLevel::near ? "near" : level == DetailLevel::middle ? "middle" : "far";
-}
 
 VehiclePart part(std::string name, PolygonMesh mesh, std::uint32_t subdivision_level = 0) {
   return {std::move(name), std::move(mesh), subdivision_level, {Placement{}}};
@@ -36,13 +34,13 @@ VehicleParts car_parts(const VehicleModel& model) {
   VehicleParts parts;
   const CarShape shape = car_shape(model);
   const bool ambulance = model.kind == ParticipantKind::ambulance;
+  const Finish finish = body_finish(model);
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
-    const std::string suffix = std::string(" ") + name_of(level);
+    const std::string suffix = suffix_of(level);
     const std::uint32_t steps = level == DetailLevel::near ? 1 : 0;
     PolygonMesh cage = level == DetailLevel::far ? car_body_far(model, shape) : car_body_cage(model, shape, steps);
-    if (ambulance)
-      std::replace(cage.polygon_materials.begin(), cage.polygon_materials.end(), index_of(Finish::paint),
-                   index_of(Finish::livery_yellow));
+    std::replace(cage.polygon_materials.begin(), cage.polygon_materials.end(), index_of(Finish::paint),
+                 index_of(finish));
     const PolygonMesh body = shown_surface(cage, steps);
     const CarSurface surface{model, shape, body, level};
     VehicleParts of_level;
@@ -50,22 +48,24 @@ VehicleParts car_parts(const VehicleModel& model) {
       geometry::MeshBuilder builder;
       builder.append(cage);
       add_far_wheels(builder, model);
-      if (ambulance) builder.append(ambulance_livery(surface));
+      if (ambulance) builder.append(livery(surface));
       of_level.push_back(part("body" + suffix, builder.take()));
     } else {
       of_level.push_back(part("body" + suffix, std::move(cage), steps));
       of_level.push_back(part("trim" + suffix, car_trim(surface)));
-      if (ambulance) of_level.push_back(part("livery" + suffix, ambulance_livery(surface)));
     }
+    if (!ambulance || level != DetailLevel::far) of_level.push_back(part("livery" + suffix, livery(surface)));
+    of_level.push_back(part("load" + suffix, van_load(surface)));
     for (VehiclePart& lamp : car_lamps(surface)) {
       lamp.name += suffix;
       of_level.push_back(std::move(lamp));
     }
-    if (ambulance) {
-      of_level.push_back(ambulance_beacons(surface));
-      of_level.back().name += suffix;
+    for (VehiclePart& on_roof : roof_parts(surface)) {
+      on_roof.name += suffix;
+      of_level.push_back(std::move(on_roof));
     }
     for (VehiclePart& p : of_level) {
+      if (p.mesh.polygons.empty()) continue;
       set_detail(p, level);
       parts.push_back(std::move(p));
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/scenery/vehicles/car_details.hpp"
@@ -104,6 +105,16 @@ void draw_van_windows(const TrimPen& pen, const Glasshouse& g) {
                              {0.80f * half, car.shape.hood_rear_m + 0.06f},
                              {0.80f * half, top + 0.06f},
                              {-0.80f * half, top + 0.06f}}}});
+  if (car.model.name == "minibus" || car.model.name == "police-van") {
+    // Passengers look out as far as the tail.
+    const float from = g.roof_front - 0.86f, to = static_cast<float>(-car.model.rear_overhang_m) + 0.28f;
+    for (int k = 0; k < 3; ++k) {
+      const float a = std::lerp(from, to, static_cast<float>(k) / 3.0f),
+                  b = std::lerp(from, to, (static_cast<float>(k) + 1.0f) / 3.0f) + 0.09f;
+      pen.side_window({{{{a, g.low_front}, {b, g.low_front}, {b, top}, {a, top}}}});
+    }
+  }
+  if (car.model.name == "dropside-van" || car.model.name == "box-van") return;
   for (const float side : {-1.0f, 1.0f}) {
     const float inner = 0.06f * half, outer = 0.74f * half;
     pen.window(Face::rear, rectangle(Face::rear, {side > 0 ? inner : -outer, 1.45f}, {side > 0 ? outer : -inner, top}));

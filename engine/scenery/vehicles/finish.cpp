@@ -22,7 +22,7 @@ struct Look {
 };
 
 /// In the order of Finish.
-constexpr std::array<Look, 26> looks{{
+constexpr std::array<Look, 30> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
@@ -49,6 +49,10 @@ constexpr std::array<Look, 26> looks{{
     {"cloth bright", {0.42f, 0.12f, 0.07f}, 0.9f},
     {"leather", {0.03f, 0.02f, 0.016f}, 0.6f},
     {"tarpaulin", {0.60f, 0.61f, 0.62f}, 0.6f},
+    {"fire red", {0.55f, 0.012f, 0.012f}, 0.28f},
+    {"police lettering", {1.0f, 1.0f, 1.0f}, 0.4f},
+    {"taxi sign", {1.0f, 1.0f, 1.0f}, 0.4f, 0.0f, {0.5f, 0.5f, 0.5f}},
+    {"timber", {0.23f, 0.14f, 0.075f}, 0.9f},
 }};
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
@@ -90,6 +94,13 @@ Image chequer_image() {
   return chequers;
 }
 
+/// One word on a ground, as wide as it fits.
+Image word_image(const char* word, Color ground, Color ink) {
+  Image text(128, 40, ground);
+  Lettering(image::FontStyle::bold).centred(text, 64, 33, word, 34, ink);
+  return text;
+}
+
 Image lettering_image(bool mirrored) {
   Image text(256, 48, {246, 212, 30});
   Lettering(image::FontStyle::bold).centred(text, 128, 39, "AMBULANS", 42, {14, 60, 140});
@@ -125,6 +136,8 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     if (i == index_of(Finish::chequers)) with_image(chequer_image());
     if (i == index_of(Finish::lettering)) with_image(lettering_image(false));
     if (i == index_of(Finish::lettering_mirrored)) with_image(lettering_image(true));
+    if (i == index_of(Finish::police_lettering)) with_image(word_image("POLIS", {236, 238, 236}, {14, 60, 140}));
+    if (i == index_of(Finish::taxi_sign)) with_image(word_image("TAXI", {246, 212, 30}, {16, 16, 18}));
     palette.push_back(builder.add_material(name, material));
   }
   return palette;

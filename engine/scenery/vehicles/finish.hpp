@@ -34,6 +34,10 @@ enum class Finish : std::uint32_t {
   cloth_bright,
   leather,
   tarpaulin,
+  fire_red,
+  police_lettering,
+  taxi_sign,
+  timber,
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

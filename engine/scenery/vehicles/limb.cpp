@@ -26,4 +26,10 @@ void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm
   builder.append(geometry::icosphere(splits), glm::scale(glm::translate(glm::mat4(1.0f), centre), radii), true);
 }
 
+void add_box(geometry::MeshBuilder& builder, Finish finish, const glm::vec3& low, const glm::vec3& high,
+             float bevel_m) {
+  builder.material = index_of(finish);
+  builder.append(geometry::box(low, high, bevel_m), glm::mat4(1.0f), true);
+}
+
 }  // namespace septet::scenery

@@ -1,7 +1,8 @@
 #pragma once
-/// Round bars and blobs between points: people, motorcycles, pipes.
+/// Round bars and blobs between points, and boxes: people, motorcycles, pipes, lorries.
 
 #include "engine/geometry/mesh_builder.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
 
 namespace septet::scenery {
 
@@ -12,5 +13,9 @@ void add_limb(geometry::MeshBuilder& builder, const glm::vec3& a, const glm::vec
 
 /// An ellipsoid; `splits` as for geometry::icosphere.
 void add_blob(geometry::MeshBuilder& builder, const glm::vec3& centre, const glm::vec3& radii, std::uint32_t splits);
+
+/// A box of one finish (geometry::box).
+void add_box(geometry::MeshBuilder& builder, Finish finish, const glm::vec3& low, const glm::vec3& high,
+             float bevel_m = 0.0f);
 
 }  // namespace septet::scenery

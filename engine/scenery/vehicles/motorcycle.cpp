@@ -33,15 +33,17 @@ void add_rider(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
   for (const float side : {1.0f, -1.0f}) {
     add_limb(b, {0.30f, side * 0.12f, 0.88f}, {0.74f, side * 0.20f, 0.72f}, 0.095f, 0.070f, sides);
     add_limb(b, {0.74f, side * 0.20f, 0.72f}, {0.46f, side * 0.19f, 0.32f}, 0.070f, 0.055f, sides);
-    add_limb(b, {0.56f, side * 0.20f, 1.30f}, {0.82f, side * 0.30f, 1.10f}, 0.062f, 0.052f, sides);
-    add_limb(b, {0.82f, side * 0.30f, 1.10f}, {1.10f, side * 0.29f, 1.04f}, 0.052f, 0.042f, sides);
+    add_limb(b, {0.56f, side * 0.20f, 1.18f}, {0.82f, side * 0.30f, 1.04f}, 0.062f, 0.052f, sides);
+    add_limb(b, {0.82f, side * 0.30f, 1.04f}, {1.10f, side * 0.29f, 1.04f}, 0.052f, 0.042f, sides);
   }
   b.material = index_of(Finish::cloth_bright);
-  add_limb(b, {0.30f, 0, 0.92f}, {0.54f, 0, 1.30f}, 0.15f, 0.18f, sides + 2);
+  add_limb(b, {0.27f, 0, 0.90f}, {0.48f, 0, 1.16f}, 0.15f, 0.17f, sides + 2);
+  // The helmet stands clear of the shoulders: a head is what one knows a rider by.
+  add_limb(b, {0.52f, 0, 1.22f}, {0.60f, 0, 1.32f}, 0.075f, 0.07f, sides);
   b.material = index_of(Finish::white_panel);
-  add_blob(b, {0.66f, 0, 1.27f + 0.0f}, {0.14f, 0.125f, 0.135f}, splits);
+  add_blob(b, {0.64f, 0, 1.40f}, {0.145f, 0.125f, 0.135f}, splits);
   b.material = index_of(Finish::glass);
-  add_blob(b, {0.695f, 0, 1.275f}, {0.115f, 0.108f, 0.065f}, splits);
+  add_blob(b, {0.685f, 0, 1.405f}, {0.11f, 0.108f, 0.062f}, splits);
 }
 
 VehiclePart lamp(const char* name, PartRole role, Finish finish, const glm::vec3& centre, const glm::vec3& radii) {
@@ -67,7 +69,9 @@ VehicleParts motorcycle_parts(const VehicleModel& model) {
       b.material = index_of(Finish::paint);
       add_blob(b, {0.75f, 0, 0.65f}, {0.75f, 0.17f, 0.28f}, 0);
       b.material = index_of(Finish::cloth_bright);
-      add_limb(b, {0.32f, 0, 0.9f}, {0.56f, 0, 1.3f}, 0.18f, 0.16f, 4);
+      add_limb(b, {0.30f, 0, 0.9f}, {0.50f, 0, 1.16f}, 0.18f, 0.16f, 4);
+      b.material = index_of(Finish::white_panel);
+      add_blob(b, {0.64f, 0, 1.40f}, {0.145f, 0.125f, 0.135f}, 0);
       b.material = index_of(Finish::tyre);
       for (const float x : {0.0f, wheelbase}) add_blob(b, {x, 0, 0.31f}, {0.31f, 0.06f, 0.31f}, 0);
     } else {

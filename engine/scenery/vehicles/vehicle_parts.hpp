@@ -27,14 +27,23 @@ struct VehiclePart {
 
 using VehicleParts = std::vector<VehiclePart>;
 
+const char* suffix_of(DetailLevel level);  ///< " near", " middle", " far": parts of one level are told apart so.
+
+/// Gives `of_level` its range and its names, and adds it to `parts`.
+void add_level(VehicleParts& parts, VehicleParts of_level, DetailLevel level);
+
 /// Gives every placement of `part` the range of the level.
 void set_detail(VehiclePart& part, DetailLevel level);
 
 /// All parts of a model of the catalogue, all three levels.
 VehicleParts vehicle_parts(const VehicleModel& model);
 
-VehicleParts car_parts(const VehicleModel& model);  ///< Cars, vans, ambulances.
-VehicleParts lorry_parts(const VehicleModel& model);
+VehicleParts car_parts(const VehicleModel& model);    ///< Cars, vans, ambulances.
+VehicleParts lorry_parts(const VehicleModel& model);  ///< Lorries with their loads, trailers, fire engines.
+VehicleParts bus_parts(const VehicleModel& model);
+VehicleParts farm_tractor_parts(const VehicleModel& model);
+VehicleParts caravan_parts(const VehicleModel& model);
+VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
 /// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel.

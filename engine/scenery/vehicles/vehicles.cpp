@@ -1,19 +1,49 @@
 #include "engine/scenery/vehicles/vehicles.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 
 namespace septet::scenery {
 namespace {
 
-void add_prototype(scene::SceneBuilder& builder, const Palette& palette, std::string_view model,
+/// Shapes by their meshes: vehicles of one outline have parts in common, which are sent once and drawn together.
+struct KnownShape {
+  geometry::PolygonMesh mesh;
+  std::uint32_t subdivision_level;
+  Shape shape;
+};
+using KnownShapes = std::multimap<std::size_t, KnownShape>;
+
+bool same(const geometry::PolygonMesh& a, const geometry::PolygonMesh& b) {
+  return a.vertices_m == b.vertices_m && a.polygon_materials == b.polygon_materials && a.polygons == b.polygons &&
+         a.corner_uvs == b.corner_uvs && a.vertex_creases == b.vertex_creases && a.edge_creases == b.edge_creases;
+}
+
+Shape known_shape(scene::SceneBuilder& builder, KnownShapes& known, const std::string& name, const VehiclePart& part,
+                  const Palette& palette) {
+  const auto [first, last] = known.equal_range(part.mesh.vertices_m.size());
+  for (auto it = first; it != last; ++it)
+    if (it->second.subdivision_level == part.subdivision_level && same(it->second.mesh, part.mesh))
+      return it->second.shape;
+  scene::MeshOptions options;
+  options.subdivision_level = part.subdivision_level;
+  const Shape shape = add_shape(builder, name, part.mesh, palette, options);
+  known.emplace(part.mesh.vertices_m.size(), KnownShape{part.mesh, part.subdivision_level, shape});
+  return shape;
+}
+
+void add_prototype(scene::SceneBuilder& builder, const Palette& palette, KnownShapes& known, std::string_view model,
                    const VehicleParts& parts) {
   const scene::NodeId root = builder.add_prototype(model);
   for (const VehiclePart& part : parts) {
     const std::string name = std::string(model) + "/" + part.name;
-    scene::MeshOptions options;
-    options.subdivision_level = part.subdivision_level;
-    const Shape shape = add_shape(builder, name, part.mesh, palette, options);
+    const Shape shape = known_shape(builder, known, name, part, palette);
     for (const Placement& placement : part.places) place(builder, name, shape, placement, root);
   }
 }
@@ -22,8 +52,10 @@ void add_prototype(scene::SceneBuilder& builder, const Palette& palette, std::st
 
 void build_vehicles(scene::SceneBuilder& builder) {
   const Palette palette = add_finishes(builder);
-  for (const VehicleModel& model : vehicle_models()) add_prototype(builder, palette, model.name, vehicle_parts(model));
-  add_prototype(builder, palette, "interior/volvo-s80", interior_parts());
+  KnownShapes known;
+  for (const VehicleModel& model : vehicle_models())
+    add_prototype(builder, palette, known, model.name, vehicle_parts(model));
+  add_prototype(builder, palette, known, "interior/volvo-s80", interior_parts());
 }
 
 }  // namespace septet::scenery

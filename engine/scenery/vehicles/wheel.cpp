@@ -98,7 +98,9 @@ PolygonMesh wheel_mesh(const WheelSize& size, DetailLevel level) {
 
 void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_track_m, bool front) {
   for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle}) {
-    const PolygonMesh left = wheel_mesh(size, level);
+    // Of middle wheels all vehicles share one, stretched: so that they are drawn together.
+    const bool shared = level == DetailLevel::middle;
+    const PolygonMesh left = shared ? middle_wheel({1.0f, 1.0f}) : wheel_mesh(size, level);
     const std::string suffix = level == DetailLevel::near ? "near" : "middle";
     VehiclePart left_part{"wheel left " + suffix, left, 0, {}},
         right_part{"wheel right " + suffix, geometry::mirrored_y(left), 0, {}};
@@ -107,6 +109,7 @@ void add_axle(VehicleParts& parts, const WheelSize& size, float x_m, float half_
     right_part.places.push_back(
         at(x_m, -half_track_m, size.radius_m, front ? PartRole::wheel_front_right : PartRole::wheel_rear_right));
     for (VehiclePart* part : {&left_part, &right_part}) {
+      if (shared) part->places.front().scale = {size.radius_m, size.width_m, size.radius_m};
       set_detail(*part, level);
       // One mesh carries all equal wheels.
       bool merged = false;

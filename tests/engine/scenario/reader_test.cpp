@@ -243,6 +243,27 @@ TEST_CASE("an entity is drawn as the model of its name or the nearest of its kin
   CHECK(vehicle_models()[match_vehicle_model(entity)].name == "ambulance");
 }
 
+TEST_CASE("an entity that no name of ours fits is drawn as its role, its category and the words of its name tell") {
+  struct Told {
+    const char *type_name, *category, *role, *model;
+    double length_m;
+  };
+  for (const Told& told :
+       {Told{"car_police", "car", "none", "police-car", 4.9}, Told{"V70", "car", "police", "police-car", 4.7},
+        Told{"London Taxi", "car", "none", "taxi", 4.6}, Told{"dump_truck", "truck", "none", "tipper", 9.0},
+        Told{"semi_tractor", "truck", "none", "tractor-unit", 5.9},
+        Told{"semi_trailer", "trailer", "none", "semitrailer", 13.0},
+        Told{"car_trailer", "trailer", "none", "caravan", 4.0},
+        Told{"anything", "semitrailer", "none", "semitrailer", 12.0}, Told{"E9", "truck", "fire", "fire-engine", 8.0},
+        Told{"bus_blue", "bus", "none", "city-bus", 12.0}, Told{"bicycle", "bicycle", "none", "bicycle", 1.8}}) {
+    CAPTURE(told.type_name);
+    Entity entity;
+    entity.type_name = told.type_name, entity.category = told.category, entity.role = told.role;
+    entity.box.length_m = told.length_m, entity.box.width_m = 2.5, entity.box.height_m = 3.1;
+    CHECK(vehicle_models()[match_vehicle_model(entity)].name == told.model);
+  }
+}
+
 TEST_CASE("the motorway scenario loads without a warning") {
   std::vector<Finding> findings =
       check_scenario(motorway_text(), "motorway-ambulance.xosc", files_in(motorway_folder()));

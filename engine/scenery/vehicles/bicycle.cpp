@@ -1,0 +1,102 @@
+#include <array>
+#include <string>
+#include <utility>
+
+#include "engine/geometry/mesh_builder.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
+#include "engine/scenery/vehicles/lens.hpp"
+#include "engine/scenery/vehicles/limb.hpp"
+#include "engine/scenery/vehicles/vehicle_parts.hpp"
+#include "engine/scenery/vehicles/wheel.hpp"
+
+namespace septet::scenery {
+namespace {
+
+using geometry::MeshBuilder;
+
+constexpr glm::vec3 bottom_bracket{0.42f, 0.0f, 0.29f}, saddle{0.20f, 0.0f, 0.95f}, bars{0.86f, 0.0f, 1.02f};
+
+void add_frame(MeshBuilder& b, float wheelbase, float radius, std::uint32_t sides) {
+  b.material = index_of(Finish::paint);
+  const glm::vec3 head_low{0.86f, 0, 0.68f}, head_high{0.83f, 0, 0.88f}, seat{0.25f, 0, 0.82f};
+  add_limb(b, head_low, bottom_bracket, 0.022f, 0.022f, sides);
+  add_limb(b, bottom_bracket, seat, 0.018f, 0.018f, sides);
+  add_limb(b, seat, head_high, 0.018f, 0.018f, sides);
+  for (const float side : {1.0f, -1.0f}) {
+    add_limb(b, bottom_bracket + glm::vec3(0, side * 0.04f, 0), {0, side * 0.06f, radius}, 0.012f, 0.01f, sides);
+    add_limb(b, seat, {0, side * 0.06f, radius}, 0.01f, 0.01f, sides);
+    add_limb(b, head_low, {wheelbase, side * 0.05f, radius}, 0.014f, 0.012f, sides);
+  }
+  b.material = index_of(Finish::trim);
+  add_limb(b, head_high, bars, 0.016f, 0.016f, sides);
+  add_limb(b, bars + glm::vec3(0, 0.28f, 0), bars - glm::vec3(0, 0.28f, 0), 0.014f, 0.014f, sides);
+  add_limb(b, seat, saddle, 0.014f, 0.014f, sides);
+  add_blob(b, saddle, {0.14f, 0.08f, 0.035f}, 0);
+}
+
+void add_trunk(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
+  const glm::vec3 hips = saddle + glm::vec3(0.02f, 0, 0.10f), shoulders{0.50f, 0, 1.42f};
+  b.material = index_of(Finish::cloth_bright);
+  add_limb(b, hips, shoulders, 0.13f, 0.16f, sides + 2);
+  for (const float side : {1.0f, -1.0f}) {
+    add_limb(b, shoulders + glm::vec3(0, side * 0.17f, -0.03f), {0.68f, side * 0.26f, 1.20f}, 0.05f, 0.042f, sides);
+    add_limb(b, {0.68f, side * 0.26f, 1.20f}, bars + glm::vec3(0, side * 0.26f, 0.02f), 0.042f, 0.034f, sides);
+  }
+  b.material = index_of(Finish::skin);
+  add_limb(b, shoulders, {0.58f, 0, 1.54f}, 0.052f, 0.05f, sides);
+  add_blob(b, {0.61f, 0, 1.63f}, {0.095f, 0.078f, 0.115f}, splits);
+  b.material = index_of(Finish::white_panel);
+  add_blob(b, {0.60f, 0, 1.69f}, {0.125f, 0.095f, 0.075f}, splits);
+}
+
+void add_still_legs(MeshBuilder& b, std::uint32_t sides) {
+  const glm::vec3 hips = saddle + glm::vec3(0.02f, 0, 0.06f);
+  b.material = index_of(Finish::cloth_dark);
+  for (const float side : {1.0f, -1.0f}) {
+    const glm::vec3 hip = hips + glm::vec3(0, side * 0.10f, 0), knee{0.58f, side * 0.11f, side > 0 ? 0.85f : 0.68f};
+    const glm::vec3 foot = bottom_bracket + glm::vec3(0.05f, side * 0.12f, side > 0 ? 0.17f : -0.13f);
+    add_limb(b, hip, knee, 0.08f, 0.06f, sides);
+    add_limb(b, knee, foot, 0.058f, 0.04f, sides);
+  }
+}
+
+}  // namespace
+
+VehicleParts bicycle_parts(const VehicleModel& model) {
+  VehicleParts parts;
+  const auto wheelbase = static_cast<float>(model.wheelbase_m), radius = static_cast<float>(model.wheel_radius_m);
+  for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle, DetailLevel::far}) {
+    MeshBuilder b;
+    if (level == DetailLevel::far) {
+      b.material = index_of(Finish::trim);
+      add_limb(b, {0, 0, radius}, {wheelbase, 0, radius}, radius, radius, 3);
+      b.material = index_of(Finish::cloth_bright);
+      add_limb(b, {0.22f, 0, 0.75f}, {0.50f, 0, 1.42f}, 0.16f, 0.17f, 4);
+      b.material = index_of(Finish::skin);
+      add_blob(b, {0.61f, 0, 1.64f}, {0.11f, 0.09f, 0.12f}, 0);
+    } else {
+      const bool fine = level == DetailLevel::near;
+      add_frame(b, wheelbase, radius, fine ? 6 : 3);
+      add_trunk(b, fine ? 8 : 4, fine ? 2 : 0);
+      add_still_legs(b, fine ? 8 : 4);
+    }
+    VehicleParts of_level{{"rider", b.take(), 0, {Placement{}}}};
+    of_level.push_back(
+        lens_plate("lamp head", scene::PartRole::lamp_head, Finish::lens_head, true, {0.95f, 0, 0.9f}, {0.06f, 0.06f}));
+    of_level.push_back(lens_plate("lamp tail", scene::PartRole::lamp_tail, Finish::lens_tail, false, {-0.30f, 0, 0.72f},
+                                  {0.05f, 0.05f}));
+    add_level(parts, std::move(of_level), level);
+  }
+  for (const bool front : {true, false}) {
+    VehicleParts pair;
+    add_axle(pair, {radius, 0.04f, 9}, front ? wheelbase : 0.0f, 0.0f, front);
+    for (VehiclePart& part : pair)
+      if (part.name.starts_with("wheel left")) {
+        part.name += front ? " front" : " rear";
+        parts.push_back(std::move(part));
+      }
+  }
+  return parts;
+}
+
+}  // namespace septet::scenery
