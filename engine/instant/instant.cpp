@@ -15,24 +15,22 @@ namespace {
 /// The eye adapts to a lit, roofed place ahead of and around the car, in the same way on every screen: by day up, by night down.
 float adapted_scale(const SceneSummary& scene, const SkyLight& light, const RigidTransform& world_from_car) {
   constexpr float roofed_scale = 2.6f;
-  constexpr int samples = 9;
-  float roofed = 0.0f;
-  for (int i = 0; i < samples; ++i)
-    roofed += (1.0f - share_of_sky(scene, world_from_car * Vec3(-10.0 + 6.0 * i, 0.0, 1.2))) / samples;
+  const float roofed =
+      1.0f - share_of_sky(scene, world_from_car * Vec3(-13.0, 0.0, 1.2), world_from_car * Vec3(41.0, 0.0, 1.2));
   return light.exposure * std::pow(roofed_scale / light.exposure, roofed);
 }
 
 /// Headlights among the light of their place. Nights and tunnels are shown as if all of the light in them but the lamps' were so many times brighter,
 /// so that a display need not show starlight: headlights keep pace. What adds less than a fiftieth to the road ten metres ahead is left out.
 std::vector<Headlight> seen_headlights(std::vector<Headlight> all, const SceneSummary& scene, const SkyLight& light) {
-  constexpr float at_night = 110.0f, under_roof = 15.0f, tunnel_lamps = 0.45f;
+  constexpr float under_roof = 15.0f, tunnel_lamps = 0.45f;
   constexpr float on_road_at_ten_metres = 0.37f * 0.35f / 100.0f;
   const auto luminance = [](const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); };
   const float open =
       luminance(light.sky_irradiance) + luminance(light.light_irradiance) * std::max(light.light_direction.z, 0.0f);
   std::erase_if(all, [&](Headlight& headlight) {
     const float sky = share_of_sky(scene, headlight.position_m);
-    headlight.intensity *= glm::mix(under_roof, glm::mix(1.0f, at_night, light.night), sky);
+    headlight.intensity *= glm::mix(under_roof, open_lamps_light_up(light.night), sky);
     return headlight.intensity * on_road_at_ten_metres < 0.02f * glm::mix(tunnel_lamps, open, sky);
   });
   return all;
@@ -53,7 +51,7 @@ std::vector<GroundContact> contacts_of(const std::vector<DrawnParticipant>& part
     contact.half_width_m = half.y;
     contact.height_m = body.max_m.z;
     contact.clearance_m = std::clamp(body.min_m.z, 0.1f, 0.8f);
-    contact.share_of_sky = share_of_sky(scene, participant.world_from_vehicle.position_m);
+    contact.share_of_sky = share_of_sky(scene, participant.world_from_vehicle);
     contacts.push_back(contact);
   }
   return contacts;
@@ -81,9 +79,9 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.share_of_sky = share_of_sky(scene, world_eye(input.views.front()));
   instant.emission_share = 1.0f / std::max(1.0f, 0.35f * scale);
 
-  PlacedParticipants placed = place_participants(input.participants, scene.prototypes, scene.meshes,
-                                                 input.simulated_time_s, world_eye(input.views.front()),
-                                                 [&](const Vec3& place_m) { return share_of_sky(scene, place_m); });
+  PlacedParticipants placed = place_participants(
+      input.participants, scene.prototypes, scene.meshes, input.simulated_time_s, world_eye(input.views.front()),
+      [&](const RigidTransform& world_from_vehicle) { return share_of_sky(scene, world_from_vehicle); });
   instant.parts = std::move(placed.meshes);
   instant.lamps = std::move(placed.glows);
   instant.headlights = seen_headlights(std::move(placed.headlights), scene, *instant.light);

@@ -104,7 +104,7 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
 PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
                                       std::span<const scene::Prototype> prototypes, std::span<const MeshSummary> meshes,
                                       double simulated_time_s, const Vec3& eye_m,
-                                      const std::function<float(const Vec3&)>& share_of_sky) {
+                                      const std::function<float(const RigidTransform&)>& share_of_sky) {
   // Further than any part of a vehicle is from its origin, and mirrors' eyes from the driver's.
   constexpr double margin_m = 12.0;
   PlacedParticipants result;
@@ -112,7 +112,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     if (participant.prototype >= prototypes.size()) continue;
     const bool whole = participant.shown == Shown::whole;
     const double distance_m = glm::length(participant.world_from_vehicle.position_m - eye_m);
-    const float sky = share_of_sky(participant.world_from_vehicle.position_m);
+    const float sky = share_of_sky(participant.world_from_vehicle);
     Vec3 lamps_m(0.0);
     int head_lamps = 0;
     for (const scene::Instance& part : prototypes[participant.prototype].parts) {

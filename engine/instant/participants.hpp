@@ -49,10 +49,10 @@ bool shines(scene::PartRole role, Lamps lamps, double simulated_time_s, double b
 RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant);
 
 /// Parts that cannot be seen from around `eye_m`, for their level of detail, are left out; lamps glow where they are seen.
-/// `share_of_sky` answers for the place of a participant.
-PlacedParticipants place_participants(std::span<const DrawnParticipant> participants,
-                                      std::span<const scene::Prototype> prototypes, std::span<const MeshSummary> meshes,
-                                      double simulated_time_s, const Vec3& eye_m,
-                                      const std::function<float(const Vec3& place_m)>& share_of_sky);
+/// `share_of_sky` answers for a participant that stands so.
+PlacedParticipants place_participants(
+    std::span<const DrawnParticipant> participants, std::span<const scene::Prototype> prototypes,
+    std::span<const MeshSummary> meshes, double simulated_time_s, const Vec3& eye_m,
+    const std::function<float(const RigidTransform& world_from_vehicle)>& share_of_sky);
 
 }  // namespace septet::instant

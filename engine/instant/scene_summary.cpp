@@ -1,6 +1,7 @@
 #include "engine/instant/scene_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
 
@@ -48,6 +49,7 @@ SceneSummary summarise(const scene::ResolvedScene& scene) {
   SceneSummary summary;
   summary.prototypes = scene.prototypes;
   for (const scene::SurfaceMesh& mesh : scene.meshes) summary.meshes.push_back(summary_of(mesh, scene.materials));
+  summary.lamps = standing_lamps(scene);
   for (const scene::Prototype& prototype : scene.prototypes)
     summary.bodies.push_back(body_of(prototype, summary.meshes));
   for (const scene::Instance& instance : scene.instances) {
@@ -72,6 +74,31 @@ float share_of_sky(const SceneSummary& scene, const Vec3& position_m) {
       share = std::min(share, roof.share_of_sky);
   }
   return share;
+}
+
+float share_of_sky(const SceneSummary& scene, const Vec3& from_m, const Vec3& to_m) {
+  double roofed = 0.0;
+  for (const Roof& roof : scene.roofs) {
+    // The part of the way that lies within the box, between its three pairs of faces.
+    const Vec3 from = roof.object_from_world * from_m, way = roof.object_from_world * to_m - from;
+    double enters = 0.0, leaves = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = roof.min_m[axis] - from[axis], high = roof.max_m[axis] - from[axis];
+      if (std::abs(way[axis]) < 1e-9) {
+        if (low > 0.0 || high < 0.0) leaves = 0.0;
+        continue;
+      }
+      enters = std::max(enters, std::min(low / way[axis], high / way[axis]));
+      leaves = std::min(leaves, std::max(low / way[axis], high / way[axis]));
+    }
+    // Neighbours of one tunnel overlap by a metre.
+    if (leaves > enters) roofed += (leaves - enters) * (1.0 - double{roof.share_of_sky});
+  }
+  return static_cast<float>(1.0 - std::min(1.0, roofed));
+}
+
+float share_of_sky(const SceneSummary& scene, const RigidTransform& world_from_vehicle) {
+  return share_of_sky(scene, world_from_vehicle * Vec3(-7.0, 0.0, 0.8), world_from_vehicle * Vec3(9.0, 0.0, 0.8));
 }
 
 }  // namespace septet::instant

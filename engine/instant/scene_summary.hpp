@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/instant/placed_mesh.hpp"
+#include "engine/instant/standing_lamps.hpp"
 
 namespace septet::instant {
 
@@ -33,6 +34,7 @@ struct SceneSummary {
   std::vector<MeshSummary> meshes;  ///< One a mesh.
   std::vector<BodyBounds> bodies;   ///< One a prototype.
   std::vector<Roof> roofs;
+  std::vector<StandingLamp> lamps;
 };
 
 /// Instances and materials that point outside the scene are left out.
@@ -40,5 +42,9 @@ SceneSummary summarise(const scene::ResolvedScene& scene);
 
 /// Share of the sky at a place of the world: less than 1 under a roof.
 float share_of_sky(const SceneSummary& scene, const Vec3& position_m);
+/// Its mean along a way: what drives under a roof goes dark by and by.
+float share_of_sky(const SceneSummary& scene, const Vec3& from_m, const Vec3& to_m);
+/// Of a vehicle, over so much more than its length as daylight reaches into a tunnel's mouth.
+float share_of_sky(const SceneSummary& scene, const RigidTransform& world_from_vehicle);
 
 }  // namespace septet::instant

@@ -5,6 +5,8 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "engine/instant/standing_lamps.hpp"
+
 namespace septet::raytrace {
 namespace {
 
@@ -258,7 +260,7 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   if (point.from_front && placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f)) {
     point.emission =
         material.emission * (placed.tint.w * instant_.emission_share) * (textured ? color : glm::vec3(1.0f));
-    point.lights_up = lights_up(placed, material);
+    point.lights_up = lights_up(placed, material, instant::looks_down(point.flat_normal));
     for (const std::uint32_t lamp : placed.lamps)
       if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
   }

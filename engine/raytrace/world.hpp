@@ -135,7 +135,7 @@ class World : public Openings {
            const instant::PlacedMesh* later = nullptr);
   void add_headlight_ways(const instant::Instant* later);
   void add_parts(std::vector<Place>& places, const instant::Instant* later);
-  float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const;
+  float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const;
   void add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies);
   void add_lamps(const std::vector<Place>& places);
   void add_lamps(std::uint32_t place, const scene::MeshPart& part);

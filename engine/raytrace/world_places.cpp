@@ -11,17 +11,13 @@
 
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "engine/instant/standing_lamps.hpp"
 #include "engine/raytrace/world.hpp"
 
 namespace septet::raytrace {
 namespace {
 
 constexpr float lamp_gap_m = 0.3f;  ///< Triangles further apart are lamps of their own.
-/// Lamps of a roofed place are seen no brighter than a picture shows them. What they light is lit as brightly as the rasteriser
-/// has it, on average: 0.35 of a sunless sky (shaders/surface.frag). Measured in scenarios/tunnel-fire 7.8 s after its
-/// beginning: the road has the rasteriser's radiance within 1 %, the walls have half of it.
-constexpr float roofed_lamps_light_up = 6.0f;
-
 /// Vertices as they are then, from the origin that they have now; none where they are others.
 std::vector<scene::SurfaceVertex> vertices_from(const Vec3& origin_m, std::size_t count, const Vec3& then_origin_m,
                                                 std::span<const scene::SurfaceVertex> then) {
@@ -136,8 +132,11 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
   }
 }
 
-float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material) const {
-  return placed.stands ? glm::mix(roofed_lamps_light_up, 1.0f, material.share_of_sky * placed.share_of_sky) : 1.0f;
+/// Lamps that stand are seen no brighter than a picture shows them; what those that look down light is lit as brightly as the rasteriser has it.
+float World::lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const {
+  if (!placed.stands) return 1.0f;
+  const float open = looks_down ? instant::open_lamps_light_up(instant_.light->night) / instant_.emission_share : 1.0f;
+  return glm::mix(instant::roofed_lamps_light_up, open, material.share_of_sky * placed.share_of_sky);
 }
 
 /// The triangles of a part that shines, those in a row that lie together as one lamp each.
@@ -145,8 +144,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
   const PlacedSurface& placed = placed_[place];
   if (part.material >= scene_.materials.size() || part.index_count < 3) return;
   const scene::SurfaceMaterial& material = scene_.materials[part.material];
-  const glm::vec3 emission =
-      material.emission * (placed.tint.w * instant_.emission_share * lights_up(placed, material));
+  const glm::vec3 emission = material.emission * (placed.tint.w * instant_.emission_share);
   if (!(luminance(emission) > 0.0f)) return;
   Lamp lamp;
   glm::vec3 low(0.0f), high(0.0f);
@@ -155,7 +153,8 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     lamp.radius_m = 0.5f * glm::length(high - low);
     if (lamp.triangle_count > 0) lamp.area_m2 = lamp.cumulative_area.back();
     lamp.axis /= std::max(lamp.area_m2, 1e-30f);
-    lamp.power = lamp.area_m2 * luminance(emission);
+    lamp.emission = emission * lights_up(placed, material, instant::looks_down(lamp.axis));
+    lamp.power = lamp.area_m2 * luminance(lamp.emission);
     if (lamp.power > 0.0f) lamps_.push_back(std::move(lamp));
   };
   for (std::uint32_t t = part.first_index / 3; t < (part.first_index + part.index_count) / 3; ++t) {
@@ -168,7 +167,7 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
     if (lamp.triangle_count == 0 || apart) {
       if (lamp.triangle_count > 0) finish();
       lamp = {};
-      lamp.place = place, lamp.first_triangle = t, lamp.emission = emission;
+      lamp.place = place, lamp.first_triangle = t;
       lamp.textured = material.base_color_image >= 0;
       if (placed.motion) lamp.way_m = placed.motion->keys()[1].origin_m - placed.motion->keys()[0].origin_m;
       low = lower, high = upper;

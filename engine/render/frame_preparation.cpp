@@ -18,7 +18,7 @@ namespace {
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
                           const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                          std::span<const SmokePuff> smoke, const DetailOf& detail = {}) {
+                          std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {}) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -34,8 +34,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.draws = prepare_draws(
       context, scene, instant.parts, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
-  const ViewUniforms uniforms = view_uniforms(view, instant, shadows);
+  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
+  prepared.lit_by_lamps = lamps.roofed || (lamps.open && instant.light->night > 0.0f);
   prepared.uniforms = store(context, std::span(&uniforms, 1));
   const std::vector<PuffRecord> puffs = puff_records(smoke, scene, *instant.light, view, eye_m);
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
@@ -105,15 +106,15 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
 
 }  // namespace
 
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant, std::uint32_t width,
-                            std::uint32_t height) {
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
+                            const LampField& lamps, std::uint32_t width, std::uint32_t height) {
   const Vec3 eye_m = world_eye(instant.views.front());
   const DynamicSurfaces dynamic = upload_dynamic(context, scene, instant.loose);
   const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
   for (const FrameView& view : instant.views)
-    frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke));
+    frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps));
   frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {
     frame.ice_upload = upload_ice(context, instant.ice);
@@ -122,7 +123,7 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
       frame.around.insert(frame.around.end(), views.begin(), views.end());
     }
     for (const FrameView& view : frame.around)
-      frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke,
+      frame.around_views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps,
                                                 surroundings_detail(instant.ice_surroundings_px)));
   }
   frame.glass = upload_glass(context, instant.glass);

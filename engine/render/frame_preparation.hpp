@@ -6,6 +6,7 @@
 
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/ice_pass.hpp"
+#include "engine/render/passes/lamp_field.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
@@ -25,7 +26,7 @@ struct PreparedView {
   std::uint32_t streak_count = 0;
   FrameData smoke;
   std::uint32_t puff_count = 0;
-  bool lit_by_headlights = false;
+  bool lit_by_headlights = false, lit_by_lamps = false;
 };
 
 struct PreparedFrame {
@@ -40,8 +41,8 @@ struct PreparedFrame {
   std::uint32_t surroundings() const { return static_cast<std::uint32_t>(around.size() / 6); }
 };
 
-/// For a target of this size.
-PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant, std::uint32_t width,
-                            std::uint32_t height);
+/// For a target of this size; `lamps` are those around the first view's eye.
+PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, const Instant& instant,
+                            const LampField& lamps, std::uint32_t width, std::uint32_t height);
 
 }  // namespace septet::render

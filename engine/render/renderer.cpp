@@ -21,6 +21,7 @@
 #include "engine/render/passes/frame_targets.hpp"
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/ice_pass.hpp"
+#include "engine/render/passes/lamp_field.hpp"
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
@@ -55,7 +56,9 @@ struct Renderer::State {
   TargetFormats formats;
   FrameTargets targets;
   vulkan::Swapchain swapchain;  ///< Only with a window.
-  vulkan::DeviceImage sky_table, noise;
+  vulkan::DeviceImage sky_table, noise, lamp_image;
+  LampField lamps;                              ///< What the image holds; its texels while they are new.
+  std::optional<std::uint64_t> lamps_revision;  ///< Of the scene whose lamps they are.
   DeviceScene scene;
   SurfacePass surface_pass;
   ShadowPass shadow_pass;
@@ -70,7 +73,7 @@ struct Renderer::State {
   std::optional<OverlayPass> overlay_pass;
   std::optional<Environment> lit_environment;
   std::shared_ptr<const SkyLight> light;  ///< Of that environment, for whoever brings none.
-  Access sky_table_access = Access::none, atlas_access = Access::none;
+  Access sky_table_access = Access::none, lamps_access = Access::none, atlas_access = Access::none;
   bool smoothed = false;
   bool drawn = false;
   Exposure exposure;                            ///< Of the last frame.
@@ -81,6 +84,7 @@ struct Renderer::State {
   void create(const RendererOptions& wanted);
   void destroy();
   void draw(const Instant& instant);
+  bool renew_lamps(const Vec3& eye_m);
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
   void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
                  const std::function<void()>& draw_seen_through);
@@ -114,6 +118,8 @@ void Renderer::State::create(const RendererOptions& wanted) {
   table.format = VK_FORMAT_R16G16B16A16_SFLOAT;
   table.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   sky_table = create_image(memory, table);
+  table.width = table.height = LampField::side;
+  lamp_image = create_image(memory, table);
   vulkan::Upload upload(device, memory);
   constexpr std::uint32_t side = instant::cloud_noise_side;
   const std::vector<std::uint8_t> ranks = instant::cloud_noise(), air = ice::air_pattern(ranks, side);
@@ -153,6 +159,7 @@ void Renderer::State::destroy() {
   destroy_surface_pass(surface_pass, device);
   destroy_scene(scene, memory);
   destroy_image(memory, noise);
+  destroy_image(memory, lamp_image);
   destroy_image(memory, sky_table);
   destroy_frame_targets(targets, memory);
   destroy_swapchain(swapchain, device);
@@ -169,9 +176,9 @@ void Renderer::State::draw_view(PassContext& context, const PreparedView& prepar
   set_viewport(context, prepared.view->viewport);
   vkCmdSetFrontFace(context.slot.commands,
                     prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-  push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view});
+  push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view});
   bind_instances(context, prepared.draws.records);
-  const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights,
+  const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, prepared.lit_by_lamps,
                                    environment.snow_cover > 0.0, !instant.soot.cover.empty()};
   push_records(context, soot);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
@@ -228,6 +235,18 @@ void Renderer::State::draw_surroundings(PassContext& context, std::span<const Pr
   vkCmdEndRendering(context.slot.commands);
 }
 
+/// Whether the field of lamps is another one than the last frame's. The first one is always written, so that it can be bound.
+bool Renderer::State::renew_lamps(const Vec3& eye_m) {
+  const Vec2 corner_m = lamp_field_corner(eye_m);
+  if (lamps_revision && lamps_revision == scene.revision.value_or(0) && corner_m == lamps.corner_m) return false;
+  const bool were_there = !lamps_revision || lamps.open || lamps.roofed;
+  lamps = render::lamp_field(scene.summary.lamps, corner_m);
+  lamps_revision = scene.revision.value_or(0);
+  if (lamps.texels.empty() && were_there)
+    lamps.texels.resize(std::size_t{LampField::side} * LampField::side, glm::vec4(0.0f));
+  return !lamps.texels.empty();
+}
+
 std::optional<std::uint32_t> Renderer::State::next_window_image(const vulkan::FrameSlot& slot) {
   if (!options.window) return std::nullopt;
   if (swapchain.stale) {
@@ -247,7 +266,8 @@ void Renderer::State::draw(const Instant& instant) {
   table_light = instant.light;
   exposure = instant.exposure;
 
-  const PreparedFrame frame = prepare_frame(context, scene, instant, targets.width, targets.height);
+  const bool new_lamps = renew_lamps(world_eye(instant.views.front()));
+  const PreparedFrame frame = prepare_frame(context, scene, instant, lamps, targets.width, targets.height);
   const bool new_text = lay_out(*overlay_pass, instant.overlay);
   const bool icy = !frame.ice.list.empty();
   const IceTargetSizes ice_sizes{layer_px(targets.width), layer_px(targets.height), instant.ice_surroundings_px,
@@ -264,6 +284,7 @@ void Renderer::State::draw(const Instant& instant) {
     return graph.add_resource(name, held);
   };
   const ResourceId table = add_image("sky table", sky_table, sky_table_access);
+  const ResourceId lamp_field = add_image("lamp field", lamp_image, lamps_access);
   const ResourceId shadow_map = add_image("shadow map", targets.shadow_map, targets.shadow_access);
   const ResourceId radiance = add_image("radiance", targets.radiance, targets.radiance_access);
   const ResourceId depth = add_image("depth", targets.depth, targets.depth_access);
@@ -277,22 +298,29 @@ void Renderer::State::draw(const Instant& instant) {
       const std::vector<std::uint64_t> texels = packed(instant.light->table);
       upload_texels(context, sky_table, std::as_bytes(std::span(texels)));
     });
+  if (new_lamps)
+    graph.add_pass("lamp field", {{}, {{lamp_field, Access::transfer_destination}}}, [&] {
+      const std::vector<std::uint64_t> texels = packed(lamps);
+      upload_texels(context, lamp_image, std::as_bytes(std::span(texels)));
+    });
   graph.add_pass("shadows", {{}, {{shadow_map, Access::depth_attachment}}}, [&] {
     for (std::size_t i = 0; i < cascade_count; ++i)
       draw_shadows(shadow_pass, context, scene, frame.casters[i], frame.shadows.cascades[i],
                    targets.shadow_map.layer_views[i]);
     mark_pass(context, "shadows");
   });
-  std::vector<ResourceUse> view_reads{{table, Access::sampled}, {shadow_map, Access::sampled}};
+  std::vector<ResourceUse> view_reads{
+      {table, Access::sampled}, {shadow_map, Access::sampled}, {lamp_field, Access::sampled}};
   std::optional<IceResources> ice;
   if (icy) {
-    ice = add_ice_passes(graph, ice_pass, context, frame, instant,
-                         {add_image,
-                          view_reads,
-                          {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view},
-                          [&](std::uint32_t around) {
-                            draw_surroundings(context, std::span(frame.around_views).subspan(6 * around, 6), instant);
-                          }});
+    ice = add_ice_passes(
+        graph, ice_pass, context, frame, instant,
+        {add_image,
+         view_reads,
+         {frame.views.front().uniforms, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view},
+         [&](std::uint32_t around) {
+           draw_surroundings(context, std::span(frame.around_views).subspan(6 * around, 6), instant);
+         }});
     for (const ResourceUse& use : ice_reads(*ice, frame)) view_reads.push_back(use);
   }
   graph.add_pass("views", {view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
@@ -341,6 +369,8 @@ void Renderer::State::draw(const Instant& instant) {
   });
   const std::vector<Access> left = graph.left(graph.compile());
   sky_table_access = left[table];
+  lamps_access = left[lamp_field];
+  lamps.texels.clear();
   targets.shadow_access = left[shadow_map];
   targets.depth_access = left[depth];
   targets.picture_access = left[picture];

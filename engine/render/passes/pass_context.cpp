@@ -64,18 +64,20 @@ FrameData store(PassContext& context, std::span<const std::byte> bytes) {
 void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
   // Without an image of its own a material still needs something bound: the noise.
-  const VkDescriptorImageInfo images[4] = {
+  const VkDescriptorImageInfo images[5] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[5] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+      {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.table, bindings.lamp_field, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
+  VkWriteDescriptorSet writes[6] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
                                     write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-                                    write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+                                    write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_lamps, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
-  for (int i = 0; i < 4; ++i) writes[1 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 5; ++i) writes[1 + i].pImageInfo = &images[i];
   push(context, writes);
 }
 

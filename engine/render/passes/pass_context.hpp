@@ -63,7 +63,8 @@ FrameData store(PassContext& context, std::span<const T> values) {
 /// What is bound for a whole view.
 struct ViewBindings {
   FrameData uniforms;
-  VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE;
+  VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
+              lamp_field = VK_NULL_HANDLE;
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);

@@ -10,11 +10,12 @@ namespace {
 /// What the pipeline of a material is specialised for.
 struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
-  bool glossy, dark, snowy, sooty;
+  std::uint32_t lamps;     ///< Likewise.
+  bool glossy, snowy, sooty;
   SurfaceKind kind;
   std::uint32_t key() const {
-    return textured | std::uint32_t{glossy} << 2 | std::uint32_t{dark} << 3 | std::uint32_t{snowy} << 4 |
-           std::uint32_t{sooty} << 5 | static_cast<std::uint32_t>(kind) << 6;
+    return textured | lamps << 2 | std::uint32_t{glossy} << 4 | std::uint32_t{snowy} << 5 | std::uint32_t{sooty} << 6 |
+           static_cast<std::uint32_t>(kind) << 7;
   }
 };
 
@@ -40,7 +41,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.alpha_to_coverage = cut && multisampled;
   description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u,
                            variant.glossy,   blended,
-                           variant.dark,     variant.snowy,
+                           variant.lamps,    variant.snowy,
                            variant.sooty,    stripe};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -69,7 +70,7 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const bool glossy = material.glossy || (light.wet && material.wettable);
     const VkPipeline pipeline =
-        pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, light.sooty, kind});
+        pipeline_of(pass, context, {texturing, light.lamps(), glossy, light.snowy, light.sooty, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -18,10 +18,12 @@ void destroy_surface_pass(SurfacePass& pass, const vulkan::Device& device);
 
 /// What of the weather and the light shaders are specialised for.
 struct SurfaceLight {
-  bool wet = false;   ///< Wettable materials mirror.
-  bool dark = false;  ///< Headlights light what they reach.
+  bool wet = false;                                 ///< Wettable materials mirror.
+  bool headlights = false, standing_lamps = false;  ///< Light what they reach.
   bool snowy = false;
   bool sooty = false;  ///< FrameInput::soot is bound.
+
+  std::uint32_t lamps() const { return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1; }
 };
 
 /// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).

@@ -41,7 +41,8 @@ void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) 
 
 }  // namespace
 
-ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows) {
+ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
+                           const LampField& lamps) {
   const SkyLight& light = *instant.light;
   ViewUniforms uniforms{};
   const OffAxisView& projection = view.projection;
@@ -82,6 +83,11 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   uniforms.wind = glm::vec4(instant::cloud_drift_m(environment, instant.simulated_time_s), 0.0f, 0.0f);
   set_headlights(uniforms, eye_m, instant.headlights);
   if (!instant.soot.cover.empty()) set_soot(uniforms, eye_m, instant.soot);
+  constexpr double extent_m = LampField::side * LampField::texel_m;
+  const glm::vec2 offset((Vec2(eye_m) - lamps.corner_m) / extent_m);
+  uniforms.lamp_field =
+      glm::vec4(offset, static_cast<float>(1.0 / extent_m), instant::open_lamps_light_up(light.night));
+  uniforms.lamp_hue = glm::vec4(lamps.hue, instant::roofed_lamps_light_up);
   return uniforms;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/instant/instant.hpp"
+#include "engine/render/passes/lamp_field.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/words.hpp"
 
@@ -25,10 +26,12 @@ struct ViewUniforms {
   glm::vec4 weather, wind;
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
+  glm::vec4 lamp_field, lamp_hue;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 4) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 6) * 16);
 
 /// Of the headlights the nearest count.
-ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows);
+ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
+                           const LampField& lamps);
 
 }  // namespace septet::render

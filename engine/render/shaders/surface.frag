@@ -4,13 +4,14 @@
 #include "material.glsl"
 #include "headlights.glsl"
 #include "sunlit.glsl"
+#include "lamplight.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
 layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky.
 layout(constant_id = 3) const uint blended = 0;
-layout(constant_id = 4) const uint dark = 0;      // Headlights light it.
+layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both.
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
 layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
@@ -123,15 +124,22 @@ void main() {
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;
   vec3 ambient = mix(view.ground_irradiance.rgb, view.sky_irradiance.rgb, 0.5 + 0.5 * n.z) * share_of_sky;
-  ambient += vec3(1.5, 1.3, 1.0) * (0.35 * (1.0 - share_of_sky));  // The lamps of a roofed place.
+  // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
+  float between_pools = 0.35 * (1.0 - share_of_sky);
+  if ((lamps & 2) != 0) {
+    vec4 thrown = standing_lamps(relative, n, share_of_sky);
+    between_pools *= 1.0 - 0.8 * thrown.w;
+    ambient += thrown.rgb;
+  }
+  ambient += vec3(1.5, 1.3, 1.0) * between_pools;
   vec3 irradiance = sunlight * diffuse + ambient;
   vec3 radiance = albedo * (1.0 - material.surface.x) / pi;
-  if (dark != 0) {
-    vec4 lamps = headlights(n);
-    irradiance += lamps.rgb;
+  if ((lamps & 1) != 0) {
+    vec4 beams = headlights(n);
+    irradiance += beams.rgb;
     radiance *= irradiance;
     // Water over beads mirrors the light away.
-    radiance += base.rgb * min(material.light.y * lamps.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
+    radiance += base.rgb * min(material.light.y * beams.w * (stripe != 0 ? 1.0 - 0.8 * wet : 1.0), 2.0 * view.light_irradiance.w);
   } else {
     radiance *= irradiance;
   }

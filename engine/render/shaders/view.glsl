@@ -20,12 +20,15 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 headlight_direction[8];  // xyz unit.
   vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
   vec4 soot_size;               // xyz: cells.
+  vec4 lamp_field;              // From relative places to the field's coordinates: xy·z + xy. w: how strongly lamps in the open light.
+  vec4 lamp_hue;                // rgb. w: how strongly lamps under roofs light.
 } view;
 
 layout(set = 0, binding = 2) uniform sampler2D sky_table;
 layout(set = 0, binding = 3) uniform sampler2DArrayShadow shadow_map;
 layout(set = 0, binding = 4) uniform sampler2D noise;
 layout(set = 0, binding = 5) uniform sampler2D image;
+layout(set = 0, binding = 12) uniform sampler2D lamp_field;
 
 const float pi = 3.14159265;
 

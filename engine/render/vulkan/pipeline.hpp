@@ -24,7 +24,8 @@ enum Binding : std::uint32_t {
   binding_surroundings = 9,      ///< and the cube map of what lies around it.
   binding_ice_beyond = 10,       ///< Of the nearest front faces behind those back faces, and of the back faces
   binding_ice_beyond_back = 11,  ///< behind these.
-  binding_count = 12,
+  binding_lamps = 12,            ///< What standing lamps throw (passes/lamp_field.hpp).
+  binding_count = 13,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;

@@ -19,7 +19,7 @@ std::vector<MeshSummary> summaries(const scene::ResolvedScene& scene) {
   return result;
 }
 
-float in_the_open(const Vec3&) { return 1.0f; }
+float in_the_open(const RigidTransform&) { return 1.0f; }
 
 }  // namespace
 

@@ -1,0 +1,84 @@
+#include "engine/render/passes/lamp_field.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/engine/instant/lone_mesh.hpp"
+
+namespace septet::render {
+namespace {
+
+constexpr float candela = 0.1f, height_m = 6.0f;
+
+StandingLamp lamp(const Vec3& position_m, bool roofed = false) {
+  return {position_m, height_m, glm::vec3(candela), roofed};
+}
+
+/// The texel in whose middle or nearly so that place lies.
+glm::vec4 texel(const LampField& field, const Vec2& place_m) {
+  const Vec2 at = (place_m - field.corner_m) / LampField::texel_m;
+  return field.texels[static_cast<std::size_t>(at.y) * LampField::side + static_cast<std::size_t>(at.x)];
+}
+
+const glm::vec3 up(0, 0, 1);
+
+/// A quad of 0.4 × 0.2 m that looks down, 6 m above its instance's origin.
+scene::ResolvedScene hanging_lens(float up_or_down) {
+  scene::SurfaceMaterial material;
+  material.emission = glm::vec3(0.5f);
+  scene::SurfaceMesh lens;
+  for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(0.4f, 0), glm::vec2(0.4f, 0.2f), glm::vec2(0, 0.2f)})
+    lens.vertices.push_back({{corner.x, -up_or_down * corner.y, 6.0f}, {0, 0, -up_or_down}, {}});
+  lens.indices = {0, 1, 2, 0, 2, 3};
+  return instant::lone_mesh(material, lens, {Vec3(100, 50, 20), {1, 0, 0, 0}});
+}
+
+}  // namespace
+
+TEST_CASE(
+    "below a lamp the ground has its intensity over the height's square and beside it less by the cosine's fourth "
+    "power") {
+  const Vec2 corner_m = lamp_field_corner({0, 0, 0});
+  // In the middle of a texel.
+  const Vec2 foot = corner_m + (Vec2(128, 128) + 0.5) * LampField::texel_m;
+  const LampField field = lamp_field(std::array{lamp(Vec3(foot, 6.0))}, corner_m);
+  const float below = lamplight(texel(field, foot), up);
+  CHECK(below == doctest::Approx(candela / (height_m * height_m)).epsilon(1e-4));
+  const float beside = lamplight(texel(field, foot + Vec2(6, 0)), up);
+  // At 45°: cos⁴ is a quarter; the window that ends the lamp's reach takes a twentieth.
+  CHECK(beside / below == doctest::Approx(0.25f).epsilon(0.06));
+  // A wall that looks at the lamp is lit, its back is not.
+  const glm::vec4 there = texel(field, foot + Vec2(6, 0));
+  CHECK(lamplight(there, {-1, 0, 0}) > 0.5f * beside);
+  CHECK(lamplight(there, {1, 0, 0}) < 1e-3f * beside);
+  CHECK(texel(field, foot + Vec2(60, 0)) == glm::vec4(0.0f));
+}
+
+TEST_CASE("lamps under a roof and in the open are told apart and the field depends on where the eye is alone") {
+  const Vec2 corner_m = lamp_field_corner({10, 10, 0});
+  CHECK(corner_m == lamp_field_corner({-10, 20, 5}));
+  const LampField field = lamp_field(std::array{lamp({0, 0, 6}), lamp({90, 0, 6}, true)}, corner_m);
+  CHECK(field.open);
+  CHECK(field.roofed);
+  CHECK(texel(field, {0, 0}).w > 0.0f);
+  CHECK(texel(field, {90, 0}).w < 0.0f);
+  CHECK(lamp_field(std::array{lamp({1000, 0, 6})}, corner_m).texels.empty());
+}
+
+TEST_CASE("what shines and looks down is a standing lamp and what shines and looks up is none") {
+  const std::vector<StandingLamp> lamps = instant::standing_lamps(hanging_lens(1.0f));
+  REQUIRE(lamps.size() == 1);
+  CHECK(glm::length(lamps[0].position_m - Vec3(100.2, 49.9, 26)) < 0.01);
+  CHECK(lamps[0].height_m == doctest::Approx(6.0f));
+  CHECK(lamps[0].intensity.g == doctest::Approx(0.5f * 0.08f));
+  CHECK(instant::standing_lamps(hanging_lens(-1.0f)).empty());
+  scene::ResolvedScene broken = hanging_lens(1.0f);
+  broken.meshes[0].indices[1] = 99;
+  CHECK(instant::standing_lamps(broken).empty());
+}
+
+}  // namespace septet::render
