@@ -5,21 +5,11 @@
 #include <limits>
 
 #include "engine/instant/headlight_beam.hpp"
+#include "engine/raytrace/crossing.hpp"
+#include "engine/raytrace/photon_map.hpp"
 
 namespace septet::raytrace {
 namespace {
-
-constexpr int most_passed = 64;  ///< Sheets of glass on one edge.
-
-/// More than a place is uncertain by.
-float margin_m(const glm::vec3& position_m) {
-  return 1e-4f + 2e-6f * std::max({std::abs(position_m.x), std::abs(position_m.y), std::abs(position_m.z)});
-}
-
-/// Beside the surface by that.
-glm::vec3 beside(const glm::vec3& position_m, const glm::vec3& normal) {
-  return position_m + normal * margin_m(position_m);
-}
 
 constexpr float evenly_per_sr = 0.25f / pi;
 
@@ -34,7 +24,7 @@ Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
 class Path {
  public:
   Path(const World& world, const PathSettings& settings, PathRandom& random)
-      : world_(world), settings_(settings), random_(random) {}
+      : world_(world), photons_(world.photons()), settings_(settings), random_(random) {}
 
   glm::vec3 trace(Ray ray, FirstSeen* first);
 
@@ -51,11 +41,12 @@ class Path {
   LightSample draw_lamp(const glm::vec3& from_m, float& distance_m);
   LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
   float headlight_weights(const glm::vec3& from_m) const;
-  Ray enter_or_leave(const SurfacePoint& point, const Ray& ray);
   void note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const;
   bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
+  bool take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m);
 
   const World& world_;
+  const PhotonMaps* photons_;
   const PathSettings& settings_;
   PathRandom& random_;
   glm::vec3 light_{0.0f}, throughput_{1.0f};
@@ -66,6 +57,9 @@ class Path {
   std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
   bool scattered_ = false;          ///< It has been at a surface that scatters.
   bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
+  bool has_caustics_ =
+      false;  ///< At the last point that scattered the light through clear bodies is known: photons have brought it.
+  bool gathers_ = false;  ///< From a matt surface, on which what comes from another one is taken from photons there.
 };
 
 void Path::meet_sky(const glm::vec3& direction) {
@@ -90,6 +84,7 @@ void Path::meet_sky(const glm::vec3& direction) {
 
 void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
   if (point.emission == glm::vec3(0.0f)) return;
+  if (has_caustics_ && pdf_ <= 0.0f && point.lamp != no_lamp) return;
   float weight = 1.0f;
   if (pdf_ > 0.0f && point.lamp != no_lamp && lamp_weights_.sum() > 0.0f) {
     const Lamp& lamp = world_.lamps()[point.lamp];
@@ -254,22 +249,18 @@ void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer
   add_light(point, to_viewer, kind, light, distance_m);
 }
 
-/// Reflected or refracted, as Fresnel's share falls.
-Ray Path::enter_or_leave(const SurfacePoint& point, const Ray& ray) {
-  const glm::vec3& n = point.surface.normal;
-  const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
-  const float eta = point.from_front ? point.index : 1.0f / point.index;
-  Ray next;
-  next.time = time_;
-  if (random_.uniform() < fresnel(cosine, eta)) {
-    next.direction = glm::normalize(ray.direction + 2.0f * cosine * n);
-    next.origin_m = beside(point.position_m, point.flat_normal);
-  } else {
-    const float behind = std::sqrt(std::max(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
-    next.direction = glm::normalize(ray.direction / eta + (cosine / eta - behind) * n);
-    next.origin_m = beside(point.position_m, -point.flat_normal);
+/// Adds the light that photons have brought there. True where that is all: the path ends.
+bool Path::take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m) {
+  const bool is_matt = !point.in_smoke && is_rough(point.surface);
+  // Near a corner the photons around lie on two walls, of which each is asked for its own: there the path goes on.
+  if (gathers_ && is_matt && edge_m > 2.0f * photons_->global.reach_m()) {
+    light_ += throughput_ * photons_->global.radiance(point, to_viewer);
+    return true;
   }
-  return next;
+  gathers_ = is_matt && !photons_->global.empty();
+  has_caustics_ = !point.in_smoke && photons_->has_caustics;
+  if (has_caustics_) light_ += throughput_ * photons_->caustic.radiance(point, to_viewer);
+  return false;
 }
 
 /// Takes what flames on the edge give. True where the path turns before the edge's end: `point` is there then.
@@ -311,7 +302,7 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     Hit hit;
     bool met = false;
     const glm::vec3 edge_from_m = ray.origin_m;
-    for (int passed = 0; passed < most_passed; ++passed) {
+    for (int passed = 0; passed < most_sheets_passed; ++passed) {
       met = world_.geometry().intersect(ray, hit);
       if (!met) break;
       world_.point(ray, hit, point);
@@ -338,11 +329,12 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     meet_lamp(ray, point);
     if (edge == settings_.longest) break;
     if (point.dielectric) {
-      ray = enter_or_leave(point, ray);
+      ray = enter_or_leave(point, ray, random_);
       pdf_ = 0.0f;
       continue;
     }
     const glm::vec3 to_viewer = -ray.direction;
+    if (photons_ && take_photons(point, to_viewer, edge_m)) break;
     choose_chances(point);
     // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
     // than it costs.

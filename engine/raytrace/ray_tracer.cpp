@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 #include "engine/core/check.hpp"
 #include "engine/core/parallel_for.hpp"
@@ -184,6 +185,8 @@ struct RayTracer::Parts {
   instant::Instant instant{};
   std::vector<ClearBody> bodies{};
   std::unique_ptr<World> world{};
+  std::unique_ptr<PhotonLights> photon_lights{};
+  PhotonMaps photons{};
   std::vector<Camera> cameras{}, later_cameras{};  ///< The latter: none, or as many.
   std::vector<std::uint8_t> cloud_noise = instant::cloud_noise();
 
@@ -245,6 +248,7 @@ Expected<RayTracer> RayTracer::create(const scene::ResolvedScene& scene) {
 void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies,
                       const instant::Instant* later) {
   Parts& p = *parts_;
+  p.photon_lights.reset();
   p.world.reset();
   p.settings = settings;
   p.instant = std::move(instant);
@@ -254,11 +258,49 @@ void RayTracer::begin(instant::Instant instant, const TraceSettings& settings, s
     p.bodies.push_back(clear_body(p.instant.ice[n], same ? &later->ice[n] : nullptr));
   }
   p.world = std::make_unique<World>(p.scene, p.index, p.instant, later, p.bodies, p.cloud_noise, p.geometry);
+  p.photons = {};
+  p.photon_lights = std::make_unique<PhotonLights>(*p.world, settings.photons, settings.seed, settings.paths.longest,
+                                                   later && settings.blurs);
   p.cameras.clear();
   p.later_cameras.clear();
   for (const instant::FrameView& view : p.instant.views) p.cameras.emplace_back(view, p.world->origin_m());
   if (later && later->views.size() == p.instant.views.size())
     for (const instant::FrameView& view : later->views) p.later_cameras.emplace_back(view, p.world->origin_m());
+}
+
+std::vector<PhotonBucket> RayTracer::photon_buckets() const {
+  SEPTET_CHECK(parts_->photon_lights, "no instant was begun");
+  const PhotonLights& lights = *parts_->photon_lights;
+  return raytrace::photon_buckets(lights.count(PhotonKind::caustic), lights.count(PhotonKind::global));
+}
+
+std::vector<Photon> RayTracer::trace_photons(const PhotonBucket& bucket) const {
+  SEPTET_CHECK(parts_->photon_lights, "no instant was begun");
+  return parts_->photon_lights->trace(bucket);
+}
+
+void RayTracer::set_photons(std::span<const std::vector<Photon>> of_buckets) {
+  Parts& p = *parts_;
+  const auto buckets = photon_buckets();
+  SEPTET_CHECK(of_buckets.size() == buckets.size(), "photons of {} buckets of {}", of_buckets.size(), buckets.size());
+  std::vector<Photon> caustic, global;
+  for (std::size_t n = 0; n < buckets.size(); ++n) {
+    std::vector<Photon>& all = buckets[n].kind == PhotonKind::caustic ? caustic : global;
+    all.insert(all.end(), of_buckets[n].begin(), of_buckets[n].end());
+  }
+  const PhotonSettings& settings = p.settings.photons;
+  p.photons.has_caustics = p.photon_lights->count(PhotonKind::caustic) > 0;
+  p.photons.caustic = PhotonMap(std::move(caustic), settings.nearest, settings.caustic_reach_m);
+  p.photons.global = PhotonMap(std::move(global), settings.nearest, settings.global_reach_m);
+  p.world->set_photons(buckets.empty() ? nullptr : &p.photons);
+}
+
+void send_photons(RayTracer& tracer, unsigned threads) {
+  const auto buckets = tracer.photon_buckets();
+  std::vector<std::vector<Photon>> photons(buckets.size());
+  parallel_for(
+      buckets.size(), [&](std::size_t n) { photons[n] = tracer.trace_photons(buckets[n]); }, threads);
+  tracer.set_photons(photons);
 }
 
 Bucket RayTracer::trace(const instant::PixelRectangle& rectangle) const {

@@ -7,11 +7,13 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/core/expected.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/path_tracer.hpp"
+#include "engine/raytrace/photons.hpp"
 
 namespace septet::raytrace {
 
@@ -31,6 +33,7 @@ struct TraceSettings {
   float lens_radius_m = 0.0f;  ///< 0: a pinhole, all is sharp.
   float focus_m = 10.0f;       ///< Distance at which a lens is sharp.
   bool blurs = true;           ///< False: what moves until `later` is not smeared; its pixels' motion is told.
+  PhotonSettings photons;      ///< How many are sent, once RayTracer::set_photons is called.
   float motion_scale = 1.0f;   ///< Of a pixel's motion, to a time other than `later`'s, as if all went on evenly.
 };
 
@@ -87,6 +90,11 @@ class RayTracer {
   /// shutter closes. What moves until then, the views too, is smeared; light and weather, smoke and soot are those of the first.
   void begin(instant::Instant instant, const TraceSettings& settings, std::vector<ClearBody> bodies = {},
              const instant::Instant* later = nullptr);
+  /// Photons of the instant begun last, in buckets that may be traced in any order, on any machines; none, where they would bring nothing.
+  std::vector<PhotonBucket> photon_buckets() const;
+  std::vector<Photon> trace_photons(const PhotonBucket& bucket) const;
+  /// What came of each of those buckets, in their order: pixels have that light from now on, as without photons else.
+  void set_photons(std::span<const std::vector<Photon>> of_buckets);
   /// Pixels of the instant begun last; the rectangle lies within the picture that its views make.
   Bucket trace(const instant::PixelRectangle& rectangle) const;
   const instant::Instant& instant() const;
@@ -96,6 +104,9 @@ class RayTracer {
   explicit RayTracer(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
+
+/// All photons of the instant begun last, by so many threads.
+void send_photons(RayTracer& tracer, unsigned threads);
 
 /// All buckets on this machine's cores. `done` hears each one as it comes, one at a time, from any thread; where it says no, no
 /// more are begun and the picture is not whole.

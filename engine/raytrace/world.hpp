@@ -20,6 +20,8 @@ namespace septet::raytrace {
 
 inline constexpr std::uint32_t no_lamp = 0xffffffffu;
 
+struct PhotonMaps;
+
 /// Where a ray met a surface.
 struct SurfacePoint {
   Surface surface;
@@ -88,6 +90,16 @@ class World : public Openings {
   glm::vec3 headlight_m(std::size_t n, float time) const {
     return glm::vec3(instant_.headlights[n].position_m - origin_m_) + headlight_ways_m_[n] * time;
   }
+  /// A sphere around each clear body, wherever it is while the shutter is open.
+  struct ClearBodySphere {
+    std::uint32_t place = 0;
+    glm::vec3 middle_m{0.0f};
+    float radius_m = 0.0f;
+  };
+  std::vector<ClearBodySphere> clear_body_spheres() const;
+  /// What paths take from photons; null: nothing. Set while none is traced; outlives the paths.
+  const PhotonMaps* photons() const { return photons_; }
+  void set_photons(const PhotonMaps* photons) { photons_ = photons; }
   const Smoke& smoke() const { return smoke_; }
   const Vec3& origin_m() const { return origin_m_; }  ///< World.
 
@@ -165,6 +177,7 @@ class World : public Openings {
   std::vector<glm::vec3> headlight_ways_m_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;
+  const PhotonMaps* photons_ = nullptr;
   bool all_lamps_are_drawn_ = true, lamps_alone_shine_ = false;
   scene::SurfaceMaterial no_material_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -130,6 +131,27 @@ void World::add_soups(std::vector<Place>& places, const instant::Instant* later,
     soup.body = &body;
     soup.object = static_cast<std::uint32_t>(ice);
   }
+}
+
+std::vector<World::ClearBodySphere> World::clear_body_spheres() const {
+  std::vector<ClearBodySphere> spheres;
+  for (std::uint32_t place = 0; place < placed_.size(); ++place) {
+    const PlacedSurface& placed = placed_[place];
+    if (!placed.body || placed.vertices.empty()) continue;
+    glm::vec3 low = placed.vertices.front().position_m, high = low;
+    for (const auto vertices : {placed.vertices, placed.later})
+      for (const scene::SurfaceVertex& vertex : vertices)
+        low = glm::min(low, vertex.position_m), high = glm::max(high, vertex.position_m);
+    const glm::vec3 middle = 0.5f * (low + high);
+    float square = 0.0f;
+    for (const auto vertices : {placed.vertices, placed.later})
+      for (const scene::SurfaceVertex& vertex : vertices)
+        square = std::max(square, glm::dot(vertex.position_m - middle, vertex.position_m - middle));
+    // A little more, for rounding: a vertex on the rim is within.
+    const float radius_m = 1.0001f * std::sqrt(square);
+    if (radius_m > 0.0f && std::isfinite(radius_m)) spheres.push_back({place, placed.origin_m + middle, radius_m});
+  }
+  return spheres;
 }
 
 /// Lamps that stand are seen no brighter than a picture shows them; what those that look down light is lit as brightly as the rasteriser has it.

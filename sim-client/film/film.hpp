@@ -46,7 +46,11 @@ struct FilmOptions {
   FilmRenderer renderer = FilmRenderer::raster;
   std::uint32_t samples = 64;  ///< Of a pixel, of the ray tracer; the most of them where there is an `error`.
   double error = 0.0;          ///< Enough of it: raytrace::TraceSettings::error. 0: all samples are taken.
-  bool denoise = false;        ///< raytrace::denoised.
+  /// Sent at ice by sun and lamps, of what is traced (raytrace::PhotonSettings): the light that it throws on other surfaces. 0: none.
+  std::uint32_t caustic_photons = 100'000;
+  std::uint32_t gather_photons =
+      0;                 ///< Sent by lamps for a final gather, where they alone shine. 0: paths find all light.
+  bool denoise = false;  ///< raytrace::denoised.
   raytrace::Filter filter = raytrace::Filter::quadratic;
   ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
   std::set<Layer> layers;

@@ -12,6 +12,7 @@ namespace septet::film {
 namespace {
 
 constexpr std::uint32_t most_samples_for_an_error = 8192;
+constexpr std::uint32_t most_photons = 20'000'000;
 
 }  // namespace
 
@@ -54,6 +55,16 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
   app.add_option("--filter", arguments.filter,
                  "How the light around a pixel's middle is weighed: a B-spline, 1 to 4 pixels across")
       ->check(CLI::IsMember({"box", "tent", "quadratic", "cubic"}))
+      ->capture_default_str();
+  app.add_option("--caustic-photons", options.caustic_photons,
+                 "Sent at ice that is seen, of what is traced: the light that it throws on what lies around. 0: none")
+      ->check(CLI::Range(0u, most_photons))
+      ->capture_default_str();
+  app.add_option("--gather-photons", options.gather_photons,
+                 "Sent by lamps where they alone shine, without sky or fog: a path then ends at the second matt "
+                 "surface, with the\n"
+                 "light that photons have brought there. 0: paths go on")
+      ->check(CLI::Range(0u, most_photons))
       ->capture_default_str();
   app.add_flag("--denoise", options.denoise, "Take the noise out of what is traced, guided by normals and colours")
       ->default_str("");

@@ -84,6 +84,8 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
   if (options.renderer == FilmRenderer::traced) {
     record["samples"] = fmt::format("{}", options.samples);
     record["error"] = fmt::format("{}", options.error);
+    record["caustic_photons"] = fmt::format("{}", options.caustic_photons);
+    record["gather_photons"] = fmt::format("{}", options.gather_photons);
     record["denoise"] = options.denoise ? "yes" : "no";
     record["filter"] = fmt::format("{}", static_cast<int>(options.filter));
     record["exr"] = options.exr == ExrNumbers::none             ? "none"

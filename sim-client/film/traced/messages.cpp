@@ -105,6 +105,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(options.frames_per_second);
   writer.put(options.width_px), writer.put(options.height_px), writer.put(options.samples);
   writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
+  writer.put(options.caustic_photons), writer.put(options.gather_photons);
   writer.put(options.every);
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
   writer.put(static_cast<std::uint8_t>(options.layers.contains(Layer::motion)));
@@ -124,6 +125,7 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.samples = reader.get<std::uint32_t>();
   options.error = reader.get_double();
   options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
+  options.caustic_photons = reader.get<std::uint32_t>(), options.gather_photons = reader.get<std::uint32_t>();
   options.every = std::max(1u, reader.get<std::uint32_t>());
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);
   // The others are made of any tile; for this one a worker looks a frame ahead.

@@ -261,6 +261,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       settings.samples = options.samples;
       settings.error = static_cast<float>(options.error);
       settings.filter = options.filter;
+      settings.photons.caustic = options.caustic_photons, settings.photons.global = options.gather_photons;
       settings.seed = of_film.number;  // Another noise in each frame.
       const Shot& shot = frames.plan().script.shots[of_film.shot];
       settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
@@ -271,6 +272,7 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
       std::optional<instant::Instant> closes;
       if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);
       tracer->begin(std::move(opens), settings, {}, closes ? &*closes : nullptr);
+      send_photons(*tracer, threads);
       frame = wanted->frame;
       tracing.begin_frame(*frame, facts_of(tracer->instant()));
       Bytes bytes = message(Word::ready);

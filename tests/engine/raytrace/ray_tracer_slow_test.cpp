@@ -22,6 +22,20 @@ TEST_CASE("the Cornell box has the light that other renderers find in it") {
   }
 }
 
+TEST_CASE("the Cornell box has by a final gather the light that paths find in it") {
+  TraceSettings settings = cornell_settings(16);
+  const PictureMean paths = mean_of(traced(cornell_box(), before_cornell_box(64), cornell_settings(64, 5)));
+  settings.photons = {.global = 100000, .nearest = 50};
+  settings.photons.global_reach_m = 0.1f;
+  const TracedPicture picture = traced(cornell_box(), before_cornell_box(64), settings);
+  const PictureMean gathered = mean_of(picture);
+  MESSAGE("gathered ", gathered.radiance.x, " ", gathered.radiance.y, " ", gathered.radiance.z, ", by paths ",
+          paths.radiance.x, " ", paths.radiance.y, " ", paths.radiance.z, "; sigma ", gathered.sigma, " and ",
+          paths.sigma);
+  for (int c = 0; c < 3; ++c)
+    CHECK(gathered.radiance[c] / paths.radiance[c] == doctest::Approx(1.0).epsilon(0.02).scale(0));
+}
+
 TEST_CASE("the error falls with the root of the number of samples") {
   const auto error = [&](std::uint32_t samples) {
     const TracedPicture a = traced(cornell_box(), before_cornell_box(64), cornell_settings(samples, 1)),

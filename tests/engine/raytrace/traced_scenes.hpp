@@ -52,13 +52,14 @@ inline scene::ResolvedScene ball_scene(const scene::SurfaceMaterial& material, i
   return scene;
 }
 
-/// As large as the first view, on all cores.
+/// As large as the first view, on all cores, with the photons that the settings ask for.
 inline TracedPicture traced(const scene::ResolvedScene& scene, const instant::Instant& instant,
                             const TraceSettings& settings, std::vector<ClearBody> bodies = {}) {
   auto tracer = RayTracer::create(scene);
   REQUIRE(tracer.has_value());
   const instant::PixelRectangle size = instant.views.front().viewport;
   tracer->begin(instant, settings, std::move(bodies));
+  send_photons(*tracer, 2);
   return whole_picture(*tracer, size.width, size.height);
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+/// What a ray does at a surface: where the next one begins, and how it enters or leaves a clear body. For paths from the eye and from lights.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/raytrace/ggx.hpp"
+#include "engine/raytrace/world.hpp"
+
+namespace septet::raytrace {
+
+inline constexpr int most_sheets_passed = 64;  ///< Of glass, on one edge.
+
+/// More than a place is uncertain by.
+inline float margin_m(const glm::vec3& position_m) {
+  return 1e-4f + 2e-6f * std::max({std::abs(position_m.x), std::abs(position_m.y), std::abs(position_m.z)});
+}
+
+/// Beside the surface by that.
+inline glm::vec3 beside(const glm::vec3& position_m, const glm::vec3& normal) {
+  return position_m + normal * margin_m(position_m);
+}
+
+/// At a clear body's surface: reflected or refracted, as Fresnel's share falls. The ray's time stays.
+inline Ray enter_or_leave(const SurfacePoint& point, const Ray& ray, PathRandom& random) {
+  const glm::vec3& n = point.surface.normal;
+  const float cosine = std::clamp(-glm::dot(n, ray.direction), 0.0f, 1.0f);
+  const float eta = point.from_front ? point.index : 1.0f / point.index;
+  Ray next;
+  next.time = ray.time;
+  if (random.uniform() < fresnel(cosine, eta)) {
+    next.direction = glm::normalize(ray.direction + 2.0f * cosine * n);
+    next.origin_m = beside(point.position_m, point.flat_normal);
+  } else {
+    const float behind = std::sqrt(std::max(0.0f, 1.0f - (1.0f - cosine * cosine) / (eta * eta)));
+    next.direction = glm::normalize(ray.direction / eta + (cosine / eta - behind) * n);
+    next.origin_m = beside(point.position_m, -point.flat_normal);
+  }
+  return next;
+}
+
+}  // namespace septet::raytrace
