@@ -169,7 +169,7 @@ class _GroundTruths:
         message.timestamp.seconds, message.timestamp.nanos = divmod(nanos, 10**9)
         message.host_vehicle_id.value = snapshot.car[0]
         self._add_weather(message.environmental_conditions, snapshot.environment)
-        frame = septet_session.motion_of(snapshot)
+        frame = septet_session.motion_of(snapshot.fields)
         place = frame["model"]
         if len(place) and int(place.max()) >= len(self._models):
             raise SessionError(f"tick {snapshot.tick} has a vehicle of model {int(place.max())}, and the session knows {len(self._models)}")

@@ -17,7 +17,7 @@ namespace septet::server {
 namespace {
 
 LoadedDrive motorway_drive() {
-  const auto scenario = program::find_resource("motorway-ambulance", "scenarios", ".xosc");
+  const auto scenario = program::find_resource("behind-ambulance", "scenarios", ".xosc");
   const auto rig = program::find_resource("seven-screens", "rigs", ".toml");
   SEPTET_CHECK(scenario && rig, "the shipped scenario and rig are missing");
   auto drive = load_drive(DriveFiles{scenario->string(), rig->string(), 1});

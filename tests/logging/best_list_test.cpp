@@ -11,7 +11,7 @@
 namespace septet::logging {
 namespace {
 
-BestListEntry played(const std::string& participant, double points, const std::string& game = "ambulance-game") {
+BestListEntry played(const std::string& participant, double points, const std::string& game = "motorway-ambulance") {
   return {game, participant, points, 60.0, 2, "lost", "2026-11-21T09:30:00Z"};
 }
 
@@ -24,14 +24,14 @@ TEST_CASE("a best list has the best of each game first, and tells the place of w
   CHECK(*enter_best_list(path, played("P01", 500.0)) == 1);
   CHECK(*enter_best_list(path, played("P02", 900.0)) == 1);
   CHECK(*enter_best_list(path, played("P03", 700.0)) == 2);
-  CHECK(*enter_best_list(path, played("P03", 9000.0, "another")) == 1);
+  CHECK(*enter_best_list(path, played("P03", 9000.0, "other")) == 1);
   CHECK(*enter_best_list(path, played("", 700.0)) == 3);  // Who had as many before stays before.
   const auto list = read_best_list(path);
   REQUIRE(list.has_value());
   REQUIRE(list->size() == 5);
   CHECK((*list)[0] == played("P02", 900.0));
   CHECK((*list)[1].participant == "P03");
-  CHECK((*list)[4].game == "another");
+  CHECK((*list)[4].game == "other");
 }
 
 TEST_CASE("a best list does not grow beyond its length, and forgets who asks for it") {

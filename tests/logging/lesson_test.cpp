@@ -224,7 +224,7 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     REQUIRE_FALSE(lesson.has_value());
     CHECK_FALSE(lesson.error().remedy.empty());
   }
-  for (const std::string name : {"winter-lorry", "tunnel-fire", "motorway-ambulance"}) {
+  for (const std::string name : {"winter-lorry", "tunnel-fire", "behind-ambulance"}) {
     const std::string path = std::string(SEPTET_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".lesson.toml";
     const auto text = read_regular_file(path);
     REQUIRE(text.has_value());

@@ -53,7 +53,7 @@ TEST_CASE("a drive ends when the scenario's StopTrigger fires and when its time 
     fs::copy(entry.path(), folder / "short" / entry.path().filename(), fs::copy_options::recursive);
   const fs::path scenario = folder / "short" / "motorway-ambulance.xosc";
   std::string text = text_of(scenario);
-  const std::string distance = "TraveledDistanceCondition value=\"8500\"";
+  const std::string distance = "TraveledDistanceCondition value=\"9000\"";
   const auto at = text.rfind(distance);
   REQUIRE(at != std::string::npos);
   write_text(scenario, text.replace(at, distance.size(), "TraveledDistanceCondition value=\"50\""));

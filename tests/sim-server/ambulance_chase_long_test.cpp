@@ -19,7 +19,7 @@ TEST_CASE("in ten seeds the driver follows the ambulance through the rescue lane
 
 TEST_CASE("in ten seeds the ambulance of the motorway drives into nobody") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const AmbulanceChase chase = chase_ambulance("motorway-ambulance", "plain", seed, 285.0);
+    const AmbulanceChase chase = chase_ambulance("behind-ambulance", "plain", seed, 285.0);
     MESSAGE(in_words(seed, chase));
     CHECK(chase.ambulance_overlaps_s10 == 0);
   }

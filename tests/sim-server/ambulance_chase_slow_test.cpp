@@ -13,7 +13,7 @@ TEST_CASE("the driver follows the ambulance through the rescue lane half as fast
 
 TEST_CASE("the ambulance of the motorway drives into nobody") {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    const AmbulanceChase chase = chase_ambulance("motorway-ambulance", "plain", seed, 60.0);
+    const AmbulanceChase chase = chase_ambulance("behind-ambulance", "plain", seed, 60.0);
     MESSAGE(in_words(seed, chase));
     CHECK(chase.ambulance_overlaps_s10 == 0);
   }

@@ -26,7 +26,7 @@ struct PlayedGame {
 
 /// `driver` empty: the controls are held as they are.
 PlayedGame play(const std::string& driver, std::uint64_t seed, double seconds, const DriverInput& held = {}) {
-  const LoadedDrive loaded = shipped_drive("ambulance-game", "seven-screens", seed);
+  const LoadedDrive loaded = shipped_drive("motorway-ambulance", "seven-screens", seed);
   auto seat = driver.empty() ? Expected<DriverSeat>(DriverSeat{})
                              : open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
   REQUIRE(seat.has_value());

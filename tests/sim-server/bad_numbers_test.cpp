@@ -31,7 +31,7 @@ class EmptyTraffic final : public traffic::TrafficEngine {
 TEST_CASE(
     "a number gone bad in controls, car, scripted vehicle or traffic is counted, reset and told, and the drive goes "
     "on") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto state = simulation::initial_state(*drive.model, std::make_unique<EmptyTraffic>());
   REQUIRE(state.has_value());
   std::vector<simulation::Event> events;
@@ -63,7 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the last line of a drive and its outcome tell how many numbers went bad") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   const septet::TemporaryFolder folder;
   auto log = SessionLog::create(drive, {.out = folder.path(), .lockstep = true});
   REQUIRE(log.has_value());

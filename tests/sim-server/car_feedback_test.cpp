@@ -26,7 +26,7 @@ std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::
     };
     *actuate_again = [newest, actuate = seat.actuate] { actuate(0, car_io::Actuators(*newest)); };
   }
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto live = LiveDrive::start(drive.model, traffic::own_traffic(drive.model->roads, 1), std::move(seat));
   REQUIRE(live.has_value());
   return std::move(*live);
@@ -35,7 +35,7 @@ std::unique_ptr<LiveDrive> seated_at(car_io::SimulatedHidPort& port, const rig::
 }  // namespace
 
 TEST_CASE("an engine that does not run shakes nothing though it is still turned over") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   simulation::State state;
   state.car = vehicle::standstill(drive.model->car, {}, 10.0);
   state.car.powertrain.engine_radps = 90.0;

@@ -9,7 +9,7 @@
 namespace septet::server {
 
 TEST_CASE("a vehicle that the driver's car touches is one collision for as long as they touch") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto state = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
   REQUIRE(state.has_value());
   std::vector<simulation::Event> events;

@@ -46,7 +46,7 @@ class Report {
 
 DrivingRecord drive_for_hours(const std::string& driver) {
   const double hours = std::stod(from_environment("SEPTET_DRIVER_HOURS", "20"));
-  const std::string scenario = from_environment("SEPTET_DRIVER_SCENARIO", "motorway-ambulance");
+  const std::string scenario = from_environment("SEPTET_DRIVER_SCENARIO", "behind-ambulance");
   const std::uint64_t first_seed = std::stoull(from_environment("SEPTET_DRIVER_FIRST_SEED", "1"));
   Report report(from_environment("SEPTET_DRIVER_REPORT", ""));
   std::mutex mutex;

@@ -22,7 +22,7 @@ TEST_CASE("the first half minute lies no farther to one side of the lane than th
   double first_m = 0.0, later_m = 0.0, largest_later_m = 0.0;
   constexpr int drives = 6;
   for (std::uint64_t seed = 1; seed <= drives; ++seed) {
-    const DriveWatch watch = watch_drive("motorway-ambulance", "plain", seed, 60.0);
+    const DriveWatch watch = watch_drive("behind-ambulance", "plain", seed, 60.0);
     const std::span<const logging::Sample> samples(watch.samples);
     const double first = logging::compute_lateral_position_statistics(samples.first(300), {}).mean_m;
     const double later = logging::compute_lateral_position_statistics(samples.last(300), {}).mean_m;

@@ -16,7 +16,7 @@ std::unique_ptr<LiveDrive> seated(const LoadedDrive& drive, DriverSeat seat) {
 }  // namespace
 
 TEST_CASE("a driver at a keyboard is ready with the first controls of a screen") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
   REQUIRE(seat.has_value());
   const auto live = seated(drive, std::move(*seat));
@@ -28,7 +28,7 @@ TEST_CASE("a driver at a keyboard is ready with the first controls of a screen")
 }
 
 TEST_CASE("a driver at a wheel is ready when a control is moved and not while it trembles") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   DriverInput resting;
   resting.steering_wheel_rad = 0.4;
   DriverInput pedal = resting, wheel = resting, indicator = resting;
@@ -59,7 +59,7 @@ TEST_CASE("a driver at a wheel is ready when a control is moved and not while it
 }
 
 TEST_CASE("a screen that drives and falls silent has its accelerator released after a second and not before") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   const auto live = seated(drive, {});
   DriverInput flat_out;
   flat_out.accelerator = 1.0;
@@ -77,7 +77,7 @@ TEST_CASE("a screen that drives and falls silent has its accelerator released af
 }
 
 TEST_CASE("a screen whose keys have all been let go is not said to be silent") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   const auto live = seated(drive, {});
   REQUIRE(live->next(DriverInput{}).has_value());
   for (int i = 0; i < 300; ++i) REQUIRE(live->next(std::nullopt).has_value());
@@ -86,14 +86,14 @@ TEST_CASE("a screen whose keys have all been let go is not said to be silent") {
 }
 
 TEST_CASE("a simulated driver is always ready") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "seven-screens");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "seven-screens");
   auto seat = open_driver_seat(drive.rig.car, 1, drive.model);
   REQUIRE(seat.has_value());
   CHECK(seated(drive, std::move(*seat))->driver_is_ready(std::nullopt, 0.0));
 }
 
 TEST_CASE("a seat whose device may be missing is one at the keyboard without it") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   rig::Car car = drive.rig.car;
   car.product_id = 0xfffe;
   car.source = rig::CarSource::automatic;

@@ -44,7 +44,7 @@ TakenLesson take_lesson(const std::string& scenario, const std::string& driver, 
 }  // namespace
 
 TEST_CASE("novices get worse marks than experienced drivers") {
-  for (const std::string scenario : {"winter-lorry", "motorway-ambulance"}) {
+  for (const std::string scenario : {"winter-lorry", "behind-ambulance"}) {
     const double novice = take_lesson(scenario, "novice", 1, 70.0).marks.mark.value();
     const double experienced = take_lesson(scenario, "experienced", 1, 70.0).marks.mark.value();
     MESSAGE(scenario << ": novice " << novice << ", experienced " << experienced);

@@ -15,7 +15,7 @@ namespace septet::server {
 TEST_CASE(
     "a car that is more than ten metres beyond the last road's end is beyond it and one at a joint of two roads is "
     "not") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   const road::RoadNetwork& roads = drive.model->roads;
   int open_ends = 0, joints = 0;
   for (road::RoadIndex index = 0; index < roads.roads.size(); ++index) {
@@ -43,7 +43,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a drive ends where the car leaves the end of the road and where the storyboard stops") {
-  const LoadedDrive drive = shipped_drive("motorway-ambulance", "desktop");
+  const LoadedDrive drive = shipped_drive("behind-ambulance", "desktop");
   auto state = simulation::initial_state(*drive.model, traffic::own_traffic(drive.model->roads, 1));
   REQUIRE(state.has_value());
   std::vector<simulation::Event> events;

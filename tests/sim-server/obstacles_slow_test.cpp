@@ -29,7 +29,7 @@ struct Outing {
 
 const simulation::Model& model() {
   static const LoadedDrive drive = [] {
-    LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
+    LoadedDrive loaded = shipped_drive("behind-ambulance", "desktop");
     auto alone = std::make_shared<simulation::Model>(*loaded.model);
     loaded.model = alone;
     return loaded;

@@ -27,7 +27,7 @@ std::string placed_before(const LiveDrive& live) {
 
 /// Drives and logs; returns the last state hash.
 std::uint64_t drive_with(const Commands& commands, Tick ticks, const std::filesystem::path& out) {
-  const LoadedDrive loaded = shipped_drive("motorway-ambulance", "seven-screens");
+  const LoadedDrive loaded = shipped_drive("behind-ambulance", "seven-screens");
   auto seat = open_driver_seat(loaded.rig.car, 1, loaded.model);
   REQUIRE(seat.has_value());
   auto live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(*seat));

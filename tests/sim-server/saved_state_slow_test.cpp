@@ -112,8 +112,8 @@ void sign(Bytes& bytes) {
 }  // namespace
 
 TEST_CASE("a drive on the motorway that is saved and restored goes on as if nothing had been") {
-  for (const SavedDrive& saved : drive_and_save("motorway-ambulance", "plain", 1, {0, 1, 1111}))
-    check_that_it_goes_on("motorway-ambulance", 1, saved);
+  for (const SavedDrive& saved : drive_and_save("behind-ambulance", "plain", 1, {0, 1, 1111}))
+    check_that_it_goes_on("behind-ambulance", 1, saved);
   for (const SavedDrive& saved : drive_and_save("rescue-lane", "tired", 2, {1500}))
     check_that_it_goes_on("rescue-lane", 2, saved);
   for (const SavedDrive& saved : drive_and_save("first-lesson", "plain", 1, {1500}))
@@ -133,8 +133,8 @@ TEST_CASE("a drive that is saved in the middle of breaking ice goes on as if not
 }
 
 TEST_CASE("a game that is saved after its second level has begun goes on as if nothing had been") {
-  for (const SavedDrive& saved : drive_and_save("ambulance-game", "experienced", 1, {5500}))
-    check_that_it_goes_on("ambulance-game", 1, saved);
+  for (const SavedDrive& saved : drive_and_save("motorway-ambulance", "experienced", 1, {5500}))
+    check_that_it_goes_on("motorway-ambulance", 1, saved);
 }
 
 TEST_CASE("no shipped scenario is without a drive that is saved") {
@@ -142,7 +142,7 @@ TEST_CASE("no shipped scenario is without a drive that is saved") {
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SEPTET_SOURCE_DIR) / "scenarios"))
     if (std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".xosc")))
       shipped.insert(entry.path().filename().string());
-  CHECK(shipped == std::set<std::string>{"ambulance-game", "first-lesson", "motorway-ambulance", "rescue-lane",
+  CHECK(shipped == std::set<std::string>{"motorway-ambulance", "first-lesson", "behind-ambulance", "rescue-lane",
                                          "tunnel-fire", "winter-lorry"});
 }
 

@@ -26,7 +26,7 @@ bool has_sumo() {
 
 std::shared_ptr<const simulation::Model> motorway() {
   ::setenv("SEPTET_DATA", SEPTET_SOURCE_DIR, 1);
-  const auto scenario = program::find_resource("motorway-ambulance", "scenarios", ".xosc");
+  const auto scenario = program::find_resource("behind-ambulance", "scenarios", ".xosc");
   const auto rig = program::find_resource("desktop", "rigs", ".toml");
   REQUIRE(scenario.has_value());
   REQUIRE(rig.has_value());

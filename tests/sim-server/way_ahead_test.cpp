@@ -96,7 +96,7 @@ TEST_CASE("an ambulance passes a car that leaves it room without braking") {
 
 TEST_CASE(
     "an ambulance does not move over into a car beside it nor brake hard for it but waits until that place is free") {
-  EmptyRoad road("motorway-ambulance");
+  EmptyRoad road("behind-ambulance");
   while (!road.entity().lateral_control.active ||
          road.now.simulated_time_s < 10.0) {  // Between the lanes first; then back.
     road.drive_for(1.0 / simulation::tick_rate_hz);

@@ -38,7 +38,7 @@ double friction_at(const road::RoadNetwork& roads, const simulation::RoadWeather
 
 /// The motorway with nothing on it and nothing beside it but the driver's car.
 struct EmptyMotorway {
-  simulation::Model model = *shipped_drive("motorway-ambulance", "desktop").model;
+  simulation::Model model = *shipped_drive("behind-ambulance", "desktop").model;
   simulation::State state;
 
   EmptyMotorway() {

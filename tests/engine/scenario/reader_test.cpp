@@ -27,9 +27,9 @@ bool has_finding(const std::vector<Finding>& findings, Severity severity, const 
   return false;
 }
 
-std::string motorway_folder() { return SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance"; }
+std::string motorway_folder() { return SEPTET_SOURCE_DIR "/scenarios/behind-ambulance"; }
 std::string motorway_text() {
-  std::ifstream in(motorway_folder() + "/motorway-ambulance.xosc");
+  std::ifstream in(motorway_folder() + "/behind-ambulance.xosc");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -265,8 +265,7 @@ TEST_CASE("an entity that no name of ours fits is drawn as its role, its categor
 }
 
 TEST_CASE("the motorway scenario loads without a warning") {
-  std::vector<Finding> findings =
-      check_scenario(motorway_text(), "motorway-ambulance.xosc", files_in(motorway_folder()));
+  std::vector<Finding> findings = check_scenario(motorway_text(), "behind-ambulance.xosc", files_in(motorway_folder()));
   for (const Finding& finding : findings) MESSAGE(describe(finding.error));
   CHECK(findings.empty());
 }

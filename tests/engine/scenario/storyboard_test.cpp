@@ -247,12 +247,12 @@ TEST_CASE("an external entity is where it was put and triggers like any other") 
 }
 
 TEST_CASE("the ambulance of the motorway changes lanes and speed with its beacon and siren on") {
-  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
+  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/behind-ambulance";
   const auto content = [&](const std::string& name) {
     std::ifstream in(folder + "/" + name);
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
-  const auto scenario = read_scenario(content("motorway-ambulance.xosc"), "motorway-ambulance.xosc", files_in(folder));
+  const auto scenario = read_scenario(content("behind-ambulance.xosc"), "behind-ambulance.xosc", files_in(folder));
   REQUIRE_MESSAGE(scenario.has_value(), describe(scenario.error()));
   const auto network = road::read_opendrive(content(scenario->road_file), scenario->road_file);
   REQUIRE_MESSAGE(network.has_value(), describe(network.error()));

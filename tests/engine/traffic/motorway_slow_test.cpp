@@ -54,11 +54,11 @@ class MakingWayCheck {
 }  // namespace
 
 TEST_CASE("on the motorway everybody makes way for the ambulance and nobody touches anybody") {
-  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance";
-  const auto scenario = scenario::read_scenario(content(folder + "/motorway-ambulance.xosc"), "motorway-ambulance.xosc",
+  const std::string folder = SEPTET_SOURCE_DIR "/scenarios/behind-ambulance";
+  const auto scenario = scenario::read_scenario(content(folder + "/behind-ambulance.xosc"), "behind-ambulance.xosc",
                                                 scenario::files_in(folder));
   REQUIRE(scenario.has_value());
-  const auto network = road::read_opendrive(content(folder + "/motorway.xodr"), "motorway.xodr");
+  const auto network = road::read_opendrive(content(folder + "/../motorway-ambulance/motorway.xodr"), "motorway.xodr");
   REQUIRE(network.has_value());
   for (const std::uint64_t seed : {1, 2, 3}) {
     CAPTURE(seed);

@@ -31,7 +31,7 @@ struct SeatedDrive {
       shown = instruments;
       return std::nullopt;
     };
-    const LoadedDrive loaded = shipped_drive("motorway-ambulance", "desktop");
+    const LoadedDrive loaded = shipped_drive("behind-ambulance", "desktop");
     live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, 1), std::move(seat)).value();
   }
   void drive(int ticks, bool sends) {
