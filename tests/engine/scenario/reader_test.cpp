@@ -273,7 +273,7 @@ TEST_CASE("the motorway scenario loads without a warning") {
 TEST_CASE("no mutation of a scenario crashes the reader or the runtime") {
   const std::string original = motorway_text();
   REQUIRE_FALSE(original.empty());
-  std::ifstream in(motorway_folder() + "/motorway.xodr");
+  std::ifstream in(SEPTET_SOURCE_DIR "/scenarios/motorway-ambulance/motorway.xodr");
   const auto network = road::read_opendrive(std::string{std::istreambuf_iterator<char>(in), {}}, "motorway.xodr");
   REQUIRE(network.has_value());
   Random random(7);

@@ -96,7 +96,8 @@ TEST_CASE("drivers sit on the left below the roof and ahead of the rear axle, an
     CAPTURE(model.name);
     const Vec3 eye = eye_in(model);
     const bool seated = model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
-                        model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry;
+                        model.kind == ParticipantKind::ambulance || model.kind == ParticipantKind::lorry ||
+                        model.kind == ParticipantKind::bus;
     if (seated) {
       CHECK(eye.y > 0.1 * model.width_m);
       CHECK(eye.y < 0.4 * model.width_m);
