@@ -134,9 +134,8 @@ Snapshot server_step(const Model& model, const DriverInput& input, State& state,
   find_collisions(car.participant, participants, state, events);
   advance_game(model, car.participant, state, events);
   advance_examiner(model, participants, car.participant, state, events);
-  const Snapshot snapshot = capture(model, state, car, std::move(participants));
-  look_ahead(model, snapshot.participants, state.effects, state.scenario);
-  return snapshot;
+  look_ahead(model, participants, state.effects, state.scenario);
+  return capture(model, state, car, std::move(participants));
 }
 
 Snapshot capture_snapshot(const Model& model, const State& state, Snapshot old) {

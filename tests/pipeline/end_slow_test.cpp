@@ -132,11 +132,12 @@ TEST_CASE("a log that is deleted ends the drive soon and one that reaches a limi
   CHECK(last_words(drive).find("the log cannot be written") != std::string::npos);
 
   // 30 MB: the world is in, and a minute of the drive.
-  auto limited =
-      start("/bin/sh",
-            {"-c", fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --seconds 0 --out '{}'",
-                               (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
-            folder / "limited.err");
+  auto limited = start(
+      "/bin/sh",
+      {"-c",
+       fmt::format("ulimit -f 60000; exec '{}' drive --no-screens --scenario behind-ambulance --seconds 0 --out '{}'",
+                   (fs::path(SEPTET_BINARY_DIR) / "septet").string(), (folder / "limited").string())},
+      folder / "limited.err");
   CHECK(exit_code(limited) == 1);
   const std::string said = text_of(folder / "limited.err");
   INFO(said);

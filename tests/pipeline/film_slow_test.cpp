@@ -32,8 +32,8 @@ TEST_CASE(
   write_text(folder / "small.toml", small_rig(1));
   const fs::path session = folder / "drive" / "session.sqlite", out = folder / "film", script = folder / "shots.toml";
   const Ended driven = run("septet",
-                           {"drive", "--virtual", "--seconds", "1.2", "--rig", (folder / "small.toml").string(),
-                            "--out", (folder / "drive").string()},
+                           {"drive", "--virtual", "--scenario", "behind-ambulance", "--seconds", "1.2", "--rig",
+                            (folder / "small.toml").string(), "--out", (folder / "drive").string()},
                            folder / "drive.err");
   INFO(driven.error);
   REQUIRE(driven.code == 0);
