@@ -1,5 +1,6 @@
 #include "engine/scenery/vehicles/vehicles.hpp"
 
+#include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 
@@ -23,7 +24,11 @@ void add_prototype(scene::SceneBuilder& builder, const Palette& palette, std::st
 void build_vehicles(scene::SceneBuilder& builder) {
   const Palette palette = add_finishes(builder);
   for (const VehicleModel& model : vehicle_models()) add_prototype(builder, palette, model.name, vehicle_parts(model));
-  add_prototype(builder, palette, "interior/volvo-s80", interior_parts());
+  const Palette inside = add_cockpit_finishes(builder);
+  add_prototype(builder, inside, "interior/volvo-s80", interior_parts());
+  add_prototype(builder, inside, "cockpit/hands", hands_parts());
+  add_prototype(builder, inside, "cockpit/instruments", instrument_parts());
+  add_prototype(builder, inside, "cockpit/signs", sign_parts());
 }
 
 }  // namespace septet::scenery
