@@ -11,13 +11,12 @@ EYE = (1.35, 0.37, 1.17)  # driver's eyes in the S80: forward of the rear axle, 
 HERE = pathlib.Path(__file__).parent
 
 
-def screen(name, from_deg, to_deg, height_deg, width_px, distance_m=2.4, pitch_deg=0.0, height_px=None, extra=""):
+def screen(name, from_deg, to_deg, height_deg, width_px, distance_m=2.4, rise_m=0.0, height_px=None, extra=""):
     """One screen from azimuth from_deg (left, larger) to to_deg, its middle distance_m away."""
     middle = math.radians((from_deg + to_deg) / 2)
     half = math.radians((from_deg - to_deg) / 2)
     edge_m = distance_m / math.cos(half)
     half_height_m = edge_m * math.tan(math.radians(height_deg / 2))
-    rise_m = edge_m * math.tan(math.radians(pitch_deg))
 
     def corner(azimuth, up):
         return [EYE[0] + edge_m * math.cos(azimuth), EYE[1] + edge_m * math.sin(azimuth), EYE[2] + up + rise_m]
@@ -95,7 +94,7 @@ MONITOR = (1920, 1080)
 desk = [("left", inset(LEFT, 0.80, 0.60, 0.18, MONITOR)), ("middle", "instruments = true\n" + inset(INSIDE, 0.40, 0.02, 0.22, MONITOR)),
         ("right", inset(RIGHT, 0.02, 0.60, 0.18, MONITOR))]
 three = "[car]\nsource = \"automatic\"\n\n" + MIRRORS + "".join(
-    screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
+    screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, rise_m=-0.1, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
     for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 
@@ -103,4 +102,4 @@ WINDOW = (1280, 747)
 insets = inset(INSIDE, 0.40, 0.02, 0.22, WINDOW) + inset(LEFT, 0.01, 0.58, 0.17, WINDOW) + inset(RIGHT, 0.82, 0.58, 0.17, WINDOW)
 write("desktop", "# One window on a desktop, with the three mirrors as insets. Made by make_rigs.py.",
       "[car]\nsource = \"keyboard\"\n\n" + MIRRORS
-      + screen("desktop", 37, -37, 38.7, WINDOW[0], 0.7, extra="show_interior = true\ninstruments = true\n" + insets))
+      + screen("desktop", 37, -37, 38.7, WINDOW[0], 0.7, rise_m=-0.15, extra="show_interior = true\ninstruments = true\n" + insets))

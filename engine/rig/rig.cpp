@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include <fmt/core.h>
@@ -79,11 +80,15 @@ Screen read_screen(const toml::table& table, const std::vector<Mirror>& mirrors,
   screen.full_screen = reader.get_bool("full_screen", false);
   screen.show_interior = reader.get_bool("show_interior", false);
   screen.instruments = reader.get_bool("instruments", false);
+  screen.only_instruments = reader.get_choice("shows", 0, {"road", "instruments"}) == 1;
   View whole;
   read_window(reader, whole.window);
   screen.views.push_back(whole);
   for (const toml::table* inset : reader.get_tables("inset"))
     screen.views.push_back(read_inset(*inset, mirrors, file, error));
+  if (screen.only_instruments && screen.views.size() > 1)
+    reader.report("shows", "a screen that shows the instruments has insets",
+                  "put the insets on a screen that shows the road");
   reader.finish(documented_in);
   return screen;
 }
@@ -322,7 +327,7 @@ std::optional<Vec2> point_ahead(const Rig& rig, const Screen& screen) {
 
 const Screen& screen_ahead(const Rig& rig) {
   const auto beside = [&](const Screen& screen) {
-    const auto point = point_ahead(rig, screen);
+    const auto point = screen.only_instruments ? std::nullopt : point_ahead(rig, screen);
     return point ? glm::distance(*point, glm::clamp(*point, 0.0, 1.0)) : std::numeric_limits<double>::infinity();
   };
   return *std::ranges::min_element(rig.screens, {}, beside);
@@ -361,7 +366,9 @@ Expected<Rig> read_rig(std::string_view text, std::string_view name) {
   }
   check_keyboard(rig, reader);
   if (error.what.empty()) check_sight(rig, reader);
-  if (rig.screens.empty()) reader.report("screen", "the rig has no screen", "add a [[screen]]");
+  if (std::ranges::all_of(rig.screens, &Screen::only_instruments))
+    reader.report("screen", rig.screens.empty() ? "the rig has no screen" : "no screen of the rig shows the road",
+                  "add a [[screen]]");
   if (rig.screens.size() > 64) reader.report("screen", "the rig has more than 64 screens", "split it");
   reader.finish(documented_in);
   if (!error.what.empty()) return tl::unexpected(error);

@@ -50,9 +50,10 @@ struct Screen {
   std::optional<std::uint32_t>
       monitor;               ///< Of its machine, from 0; nothing: where the window system likes, full screen the first.
   bool full_screen = false;  ///< Cover the monitor.
-  bool show_interior = false;  ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
-  bool instruments = false;    ///< Draw speed, gear and indicators, where no real car shows them.
-  std::vector<View> views;     ///< The first one fills the screen.
+  bool show_interior = false;     ///< Draw the car's bonnet and dashboard (a desktop has no car around it).
+  bool instruments = false;       ///< Draw speed, gear and indicators, where no real car shows them.
+  bool only_instruments = false;  ///< It shows the car's dials and lamps, and nothing of the road; it has no insets.
+  std::vector<View> views;        ///< The first one fills the screen.
 };
 
 enum class TickTransport : std::uint8_t { automatic, multicast, unicast };

@@ -111,6 +111,7 @@ Lamps driver_lamps(const DriverInput& input, const vehicle::VehicleOutputs& car,
   lamps.set(Lamp::low_beam, input.low_beam);
   lamps.set(Lamp::high_beam, input.high_beam);
   lamps.set(Lamp::horn, input.horn);
+  lamps.set(Lamp::parking_brake, input.parking_brake);
   return lamps;
 }
 

@@ -19,6 +19,7 @@ enum class Lamp : std::uint16_t {
   signal_red = 1 << 10,  ///< Of a traffic light, here and below.
   signal_amber = 1 << 11,
   signal_green = 1 << 12,
+  parking_brake = 1 << 13,  ///< The warning lamp among the instruments.
 };
 
 /// A set of lamps.

@@ -6,6 +6,6 @@
 namespace septet::windscreen {
 
 /// The left ends of its foot and of its head; the right ones are their mirror images.
-inline constexpr Vec3 foot_left_m{2.02, 0.80, 0.94}, head_left_m{1.36, 0.60, 1.37};
+inline constexpr Vec3 foot_left_m{2.30, 0.76, 0.945}, head_left_m{1.66, 0.58, 1.43};
 
 }  // namespace septet::windscreen

@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
 
+#include "engine/core/check.hpp"
 #include "engine/instant/mirror_view.hpp"
+#include "engine/world/instrument_panel.hpp"
 #include "engine/world/paint.hpp"
 #include "engine/world/traffic_light.hpp"
+#include "sim-client/frame/cockpit_drawing.hpp"
+#include "sim-client/frame/prototype_of.hpp"
 
 namespace septet::frame {
 namespace {
-
-std::optional<std::uint32_t> find_prototype(const scene::ResolvedScene& scene, std::string_view name) {
-  const auto found = std::ranges::find(scene.prototypes, name, &scene::Prototype::name);
-  if (found == scene.prototypes.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - scene.prototypes.begin());
-}
 
 instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& screen) {
   const auto pixel = [](double fraction, std::uint32_t size) {
@@ -32,9 +30,55 @@ instant::PixelRectangle viewport(const rig::View& view, const rig::Screen& scree
   return rectangle;
 }
 
+/// The panel of the instruments from its front, in the middle of the screen, from so far that needles do not shift against their faces.
+ScreenViews panel_views(const rig::Screen& screen) {
+  namespace panel = instrument_panel;
+  const double shape = double(screen.width_px) / screen.height_px;
+  const double width_m = std::max(panel::width_m, panel::height_m * shape), height_m = width_m / shape;
+  const auto corner = [&](double across, double upward) {
+    return panel::middle_m + 0.5 * (across * width_m * panel::right + upward * height_m * panel::up);
+  };
+  constexpr double eye_m = 3.0, near_m = 0.5;
+  const auto projection = instant::off_axis_view({corner(-1, -1), corner(1, -1), corner(-1, 1)},
+                                                 panel::middle_m + eye_m * panel::normal, near_m);
+  SEPTET_CHECK(projection.has_value(), "the panel is seen from its front");
+  ScreenViews result;
+  result.only_instruments = true;
+  result.views.push_back({.projection = *projection, .viewport = {0, 0, screen.width_px, screen.height_px}});
+  return result;
+}
+
+/// What a cluster shows does not depend on the weather, but it is dimmed at night.
+Environment light_at_cluster(const Environment& outside) {
+  Environment light;
+  light.sun_azimuth_rad = outside.sun_azimuth_rad;
+  light.sun_elevation_rad = outside.sun_elevation_rad;
+  light.sun_illuminance_lux = outside.sun_illuminance_lux;
+  light.cloud_cover = 1.0;
+  return light;
+}
+
+instant::FrameInput panel_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
+                                const scene::ResolvedScene& scene) {
+  instant::FrameInput frame;
+  frame.simulated_time_s = shown.simulated_time_s;
+  frame.environment = light_at_cluster(shown.environment);
+  frame.views = views.views;
+  for (auto& view : frame.views) view.world_from_car = viewpoint.world_from_views;
+  const Participant* car = viewpoint.inside ? find_participant(shown, *viewpoint.inside) : nullptr;
+  const auto faces = prototype_of(scene, "cockpit/instruments");
+  if (!car || !faces) return frame;
+  auto drawn = instant::drawn_participant(*car, *faces);
+  drawn.lamps = {};  // Its headlights are not those of the panel.
+  frame.participants.push_back(std::move(drawn));
+  add_instruments(frame, readings_of(shown, *car), *car, scene);
+  return frame;
+}
+
 }  // namespace
 
 Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& screen, const Head& head) {
+  if (screen.only_instruments) return panel_views(screen);
   const Vec3 eye_m = rig.eye_point_m + head.from_rest_m;
   const Quat turn = orientation_from_angles(head.turn_rad, 0.0, 0.0);
   const auto turned = [&](const rig::Window& window) -> instant::ScreenCorners {
@@ -64,6 +108,7 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
 
 instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views, const Viewpoint& viewpoint,
                                  const scene::ResolvedScene& scene) {
+  if (views.only_instruments) return panel_frame(shown, views, viewpoint, scene);
   instant::FrameInput frame;
   frame.simulated_time_s = shown.simulated_time_s;
   frame.environment = shown.environment;
@@ -71,7 +116,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
   for (auto& view : frame.views) view.world_from_car = viewpoint.world_from_views;
 
   for (const Participant& participant : shown.participants) {
-    const auto prototype = find_prototype(scene, vehicle_models()[participant.model].name);
+    const auto prototype = prototype_of(scene, vehicle_models()[participant.model].name);
     if (!prototype) continue;
     auto drawn = instant::drawn_participant(participant, *prototype);
     drawn.paint = body_color(participant.paint);
@@ -79,8 +124,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
       for (auto& view : frame.views) view.velocity_mps = participant.velocity_mps;
       // Around the driver stands a real car, or its inside is drawn: of the model only the shadow and the light remain.
       drawn.shown = instant::Shown::shadow_and_light;
-      if (const auto inside =
-              find_prototype(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
+      if (const auto inside = prototype_of(scene, fmt::format("interior/{}", vehicle_models()[participant.model].name));
           inside && views.show_interior) {
         auto interior = drawn;
         interior.prototype = *inside;
@@ -88,12 +132,14 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         if (participant.id == shown.driver_car.participant)
           interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);
+        add_hands(frame, interior.steering_wheel_rad, participant, scene);
+        add_instruments(frame, readings_of(shown, participant), participant, scene);
       }
     }
     frame.participants.push_back(drawn);
   }
   for (const TrafficLight& light : traffic_lights_of(shown)) {
-    const auto prototype = find_prototype(scene, light.for_walkers ? "pedestrian light" : "traffic light");
+    const auto prototype = prototype_of(scene, light.for_walkers ? "pedestrian light" : "traffic light");
     if (!prototype) continue;
     instant::DrawnParticipant drawn;
     drawn.prototype = *prototype;

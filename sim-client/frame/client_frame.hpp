@@ -18,6 +18,7 @@ namespace septet::frame {
 struct ScreenViews {
   std::vector<instant::FrameView> views;
   bool show_interior = false;
+  bool only_instruments = false;  ///< The one view is of the instruments' panel, filling it as far as its shape allows.
 };
 
 /// The screen is a window for eyes at `head`; where that is turned, the window has gone round with them. Mirrors stay where the car has

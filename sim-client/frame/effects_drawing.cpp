@@ -14,7 +14,7 @@ void EffectsDrawing::show(const Snapshot& instant, const TickHistory& history, d
 }
 
 void EffectsDrawing::add_to(instant::FrameInput& frame) const {
-  frame.meshes = debris_shown_.meshes;
+  frame.meshes.insert(frame.meshes.end(), debris_shown_.meshes.begin(), debris_shown_.meshes.end());
   frame.ice = debris_shown_.ice;
   ice_.add_to(frame);
   glass_.add_to(frame);

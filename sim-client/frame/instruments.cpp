@@ -8,14 +8,13 @@
 #include <fmt/format.h>
 
 #include "car-io/driving_keys.hpp"
+#include "sim-client/frame/cockpit_drawing.hpp"
 
 namespace septet::frame {
 namespace {
 
 constexpr glm::vec4 white{0.95f, 0.95f, 0.95f, 1.0f}, green{0.3f, 0.95f, 0.4f, 1.0f}, amber{1.0f, 0.75f, 0.2f, 1.0f},
     red{1.0f, 0.4f, 0.35f, 1.0f}, panel{0.05f, 0.05f, 0.06f, 0.6f}, dark_panel{0.05f, 0.05f, 0.06f, 0.8f};
-/// An idling engine turns at 70 rad/s, one on its starter motor at 20.
-constexpr double stalled_below_radps = 15.0;
 
 std::string gear_text(int gear) { return gear < 0 ? "R" : gear == 0 ? "N" : std::to_string(gear); }
 
@@ -48,11 +47,13 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
     texts.back().centered = true;
   };
   const double kmh = std::round(std::abs(car.speed_mps) * 3.6);
-  add(fmt::format("{:.0f} km/h   {}", kmh, gear_text(car.gear)), 0.0, y, height_px, white);
-  if (lamps.has(Lamp::indicator_left)) add("◀", -half_width_px + 0.5 * height_px, y, height_px, green);
-  if (lamps.has(Lamp::indicator_right)) add("▶", half_width_px - 0.5 * height_px, y, height_px, green);
+  if (!screen.show_interior) {
+    add(fmt::format("{:.0f} km/h   {}", kmh, gear_text(car.gear)), 0.0, y, height_px, white);
+    if (lamps.has(Lamp::indicator_left)) add("◀", -half_width_px + 0.5 * height_px, y, height_px, green);
+    if (lamps.has(Lamp::indicator_right)) add("▶", half_width_px - 0.5 * height_px, y, height_px, green);
+  }
   const double below_px = screen.height_px - 0.6 * small_px;
-  if (car.engine_radps < stalled_below_radps) add("engine stalled", 0.0, below_px, small_px, red);
+  if (is_stalled(car)) add("engine stalled", 0.0, below_px, small_px, red);
   return texts;
 }
 

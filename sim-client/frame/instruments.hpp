@@ -12,8 +12,8 @@
 
 namespace septet::frame {
 
-/// Speed and gear below the driver's look ahead, indicators at both sides, a stalled engine underneath. Nothing on a screen whose rig
-/// does not ask for it.
+/// Speed and gear below the driver's look ahead and indicators at both sides, unless the screen shows a cockpit with dials of its own; a
+/// stalled engine underneath. Nothing on a screen whose rig does not ask for it.
 std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
 /// How a game stands, high on the screen ahead: level, points, time; that the leader gets away; how it ended. Nothing where the

@@ -146,7 +146,7 @@ Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string
   if (const Head& head = snapshot.driver_car.head; head != head_)
     if (auto views = frame::screen_views(rig_, *screen_, head_ = head)) views_ = std::move(*views);
   auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
-  effects_.add_to(input);
+  if (!views_.only_instruments) effects_.add_to(input);
   if (message)
     input.overlay.push_back(frame::banner(std::move(*message), *screen_));
   else

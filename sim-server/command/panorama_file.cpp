@@ -50,6 +50,7 @@ Expected<void> write_panorama(const fs::path& out, const rig::Rig& rig, const st
   view.title = title;
   view.details = {fmt::format("tick {}", tick), fmt::format("{:.2f} s", static_cast<double>(tick) / 120.0)};
   for (const auto& screen : rig.screens) {
+    if (screen.only_instruments) continue;
     auto picture = image::read_png(out / "screens" / screen.name / fmt::format("{}.png", tick));
     if (!picture) return tl::unexpected(picture.error());
     pictures.push_back(std::move(*picture));

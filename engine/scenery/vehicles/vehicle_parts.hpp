@@ -46,8 +46,12 @@ VehicleParts caravan_parts(const VehicleModel& model);
 VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
-/// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel.
+/// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish indices, here
+/// and in the next three.
 VehicleParts interior_parts();
+VehicleParts hands_parts();       ///< The driver's hands; they turn as the wheel does.
+VehicleParts instrument_parts();  ///< The faces of the instruments alone, for a screen that shows nothing else.
+VehicleParts sign_parts();        ///< Of the material of needles and lit signs, which each frame puts in their places.
 
 /// Triangles of everything that is drawn at a distance.
 std::size_t triangles_at(const VehicleParts& parts, float distance_m);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/scenery/vehicles/cockpit_finish.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 
@@ -55,7 +56,12 @@ void build_vehicles(scene::SceneBuilder& builder) {
   KnownShapes known;
   for (const VehicleModel& model : vehicle_models())
     add_prototype(builder, palette, known, model.name, vehicle_parts(model));
-  add_prototype(builder, palette, known, "interior/volvo-s80", interior_parts());
+  const Palette inside = add_cockpit_finishes(builder);
+  KnownShapes known_inside;
+  add_prototype(builder, inside, known_inside, "interior/volvo-s80", interior_parts());
+  add_prototype(builder, inside, known_inside, "cockpit/hands", hands_parts());
+  add_prototype(builder, inside, known_inside, "cockpit/instruments", instrument_parts());
+  add_prototype(builder, inside, known_inside, "cockpit/signs", sign_parts());
 }
 
 }  // namespace septet::scenery

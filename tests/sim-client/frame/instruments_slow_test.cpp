@@ -20,6 +20,7 @@ rig::Rig desktop(std::uint32_t width_px, std::uint32_t height_px) {
   rig::Rig rig = *rig::read_rig(shipped_text("rigs/desktop.toml"), "desktop");
   rig.screens[0].width_px = width_px;
   rig.screens[0].height_px = height_px;
+  rig.screens[0].show_interior = false;  // Whose dials show all but the stalled engine.
   return rig;
 }
 

@@ -34,9 +34,11 @@ bool says(const std::vector<instant::OverlayText>& texts, const std::string& tex
 
 }  // namespace
 
-TEST_CASE("speed and gear are those of the snapshot") {
-  const rig::Rig rig = shipped_rig("desktop");
-  const rig::Screen& screen = rig.screens[0];
+TEST_CASE("speed and gear are those of the snapshot, where no cockpit is drawn with dials of its own") {
+  rig::Rig rig = shipped_rig("desktop");
+  rig::Screen& screen = rig.screens[0];
+  CHECK(instruments(driving(30.0, 5), rig, screen).empty());
+  screen.show_interior = false;
   CHECK(says(instruments(driving(30.0, 5), rig, screen), "108 km/h   5"));
   CHECK(says(instruments(driving(0.0, 0), rig, screen), "0 km/h   N"));
   CHECK(says(instruments(driving(-2.5, -1), rig, screen), "9 km/h   R"));
@@ -44,8 +46,10 @@ TEST_CASE("speed and gear are those of the snapshot") {
 }
 
 TEST_CASE("warning lamps show what is on") {
-  const rig::Rig rig = shipped_rig("desktop");
-  const rig::Screen& screen = rig.screens[0];
+  rig::Rig rig = shipped_rig("desktop");
+  rig::Screen& screen = rig.screens[0];
+  CHECK(says(instruments(driving(0.0, 1, {}, 0.0), rig, screen), "engine stalled"));
+  screen.show_interior = false;
   CHECK(says(instruments(driving(10.0, 2, lit(Lamp::indicator_left)), rig, screen), "◀"));
   CHECK_FALSE(says(instruments(driving(10.0, 2, lit(Lamp::indicator_left)), rig, screen), "▶"));
   CHECK(says(instruments(driving(10.0, 2, lit(Lamp::indicator_right)), rig, screen), "▶"));
@@ -57,7 +61,7 @@ TEST_CASE("only screens whose rig asks for instruments have them") {
     const rig::Rig rig = shipped_rig(name);
     for (const auto& screen : rig.screens) {
       CAPTURE(screen.name);
-      CHECK(instruments(driving(30.0, 5), rig, screen).empty() ==
+      CHECK(instruments(driving(30.0, 5, {}, 0.0), rig, screen).empty() ==
             (screen.name != "desktop" && screen.name != "middle"));
     }
   }

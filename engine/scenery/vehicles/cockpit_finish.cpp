@@ -1,0 +1,58 @@
+#include "engine/scenery/vehicles/cockpit_finish.hpp"
+
+#include <array>
+#include <string>
+
+#include "engine/scenery/vehicles/dial_faces.hpp"
+
+namespace septet::scenery {
+namespace {
+
+struct InsideLook {
+  const char* name;
+  glm::vec3 color;  ///< Linear Rec. 709; what little light comes in by the windows is in it.
+  float roughness;
+  float metallic = 0.0f;
+  float glow = 0.0f;  ///< Of the picture's own colours.
+};
+
+/// In the order of CockpitFinish.
+constexpr std::array<InsideLook, 12> inside_looks{{
+    {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
+    {"soft", {0.060f, 0.060f, 0.062f}, 0.95f},
+    {"panel", {0.19f, 0.165f, 0.135f}, 0.9f},
+    {"lining", {0.30f, 0.28f, 0.25f}, 0.95f},
+    {"leather", {0.055f, 0.050f, 0.047f}, 0.62f},
+    {"skin", {0.55f, 0.34f, 0.25f}, 0.7f},
+    {"cloth", {0.10f, 0.13f, 0.19f}, 0.95f},
+    {"gloss", {0.012f, 0.012f, 0.014f}, 0.3f},
+    {"metal", {0.34f, 0.34f, 0.35f}, 0.45f, 0.6f},
+    {"rubber", {0.014f, 0.014f, 0.014f}, 0.9f},
+    {"dial faces", {0.75f, 0.75f, 0.75f}, 0.9f, 0.0f, 0.42f},
+    {"signs", {0.60f, 0.60f, 0.60f}, 0.9f, 0.0f, 0.80f},
+}};
+
+}  // namespace
+
+Palette add_cockpit_finishes(scene::SceneBuilder& builder) {
+  Palette palette;
+  for (std::uint32_t i = 0; i < inside_looks.size(); ++i) {
+    const InsideLook& look = inside_looks[i];
+    scene::MaterialParameters material;
+    material.base_color = look.color;
+    material.roughness = look.roughness;
+    material.metallic = look.metallic;
+    material.emission = glm::vec3(look.glow);
+    material.takes_paint = i == index_of(CockpitFinish::paint);
+    const std::string name = std::string("cockpit/") + look.name;
+    const auto with_image = [&](const image::Image& picture) {
+      material.base_color_bitmap = builder.add_bitmap(name, picture.width, picture.height, picture.rgba);
+    };
+    if (i == index_of(CockpitFinish::dial_faces)) with_image(dial_faces_image());
+    if (i == index_of(CockpitFinish::signs)) with_image(signs_image());
+    palette.push_back(builder.add_material(name, material));
+  }
+  return palette;
+}
+
+}  // namespace septet::scenery

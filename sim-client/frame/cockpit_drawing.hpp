@@ -1,0 +1,38 @@
+#pragma once
+/// What moves and shines in the inside of a car: needles, digits and lamps of its instruments, the driver's hands on the wheel.
+///
+/// Pure: of the same snapshot the same, for a live screen, a replay and a film.
+
+#include <vector>
+
+#include "engine/instant/frame_input.hpp"
+#include "engine/scene/resolved_scene.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::frame {
+
+/// What a car's instruments are told.
+struct Readings {
+  double speed_mps = 0.0;  ///< Along the car, negative backwards.
+  double engine_radps = 0.0;
+  int gear = 0;           ///< −1 reverse, 0 neutral, 1…
+  bool has_gear = false;  ///< Of cars other than the driver's nobody knows it.
+  bool stalled = false;
+  Lamps lamps;
+};
+
+/// An idling engine turns at 70 rad/s, one on its starter motor at 20.
+bool is_stalled(const DriverCar& car);
+
+Readings readings_of(const Snapshot& shown, const Participant& car);
+
+/// Triangles of needles and lit signs, from the panel's middle along the vehicle's axes (engine/world/instrument_panel.hpp).
+std::vector<scene::SurfaceVertex> lit_on_panel(const Readings& readings);
+
+/// Into a frame in which the inside of `car` is drawn. What the scene does not have (yet) is left out.
+void add_instruments(instant::FrameInput& frame, const Readings& readings, const Participant& car,
+                     const scene::ResolvedScene& scene);
+void add_hands(instant::FrameInput& frame, double steering_wheel_rad, const Participant& car,
+               const scene::ResolvedScene& scene);
+
+}  // namespace septet::frame
