@@ -72,6 +72,20 @@ void BucketSchedule::remove_worker(std::size_t number) {
   }
 }
 
+void BucketSchedule::was_ready_after(std::size_t number, std::size_t frame, double duration_s) {
+  workers_[number].ready_s = duration_s;
+  workers_[number].frame = frame;
+}
+
+/// The n-th worker is dealt the n-th frame; where there are fewer, all share what there is.
+std::optional<std::size_t> BucketSchedule::likely_first_frame(std::size_t number) const {
+  const std::size_t left = frames_ - done_frames_.size();
+  if (left == 0) return std::nullopt;
+  std::size_t frame = 0;
+  for (std::size_t before = number % left; done_frames_.contains(frame) || before-- > 0;) ++frame;
+  return frame;
+}
+
 double BucketSchedule::speed_of_all() const {
   double speed = 0.0;
   for (const Worker& worker : workers_)

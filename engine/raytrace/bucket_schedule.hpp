@@ -69,8 +69,10 @@ class BucketSchedule {
   std::optional<Deal> deal(std::size_t worker, double now_s);
   /// A tile has come, which has cost so much processor time (0: not known). False: it was there already.
   bool finish(std::size_t worker, std::size_t frame, std::uint32_t tile, double now_s, double cpu_s = 0.0);
-  /// How long this worker took to make ready for its run's frame.
-  void was_ready_after(std::size_t worker, double duration_s) { workers_[worker].ready_s = duration_s; }
+  /// How long this worker took to make ready for a frame.
+  void was_ready_after(std::size_t worker, std::size_t frame, double duration_s);
+  /// Of which frame this worker is likely to get tiles first, so that it can make ready before; nothing: all is done.
+  std::optional<std::size_t> likely_first_frame(std::size_t worker) const;
 
   bool is_free(std::size_t worker) const { return !workers_[worker].run && !workers_[worker].gone; }
   bool has_frame(std::size_t frame) const { return done_frames_.contains(frame); }

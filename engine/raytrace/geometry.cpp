@@ -110,14 +110,17 @@ void set_place(RTCGeometry instance, const Place& place) {
 
 /// From `begin`, with the near end behind it, along `way`, with the time behind it.
 template <typename Four>
-void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m) {
+void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m, unsigned mask) {
   std::memcpy(&ray.org_x, &begin, sizeof begin);
   std::memcpy(&ray.dir_x, &way, sizeof way);
   ray.tfar = to_m;
-  ray.mask = 0xffffffffu;
+  ray.mask = mask;
   ray.id = 0;
   ray.flags = 0;
 }
+
+/// What only throws a shadow is met by rays for shadows alone: one hierarchy serves both, where Embree was built to look at masks.
+constexpr unsigned for_seeing = 1, for_shadows = 2;
 
 /// What keeps its place while the shutter is open is copied to it, not placed as an instance: one hierarchy of all triangles lets a ray pass
 /// by what only stands near, where the boxes of instances overlap (trace/motorway: 1.35 times as many samples a second). But that
@@ -132,6 +135,7 @@ struct Geometry::Parts {
   Scene seen, shadows;                          ///< Shadows are thrown by more than is seen.
   std::vector<std::vector<glm::vec3>> moved{};  ///< By place: its vertices, if they were moved.
   const Openings* openings = nullptr;
+  bool has_masks = false;
 
   void build(Mesh& mesh) {
     mesh.scene.reset(rtcNewScene(device.get()));
@@ -172,8 +176,9 @@ struct Geometry::Parts {
         geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, mesh.scene.get());
         set_place(geometry, places[n]);
-        rtcCommitGeometry(geometry);
       }
+      rtcSetGeometryMask(geometry, places[n].seen ? for_seeing | for_shadows : for_shadows);
+      rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(n));
       rtcReleaseGeometry(geometry);
     }
@@ -193,6 +198,7 @@ Expected<Geometry> Geometry::create() {
   if (!parts->device)
     return failure(fmt::format("Embree does not start (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
                    "ray tracer", "use a processor with AVX2, or --renderer raster");
+  parts->has_masks = rtcGetDeviceProperty(parts->device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
   return Geometry(std::move(parts));
 }
 
@@ -216,8 +222,8 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   parts_->seen.reset();
   parts_->shadows.reset();
   parts_->move(places);
-  parts_->seen = parts_->build(places, false);
-  if (std::ranges::all_of(places, &Place::seen)) {
+  parts_->seen = parts_->build(places, parts_->has_masks);
+  if (parts_->has_masks || std::ranges::all_of(places, &Place::seen)) {
     rtcRetainScene(parts_->seen.get());
     parts_->shadows.reset(parts_->seen.get());
   } else {
@@ -230,7 +236,7 @@ bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
   RTCRayHit found;
-  set_ray(found.ray, begin, way, to_m);
+  set_ray(found.ray, begin, way, to_m, for_seeing);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(parts_->seen.get(), &query.context, &found);
@@ -245,7 +251,7 @@ float Geometry::unshadowed(Four begin, Four way, float to_m) const {
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
   RTCRay found;
-  set_ray(found, begin, way, to_m);
+  set_ray(found, begin, way, to_m, for_shadows);
   rtcOccluded1(parts_->shadows.get(), &query.context, &found);
   return found.tfar < 0.0f ? 0.0f : query.let_through;
 }

@@ -82,7 +82,9 @@ class Master {
     std::size_t in_schedule = 0;
     double heard_s = 0.0;
     bool is_prepared = false, is_lost = false, has_given_up = false;
-    bool traces = false;  ///< As `is_prepared` and the others ask; then it is in the schedule.
+    bool traces = false;        ///< As `is_prepared` and the others ask; then it is in the schedule.
+    bool is_ready = false;      ///< For a frame.
+    double asks_again_s = 0.0;  ///< There was nothing for it.
   };
 
   Expected<void> obey(const Mail& mail);
@@ -219,10 +221,10 @@ void Master::welcome(int number, ByteReader& reader) {
 void Master::take_in_or_out(Worker& worker) {
   const bool should_trace = worker.is_prepared && !worker.is_lost && !worker.has_given_up;
   if (std::exchange(worker.traces, should_trace) == should_trace) return;
-  if (should_trace)
-    worker.in_schedule = schedule_.add_worker(worker.hello.threads);
-  else
-    schedule_.remove_worker(worker.in_schedule);
+  if (!should_trace) return schedule_.remove_worker(worker.in_schedule);
+  worker.in_schedule = schedule_.add_worker(worker.hello.threads);
+  if (const auto frame = schedule_.likely_first_frame(worker.in_schedule))
+    send(worker.number, run_message(Word::soon, {*frame, 0, 0}));
 }
 
 /// A worker that is gone is seen at once on this machine, and by its silence on another. One that speaks again is back.
@@ -270,7 +272,11 @@ Expected<void> Master::obey(const Mail& mail) {
   } else if (word == Word::tile && from && from->traces) {
     return take_tile(*from, reader);
   } else if (word == Word::ready && from && from->traces) {
-    schedule_.was_ready_after(from->in_schedule, reader.get_double());
+    const auto frame = reader.get<std::uint64_t>();
+    const double duration_s = reader.get_double();
+    if (!reader.ok() || frame >= numbers_.size()) return {};
+    from->is_ready = true;
+    schedule_.was_ready_after(from->in_schedule, frame, duration_s);
   } else if (word == Word::failed) {
     const Error error = read_error(reader);
     if (mail.from == own_worker) return tl::unexpected(error);
@@ -288,22 +294,28 @@ void Master::tell_quality() {
 }
 
 void Master::deal() {
-  // Where speeds are measured, those of all: reading a session takes programs that share a machine far longer than machines.
-  if (others_ && pace_of_test() && std::ranges::count_if(workers_, &Worker::traces) < others_->count() &&
-      statistics_.begun_s == 0.0)
+  // Where speeds are measured, those of all: to read a session and to make the first frame ready takes programs that share a machine
+  // far longer than machines.
+  const auto can_begin = [](const Worker& each) { return each.traces && each.is_ready; };
+  if (others_ && pace_of_test() && statistics_.begun_s == 0.0 &&
+      std::ranges::count_if(workers_, can_begin) < others_->count())
     return;
-  for (const Worker& each : workers_) {
-    if (!each.traces || !schedule_.is_free(each.in_schedule)) continue;
+  for (Worker& each : workers_) {
+    if (!each.traces || now_s_ < each.asks_again_s || !schedule_.is_free(each.in_schedule)) continue;
     const auto deal = schedule_.deal(each.in_schedule, now_s_);
-    if (!deal) continue;
+    if (!deal) {
+      // To look whose run could be split takes a while: not again at each tile that comes.
+      each.asks_again_s = now_s_ + ask_again_after_s;
+      continue;
+    }
     if (deal->shortened) {
       const auto other = std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) {
         return w.traces && w.in_schedule == deal->shortened->worker;
       });
-      if (other != workers_.end()) send(other->number, shorter_run_message(deal->shortened->run));
+      if (other != workers_.end()) send(other->number, run_message(Word::shorter_run, deal->shortened->run));
     }
     if (statistics_.begun_s == 0.0) statistics_.begun_s = now_s_;
-    send(each.number, run_message(deal->run));
+    send(each.number, run_message(Word::run, deal->run));
   }
 }
 

@@ -138,16 +138,10 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   return reader.ok() ? std::optional(std::move(told)) : std::nullopt;
 }
 
-Bytes run_message(const raytrace::TileRun& run) {
-  Bytes bytes = message(Word::run);
+Bytes run_message(Word word, const raytrace::TileRun& run) {
+  Bytes bytes = message(word);
   ByteWriter writer(bytes);
   writer.put(std::uint64_t{run.frame}), writer.put(run.first), writer.put(run.end);
-  return bytes;
-}
-
-Bytes shorter_run_message(const raytrace::TileRun& run) {
-  Bytes bytes = run_message(run);
-  bytes.front() = static_cast<std::byte>(Word::shorter_run);
   return bytes;
 }
 

@@ -25,9 +25,10 @@ enum class Word : std::uint8_t {
   part_wanted,  ///< Worker: from which byte of that file on.
   part,         ///< Master: from which byte on, and bytes.
   prepared,     ///< Worker: it can trace.
+  soon,         ///< Master: a frame of which it is likely to get tiles first, to be made ready meanwhile.
   run,          ///< Master: frame, first tile, end; in the stead of the run before.
   shorter_run,  ///< Master: frame, end. Of the run that it has.
-  ready,        ///< Worker: how many seconds it took to begin a frame.
+  ready,        ///< Worker: a frame, and how many seconds it took to begin it.
   tile,         ///< Worker: frame, tile, seconds of a processor that it took, and the tile (encode_tile).
   failed,       ///< Worker: why it gives up.
   still_there,  ///< Both: nothing new.
@@ -75,8 +76,8 @@ struct FilmTold {
 Bytes film_message(const FilmTold& told);
 std::optional<FilmTold> read_film(ByteReader& reader);
 
-Bytes run_message(const raytrace::TileRun& run);
-Bytes shorter_run_message(const raytrace::TileRun& run);
+/// soon, run or shorter_run.
+Bytes run_message(Word word, const raytrace::TileRun& run);
 std::optional<raytrace::TileRun> read_run(ByteReader& reader);
 
 Bytes error_message(const Error& error);

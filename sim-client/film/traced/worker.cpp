@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t master = 0;
-constexpr std::chrono::microseconds pause{300};
+constexpr std::chrono::microseconds pause{1000};
 
 /// Threads that trace the tiles of a run one by one, in order.
 class TracingThreads {
@@ -194,6 +194,38 @@ Expected<std::optional<FilmTold>> fetch_film(Machines& machines, const fs::path&
   return told;
 }
 
+/// Makes the tracer ready for one frame.
+Expected<void> begin_frame(FilmFrames& frames, std::size_t frame, const FilmOptions& options,
+                           const instant::SceneSummary& summary, raytrace::RayTracer& tracer) {
+  const FilmFrame& of_film = frames.plan().frames[frame];
+  auto input = frames.input_of(of_film);
+  if (!input) return tl::unexpected(input.error());
+  auto closing = frames.input_as_shutter_closes(of_film);
+  if (!closing) return tl::unexpected(closing.error());
+  const bool opens_at_all = closing->has_value();
+  if (!opens_at_all && options.layers.contains(Layer::motion)) {
+    auto next = frames.input_of_next(of_film);
+    if (!next) return tl::unexpected(next.error());
+    *closing = std::move(*next);
+  }
+  raytrace::TraceSettings settings;
+  settings.samples = options.samples;
+  settings.error = static_cast<float>(options.error);
+  settings.filter = options.filter;
+  settings.photons.caustic = options.caustic_photons, settings.photons.global = options.gather_photons;
+  settings.seed = of_film.number;  // Another noise in each frame.
+  const Shot& shot = frames.plan().script.shots[of_film.shot];
+  settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
+  settings.focus_m = static_cast<float>(shot.focus_m);
+  settings.blurs = opens_at_all;
+  if (opens_at_all) settings.motion_scale = static_cast<float>(2.0 * std::numbers::pi / shot.shutter_rad);
+  instant::Instant opens = instant::describe(std::move(*input), summary);
+  std::optional<instant::Instant> closes;
+  if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);
+  tracer.begin(std::move(opens), settings, {}, closes ? &*closes : nullptr);
+  return {};
+}
+
 Expected<void> serve(Machines& machines, program::ProcessMark& master_process) {
   const unsigned threads = program::share_of_processors();
   machines.send(master, hello_message(threads));
@@ -228,14 +260,17 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   const auto tiles = raytrace::buckets_of(options.width_px, options.height_px, tile_side_px);
   TracingThreads tracing(*tracer, tiles, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
-  std::optional<std::size_t> frame;
+  std::optional<std::size_t> frame, soon;
   machines.send(master, message(Word::prepared));
   Listening listening(machines, master_process);
   while (true) {
     const auto goes_on = listening.listen([&](Word word, ByteReader& reader) {
-      const auto run = word == Word::run || word == Word::shorter_run ? read_run(reader) : std::nullopt;
+      const bool is_run = word == Word::soon || word == Word::run || word == Word::shorter_run;
+      const auto run = is_run ? read_run(reader) : std::nullopt;
       if (!run || run->frame >= frames.plan().frames.size()) return;
-      if (word == Word::run)
+      if (word == Word::soon)
+        soon = run->frame;
+      else if (word == Word::run)
         wanted = run, tracing.shorten(0);
       else if (wanted && wanted->frame == run->frame)
         wanted->end = std::min(wanted->end, run->end);
@@ -244,39 +279,16 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
     });
     if (!goes_on) return tl::unexpected(goes_on.error());
     if (!*goes_on) return {};
-    if (wanted && frame != wanted->frame && tracing.is_idle()) {
+    const auto target = wanted ? std::optional(wanted->frame) : std::exchange(soon, std::nullopt);
+    if (target && frame != target && tracing.is_idle()) {
       const double begun_s = program::monotonic_s();
-      const FilmFrame& of_film = frames.plan().frames[wanted->frame];
-      auto input = frames.input_of(of_film);
-      if (!input) return tl::unexpected(input.error());
-      auto closing = frames.input_as_shutter_closes(of_film);
-      if (!closing) return tl::unexpected(closing.error());
-      const bool opens_at_all = closing->has_value();
-      if (!opens_at_all && options.layers.contains(Layer::motion)) {
-        auto next = frames.input_of_next(of_film);
-        if (!next) return tl::unexpected(next.error());
-        *closing = std::move(*next);
-      }
-      raytrace::TraceSettings settings;
-      settings.samples = options.samples;
-      settings.error = static_cast<float>(options.error);
-      settings.filter = options.filter;
-      settings.photons.caustic = options.caustic_photons, settings.photons.global = options.gather_photons;
-      settings.seed = of_film.number;  // Another noise in each frame.
-      const Shot& shot = frames.plan().script.shots[of_film.shot];
-      settings.lens_radius_m = static_cast<float>(lens_radius_m(shot));
-      settings.focus_m = static_cast<float>(shot.focus_m);
-      settings.blurs = opens_at_all;
-      if (opens_at_all) settings.motion_scale = static_cast<float>(2.0 * std::numbers::pi / shot.shutter_rad);
-      instant::Instant opens = instant::describe(std::move(*input), summary);
-      std::optional<instant::Instant> closes;
-      if (*closing) closes = instant::describe(std::move(**closing), summary, opens.light);
-      tracer->begin(std::move(opens), settings, {}, closes ? &*closes : nullptr);
+      if (auto begun = begin_frame(frames, *target, options, summary, *tracer); !begun) return begun;
       send_photons(*tracer, threads);
-      frame = wanted->frame;
+      frame = target;
       tracing.begin_frame(*frame, facts_of(tracer->instant()));
       Bytes bytes = message(Word::ready);
-      ByteWriter(bytes).put(program::monotonic_s() - begun_s);
+      ByteWriter writer(bytes);
+      writer.put(std::uint64_t{*frame}), writer.put(program::monotonic_s() - begun_s);
       machines.send(master, std::move(bytes));
     }
     if (wanted && frame == wanted->frame) {
