@@ -142,6 +142,12 @@ CarSwitches read_switches(const CarLayout& layout, std::span<const std::byte> re
   return {is_pressed(layout, emergency_stop, report), is_pressed(layout, rearm, report)};
 }
 
+void press(const CarLayout& layout, CarButton button, std::span<std::byte> report) {
+  const auto found = std::ranges::find(layout.buttons, button, &ButtonField::button);
+  if (found != layout.buttons.end() && found->bit / 8u < report.size())
+    report[found->bit / 8u] |= static_cast<std::byte>(1u << found->bit % 8u);
+}
+
 Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,
                                     std::span<const std::byte> report) {
   const auto axes = read_axes(layout, report);

@@ -75,6 +75,9 @@ Expected<AxisReadings> read_axes(const CarLayout& layout, std::span<const std::b
 /// Of a report that is one of the layout's (`decode_report` has taken it); a layout without them has none pressed.
 CarSwitches read_switches(const CarLayout& layout, std::span<const std::byte> report);
 
+/// The report with this button pressed, where the layout has it.
+void press(const CarLayout& layout, CarButton button, std::span<std::byte> report);
+
 /// The calibration comes from the rig, which has checked it.
 Expected<DriverInput> decode_report(const CarLayout& layout, const rig::CarCalibration& calibration,
                                     std::span<const std::byte> report);

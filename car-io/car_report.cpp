@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "car-io/driver_buttons.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -96,18 +98,11 @@ std::array<std::byte, controls_report_bytes> encode_controls(const DriverInput& 
   out.put(controls_report_id);
   out.put(to_i16(-input.steering_wheel_rad / steering_lock_rad));
   for (const double pedal : {input.accelerator, input.brake, input.clutch}) out.put(to_u16(pedal));
-  const bool buttons[] = {input.indicator == IndicatorStalk::left,
-                          input.indicator == IndicatorStalk::right,
-                          input.hazard_lights,
-                          input.horn,
-                          input.low_beam,
-                          input.high_beam,
-                          input.parking_brake,
-                          switches.emergency_stop,
-                          switches.rearm};
   std::uint16_t bits = 0;
-  for (std::size_t i = 0; i < std::size(buttons); ++i)
-    bits = static_cast<std::uint16_t>(bits | (buttons[i] ? 1u << i : 0u));
+  unsigned bit = 0;
+  const auto add = [&](bool is_pressed) { bits = static_cast<std::uint16_t>(bits | (is_pressed ? 1u : 0u) << bit++); };
+  for (const bool is_pressed : driver_buttons(input)) add(is_pressed);
+  for (const bool is_pressed : {switches.emergency_stop, switches.rearm}) add(is_pressed);
   out.put(bits);
   out.put(static_cast<std::uint8_t>(static_cast<int>(input.selector) | (std::clamp<int>(input.gear, -1, 6) + 1) << 4));
   out.put(to_i16(-input.gaze_heading_rad / std::numbers::pi));

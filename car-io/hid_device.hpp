@@ -44,5 +44,7 @@ struct HidAddress {
 
 /// The device through hidapi (the hidraw backend of Linux).
 Expected<std::unique_ptr<HidDevice>> open_hid_device(const HidAddress& address);
+/// The same of a node, such as /dev/hidraw3.
+Expected<std::unique_ptr<HidDevice>> open_hid_node(const std::string& node);
 
 }  // namespace septet::car_io

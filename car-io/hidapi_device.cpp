@@ -1,5 +1,12 @@
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 
 #include <fmt/core.h>
 #include <fmt/xchar.h>
@@ -79,10 +86,31 @@ class HidapiDevice final : public HidDevice {
 
 }  // namespace
 
+namespace {
+
+/// hidapi keeps the last error of opening in one place for all threads.
+std::mutex& opening() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+Expected<std::unique_ptr<HidDevice>> open_path(const std::string& path, const std::string& name) {
+  hid_device* device = hid_open_path(path.c_str());
+  if (!device)
+    return failure(fmt::format("{} cannot be opened: {}", path, narrow(hid_error(nullptr))), name,
+                   "give your user access with a udev rule (car-io/README.md)");
+  return std::make_unique<HidapiDevice>(device, name);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<HidDevice>> open_hid_node(const std::string& node) {
+  const std::lock_guard lock(opening());
+  return open_path(node, "HID device " + node);
+}
+
 Expected<std::unique_ptr<HidDevice>> open_hid_device(const HidAddress& address) {
-  // hidapi keeps the last error of opening in one place for all threads.
-  static std::mutex opening;
-  const std::lock_guard lock(opening);
+  const std::lock_guard lock(opening());
   const std::string name = name_of(address);
   hid_device_info* devices = hid_enumerate(address.vendor_id, address.product_id);
   std::string path;
@@ -97,11 +125,7 @@ Expected<std::unique_ptr<HidDevice>> open_hid_device(const HidAddress& address) 
     return failure(another_serial ? "a device of this kind is plugged in, but with another serial number"
                                   : "the device is not plugged in",
                    name, "check the cable and the rig's [car] table (vendor_id, product_id, serial)");
-  hid_device* device = hid_open_path(path.c_str());
-  if (!device)
-    return failure(fmt::format("{} cannot be opened: {}", path, narrow(hid_error(nullptr))), name,
-                   "give your user access with a udev rule (car-io/README.md)");
-  return std::make_unique<HidapiDevice>(device, name);
+  return open_path(path, name);
 }
 
 }  // namespace septet::car_io

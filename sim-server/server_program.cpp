@@ -21,6 +21,7 @@
 #include "logging/recorded_scene.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
+#include "program/go_word.hpp"
 #include "program/stop_signal.hpp"
 #include "sim-server/drive/can_seat.hpp"
 #include "sim-server/drive/drive_loader.hpp"
@@ -29,7 +30,6 @@
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/operator_desk.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
-#include "sim-server/host/go_word.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/replay_source.hpp"
 #include "sim-server/host/serve.hpp"
@@ -334,7 +334,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     static const std::vector<HostedScreen> none;
     return watched ? watched->screens() : none;
   };
-  GoWord console;
+  program::GoWord console;
   environment.attend = [&](const std::shared_ptr<const TakenSnapshot>& newest, const std::string& what) {
     if (drive.live && drive.live->actuators_cut() && console.take_rearm())
       if (const auto why_not = drive.live->rearm_actuators("console"))

@@ -139,9 +139,10 @@ class Reader {
     ignored_ = *id == independent_signals;
     if (ignored_) return;
     Message message;
-    message.is_extended = (*id & extended_flag) != 0;
     const std::uint64_t number = *id & ~extended_flag;
-    if (number > (message.is_extended ? 0x1FFFFFFFu : 0x7FFu))
+    // Many files of other people leave the flag out.
+    message.is_extended = (*id & extended_flag) != 0 || number > 0x7FFu;
+    if (number > 0x1FFFFFFFu)
       return refuse(fmt::format("{} is no CAN identifier", *id), "use 11 bits, or 29 bits with bit 31 set");
     if (!is_length(*bytes))
       return refuse(fmt::format("{} cannot have {} bytes", *name, *bytes), "use 0 to 8, 12, 16, 20, 24, 32, 48 or 64");

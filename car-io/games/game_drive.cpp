@@ -41,11 +41,14 @@ void GameDrive::watch(const CarReading& reading, double dt_s) {
   if (guard_.trip(was_fresh_ && reading.is_stale))
     messages_.emplace_back("fan, shaker and wheel force are cut, for the car's reports have stopped");
   rearm_held_s_ = reading.switches.rearm && !reading.is_stale && !stop_is_pressed_ ? rearm_held_s_ + dt_s : 0.0;
-  if (guard_.is_cut && rearm_held_s_ >= rearm_held_for_s) {
-    guard_.rearm();
-    resting_s_ = rests_for_s;
-    messages_.emplace_back("fan, shaker and wheel force are re-armed");
-  }
+  if (rearm_held_s_ >= rearm_held_for_s) rearm();
+}
+
+void GameDrive::rearm() {
+  if (!guard_.is_cut || stop_is_pressed_) return;
+  guard_.rearm();
+  resting_s_ = rests_for_s;
+  messages_.emplace_back("fan, shaker and wheel force are re-armed");
 }
 
 double GameDrive::wheel_force(const CarReading& reading, const ForceEffects& effects, double now_s, double dt_s) {

@@ -30,6 +30,9 @@ class GameDrive {
   /// Nothing while no telemetry comes: then the cluster rests.
   std::optional<Instruments> instruments(double now_s) const;
 
+  /// Somebody at the console lets the actuators run again; while the emergency stop is pressed they do not.
+  void rearm();
+
   std::uint64_t refused_datagrams() const { return refused_; }
   bool is_cut() const { return guard_.is_cut; }
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }

@@ -17,6 +17,8 @@
 
 #include <fmt/core.h>
 
+#include "car-io/driver_buttons.hpp"
+
 namespace septet::car_io {
 namespace {
 
@@ -40,15 +42,9 @@ Shown shown_of(const DriverInput& input, double steering_lock_rad) {
   shown.axes = {axis_value(-input.steering_wheel_rad / steering_lock_rad), axis_value(input.clutch),
                 axis_value(input.accelerator), axis_value(input.brake)};
   const bool manual = input.selector == GearSelector::manual;
-  shown.down = {input.indicator == IndicatorStalk::left,
-                input.indicator == IndicatorStalk::right,
-                input.hazard_lights,
-                input.horn,
-                input.low_beam,
-                input.high_beam,
-                input.parking_brake,
-                input.selector == GearSelector::reverse || (manual && input.gear < 0)};
-  constexpr std::size_t first_gear = 8;
+  std::ranges::copy(driver_buttons(input), shown.down.begin());
+  constexpr std::size_t reverse = 7, first_gear = 8;
+  shown.down[reverse] = input.selector == GearSelector::reverse || (manual && input.gear < 0);
   if (manual && input.gear >= 1 && input.gear <= 6)
     shown.down[first_gear - 1 + static_cast<std::size_t>(input.gear)] = true;
   return shown;

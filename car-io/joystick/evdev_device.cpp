@@ -7,13 +7,19 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "car-io/devices/device_list.hpp"
 #include "car-io/joystick/input_device.hpp"
+#include "car-io/joystick/pid_input.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -39,6 +45,8 @@ class EvdevDevice final : public InputDevice {
   EvdevDevice& operator=(const EvdevDevice&) = delete;
   /// The kernel ends a device's effects with the file that made them.
   ~EvdevDevice() override { close(file_); }
+
+  bool has_force() const { return has_force_; }
 
   Expected<const InputState*> read() override {
     constexpr int most_at_once = 64;
@@ -151,7 +159,13 @@ Expected<std::unique_ptr<InputDevice>> open_input_device(const InputAddress& add
     if (file < 0)
       return failure(fmt::format("{} cannot be opened: {}", found.node, std::strerror(errno)), name,
                      "septet devices says which udev rule helps");
-    return std::make_unique<EvdevDevice>(file, found.node);
+    auto device = std::make_unique<EvdevDevice>(file, found.node);
+    if (device->has_force()) return device;
+    const auto pid = find_pid_node(std::filesystem::path(found.node).filename().string(), sys, dev);
+    if (!pid) return device;
+    auto motor = open_hid_node(pid->node);
+    if (!motor) return device;  // It drives without its force, which whoever wants force is told.
+    return with_pid_force(std::move(device), std::move(*motor), pid->reports);
   }
   return failure("no such wheel or joystick is plugged in", name,
                  "septet devices lists them; the rig's [car] names vendor_id and product_id");

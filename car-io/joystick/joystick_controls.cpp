@@ -18,8 +18,11 @@ namespace {
 class JoystickDevice final : public HidDevice {
  public:
   JoystickDevice(std::unique_ptr<InputDevice> device, std::vector<rig::JoystickControl> controls,
-                 double steering_lock_rad)
-      : device_(std::move(device)), controls_(std::move(controls)), steering_lock_rad_(steering_lock_rad) {}
+                 double steering_lock_rad, const WheelFeel& feel)
+      : device_(std::move(device)),
+        controls_(std::move(controls)),
+        steering_lock_rad_(steering_lock_rad),
+        feel_(feel) {}
 
   Expected<std::optional<Bytes>> read_newest() override {
     const auto state = device_->read();
@@ -34,8 +37,14 @@ class JoystickDevice final : public HidDevice {
     if (!force) return {};  // Fan and shaker, which it has not.
     // Once: it goes on by itself for as long as a force is set.
     if (!std::exchange(has_feel_, true))
-      if (auto felt = device_->set_feel(usual_feel); !felt) return tl::unexpected(felt.error());
-    return device_->set_force(*force).map([](bool) {});
+      if (auto felt = device_->set_feel(feel_); !felt) return tl::unexpected(felt.error());
+    auto set = device_->set_force(*force);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    if (!*set && *force != 0.0)
+      return failure("it has no motor that may be reached (constant force, by its driver or by HID PID)",
+                     "the joystick",
+                     "septet devices says what may not be opened; else set [car.actuators] steering_most = 0");
+    return {};
   }
   /// A force ends by itself after the time that is set there.
   Expected<Bytes> get_feature(std::uint8_t, std::size_t) override { return feature_; }
@@ -48,6 +57,7 @@ class JoystickDevice final : public HidDevice {
   std::unique_ptr<InputDevice> device_;
   std::vector<rig::JoystickControl> controls_;
   double steering_lock_rad_;
+  WheelFeel feel_;
   JoystickDriver driver_;
   std::uint8_t sequence_ = 0;
   Bytes feature_;
@@ -120,12 +130,12 @@ CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const
 }
 
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,
-                              double steering_lock_rad) {
-  return [open = std::move(open), controls = std::move(controls),
-          steering_lock_rad]() -> Expected<std::unique_ptr<HidDevice>> {
+                              double steering_lock_rad, const WheelFeel& feel) {
+  return [open = std::move(open), controls = std::move(controls), steering_lock_rad,
+          feel]() -> Expected<std::unique_ptr<HidDevice>> {
     auto device = open();
     if (!device) return tl::unexpected(device.error());
-    return std::make_unique<JoystickDevice>(std::move(*device), controls, steering_lock_rad);
+    return std::make_unique<JoystickDevice>(std::move(*device), controls, steering_lock_rad, feel);
   };
 }
 
@@ -133,7 +143,8 @@ OpenHidDevice car_opener(const rig::Car& car) {
   if (car.source == rig::CarSource::joystick)
     return joystick_opener(
         [address = InputAddress{car.vendor_id, car.product_id, car.serial}] { return open_input_device(address); },
-        car.joystick, car.calibration.steering_lock_rad);
+        car.joystick, car.calibration.steering_lock_rad,
+        {car.actuators.wheel_spring, car.actuators.wheel_damper, car.actuators.wheel_friction});
   return hid_opener(car);
 }
 

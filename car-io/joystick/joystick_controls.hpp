@@ -33,7 +33,7 @@ CarSwitches switches_of(const std::vector<rig::JoystickControl>& controls, const
 
 using OpenInputDevice = std::function<Expected<std::unique_ptr<InputDevice>>()>;
 OpenHidDevice joystick_opener(OpenInputDevice open, std::vector<rig::JoystickControl> controls,
-                              double steering_lock_rad);
+                              double steering_lock_rad, const WheelFeel& feel = {});
 
 /// What opens the car that the rig names: its joystick, or else its HID device.
 OpenHidDevice car_opener(const rig::Car& car);

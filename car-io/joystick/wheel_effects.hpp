@@ -18,9 +18,6 @@ struct WheelFeel {
   bool operator==(const WheelFeel&) const = default;
 };
 
-/// A power-steered car's: little, so that it does not tremble and does not run on.
-inline constexpr WheelFeel usual_feel{.spring = 0.0, .damper = 0.10, .friction = 0.04};
-
 /// −1 (right) to 1 (left). `id` −1: a new one.
 ff_effect constant_effect(double force, std::int16_t id);
 /// `type`: FF_SPRING, FF_DAMPER or FF_FRICTION.

@@ -62,6 +62,7 @@ void CarLink::take_rig(const std::string& text) {
     refusal_ = layout.error();
     return;
   }
+  layout_ = *layout;
   const OpenHidDevice open = find_device_(rig->car);
   // A server that comes back finds the device as it is; at the start a missing one is a mistake.
   if (!connection_)
@@ -102,8 +103,9 @@ void CarLink::report(double now_s) {
   if (!reading.report && now_s - reported_s_ < report_interval_s) return;
   if (lane_.state() != net::ClientState::connected) return;
   reported_s_ = now_s;
-  lane_.send(net::share(encode_control(CarReport{++number_, as_text(newest_), problem_})),
-             net::Reliability::unreliable);
+  Bytes told = newest_;
+  if (now_s < rearm_until_s_) press(*layout_, CarButton::rearm, told);
+  lane_.send(net::share(encode_control(CarReport{++number_, as_text(told), problem_})), net::Reliability::unreliable);
 }
 
 }  // namespace septet::car_io

@@ -31,6 +31,8 @@ class CarLink {
   CarLink(net::DatagramSocket& socket, const net::SecureClientOptions& lane, FindDevice find_device);
 
   void pump(double now_s);
+  /// Whoever is at this machine lets fan, shaker and wheel force run again: the re-arm button is held for as long as it takes.
+  void rearm(double now_s) { rearm_until_s_ = now_s + 1.3; }
 
   net::ClientState state() const { return lane_.state(); }
   bool finished() const { return finished_; }
@@ -51,6 +53,8 @@ class CarLink {
   FindDevice find_device_;
   std::unique_ptr<CarConnection> connection_;
   std::unique_ptr<ActuatorWriter> writer_;
+  const CarLayout* layout_ = nullptr;
+  double rearm_until_s_ = 0.0;
   Bytes newest_;
   std::string problem_;
   bool is_welcome_ = false;  ///< On this connection.

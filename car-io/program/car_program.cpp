@@ -24,6 +24,7 @@
 #include "engine/net/udp_socket.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
+#include "program/go_word.hpp"
 #include "program/stop_signal.hpp"
 
 namespace septet::car_io {
@@ -80,8 +81,13 @@ Expected<void> run_car(const DriveOptions& options) {
   say(fmt::format("the server's allowed-clients must hold the line: {} car", net::to_text(identity->public_key())));
 
   CarLink link(*socket, {*server, *server_key, *identity, {}}, find_device);
+  program::GoWord console;
   while (!program::should_stop() && !link.finished()) {
     link.pump(program::monotonic_s());
+    if (console.take_rearm()) {
+      say("fan, shaker and wheel force shall run again");
+      link.rearm(program::monotonic_s());
+    }
     for (const auto& text : link.take_messages()) say(text);
     if (link.refusal()) return tl::unexpected(*link.refusal());
     // The device is asked twice a millisecond or so; whatever the server sends wakes this at once.

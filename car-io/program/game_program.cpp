@@ -26,6 +26,7 @@
 #include "engine/rig/rig.hpp"
 #include "program/clock.hpp"
 #include "program/console.hpp"
+#include "program/go_word.hpp"
 #include "program/stop_signal.hpp"
 
 namespace septet::car_io {
@@ -122,7 +123,9 @@ Expected<void> run_serve(const ServeOptions& options) {
       open, {.layout = *layout, .has_steering_force = rig->car.actuators.steering_most > 0.0, .rise_s = 1.0});
   GameDrive drive(rig->car.actuators, lock_rad);
   ForceEffects effects;
+  program::GoWord console;
   while (!program::should_stop()) {
+    if (console.take_rearm()) drive.rearm();
     const double now_s = program::monotonic_s();
     const CarReading reading = car.poll(now_s);
     if (auto shown = wheel->show(reading.input, lock_rad); !shown) return shown;

@@ -95,20 +95,37 @@ void apply_walls(std::span<CabinWall* const> walls, std::span<Block* const> bloc
   Block unused{};
   for (std::size_t first = 0; first < walls.size(); first += together) {
     const std::size_t count = std::min(together, walls.size() - first);
-    std::array<float, together> memory{};
+    std::array<float, together> memory{}, air{}, air_pole{};
     std::array<float*, together> samples;
     samples.fill(unused.data());
     for (std::size_t i = 0; i < count; ++i) {
       memory[i] = walls[first + i]->memory;
+      air[i] = walls[first + i]->air_memory;
+      air_pole[i] = walls[first + i]->air_pole;
       samples[i] = blocks[first + i]->data();
     }
     for (std::size_t n = 0; n < block_samples; ++n)
       for (std::size_t i = 0; i < together; ++i) {
-        memory[i] = pole * memory[i] + gain * samples[i][n];
+        air[i] = samples[i][n] + air_pole[i] * (air[i] - samples[i][n]);
+        memory[i] = pole * memory[i] + gain * air[i];
         samples[i][n] = memory[i];
       }
-    for (std::size_t i = 0; i < count; ++i) walls[first + i]->memory = memory[i];
+    for (std::size_t i = 0; i < count; ++i) {
+      walls[first + i]->memory = memory[i];
+      walls[first + i]->air_memory = air[i];
+    }
   }
+}
+
+float air_pole(double way_m) {
+  constexpr double at_hz = 5000.0, db_per_m = 0.05, farthest_m = 2000.0;
+  const double way = std::isfinite(way_m) ? std::clamp(way_m, 0.0, farthest_m) : farthest_m;
+  const double power = std::pow(10.0, -0.1 * db_per_m * way);
+  if (power > 1.0 - 1e-9) return 0.0f;
+  // (1 − p)² / (1 − 2p·cos ω + p²) is that power.
+  const double cosine = std::cos(2.0 * std::numbers::pi * at_hz / sample_rate_hz);
+  const double half = (1.0 - power * cosine) / (1.0 - power);
+  return static_cast<float>(half - std::sqrt(half * half - 1.0));
 }
 
 double CabinWall::gain(double frequency_hz) {

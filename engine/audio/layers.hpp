@@ -54,10 +54,14 @@ float decay_of(double seconds);
 struct CabinWall;
 void apply_walls(std::span<CabinWall* const> walls, std::span<Block* const> blocks);
 
-/// The car's body between outside and ear, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2 kHz: 11 dB and one pole at 225 Hz.
+/// What lies between somebody outside and the ear. The car's body, windows shut: −12 dB at 125 Hz, −24 at 1 kHz, −30 at 2 kHz: 11 dB and one
+/// pole at 225 Hz. Before it the air as one pole, which takes 5 dB of every 100 m at 5 kHz (ISO 9613-1 at 10 °C and 70 %) and the first 100 m 0.4 at 1 kHz.
 struct CabinWall {
   float memory = 0.0f;
+  float air_memory = 0.0f, air_pole = 0.0f;  ///< 0: no air.
   static double gain(double frequency_hz);
 };
+/// The pole with which the air takes what it takes at 5 kHz over that way.
+float air_pole(double way_m);
 
 }  // namespace septet::audio

@@ -122,6 +122,7 @@ void render_others(std::span<OtherState* const> states, std::span<Voice> voices)
     voices[i].is_near = false;
     voices[i].echo = 1.0f;
     voices[i].samples.fill(0.0f);
+    states[i]->wall.air_pole = air_pole(glm::length(states[i]->last.position_m));
     walls.push_back(&states[i]->wall);
     blocks.push_back(&voices[i].samples);
   }

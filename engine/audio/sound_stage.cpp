@@ -23,6 +23,7 @@ struct Source {
   std::array<ALuint, buffers_each> buffers{};
   std::vector<ALuint> free;
   bool is_wanted = false, is_ending = false;
+  double echo = 0.0;  ///< How much of it the tunnel gets.
 };
 
 /// OpenAL's axes: x to the right, y up, z backwards.
@@ -111,22 +112,34 @@ struct SoundStage::State {
     alSourcei(source.name, AL_SOURCE_RELATIVE, AL_TRUE);
     alSourcef(source.name, AL_REFERENCE_DISTANCE, 1.0f);
     alSourcef(source.name, AL_ROLLOFF_FACTOR, voice.is_near ? 0.0f : 1.0f);
-    if (!voice.is_near) alSourcef(source.name, AL_AIR_ABSORPTION_FACTOR, 1.0f);
     if (voice.is_low) {
       alSourcei(source.name, AL_DIRECT_FILTER, static_cast<ALint>(muted));
       if (low_slot != 0)
         alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(low_slot), 0, AL_FILTER_NULL);
-    } else if (voice.echo > 0.0f) {
-      ALuint share = 0;
-      alGenFilters(1, &share);
-      alFilteri(share, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
-      alFilterf(share, AL_LOWPASS_GAIN, voice.echo);
-      alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(tunnel_slot), 0, static_cast<ALint>(share));
-      alDeleteFilters(1, &share);  // A source keeps what the filter said.
+    } else {
+      // OpenAL would take something of the highs with the distance, too, by a filter for each source that costs more than all the rest of it.
+      alSourcei(source.name, AL_AUXILIARY_SEND_FILTER_GAIN_AUTO, AL_FALSE);
+      set_echo(source, voice);
     }
     static const Block silence{};
     queue(source, silence);
     return true;
+  }
+
+  /// Whoever is far off has lost of the tunnel's echo what it loses in the time of that way; told anew with every decibel.
+  void set_echo(Source& source, const Voice& voice) {
+    constexpr double way_of_60_db_m = 3.42 * 343.3;  // The preset's decay time.
+    const double way_m = voice.is_near ? 0.0 : std::max(0.0, glm::length(voice.position_m) - 1.0);
+    const double wanted = double(voice.echo) * std::pow(10.0, -3.0 * way_m / way_of_60_db_m);
+    constexpr double a_decibel = 1.122;
+    if (!(wanted > 0.0) || (wanted < source.echo * a_decibel && wanted * a_decibel > source.echo)) return;
+    source.echo = wanted;
+    ALuint share = 0;
+    alGenFilters(1, &share);
+    alFilteri(share, AL_FILTER_TYPE, AL_FILTER_LOWPASS);
+    alFilterf(share, AL_LOWPASS_GAIN, static_cast<float>(wanted));
+    alSource3i(source.name, AL_AUXILIARY_SEND_FILTER, static_cast<ALint>(tunnel_slot), 0, static_cast<ALint>(share));
+    alDeleteFilters(1, &share);  // A source keeps what the filter said.
   }
 
   void end(Source& source) {
@@ -226,6 +239,7 @@ void SoundStage::put(std::span<const Voice> voices, double tunnel) {
       continue;
     }
     source.is_wanted = true;
+    if (!voice.is_near && !voice.is_low) state.set_echo(source, voice);
     const auto position = to_al(voice.position_m);
     alSourcefv(source.name, AL_POSITION, position.data());
     state.take_played(source);

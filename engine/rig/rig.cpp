@@ -177,6 +177,9 @@ CarActuators read_actuators(const toml::table& table, std::string_view file, Err
   actuators.vibration_dose_mps2 = reader.get_double("vibration_dose_mps2", actuators.vibration_dose_mps2, 0.01, 1.15);
   actuators.steering_full_nm = reader.get_double("steering_full_nm", actuators.steering_full_nm, 0.1, 100.0);
   actuators.steering_most = reader.get_double("steering_most", actuators.steering_most, 0.0, 1.0);
+  actuators.wheel_spring = reader.get_double("wheel_spring", actuators.wheel_spring, 0.0, 1.0);
+  actuators.wheel_damper = reader.get_double("wheel_damper", actuators.wheel_damper, 0.0, 1.0);
+  actuators.wheel_friction = reader.get_double("wheel_friction", actuators.wheel_friction, 0.0, 1.0);
   reader.finish(documented_in);
   return actuators;
 }
@@ -242,7 +245,10 @@ Car read_car(const toml::table& table, std::string_view file, Error& error) {
   car.driver = reader.get_string("driver", car.driver);
   if (const auto* calibration = reader.get_table("calibration"))
     car.calibration = read_calibration(*calibration, file, error);
-  if (const auto* actuators = reader.get_table("actuators")) car.actuators = read_actuators(*actuators, file, error);
+  if (const auto* actuators = reader.get_table("actuators")) {
+    car.actuators = read_actuators(*actuators, file, error);
+    car.names_actuators = true;
+  }
   if (const auto* joystick = reader.get_table("joystick")) car.joystick = read_joystick(*joystick, file, error);
   if (car.source == CarSource::joystick && car.joystick.empty())
     reader.report("source", "car.source is \"joystick\", and no control of it is known",

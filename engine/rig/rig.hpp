@@ -106,6 +106,9 @@ struct CarActuators {
   double vibration_dose_mps2 = 0.5;  ///< Daily exposure A(8) at which the shaker is cut.
   double steering_full_nm = 8.0;     ///< Torque at the hand wheel that full force means.
   double steering_most = 0.0;        ///< 0: the hand wheel has no motor.
+  /// What a joystick's wheel does by itself beside that, where it can, as shares of its force: a power-steered car's damper and friction, so
+  /// that it does not tremble and does not run on. A spring to the middle is no car's.
+  double wheel_spring = 0.0, wheel_damper = 0.10, wheel_friction = 0.04;
 };
 
 /// What one control of the car is on an input device (evdev): an axis with its values at both ends, or a button.
@@ -141,6 +144,7 @@ struct Car {
   std::string driver = "plain";       ///< Which simulated driver.
   CarCalibration calibration;
   CarActuators actuators;
+  bool names_actuators = false;  ///< Whether the rig has a [car.actuators] table.
   std::vector<JoystickControl> joystick;
 };
 

@@ -1,11 +1,50 @@
 #include "sim-server/drive/driver_seat.hpp"
 
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "car-io/actuator_writer.hpp"
 #include "car-io/joystick/joystick_controls.hpp"
 #include "car-io/simulated_driver/simulated_driver.hpp"
+#include "car-io/usb_device.hpp"
 #include "sim-server/host/remote_car.hpp"
 
 namespace septet::server {
+namespace {
+
+/// Output reports to a device here, within the seat's limits.
+void move_actuators(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarLayout& layout, bool sticky) {
+  const auto writer = std::make_shared<car_io::ActuatorWriter>(
+      open, car_io::ActuatorWriterOptions{.layout = &layout,
+                                          .has_steering_force = seat.actuators.steering_most > 0.0,
+                                          .sticky = sticky,
+                                          .rise_s = sticky ? 1.0 : 0.0});
+  seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
+    writer->set(actuators);
+    return writer->take_error();
+  };
+  seat.actuators_are_cut = [writer] { return writer->is_cut(); };
+}
+
+/// Fan and shaker beside a car whose controls come from a bus: the HID device that the rig names.
+Expected<void> add_actuators(DriverSeat& seat, const rig::Car& car) {
+  const auto layout = car_io::find_car_layout(car.layout);
+  if (!layout) return tl::unexpected(layout.error());
+  const auto open = car_io::hid_opener(car);
+  if (const auto device = open(); !device) {
+    Error error = device.error();
+    error.remedy += "; or leave [car.actuators] out of the rig, then nothing blows and shakes";
+    return tl::unexpected(error);
+  }
+  seat.actuators = car.actuators;
+  seat.steering_lock_rad = car.calibration.steering_lock_rad;
+  move_actuators(seat, open, **layout, true);
+  return {};
+}
+
+}  // namespace
 
 Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
                                       const std::shared_ptr<const simulation::Model>& model,
@@ -34,6 +73,8 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
     seat.car = std::make_unique<car_io::CarConnection>(
         controls,
         car_io::CarConnectionOptions{.calibration = {.steering_lock_rad = car.calibration.steering_lock_rad}});
+    if (car.names_actuators)
+      if (auto added = add_actuators(seat, car); !added) return tl::unexpected(std::move(added.error()));
     return seat;
   }
   // A joystick is read as Septet's own car.
@@ -72,16 +113,7 @@ Expected<DriverSeat> open_driver_seat(const rig::Car& car, std::uint64_t seed,
 void sit_at_device(DriverSeat& seat, const car_io::OpenHidDevice& open, const car_io::CarConnectionOptions& options,
                    bool sticky) {
   seat.car = std::make_unique<car_io::CarConnection>(open, options);
-  const auto writer = std::make_shared<car_io::ActuatorWriter>(
-      open, car_io::ActuatorWriterOptions{.layout = options.layout,
-                                          .has_steering_force = seat.actuators.steering_most > 0.0,
-                                          .sticky = sticky,
-                                          .rise_s = sticky ? 1.0 : 0.0});
-  seat.actuate = [writer](Tick, const car_io::Actuators& actuators) {
-    writer->set(actuators);
-    return writer->take_error();
-  };
-  seat.actuators_are_cut = [writer] { return writer->is_cut(); };
+  move_actuators(seat, open, *options.layout, sticky);
 }
 
 }  // namespace septet::server

@@ -327,6 +327,38 @@ TEST_CASE("controls on the bus drive and are stale when their node falls silent 
   CHECK((reading.is_connected && !reading.is_stale));
 }
 
+TEST_CASE("a controller that is down is up as the remedy says and its frames are heard by another one") {
+  // Two of Kvaser's on one bus, with bit rates, by the kernel's own driver.
+  const auto refused = open_socket_can("can0", false);
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().what == "the interface is down");
+  for (const char* name : {"can0", "can1"}) {
+    std::string remedy = open_socket_can(name, false).error().remedy;
+    for (auto at = remedy.find("sudo ip"); at != std::string::npos; at = remedy.find("sudo ip"))
+      remedy.replace(at, 7, "/tools/ip");
+    command(remedy);
+  }
+  CHECK(open_socket_can("can0", true).error().what ==
+        "the DBC file has CAN FD messages, and the interface carries none");
+  const auto database = cluster();
+  auto other = open_socket_can("can1", false);
+  REQUIRE(other.has_value());
+  InstrumentSender sender(opener("can0"), plan_can(database, {}).value());
+  Seen seen;
+  Peer peer("can1");
+  for (const double end_s = now_s() + 1.0; now_s() < end_s; sleep_s(0.005)) {
+    sender.set({.speed_kmh = 50.0}, now_s());
+    sender.pump(now_s());
+    look(peer, *dbc::find_message(database, "SPEED"), seen);
+  }
+  CHECK(seen.newest == 50.0);
+  CHECK(seen.at_s.size() >= 45);
+  CHECK(sender.counts().lost == 0);
+  command("/tools/ip link set can1 down");
+  CHECK_FALSE((*other)->receive().has_value());
+  command("/tools/ip link set can0 down");
+}
+
 TEST_SUITE_END();
 
 }  // namespace septet::rig_vm

@@ -21,7 +21,7 @@ import sys
 HERE = pathlib.Path(__file__).parent
 PATH = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
 # What is asked for; modprobe knows what each of them needs.
-MODULES = ("virtio_pci 9pnet_virtio 9p configfs vcan can_raw uhid hid_generic usbhid dummy_hcd usb_f_fs evdev uinput veth sch_netem").split()
+MODULES = ("virtio_pci 9pnet_virtio 9p configfs vcan can_raw uhid hid_generic usbhid dummy_hcd usb_f_fs evdev uinput veth sch_netem kvaser_pci").split()
 UNPACKED = ("boot/vmlinuz*", "lib/modules/*/modules.*", "lib/modules/*/kernel/crypto/*", "lib/modules/*/kernel/fs/*", "lib/modules/*/kernel/lib/*",
             "lib/modules/*/kernel/net/*", "lib/modules/*/kernel/drivers/hid/*", "lib/modules/*/kernel/drivers/input/*",
             "lib/modules/*/kernel/drivers/net/*", "lib/modules/*/kernel/drivers/usb/*", "lib/modules/*/kernel/drivers/virtio/*")
@@ -138,6 +138,8 @@ def boot(folder, image, source, out):
             return subprocess.run(
                 [tool("qemu-system-x86_64"), "-machine", "pc", "-accel", "tcg,tb-size=256", "-icount", "shift=0,sleep=off", "-cpu", "max", "-smp", "1",
                  "-m", "1024", "-nodefaults", "-display", "none", "-serial", "stdio", "-no-reboot", "-kernel", folder / "vmlinux", "-initrd", image,
+                 # Two controllers of one CAN bus.
+                 "-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus",
                  "-append", COMMAND_LINE, "-device", "isa-debug-exit,iobase=0xf4,iosize=4",
                  "-fsdev", share.format("out", out, ""), "-device", "virtio-9p-pci,fsdev=out,mount_tag=out",
                  "-fsdev", share.format("source", source, ",readonly=on"), "-device", "virtio-9p-pci,fsdev=source,mount_tag=source"],

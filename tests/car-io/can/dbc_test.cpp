@@ -85,6 +85,14 @@ TEST_CASE("a DBC file says how often messages are sent which are long and which 
   CHECK_FALSE(overlap(*find_message(database, "MULTIPLEXED")).has_value());
 }
 
+TEST_CASE("an identifier that does not fit into eleven bits is one of twenty-nine, with its flag or without") {
+  const auto database = read_dbc("BS_:\nBO_ 318291879 A: 8 X\nBO_ 2465775527 B: 8 X\nBO_ 2047 C: 8 X\n", "foreign.dbc");
+  REQUIRE(database.has_value());
+  CHECK((database->messages[0].is_extended && database->messages[0].id == 318291879u));
+  CHECK((database->messages[1].is_extended && database->messages[1].id == 318291879u));
+  CHECK_FALSE(database->messages[2].is_extended);
+}
+
 TEST_CASE("values that the bits cannot hold are taken to the nearest that they can") {
   Signal signal{.name = "s", .start_bit = 0, .bits = 8};
   std::vector<std::byte> data(8);
@@ -131,7 +139,7 @@ TEST_CASE("what is wrong with a DBC file is said with its line") {
       {"BO_ 7 A: 8 X\n SG_ s : 0|8@1+ (1e999,0) [0|0] \"\" X\n", "the signal s is not of the form"},
       {"BO_ 7 A: 8 X\n SG_ s m : 0|8@1+ (1,0) [0|0] \"\" X\n", "s is multiplexed by m"},
       {"\nSG_ s : 0|8@1+ (1,0) [0|0] \"\" X\n", "a SG_ stands before the first BO_"},
-      {"\nBO_ 4096 A: 8 X\n", "4096 is no CAN identifier"},
+      {"\nBO_ 1073741824 A: 8 X\n", "1073741824 is no CAN identifier"},
       {"\nBO_ 18446744073709551615 A: 8 X\n", "18446744073709551615 is no CAN identifier"},
       {"\nBO_ 7 A: 9 X\n", "A cannot have 9 bytes"},
       {"BO_ 7 A: 8 X\nBO_ 7 B: 8 X\n", "two messages have the identifier 7"},

@@ -177,6 +177,18 @@ TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re
   car.is_stale = true;
   run(0.21);
   CHECK(told.steering == 0.0);
+  // By the word of somebody at the console, but not while the switch is pressed.
+  car = reading();
+  car.switches.emergency_stop = true;
+  run(0.01);
+  drive.rearm();
+  CHECK(drive.is_cut());
+  car.switches.emergency_stop = false;
+  run(0.5);
+  CHECK(told.steering == 0.0);
+  drive.rearm();
+  run(1.5);
+  CHECK(told.steering == doctest::Approx(0.5));
 }
 
 TEST_CASE("the end of the wheel's way pushes back against whatever the game pulls") {

@@ -20,7 +20,7 @@ namespace {
 /// A wheel on a table: axis 0 from 0 to 65535 counts to the right; pedals 2 and 5 rest at 255.
 struct Wheel {
   InputState state{{{0, {32768, 0, 65535}}, {2, {255, 0, 255}}, {5, {255, 0, 255}}}, {}};
-  bool is_there = true;
+  bool is_there = true, has_motor = true;
   double force = 0.0;
   std::vector<WheelFeel> feels;
 
@@ -40,7 +40,7 @@ struct Wheel {
     }
     Expected<bool> set_force(double share) override {
       wheel.force = share;
-      return true;
+      return wheel.has_motor;
     }
     Expected<bool> set_feel(const WheelFeel& feel) override {
       wheel.feels.push_back(feel);
@@ -119,14 +119,20 @@ TEST_CASE("a joystick that is pulled out is lost and found again") {
 
 TEST_CASE("the force of the hand wheel reaches its motor and fan and shaker are passed over") {
   Wheel wheel;
-  const auto device = joystick_opener(wheel.opener(), {}, 7.85)();
+  const WheelFeel feel{.spring = 0.3, .damper = 0.2, .friction = 0.1};
+  const auto device = joystick_opener(wheel.opener(), {}, 7.85, feel)();
   REQUIRE(device.has_value());
   CHECK((*device)->write(encode_steering(0.5, 1)).has_value());
   CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
-  CHECK(wheel.feels == std::vector{usual_feel});
+  CHECK(wheel.feels == std::vector{feel});
   CHECK((*device)->write(encode_actuators({.fan = 1.0}, 1)).has_value());
   CHECK(wheel.feels.size() == 1);
   CHECK(wheel.force == doctest::Approx(0.5).epsilon(1e-4));
+  wheel.has_motor = false;
+  CHECK((*device)->write(encode_steering(0.0, 2)).has_value());
+  const auto refused = (*device)->write(encode_steering(0.5, 3));
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().what.starts_with("it has no motor that may be reached"));
 }
 
 TEST_CASE("a wheel's effects have their sizes, work to both sides, and end by themselves after 250 ms") {

@@ -140,6 +140,17 @@ TEST_CASE("feedback of the server turns the fan of the device") {
   CHECK(fan == doctest::Approx(0.6).epsilon(1e-3));
 }
 
+TEST_CASE("whoever re-arms at the car's own machine holds the button for a second and a third") {
+  Rig rig;
+  rig.port.plug();
+  CHECK_FALSE(rig.run_for(0.5).switches.rearm);
+  rig.link->rearm(rig.car_machine->clock_s(rig.now_s));
+  CHECK(rig.run_for(0.1).switches.rearm);
+  CHECK(rig.run_for(1.1).switches.rearm);
+  CHECK_FALSE(rig.run_for(0.2).switches.rearm);
+  CHECK(rig.poll().input.accelerator == doctest::Approx(0.5).epsilon(1e-4));
+}
+
 TEST_CASE("a client whose key is not called car is refused as a car") {
   Rig rig({}, "screen-1");
   rig.port.plug();

@@ -1,8 +1,12 @@
 #pragma once
 /// Sounds of a stretch of time, for tests.
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -68,6 +72,29 @@ inline std::vector<std::vector<float>> played(int ticks, const HeardAt& heard, c
 
 inline std::span<const float> after(const std::vector<float>& samples, double seconds) {
   return std::span(samples).subspan(static_cast<std::size_t>(seconds * sample_rate_hz));
+}
+
+/// The driver's car at the origin, looking along x, and an ambulance with its siren on.
+inline Snapshot with_ambulance(double x_m, double speed_mps, double y_m = 0.0) {
+  Snapshot snapshot;
+  snapshot.driver_car.participant = 1;
+  Participant own;
+  own.id = 1;
+  Participant ambulance;
+  ambulance.id = 7;
+  for (std::size_t i = 0; i < vehicle_models().size(); ++i)
+    if (vehicle_models()[i].kind == ParticipantKind::ambulance) ambulance.model = static_cast<ModelIndex>(i);
+  ambulance.world_from_vehicle.position_m = {x_m, y_m, 0.0};
+  ambulance.velocity_mps = {speed_mps, 0.0, 0.0};
+  ambulance.lamps.set(Lamp::siren, true);
+  snapshot.participants = {own, ambulance};
+  return snapshot;
+}
+
+inline double loudest_step(std::span<const float> samples) {
+  float most = 0.0f;
+  for (std::size_t i = 1; i < samples.size(); ++i) most = std::max(most, std::abs(samples[i] - samples[i - 1]));
+  return most;
 }
 
 }  // namespace septet::audio

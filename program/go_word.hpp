@@ -1,10 +1,10 @@
 #pragma once
-/// What the operator has told the server on its standard input: to go (Enter, or the line "go"), and to let fan, shaker and wheel force run
-/// again (the line "rearm").
+/// What somebody has told a program on its standard input: to go (Enter, or the line "go"), and to let fan, shaker and wheel force run again (the
+/// line "rearm").
 
 #include <string>
 
-namespace septet::server {
+namespace septet::program {
 
 class GoWord {
  public:
@@ -19,4 +19,4 @@ class GoWord {
   std::string line_;
 };
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,12 +1,13 @@
-#include "sim-server/host/go_word.hpp"
+#include "program/go_word.hpp"
 
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
 #include <utility>
 
-namespace septet::server {
+namespace septet::program {
 
 void GoWord::read() {
   // A terminal stops a job in the background that reads from it.
@@ -39,4 +40,4 @@ bool GoWord::take_rearm() {
   return std::exchange(rearm_, false);
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

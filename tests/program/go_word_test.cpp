@@ -1,4 +1,4 @@
-#include "sim-server/host/go_word.hpp"
+#include "program/go_word.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace septet::server {
+namespace septet::program {
 namespace {
 
 /// Standard input that a test writes.
@@ -68,4 +68,4 @@ TEST_CASE("who closes standard input has not said the word") {
   CHECK_FALSE(word.said());
 }
 
-}  // namespace septet::server
+}  // namespace septet::program

@@ -1,0 +1,120 @@
+// Each layer of the driver's own car by its spectrum, through the device.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/audio/levels.hpp"
+#include "tests/engine/audio/sound_fixture.hpp"
+#include "tests/engine/audio/spectrum.hpp"
+
+namespace septet::audio {
+namespace {
+
+/// A car that rolls with its engine off, changed.
+template <class Change>
+std::vector<float> rolling(double speed_mps, const Change& change) {
+  const auto sound = played(180, [&](int) {
+    Heard heard = cruising(speed_mps, 0.0, 0.0);
+    heard.car.air_mps = 0.0;
+    change(heard.car);
+    return heard;
+  });
+  return {after(sound[0], 0.5).begin(), after(sound[0], 0.5).end()};
+}
+
+/// Power between two frequencies.
+double power_within(std::span<const float> samples, double low_hz, double high_hz) {
+  constexpr std::size_t n = 4096;
+  const auto spectrum = power_spectrum(samples, n);
+  double power = 0.0;
+  for (std::size_t i = 1; i < spectrum.size(); ++i)
+    if (const double hz = double(i) * sample_rate_hz / double(n); hz >= low_hz && hz < high_hz) power += spectrum[i];
+  return power;
+}
+
+constexpr auto as_it_is = [](OwnCar&) {};
+
+}  // namespace
+
+TEST_CASE("The gears whine with twenty teeth before the final drive, and in reverse louder") {
+  const CarSound car;
+  const double speed_mps = 8.0, mesh_hz = speed_mps / (2.0 * 3.14159265 * 0.32) * car.final_ratio * 20.0;
+  const auto forwards = rolling(speed_mps, as_it_is),
+             backwards = rolling(speed_mps, [](OwnCar&own) { own.reversing = true; });
+  CHECK(peak_hz(backwards, 0.8 * mesh_hz, 1.2 * mesh_hz) == doctest::Approx(mesh_hz).epsilon(0.01));
+  CHECK(decibels(power_at(backwards, mesh_hz) / power_at(forwards, mesh_hz)) ==
+        doctest::Approx(reverse_whine_more_db).epsilon(0.15));
+}
+
+TEST_CASE("The horn has two tones, 400 and 500 Hz") {
+  const auto horn = rolling(0.0, [](OwnCar& own) { own.horn = true; });
+  CHECK(peak_hz(horn, 360.0, 440.0) == doctest::Approx(400.0).epsilon(0.01));
+  CHECK(peak_hz(horn, 460.0, 540.0) == doctest::Approx(500.0).epsilon(0.01));
+  CHECK(decibels(power_at(horn, 400.0) / power_at(horn, 440.0)) > 20.0);
+}
+
+TEST_CASE("Tyres that slide sing at 1 kHz, on a wet road less and on snow not at all") {
+  const auto sliding = [](double wetness, double snow) {
+    return power_within(rolling(20.0,
+                                [=](OwnCar& own) {
+                                  own.front_slip = own.rear_slip = 0.5;
+                                  own.wetness = wetness;
+                                  own.snow = snow;
+                                }),
+                        900.0, 1300.0);
+  };
+  const double rolls = power_within(rolling(20.0, as_it_is), 900.0, 1300.0), dry = sliding(0.0, 0.0);
+  CHECK(decibels(dry / rolls) > 10.0);
+  CHECK(decibels(sliding(1.0, 0.0) / dry) < -6.0);
+  CHECK(decibels(sliding(0.0, 1.0) / dry) < -10.0);
+}
+
+TEST_CASE("A wet road hisses above 2 kHz, gravel rumbles below, and snow hushes both") {
+  const auto dry = rolling(25.0, as_it_is), wet = rolling(25.0, [](OwnCar&own) { own.wetness = 1.0; }),
+             loose = rolling(25.0, [](OwnCar&own) { own.looseness = 1.0; }),
+             snow = rolling(25.0, [](OwnCar&own) { own.snow = 1.0; });
+  CHECK(decibels(power_within(wet, 2000.0, 8000.0) / power_within(dry, 2000.0, 8000.0)) > 6.0);
+  CHECK(decibels(power_within(loose, 200.0, 800.0) / power_within(dry, 200.0, 800.0)) > 5.0);
+  CHECK(decibels(power_within(snow, 500.0, 4000.0) / power_within(dry, 500.0, 4000.0)) < -6.0);
+}
+
+TEST_CASE("Rain makes the roof ring at its modes, more of it louder, and none of it is silent") {
+  const auto rain = [](double mm_per_h) { return rolling(0.0, [=](OwnCar& own) { own.rain_mm_per_h = mm_per_h; }); };
+  const auto some = rain(5.0);
+  CHECK(mean_square(rain(0.0)) == 0.0);
+  for (const double mode_hz : {190.0, 340.0, 640.0}) {
+    CAPTURE(mode_hz);
+    CHECK(power_within(some, mode_hz - 25.0, mode_hz + 25.0) > 2.0 * power_within(some, 60.0, 110.0));
+  }
+  CHECK(decibels(a_weighted_power(rain(20.0)) / a_weighted_power(some)) == doctest::Approx(6.0).epsilon(0.35));
+}
+
+TEST_CASE("A hard blow breaks glass, a soft one does not, and pieces clatter") {
+  const auto blow = [](double blow_mps, int pieces) {
+    const auto voices = voices_of(60, [=](int tick) {
+      Heard heard = quiet();
+      heard.car.blow_mps = tick == 60 ? blow_mps : 0.0;
+      heard.car.pieces = tick == 60 ? pieces : 0;
+      return heard;
+    });
+    return voices[std::size_t(OwnVoice::crash)];
+  };
+  const auto soft = blow(2.0, 0), hard = blow(8.0, 0), clatter = blow(0.0, 20);
+  // When the blow itself has died away it is glass that is still heard.
+  const auto glassy = [](const std::vector<float>& sound) {
+    const auto late = after(sound, 0.3);
+    return decibels(power_within(late, 3500.0, 6000.0) / power_within(late, 200.0, 1500.0));
+  };
+  CHECK(glassy(hard) > glassy(soft) + 6.0);
+  CHECK(decibels(mean_square(hard) / mean_square(soft)) > 9.0);
+  CHECK(mean_square(clatter) > 0.0);
+  CHECK(power_within(clatter, 1000.0, 2500.0) > power_within(clatter, 100.0, 900.0));
+  CHECK(std::abs(hard.front()) < 0.01f);  // It begins without an edge.
+}
+
+}  // namespace septet::audio

@@ -1,0 +1,204 @@
+// A wheel of HID PID that is all ours (uhid): the kernel makes a joystick of it, and no force feedback.
+
+#include <fcntl.h>
+#include <linux/input.h>
+#include <linux/uhid.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "car-io/actuator_writer.hpp"
+#include "car-io/car_connection.hpp"
+#include "car-io/joystick/input_device.hpp"
+#include "car-io/joystick/joystick_controls.hpp"
+#include "tests/car-io/pid/simulated_pid_wheel.hpp"
+#include "tests/rig-vm/guest.hpp"
+
+namespace septet::rig_vm {
+namespace {
+
+using namespace car_io;
+
+std::span<const std::byte> report_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const std::byte*>(data), size};
+}
+
+class PidWheelOnUhid {
+ public:
+  PidWheelOnUhid() : file_(open("/dev/uhid", O_RDWR | O_CLOEXEC)) {
+    REQUIRE(file_ >= 0);
+    uhid_event event{};
+    event.type = UHID_CREATE2;
+    auto& made = event.u.create2;
+    std::strcpy(reinterpret_cast<char*>(made.name), "PID wheel");
+    std::copy(std::begin(pid_wheel_descriptor), std::end(pid_wheel_descriptor), made.rd_data);
+    made.rd_size = sizeof pid_wheel_descriptor;
+    made.bus = BUS_USB;
+    made.vendor = 0x1234;
+    made.product = 0x0f0f;
+    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~PidWheelOnUhid() {
+    is_ending_ = true;
+    thread_.join();
+    close(file_);
+  }
+  PidWheelOnUhid(const PidWheelOnUhid&) = delete;
+  PidWheelOnUhid& operator=(const PidWheelOnUhid&) = delete;
+
+  void turn_to(std::int16_t x) {
+    uhid_event event{};
+    event.type = UHID_INPUT2;
+    const std::uint8_t report[] = {1, static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(x >> 8), 0, 0, 0};
+    event.u.input2.size = sizeof report;
+    std::memcpy(event.u.input2.data, report, sizeof report);
+    REQUIRE(write(file_, &event, sizeof event) == static_cast<ssize_t>(sizeof event));
+  }
+  double playing(int type) {
+    const std::lock_guard lock(mutex_);
+    return wheel_.playing(type, now_s());
+  }
+  int wrong() {
+    const std::lock_guard lock(mutex_);
+    return wheel_.wrong();
+  }
+
+ private:
+  void serve() {
+    while (!is_ending_) {
+      pollfd waiting{file_, POLLIN, 0};
+      if (poll(&waiting, 1, 20) <= 0) continue;
+      uhid_event event{}, answer{};
+      if (read(file_, &event, sizeof event) <= 0) continue;
+      const std::lock_guard lock(mutex_);
+      if (event.type == UHID_OUTPUT) {
+        wheel_.take(report_of(event.u.output.data, event.u.output.size), now_s());
+      } else if (event.type == UHID_SET_REPORT) {
+        wheel_.take(report_of(event.u.set_report.data, event.u.set_report.size), now_s());
+        answer.type = UHID_SET_REPORT_REPLY;
+        answer.u.set_report_reply.id = event.u.set_report.id;
+        REQUIRE(write(file_, &answer, sizeof answer) > 0);
+      } else if (event.type == UHID_GET_REPORT) {
+        const auto report = wheel_.block_load();
+        answer.type = UHID_GET_REPORT_REPLY;
+        answer.u.get_report_reply.id = event.u.get_report.id;
+        answer.u.get_report_reply.size = static_cast<std::uint16_t>(report.size());
+        std::memcpy(answer.u.get_report_reply.data, report.data(), report.size());
+        REQUIRE(write(file_, &answer, sizeof answer) > 0);
+      }
+    }
+  }
+
+  int file_;
+  std::atomic<bool> is_ending_ = false;
+  std::mutex mutex_;  ///< Of the wheel.
+  SimulatedPidWheel wheel_;
+  std::thread thread_;
+};
+
+Expected<std::unique_ptr<InputDevice>> open_pid_wheel() { return open_input_device({0x1234, 0x0f0f, ""}); }
+
+OpenHidDevice pid_wheel_opener() {
+  return joystick_opener(open_pid_wheel,
+                         {{.name = "steering", .is_axis = true, .code = ABS_X, .at_zero = 0.0, .at_one = -32767.0}},
+                         7.85, {.spring = 0.2, .damper = 0.1, .friction = 0.04});
+}
+
+constexpr int constant = 1, spring = 3, damper = 4, friction = 6;
+
+}  // namespace
+
+TEST_SUITE_BEGIN("joystick");
+
+TEST_CASE("a wheel whose force the kernel does not know is moved by HID PID through hidraw and rests in time") {
+  PidWheelOnUhid wheel;
+  CarConnection car(pid_wheel_opener(), {.calibration = {.steering_lock_rad = 7.85}});
+  REQUIRE(becomes_true([&] { return car.poll(now_s()).is_connected; }));
+  {
+    ActuatorWriter writer(pid_wheel_opener(), {.has_steering_force = true, .sticky = true});
+    for (const double force : {0.25, -0.5, 1.0}) {
+      CAPTURE(force);
+      CHECK(becomes_true([&] {
+        writer.set({.steering = force});
+        return wheel.playing(constant) == doctest::Approx(force).epsilon(0.001);
+      }));
+    }
+    CHECK(wheel.playing(spring) == doctest::Approx(0.2));
+    CHECK(wheel.playing(damper) == doctest::Approx(0.1));
+    CHECK(wheel.playing(friction) == doctest::Approx(0.04));
+    // It is read meanwhile.
+    wheel.turn_to(-16384);
+    CHECK(becomes_true([&] {
+      writer.set({.steering = 0.5});
+      return car.poll(now_s()).input.steering_wheel_rad == doctest::Approx(3.925).epsilon(0.001);
+    }));
+    const double since_s = now_s();
+    REQUIRE(becomes_true([&] { return wheel.playing(constant) == 0.0; }));
+    measured("silent simulation to no wheel force, HID PID", 1000.0 * (now_s() - since_s), "ms");
+    CHECK(now_s() - since_s < 0.42);
+    CHECK(writer.is_cut());
+  }
+  CHECK(wheel.playing(damper) == 0.0);
+  // A program that hangs.
+  const auto hung = open_pid_wheel();
+  REQUIRE(hung.has_value());
+  REQUIRE((*hung)->set_force(0.5).value());
+  REQUIRE(becomes_true([&] { return wheel.playing(constant) > 0.49; }));
+  const double since_s = now_s();
+  CHECK(becomes_true([&] { return wheel.playing(constant) == 0.0; }));
+  measured("hung program to no wheel force, HID PID", 1000.0 * (now_s() - since_s), "ms");
+  CHECK(now_s() - since_s < 0.26);
+  CHECK(wheel.wrong() == 0);
+}
+
+TEST_CASE("a wheel of HID PID that is pulled out and back is moved again") {
+  auto wheel = std::make_unique<PidWheelOnUhid>();
+  REQUIRE(becomes_true([] { return open_pid_wheel().has_value(); }));
+  ActuatorWriter writer(pid_wheel_opener(), {.has_steering_force = true});
+  for (int time = 0; time < 2; ++time) {
+    const double since_s = now_s();
+    CHECK(becomes_true([&] {
+      writer.set({.steering = 0.5});
+      return wheel->playing(constant) > 0.49;
+    }));
+    if (time == 1) measured("wheel of HID PID plugged in to its force", 1000.0 * (now_s() - since_s), "ms");
+    wheel.reset();
+    if (time == 0) wheel = std::make_unique<PidWheelOnUhid>();
+  }
+}
+
+TEST_CASE("a wheel whose motor may not be reached drives and whoever wants its force is told") {
+  PidWheelOnUhid wheel;
+  REQUIRE(becomes_true([] { return open_pid_wheel().has_value(); }));
+  // What a system without a rule for hidraw looks like, also to root.
+  command("mkdir -p /tmp/hidden && for node in /dev/hidraw*; do mv $node /tmp/hidden; done");
+  CarConnection car(pid_wheel_opener(), {.calibration = {.steering_lock_rad = 7.85}});
+  CHECK(becomes_true([&] { return car.poll(now_s()).is_connected; }));
+  ActuatorWriter writer(pid_wheel_opener(), {.has_steering_force = true});
+  std::optional<Error> fault;
+  CHECK(becomes_true([&] {
+    writer.set({.steering = 0.5});
+    if (!fault) fault = writer.take_error();
+    return fault.has_value();
+  }));
+  CHECK(fault->what.find("it has no motor that may be reached") != std::string::npos);
+  command("mv /tmp/hidden/* /dev");
+}
+
+TEST_SUITE_END();
+
+}  // namespace septet::rig_vm
