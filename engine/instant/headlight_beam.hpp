@@ -20,14 +20,15 @@ inline constexpr float pair_intensity = 30000.0f / luminance_unit_cdpm2;
 
 /// Share of the peak in a direction (unit), for a lamp that points along `level` (unit), both in the world's axes.
 inline float share(const glm::vec3& level, const glm::vec3& direction) {
-  const float ahead = glm::dot(direction, level);
-  if (ahead <= 0.0f) return 0.0f;
+  // Without a branch, so that eight are found at a time.
+  const float cosine = glm::dot(direction, level), ahead = std::max(cosine, 1e-6f);
   const float down = level.z * ahead - direction.z;
   const float aside = std::max(0.0f, 1.0f - down * down - ahead * ahead) / (ahead * ahead);
   const float t = std::clamp((down - 0.004f) / 0.010f, 0.0f, 1.0f);
   const float below = t * t * (3.0f - 2.0f * t) / (1.0f + down * down * (400.0f + down * down * 20000.0f));
   const float above = 0.03f / (1.0f + std::max(-down, 0.0f) * 33.0f);
-  return std::max(below, above) / (1.0f + aside * 59.0f);
+  const float share = std::max(below, above) / (1.0f + aside * 59.0f);
+  return cosine > 0.0f ? share : 0.0f;
 }
 
 /// Cosine between a surface's normal and the way to the lamp, as it lights rough asphalt: that sends more light back than a matt

@@ -40,7 +40,6 @@ class Path {
                  float distance_m);
   LightSample draw_lamp(const glm::vec3& from_m, float& distance_m);
   LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
-  float headlight_weights(const glm::vec3& from_m) const;
   void note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const;
   bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
   bool take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m);
@@ -54,6 +53,7 @@ class Path {
   float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
   glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
   LampWeights lamp_weights_;        ///< From there.
+  float headlight_sum_ = 0.0f;      ///< Of their strengths there.
   std::array<float, 4> chances_{};  ///< With which each kind of light is looked at from there.
   bool scattered_ = false;          ///< It has been at a surface that scatters.
   bool looks_alone_ = false;        ///< It ends here: nothing is met by chance any more.
@@ -124,35 +124,14 @@ LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
   return {direction, emission, lamp_weights_.chance(chosen) * square / (cosine * lamp.area_m2)};
 }
 
-/// A headlight's light on a surface that looks at it; as in the rasteriser near the lamp, where it is no point, it does not grow without limit.
-float reach(const instant::Headlight& light, const glm::vec3& way) {
-  const float square = glm::dot(way, way);
-  const glm::vec3 ray = way / std::sqrt(std::max(square, 1e-6f));
-  return light.intensity * instant::beam::share(light.direction, ray) / (square + 1.0f);
-}
-
-float Path::headlight_weights(const glm::vec3& from_m) const {
-  float sum = 0.0f;
-  for (std::size_t n = 0; n < world_.headlights().size(); ++n)
-    sum += reach(world_.headlights()[n], from_m - world_.headlight_m(n, time_));
-  return sum;
-}
-
 LightSample Path::draw_headlight(const glm::vec3& from_m, float& distance_m) {
-  const float sum = headlight_weights(from_m);
-  if (!(sum > 0.0f)) return {};
-  float rest = random_.uniform() * sum, strength = 0.0f;
-  std::size_t chosen = 0;
-  for (std::size_t n = 0; n < world_.headlights().size(); ++n) {
-    const float here = reach(world_.headlights()[n], from_m - world_.headlight_m(n, time_));
-    if (here <= 0.0f) continue;
-    chosen = n, strength = here;
-    rest -= here;
-    if (rest < 0.0f) break;
-  }
-  const glm::vec3 way = world_.headlight_m(chosen, time_) - from_m;
+  const HeadlightRow& headlights = world_.headlights();
+  if (!(headlight_sum_ > 0.0f)) return {};
+  const DrawnHeadlight drawn = headlights.drawn(from_m, time_, random_.uniform(), headlight_sum_);
+  const glm::vec3 way = headlights.position_m(drawn.which, time_) - from_m;
   distance_m = glm::length(way);
-  return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * strength, strength / sum};
+  return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * drawn.strength,
+          drawn.strength / headlight_sum_};
 }
 
 void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
@@ -201,13 +180,14 @@ void Path::choose_chances(const SurfacePoint& point) {
   const instant::SkyLight& light = *world_.instant().light;
   const float seen_sky = std::max(point.share_of_sky, 0.02f);
   world_.lamp_row().weigh(point.position_m, point.flat_normal, time_, lamp_weights_);
+  headlight_sum_ = world_.headlights().sum(point.position_m, time_);
   chances_ = {
       sky.has_sun()
           ? luminance(light.light_irradiance) * seen_sky *
                 (point.in_smoke ? 1.0f : std::max(0.0f, glm::dot(point.flat_normal, light.light_direction) + 0.005f))
           : 0.0f,
       sky.shines() ? std::max(luminance(light.sky_irradiance), 1e-6f) * seen_sky : 0.0f, lamp_weights_.sum(),
-      headlight_weights(point.position_m)};
+      headlight_sum_};
   float sum = 0.0f;
   for (const float weight : chances_) sum += weight;
   if (!(sum > 0.0f)) return;

@@ -59,9 +59,9 @@ PhotonLights::PhotonLights(const World& world, const PhotonSettings& settings, s
       add(Light::lamp, lamp, n,
           world.lamps()[lamp].power * std::min(pi, disc_m2 / std::max(glm::dot(way, way), 1e-6f)));
     }
-    for (std::uint32_t light = 0; light < world.headlights().size(); ++light) {
-      const instant::Headlight& headlight = world.headlights()[light];
-      const glm::vec3 way = body.middle_m - world.headlight_m(light, 0.0f);
+    for (std::uint32_t light = 0; light < world.instant().headlights.size(); ++light) {
+      const instant::Headlight& headlight = world.instant().headlights[light];
+      const glm::vec3 way = body.middle_m - world.headlights().position_m(light, 0.0f);
       const float square = std::max(glm::dot(way, way), 1e-6f);
       // Never nothing: the beam may reach its edge.
       const float share = std::max(0.01f, instant::beam::share(headlight.direction, way / std::sqrt(square)));
@@ -132,8 +132,8 @@ PhotonLights::Flight PhotonLights::towards_body(PathRandom& random, float time) 
     return 2.0f * pi * lack;
   };
   if (found->light == Light::headlight) {
-    const instant::Headlight& light = world_.headlights()[found->number];
-    const float solid_angle_sr = aim(world_.headlight_m(found->number, time));
+    const instant::Headlight& light = world_.instant().headlights[found->number];
+    const float solid_angle_sr = aim(world_.headlights().position_m(found->number, time));
     flight.power = headlight_color * (light.intensity * instant::beam::share(light.direction, flight.ray.direction) *
                                       solid_angle_sr * share);
     flight.ray.origin_m += headlight_glass_m * flight.ray.direction;

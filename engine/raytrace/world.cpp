@@ -90,7 +90,7 @@ World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const i
   }
   add_parts(places, later);
   add_soups(places, later, bodies);
-  add_headlight_ways(later);
+  add_headlights(later);
   geometry_.place(places, this);
   add_lamps(places);
 }

@@ -11,6 +11,7 @@
 #include "engine/instant/clouds.hpp"
 #include "engine/instant/instant.hpp"
 #include "engine/raytrace/geometry.hpp"
+#include "engine/raytrace/headlights.hpp"
 #include "engine/raytrace/lamps.hpp"
 #include "engine/raytrace/sky.hpp"
 #include "engine/raytrace/smoke.hpp"
@@ -86,10 +87,7 @@ class World : public Openings {
   bool all_light_can_be_drawn() const { return all_lamps_are_drawn_ && smoke_.empty() && fog_per_m() <= 0.0f; }
   /// No sky, no sun, no headlights: what is looked at is a lamp.
   bool lamps_alone_shine() const { return lamps_alone_shine_; }
-  const std::vector<instant::Headlight>& headlights() const { return instant_.headlights; }
-  glm::vec3 headlight_m(std::size_t n, float time) const {
-    return glm::vec3(instant_.headlights[n].position_m - origin_m_) + headlight_ways_m_[n] * time;
-  }
+  const HeadlightRow& headlights() const { return headlights_; }
   /// A sphere around each clear body, wherever it is while the shutter is open.
   struct ClearBodySphere {
     std::uint32_t place = 0;
@@ -145,7 +143,7 @@ class World : public Openings {
 
   void add(std::vector<Place>& places, const instant::PlacedMesh& placed, bool stands, std::size_t object,
            const instant::PlacedMesh* later = nullptr);
-  void add_headlight_ways(const instant::Instant* later);
+  void add_headlights(const instant::Instant* later);
   void add_parts(std::vector<Place>& places, const instant::Instant* later);
   float lights_up(const PlacedSurface& placed, const scene::SurfaceMaterial& material, bool looks_down) const;
   void add_soups(std::vector<Place>& places, const instant::Instant* later, std::span<const ClearBody> bodies);
@@ -174,7 +172,7 @@ class World : public Openings {
   std::vector<std::uint32_t> loose_indices_;  ///< 0, 1, 2, … for soups of triangles.
   std::vector<std::vector<scene::MeshPart>> loose_parts_;
   std::vector<std::vector<scene::SurfaceVertex>> later_soups_;
-  std::vector<glm::vec3> headlight_ways_m_;
+  HeadlightRow headlights_;
   std::vector<Lamp> lamps_;
   LampRow lamp_row_;
   const PhotonMaps* photons_ = nullptr;

@@ -31,13 +31,14 @@ std::vector<scene::SurfaceVertex> vertices_from(const Vec3& origin_m, std::size_
 
 }  // namespace
 
-void World::add_headlight_ways(const instant::Instant* later) {
-  headlight_ways_m_.resize(instant_.headlights.size(), glm::vec3(0.0f));
-  if (later && later->headlights.size() == instant_.headlights.size())
-    for (std::size_t n = 0; n < headlight_ways_m_.size(); ++n)
+void World::add_headlights(const instant::Instant* later) {
+  std::vector<glm::vec3> ways_m(instant_.headlights.size(), glm::vec3(0.0f));
+  if (later && later->headlights.size() == ways_m.size())
+    for (std::size_t n = 0; n < ways_m.size(); ++n)
       if (const Vec3 way_m = later->headlights[n].position_m - instant_.headlights[n].position_m;
           glm::length(way_m) < longest_way_m)
-        headlight_ways_m_[n] = glm::vec3(way_m);
+        ways_m[n] = glm::vec3(way_m);
+  headlights_ = HeadlightRow(instant_.headlights, ways_m, origin_m_);
 }
 
 /// The same part of the same participant in both, where there is one.
