@@ -37,7 +37,7 @@ constexpr std::array condition_table{
 tl::unexpected<Error> no_command(std::string what) {
   return failure(std::move(what), "operator's command",
                  "write \"conditions NAME=VALUE …\", \"traffic vehicles=N\", \"trigger element=NAME\", \"place x_m=X "
-                 "y_m=Y part=NAME\" "
+                 "y_m=Y part=NAME\", \"remove thing=N\" "
                  "or \"hide entity=NAME\"");
 }
 
@@ -144,6 +144,12 @@ Expected<void> apply(const Model& model, const PlacePart& place, State& state, s
   return {};
 }
 
+Expected<void> apply(const Model&, const RemovePiece& remove, State& state, std::vector<Event>&) {
+  if (!remove_piece(remove.id, state.effects))
+    return failure("it is not there any more", fmt::format("thing {}", remove.id), "name another one");
+  return {};
+}
+
 /// May be hidden: has a body that the scenario moves.
 bool can_hide(const Model& model, std::size_t entity) {
   return entity != model.driver_entity && model.scenario.entities[entity].kind != scenario::EntityKind::misc_object;
@@ -177,6 +183,7 @@ std::string text_of(const OperatorCommand& command) {
   if (const auto* trigger = std::get_if<TriggerElement>(&command)) return "trigger element=" + trigger->name;
   if (const auto* place = std::get_if<PlacePart>(&command))
     return fmt::format("place x_m={} y_m={} part={}", place->x_m, place->y_m, place->part);
+  if (const auto* remove = std::get_if<RemovePiece>(&command)) return fmt::format("remove thing={}", remove->id);
   if (const auto* show = std::get_if<ShowEntity>(&command))
     return fmt::format("{} entity={}", show->shown ? "show" : "hide", show->name);
   std::string text = "conditions";
@@ -198,6 +205,11 @@ Expected<OperatorCommand> parse_operator_command(std::string_view text) {
   }
   if (constexpr std::string_view begin = "place x_m="; text.starts_with(begin))
     return parse_place(text.substr(begin.size()));
+  if (constexpr std::string_view begin = "remove thing="; text.starts_with(begin)) {
+    RemovePiece remove;
+    if (!read_number(text.substr(begin.size()), remove.id)) return no_command("this is no thing's number");
+    return remove;
+  }
   for (const bool shown : {false, true}) {
     const std::string_view begin = shown ? "show entity=" : "hide entity=";
     if (text.starts_with(begin) && text.size() > begin.size())

@@ -8,6 +8,7 @@
 ///     traffic vehicles=120
 ///     trigger element=Story::Act::Group::Maneuver::Event
 ///     place x_m=120.5 y_m=-3.25 part=traffic-cone
+///     remove thing=3
 ///     hide entity=NAME
 ///     show entity=NAME
 
@@ -53,13 +54,18 @@ struct PlacePart {
   double x_m = 0.0, y_m = 0.0;  ///< World.
   bool operator==(const PlacePart&) const = default;
 };
+/// A thing that stands or lies on the road, placed by whomever, or a piece of one, is taken away.
+struct RemovePiece {
+  std::uint32_t id = 0;  ///< Of lying_pieces() (effects/effects_stage.hpp).
+  bool operator==(const RemovePiece&) const = default;
+};
 /// Somebody of the scenario is not there any more, seen and met by nobody, or is there again where he was.
 struct ShowEntity {
   std::string name;
   bool shown = false;
   bool operator==(const ShowEntity&) const = default;
 };
-using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, ShowEntity>;
+using OperatorCommand = std::variant<SetConditions, SetTraffic, TriggerElement, PlacePart, RemovePiece, ShowEntity>;
 
 /// How far from the driver's car a thing may be placed: nearer it would stand in the car, further it would be gone at once.
 inline constexpr double nearest_place_m = 8.0, furthest_place_m = 500.0;

@@ -121,6 +121,8 @@ void OperatorDesk::show(const std::string& what, const std::vector<HostedScreen>
   }
   for (auto& entity : simulation::hideable(*loaded_.model, scenario))
     view.entities.emplace_back(std::move(entity.name), entity.shown);
+  for (const auto& piece : simulation::lying_pieces(drive_.state().effects))
+    view.lying.push_back({piece.id, std::string(piece.part), piece.position_m.x, piece.position_m.y});
   view.triggers = simulation::triggers(loaded_.model->scenario, scenario);
   page_->show(std::move(view));
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// What the operator's page shows of a drive, as plain data: what holds for all of it, and how it stands.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,6 +63,13 @@ struct RatingView {
   std::optional<int> value;  ///< Its answer, if it has one.
 };
 
+/// Stands or lies on the road, and may be taken away.
+struct ThingView {
+  std::uint32_t id = 0;
+  std::string name;
+  double x_m = 0.0, y_m = 0.0;  ///< World.
+};
+
 /// How the drive stands.
 struct DriveView {
   std::shared_ptr<const TakenSnapshot> newest;  ///< Null before the first tick.
@@ -77,7 +85,8 @@ struct DriveView {
   std::vector<double> conditions;  ///< As DriveFacts::conditions.
   RatingView rating;
   std::vector<std::pair<std::string, bool>>
-      entities;                       ///< Of the scenario, who may be hidden, and whether they are there.
+      entities;  ///< Of the scenario, who may be hidden, and whether they are there.
+  std::vector<ThingView> lying;
   std::vector<std::string> triggers;  ///< Acts and events that have not begun.
 };
 

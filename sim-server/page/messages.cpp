@@ -230,6 +230,11 @@ std::string state_text(const DriveView& view, const DriveFacts& facts, std::uint
   Json entities = Json::array();
   for (const auto& [name, is_there] : view.entities) entities.push_back({{"name", name}, {"shown", is_there}});
   json["entities"] = std::move(entities);
+  Json lying = Json::array();
+  for (const ThingView& thing : view.lying)
+    lying.push_back(
+        {{"id", thing.id}, {"name", thing.name}, {"x_m", rounded(thing.x_m, 0.01)}, {"y_m", rounded(thing.y_m, 0.01)}});
+  json["lying"] = std::move(lying);
   Json conditions = Json::array();
   for (const double value : view.conditions) conditions.push_back(rounded(value, 0.0001));
   json["conditions"] = std::move(conditions);

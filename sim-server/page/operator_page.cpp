@@ -24,7 +24,7 @@ struct OperatorPage::Shared {
   std::mutex mutex;
   std::optional<DriveView> newest;  ///< The slot.
   bool is_due = false;              ///< The page's thread has been told of it.
-  std::vector<OperatorWish> wishes;
+  WishBox wishes;
 
   // The page's thread's own.
   DriveFacts facts;
@@ -59,14 +59,9 @@ struct OperatorPage::Shared {
       answer(reply->why_not);
       return reply->why_not ? void() : send_state();
     }
-    {
-      const std::lock_guard lock(mutex);
-      if (wishes.size() < most_waiting_wishes) {
-        wishes.push_back({browser, message->id, helm.commander()->name, std::move(message->wish)});
-        return;  // The drive answers.
-      }
-    }
-    answer("the drive has not yet done what was asked before");
+    // The drive answers.
+    if (!wishes.put({browser, message->id, helm.commander()->name, std::move(message->wish)}))
+      answer("the drive has not yet done what was asked before");
   }
 
   void take_view() {
@@ -136,14 +131,10 @@ void OperatorPage::show(DriveView view) {
   shared_->server->post([shared = shared_.get()] { shared->take_view(); });
 }
 
-std::vector<OperatorWish> OperatorPage::take_wishes() {
-  const std::lock_guard lock(shared_->mutex);
-  return std::exchange(shared_->wishes, {});
-}
+std::vector<OperatorWish> OperatorPage::take_wishes() { return shared_->wishes.take(); }
 
 void OperatorPage::answer(const OperatorWish& wish, const std::optional<std::string>& why_not) {
-  shared_->server->post([shared = shared_.get(), browser = wish.browser,
-                         words = shared_text(answer_text(wish.id, why_not))] { shared->server->send(browser, words); });
+  send_answer(*shared_->server, wish, why_not);
 }
 
 void OperatorPage::tell(double simulated_s, const std::string& words) {

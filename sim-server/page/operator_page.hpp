@@ -19,6 +19,7 @@
 #include "sim-server/page/drive_view.hpp"
 #include "sim-server/page/messages.hpp"
 #include "sim-server/page/web_server.hpp"
+#include "sim-server/page/wish_box.hpp"
 
 namespace septet::page {
 
@@ -29,16 +30,6 @@ struct PageOptions {
   std::optional<ListeningSocket> listening =
       std::nullopt;  ///< Instead of the port: handed over by whoever started the drive.
 };
-
-/// Something that the one who commands wants: Pause, GoOn, Rearm, End, Mark or Change.
-struct OperatorWish {
-  BrowserId browser = 0;
-  std::uint64_t id = 0;
-  std::string name;  ///< Of the operator, as he calls himself; may be empty.
-  Wish wish;
-};
-
-inline constexpr std::size_t most_waiting_wishes = 64;
 
 class OperatorPage {
  public:

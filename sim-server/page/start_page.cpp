@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <deque>
 #include <mutex>
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -63,8 +66,8 @@ bool is_past_file(std::string_view name) {
 }
 
 struct StartPage::Shared {
-  std::mutex mutex;
-  std::vector<OperatorWish> wishes;
+  std::mutex starting;  ///< Held until the server is kept: nothing that needs it may be done before.
+  WishBox wishes;
 
   // The page's thread's own.
   Choices choices;
@@ -110,14 +113,8 @@ struct StartPage::Shared {
     }
     if (!std::holds_alternative<Start>(message->wish) && !std::holds_alternative<Cancel>(message->wish))
       return answer("no drive goes on");
-    {
-      const std::lock_guard lock(mutex);
-      if (wishes.size() < most_waiting_wishes) {
-        wishes.push_back({browser, message->id, helm.commander()->name, std::move(message->wish)});
-        return;
-      }
-    }
-    answer("what was asked before has not yet been done");
+    if (!wishes.put({browser, message->id, helm.commander()->name, std::move(message->wish)}))
+      answer("what was asked before has not yet been done");
   }
   std::optional<FoundResource> find(std::string_view path) const {
     if (!path.starts_with(past_begin)) return std::nullopt;
@@ -140,10 +137,10 @@ Expected<std::unique_ptr<StartPage>> StartPage::open(const ListeningSocket& list
                        .resources = page_files(),
                        .find = [here](std::string_view path) { return here->find(path); },
                        .listening = &listening};
-  std::unique_lock starting(shared->mutex);  // Nothing that needs the server may be done before it is kept.
+  std::unique_lock starting(shared->starting);
   auto server = WebServer::start(std::move(web),
                                  {[here](BrowserId browser) {
-                                    { const std::lock_guard kept(here->mutex); }
+                                    { const std::lock_guard kept(here->starting); }
                                     here->opened(browser);
                                   },
                                   [here](BrowserId browser, std::string_view words) { here->said(browser, words); },
@@ -171,14 +168,10 @@ void StartPage::show(StartView view, std::vector<fs::path> folders) {
   });
 }
 
-std::vector<OperatorWish> StartPage::take_wishes() {
-  const std::lock_guard lock(shared_->mutex);
-  return std::exchange(shared_->wishes, {});
-}
+std::vector<OperatorWish> StartPage::take_wishes() { return shared_->wishes.take(); }
 
 void StartPage::answer(const OperatorWish& wish, const std::optional<std::string>& why_not) {
-  shared_->server->post([shared = shared_.get(), browser = wish.browser,
-                         words = shared_text(answer_text(wish.id, why_not))] { shared->server->send(browser, words); });
+  send_answer(*shared_->server, wish, why_not);
 }
 
 }  // namespace septet::page

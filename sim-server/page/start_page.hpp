@@ -17,7 +17,8 @@
 
 #include "engine/core/expected.hpp"
 #include "sim-server/page/drive_choice.hpp"
-#include "sim-server/page/operator_page.hpp"
+#include "sim-server/page/listening_socket.hpp"
+#include "sim-server/page/wish_box.hpp"
 
 namespace septet::page {
 

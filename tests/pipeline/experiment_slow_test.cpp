@@ -1,8 +1,13 @@
 // An experiment as its user runs it: once, again, killed, without space.
 
+#include <sys/mount.h>
+
+#include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 
 #include "tests/pipeline/process_rig.hpp"
 
@@ -69,6 +74,35 @@ TEST_CASE("an experiment run twice has identical numbers and one that was killed
   CHECK(other.code == 1);
   CHECK(other.error.find("another experiment") != std::string::npos);
   CHECK(content_of(folder / "whole/subjects.csv") == rest);
+}
+
+TEST_CASE("an experiment that meets a full disk says so once and goes on to the same numbers when there is room") {
+  const TemporaryFolder folder;
+  const fs::path disk = folder / "disk";
+  fs::create_directories(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=3200k") != 0) {
+    MESSAGE("no permission to mount a small disk: skipped");
+    return;
+  }
+  write_text(folder / "e.toml",
+             "seed = 5\nlog = \"samples\"\n[[group]]\nname = \"a\"\nsubjects = 4\ndriver = \"plain\"\n"
+             "[[part]]\nname = \"task\"\nscenario = \"rescue-lane\"\nseconds = 20.0\nparameters = { vehicles = 20 }\n");
+  const auto experiment = [&](const fs::path& out, const char* log) {
+    return run("septet", {"experiment", (folder / "e.toml").string(), "--jobs", "1", "--out", out.string()},
+               folder / log);
+  };
+  const Ended full = experiment(disk / "out", "full.log");
+  CHECK(full.code == 1);
+  CHECK_MESSAGE(full.error.find("is full; free some space") != std::string::npos, full.error);
+  CHECK(fs::exists(disk / "out/subjects/P01/task-01/summary.json"));
+  CHECK_FALSE(fs::exists(disk / "out/subjects.csv"));
+  REQUIRE(::mount("tmpfs", disk.c_str(), "tmpfs", MS_REMOUNT, "size=64m") == 0);
+  const Ended resumed = experiment(disk / "out", "resumed.log");
+  CHECK_MESSAGE(resumed.code == 0, resumed.error);
+  REQUIRE(experiment(folder / "ample", "ample.log").code == 0);
+  for (const char* name : {"subjects.csv", "experiment.json"})
+    CHECK_MESSAGE(content_of(disk / "out" / name) == content_of(folder / "ample" / name), name);
+  CHECK(::umount2(disk.c_str(), MNT_DETACH) == 0);
 }
 
 TEST_CASE("a participant who is forgotten is in no file of the drives any more and a report pools the rest") {

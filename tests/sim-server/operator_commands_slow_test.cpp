@@ -61,6 +61,8 @@ TEST_CASE("a drive with an operator's commands is verified from its start and fr
       {300, "hide entity=ambulance"},
       {420, "show entity=ambulance"},
       {421, "PLACE"},
+      {424, "PLACE"},
+      {660, "remove thing=2"},
       {1200, "conditions road_wetness=0.1"},  // The log keeps the state of this tick as it was before.
       {1200, "conditions snow_cover=0.3"},
   };

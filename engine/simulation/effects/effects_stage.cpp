@@ -80,6 +80,17 @@ void stand_part(debris::Part part, const RigidTransform& feet, EffectsState& sta
   state.debris.pieces.back().asleep = true;
 }
 
+std::vector<LyingPiece> lying_pieces(const EffectsState& state) {
+  std::vector<LyingPiece> pieces;
+  for (const debris::Piece& piece : state.debris.pieces)
+    pieces.push_back({piece.id, part_name_table[static_cast<std::size_t>(piece.part)], place_of(piece)});
+  return pieces;
+}
+
+bool remove_piece(std::uint32_t id, EffectsState& state) {
+  return std::erase_if(state.debris.pieces, [&](const debris::Piece& piece) { return piece.id == id; }) > 0;
+}
+
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,
            ParticipantId vehicle, EffectsState& state) {
   const auto part = part_of_name(action.part);

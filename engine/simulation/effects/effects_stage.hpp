@@ -39,6 +39,16 @@ std::span<const std::string_view> part_names();
 /// Stands a part on its feet, at rest: `feet` is where it touches the ground.
 void stand_part(debris::Part part, const RigidTransform& feet, EffectsState& state);
 
+/// A piece that stands or lies somewhere: placed, spilt, or broken off.
+struct LyingPiece {
+  std::uint32_t id = 0;   ///< Never given again in a drive.
+  std::string_view part;  ///< One of part_names().
+  Vec3 position_m{0.0};   ///< World, somewhere on it.
+};
+std::vector<LyingPiece> lying_pieces(const EffectsState& state);  ///< Ascending id.
+/// Between two ticks. False: there is no such piece any more.
+bool remove_piece(std::uint32_t id, EffectsState& state);
+
 /// Puts a part on the roof of a vehicle, which is `vehicle` among the participants: see scenario::EffectAction. Of a slab of ice
 /// comes what has not melted.
 void spill(const scenario::EffectAction& action, const scenario::Entity& entity, const scenario::EntityState& from,

@@ -89,6 +89,9 @@ function draw() {
     pen.stroke();
     pen.restore();
   }
+  pen.fillStyle = '#ff7a45';
+  const half = Math.max(0.2, 3 / view.scale);
+  for (const { x_m, y_m } of (state && state.lying) || []) pen.fillRect(x_m - half, y_m - half, 2 * half, 2 * half);
   const nice = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000].find((m) => m * view.scale > 70) || 10000;
   $('scale').style.width = `${nice * view.scale}px`;
   $('scale').firstElementChild.textContent = nice < 1000 ? `${nice} m` : `${nice / 1000} km`;

@@ -1,5 +1,5 @@
 'use strict';
-// Things are placed by a click on the map, and who belongs to the scenario is hidden and shown again.
+// Things are placed by a click on the map and taken away again, and who belongs to the scenario is hidden and shown again.
 
 let placing = false;
 
@@ -22,18 +22,25 @@ function place_at(x, y) {
   change(`place x_m=${+x.toFixed(2)} y_m=${+y.toFixed(2)} part=${$('thing').value}`);
 }
 
-function show_entities() {
-  const list = $('entities'), key = JSON.stringify(state.entities);
+/// A list of buttons, made anew when what they do has changed: [what it says, the command].
+function show_buttons(list, buttons) {
+  const key = JSON.stringify(buttons);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
-  list.replaceChildren(...state.entities.map(({ name, shown }) => {
+  list.replaceChildren(...buttons.map(([says, what]) => {
     const item = document.createElement('li'), button = document.createElement('button');
     button.type = 'button';
-    button.textContent = `${shown ? 'Hide' : 'Show'} ${name}`;
-    button.onclick = () => change(`${shown ? 'hide' : 'show'} entity=${name}`);
+    button.textContent = says;
+    button.onclick = () => change(what);
     item.append(button);
     return item;
   }));
+}
+
+function show_entities() {
+  show_buttons($('entities'), state.entities.map(({ name, shown }) => [`${shown ? 'Hide' : 'Show'} ${name}`, `${shown ? 'hide' : 'show'} entity=${name}`]));
+  // After a crash there are more pieces than anybody takes away one by one; all of them are on the map.
+  show_buttons($('lying'), state.lying.slice(-12).map(({ id, name }) => [`Take away ${name.replaceAll('-', ' ')} ${id}`, `remove thing=${id}`]));
 }
 
 $('place').onclick = () => set_placing(!placing);

@@ -14,7 +14,7 @@ TEST_CASE("an operator's command comes back from its text to the last bit") {
   for (const OperatorCommand& command :
        {OperatorCommand(set), OperatorCommand(SetTraffic{3000}),
         OperatorCommand(TriggerElement{"a story::its act = x"}),
-        OperatorCommand(PlacePart{"traffic-cone", 1.0 / 3.0, -1e6 / 7.0}),
+        OperatorCommand(PlacePart{"traffic-cone", 1.0 / 3.0, -1e6 / 7.0}), OperatorCommand(RemovePiece{4294967295u}),
         OperatorCommand(ShowEntity{"a b = c", false}), OperatorCommand(ShowEntity{"place", true})}) {
     const auto read = parse_operator_command(text_of(command));
     REQUIRE(read.has_value());
@@ -50,6 +50,10 @@ TEST_CASE("what is no command, or asks for what is out of range, is refused") {
                            "place x_m=1 y_m=1e300 part=traffic-cone",
                            "place x_m=1 part=traffic-cone y_m=2",
                            "place y_m=1 x_m=2 part=traffic-cone",
+                           "remove thing=",
+                           "remove thing=-1",
+                           "remove thing=4294967296",
+                           "remove thing=1 ",
                            "hide entity=",
                            "show",
                            "conditions friction_scale=0"})

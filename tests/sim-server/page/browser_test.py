@@ -6,38 +6,18 @@
 Exits 77 where there is no Chromium. It waits for what the page shows, with a limit that only a hang reaches.
 """
 import json
-import pathlib
-import re
-import shutil
 import sqlite3
-import subprocess
 import sys
-import tempfile
 
-from chromium import LIMIT_S, Browser, wait_for
+from chromium import LIMIT_S, PageTrial
 
 
 def main():
     server_program, septet, root = sys.argv[1:]
-    chromium = shutil.which("chromium")
-    if not chromium:
-        print("no chromium: install the package chromium")
-        sys.exit(77)
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="septet-page-"))
-    running = []
-    try:
-        subprocess.run([septet, "rig", "keys", "desktop", "--out", folder / "keys"], check=True, cwd=root, stdout=subprocess.DEVNULL)
-        log = open(folder / "log", "wb")
-        server = subprocess.Popen(
-            [server_program, "--rig", "desktop", "--scenario", "motorway-ambulance", "--keys", folder / "keys/server", "--out", folder / "out",
-             "--wait-for-screens", "0", "--driver", "plain", "--any-port", "--page", "0"], cwd=root, stdout=log, stderr=log, stdin=subprocess.DEVNULL)
-        running.append(server)
-        address = re.compile(rb"http://127\.0\.0\.1:\d+/#[0-9a-f]{32}")
-        wait_for(lambda: address.search((folder / "log").read_bytes()) or server.poll() is not None, "the server's address")
-        url = address.search((folder / "log").read_bytes())[0].decode()
-
-        first, second = (Browser(chromium, folder / name) for name in ("first", "second"))
-        running += [first.process, second.process]
+    with PageTrial(septet, root) as trial:
+        server, url = trial.serve(server_program, "--rig", "desktop", "--scenario", "behind-ambulance", "--keys", trial.folder / "keys/server",
+                                  "--out", trial.folder / "out", "--wait-for-screens", "0", "--driver", "plain", "--any-port", "--page", "0")
+        first, second = trial.browser("first"), trial.browser("second")
         first.open(url)
         first.until("mine")
         second.open(url)
@@ -49,8 +29,21 @@ def main():
         second.until("[...document.querySelectorAll('#events li')].some((line) => line.textContent.includes('sneezed'))")
         first.value("[...document.querySelectorAll('#presets button')].find((button) => button.textContent === 'Snow').click()")
         second.until("state.conditions[2] === 0.8")
+        for wish, seen in (("conditions friction_scale=0.6", "state.conditions[11] === 0.6"),
+                           ("conditions sun_elevation_rad=0.05 sun_illuminance_lux=9000", "state.conditions[8] === 0.05"),
+                           ("traffic vehicles=31", "state.everybody.length < 50"),
+                           ("hide entity=ambulance", "state.entities.some((other) => other.name === 'ambulance' && !other.shown)"),
+                           ("show entity=ambulance", "state.entities.some((other) => other.name === 'ambulance' && other.shown)")):
+            first.value(f"change({wish!r})")
+            second.until(seen)
         first.click("#pause")
         second.until("state.paused && document.getElementById('phase').textContent === 'paused'")
+        # Placed by a click on the map, sixty metres ahead, and one of two taken away again.
+        first.value("var own = state.everybody.find((other) => other[0] === hello.driver);"
+                    "for (const ahead of [60, 70]) place_at(own[2] + ahead * Math.cos(own[4]), own[3] + ahead * Math.sin(own[4]))")
+        second.until("state.lying.length === 2 && state.lying[0].name === 'traffic-cone'")
+        first.click("#lying button")
+        second.until("state.lying.length === 1")
         stood_at = second.value("state.tick")
 
         first.kill()
@@ -62,8 +55,7 @@ def main():
         second.until(f"!state.paused && state.tick > {stood_at}")
 
         # Another site in the same browser, which knows the port but not the token.
-        stranger = Browser(chromium, folder / "stranger")
-        running.append(stranger.process)
+        stranger = trial.browser("stranger")
         place = url.split("/")[2]
         stranger.call("Page.navigate", url="data:text/html,<p>another site")
         stranger.until("document.readyState === 'complete'")
@@ -76,17 +68,15 @@ def main():
         second.click("#ending button[value=yes]")
         second.until("document.getElementById('phase').textContent === 'ended'")
         assert server.wait(LIMIT_S) == 3, "a drive that was ended by hand exits with 3"
-        assert json.loads((folder / "out/summary.json").read_text())["ended"] == "by_operator"
-        session = folder / "out/session.sqlite"
+        assert json.loads((trial.folder / "out/summary.json").read_text())["ended"] == "by_operator"
+        session = trial.folder / "out/session.sqlite"
         events = sqlite3.connect(session).execute("SELECT kind, detail FROM events").fetchall()
-        for kind, part in (("mark", "sneezed"), ("operator_command", "snow_cover=0.8"), ("operator", "reason=the task is done")):
+        for kind, part in (("mark", "sneezed"), ("operator_command", "snow_cover=0.8"), ("operator_command", "friction_scale=0.6"),
+                           ("operator_command", "sun_elevation_rad=0.05"), ("operator_command", "traffic vehicles=31"),
+                           ("operator_command", "hide entity=ambulance"), ("operator_command", "part=traffic-cone"),
+                           ("operator_command", "remove thing="), ("operator", "reason=the task is done")):
             assert any(k == kind and part in d for k, d in events), (kind, part)
-        subprocess.run([septet, "replay", "--verify", session], check=True, cwd=root)
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
-        shutil.rmtree(folder, ignore_errors=True)
+        trial.run("replay", "--verify", session)
 
 
 main()

@@ -1,14 +1,19 @@
-"""A headless Chromium, told what to do over its debugging socket."""
+"""A headless Chromium, told what to do over its debugging socket, and what a test of the page needs around it."""
+import base64
 import json
 import pathlib
+import re
+import shutil
 import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 
 LIMIT_S = 300  # Which only a hang reaches.
+ADDRESS = re.compile(rb"http://127\.0\.0\.1:\d+/#[0-9a-f]{32}")
 
 
 class Browser:
@@ -71,9 +76,52 @@ class Browser:
     def click(self, selector):
         self.value(f"document.querySelector({selector!r}).click()")
 
+    def picture(self, file):
+        pathlib.Path(file).write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
+
     def kill(self):
         self.process.kill()
         self.process.wait()
+
+
+class PageTrial:
+    """The folder, programs and browsers of a test, gone when it ends. It exits with 77 where there is no Chromium."""
+
+    def __init__(self, septet, root):
+        self.chromium, self.septet, self.root = shutil.which("chromium"), septet, root
+        if not self.chromium:
+            print("no chromium: install the package chromium")
+            sys.exit(77)
+
+    def __enter__(self):
+        self.folder, self.running = pathlib.Path(tempfile.mkdtemp(prefix="septet-page-")), []
+        self.run("rig", "keys", "desktop", "--out", self.folder / "keys")
+        return self
+
+    def __exit__(self, *_):
+        for process in self.running:
+            process.kill()
+            process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def run(self, *arguments):
+        subprocess.run([self.septet, *arguments], check=True, cwd=self.root, stdout=subprocess.DEVNULL)
+
+    def serve(self, *command):
+        """A program that serves the page, and the page's address."""
+        said = self.folder / "said"
+        with open(said, "wb") as log:
+            process = subprocess.Popen(command, cwd=self.root, stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+        self.running.append(process)
+        wait_for(lambda: ADDRESS.search(said.read_bytes()) or process.poll() is not None, "the page's address")
+        found = ADDRESS.search(said.read_bytes())
+        assert found, said.read_text()
+        return process, found[0].decode()
+
+    def browser(self, name):
+        browser = Browser(self.chromium, self.folder / name)
+        self.running.append(browser.process)
+        return browser
 
 
 def wait_for(condition, what):

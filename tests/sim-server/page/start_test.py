@@ -5,41 +5,24 @@
 
 Exits 77 where there is no Chromium. It waits for what the page shows, with a limit that only a hang reaches.
 """
-import pathlib
-import re
-import shutil
 import signal
 import sqlite3
-import subprocess
 import sys
-import tempfile
 
-from chromium import LIMIT_S, Browser, wait_for
+from chromium import LIMIT_S, PageTrial
 
 
 def main():
     septet, root = sys.argv[1:]
-    chromium = shutil.which("chromium")
-    if not chromium:
-        print("no chromium: install the package chromium")
-        sys.exit(77)
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="septet-start-"))
-    running = []
-    try:
-        subprocess.run([septet, "rig", "keys", "desktop", "--out", folder / "keys"], check=True, cwd=root, stdout=subprocess.DEVNULL)
-        hostile = folder / "drives" / "<img src=x onerror=document.title=1>"
+    with PageTrial(septet, root) as trial:
+        drives = trial.folder / "drives"
+        hostile = drives / "<img src=x onerror=document.title=1>"
         hostile.mkdir(parents=True)
         (hostile / "session.sqlite").write_bytes(b"no session at all")
-        log = open(folder / "log", "wb")
         # Of a rig of several machines: no screen is drawn here, and the operator drives without them.
-        operate = subprocess.Popen([septet, "operate", "--page", "0", "--out", folder / "drives", "--keys", folder / "keys/server"], cwd=root, stdout=log,
-                                   stderr=log, stdin=subprocess.DEVNULL)
-        running.append(operate)
-        address = re.compile(rb"http://127\.0\.0\.1:\d+/#[0-9a-f]{32}")
-        wait_for(lambda: address.search((folder / "log").read_bytes()) or operate.poll() is not None, "the page's address")
-        browser = Browser(chromium, folder / "browser")
-        running.append(browser.process)
-        browser.call("Page.navigate", url=address.search((folder / "log").read_bytes())[0].decode())
+        operate, url = trial.serve(septet, "operate", "--page", "0", "--out", drives, "--keys", trial.folder / "keys/server")
+        browser = trial.browser("browser")
+        browser.call("Page.navigate", url=url)
         browser.until("typeof hello !== 'undefined' && hello && hello.choices && state && mine")
         assert browser.value("state.sessions.length") == 0, "what is no session is listed"
 
@@ -69,17 +52,12 @@ def main():
                       " async (answer) => { report = await (await fetch(answer.path)).text(); })")
         browser.until("report.includes('</html>')")
 
-        session = next((folder / "drives").glob("*motorway-ambulance/session.sqlite"))
+        session = next(drives.glob("*motorway-ambulance/session.sqlite"))
         assert sqlite3.connect(session).execute("SELECT item, value FROM questionnaire").fetchall() == [("misc.00", 3.0)]
         assert ("note", "it's late") in sqlite3.connect(session).execute("SELECT key, value FROM meta").fetchall()
-        subprocess.run([septet, "replay", "--verify", session], check=True, cwd=root)
+        trial.run("replay", "--verify", session)
         operate.send_signal(signal.SIGTERM)
         assert operate.wait(LIMIT_S) == 0
-    finally:
-        for process in running:
-            process.kill()
-            process.wait()
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 main()
