@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/instant/headlight_beam.hpp"
+#include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
 
 namespace septet::instant {
@@ -55,9 +57,19 @@ Vec3 facing(PartRole role, double x_m) {
   }
 }
 
-}  // namespace
+/// The mean over `taken_in_s` around the instant.
+float strobe(double simulated_time_s, bool second_half) {
+  constexpr double period_s = 0.5, pulse_s = 0.06, next_pulse_s = 0.12;
+  const double phase_s = std::fmod(simulated_time_s + (second_half ? 0.25 : 0.0), period_s);
+  const double from = phase_s - 0.5 * taken_in_s, to = phase_s + 0.5 * taken_in_s;
+  double lit_s = 0.0;
+  for (const double begin : {0.0, next_pulse_s, period_s, -period_s, next_pulse_s - period_s})
+    lit_s += std::max(0.0, std::min(to, begin + pulse_s) - std::max(from, begin));
+  return static_cast<float>(std::clamp(lit_s / taken_in_s, 0.0, 1.0));
+}
 
-bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m) {
+/// Of vehicle state; beacons aside.
+bool is_on(PartRole role, Lamps lamps) {
   const bool beams = lamps.has(Lamp::low_beam) || lamps.has(Lamp::high_beam);
   switch (role) {
     case PartRole::lamp_brake:
@@ -77,14 +89,58 @@ bool shines(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y
       return lamps.has(Lamp::signal_amber);
     case PartRole::signal_green:
       return lamps.has(Lamp::signal_green);
-    case PartRole::beacon: {
-      if (!lamps.has(Lamp::beacon)) return false;
-      const double phase_s = std::fmod(simulated_time_s, 0.5) - (beacon_y_m < -0.05 ? 0.25 : 0.0);
-      return (phase_s >= 0.0 && phase_s < 0.06) || (phase_s >= 0.12 && phase_s < 0.18);
-    }
     default:
       return true;
   }
+}
+
+/// Hanging from `joint`, swung forward by `angle`.
+RigidTransform swung(const RigidTransform& joint, double angle_rad) {
+  RigidTransform result = joint;
+  result.orientation = glm::angleAxis(-angle_rad, Vec3(0, 1, 0)) * result.orientation;
+  return result;
+}
+
+RigidTransform limb(const RigidTransform& joint, const LegAngles& leg, bool shin) {
+  const RigidTransform thigh = swung(joint, leg.thigh_rad);
+  if (!shin) return thigh;
+  RigidTransform knee = thigh;
+  knee.position_m = thigh * Vec3(0, 0, -thigh_m);
+  return swung(knee, -leg.knee_rad);
+}
+
+/// Where a limb, or a cyclist's crank, stands now.
+RigidTransform limb_of(const scene::Instance& part, const DrawnParticipant& participant) {
+  const RigidTransform& at = part.world_from_object;
+  const double phase = participant.wheel_spin_rad, other = phase + std::numbers::pi;
+  const double share = gait_share(participant.speed_mps);
+  switch (part.role) {
+    case PartRole::leg_left:
+    case PartRole::shin_left:
+      return limb(at, walking_leg(phase, share), part.role == PartRole::shin_left);
+    case PartRole::leg_right:
+    case PartRole::shin_right:
+      return limb(at, walking_leg(other, share), part.role == PartRole::shin_right);
+    case PartRole::arm_left:
+      return swung(at, walking_arm_rad(phase, share));
+    case PartRole::arm_right:
+      return swung(at, walking_arm_rad(other, share));
+    case PartRole::pedalling_leg_left:
+    case PartRole::pedalling_shin_left:
+      return limb(at, pedalling_leg(phase), part.role == PartRole::pedalling_shin_left);
+    case PartRole::pedalling_leg_right:
+    case PartRole::pedalling_shin_right:
+      return limb(at, pedalling_leg(other), part.role == PartRole::pedalling_shin_right);
+    default:
+      return swung(at, -phase);
+  }
+}
+
+}  // namespace
+
+float shining(PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m) {
+  if (role == PartRole::beacon) return lamps.has(Lamp::beacon) ? strobe(simulated_time_s, beacon_y_m < -0.05) : 0.0f;
+  return is_on(role, lamps) ? 1.0f : 0.0f;
 }
 
 RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant) {
@@ -94,6 +150,8 @@ RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnPartici
     const double steer = wheel < 2 ? participant.front_steer_rad : 0.0;
     result.orientation = glm::angleAxis(steer, Vec3(0, 0, 1)) *
                          glm::angleAxis(participant.wheel_spin_rad, Vec3(0, 1, 0)) * result.orientation;
+  } else if (part.role >= PartRole::leg_left && part.role <= PartRole::crank) {
+    return limb_of(part, participant);
   } else if (part.role == PartRole::steering_wheel) {
     // Its axis points forward and away from the driver: a turn to the left is against the clock for him.
     result.orientation = result.orientation * glm::angleAxis(-participant.steering_wheel_rad, Vec3(1, 0, 0));
@@ -121,22 +179,23 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
       PlacedMesh placed = place(part, mesh.bounds, participant.world_from_vehicle * in_vehicle);
       const Vec3 middle_m = in_vehicle * Vec3(0.5f * (mesh.bounds.min_m + mesh.bounds.max_m) * part.scale);
-      const bool lit = shines(part.role, participant.lamps, simulated_time_s, middle_m.y);
+      const float lit = shining(part.role, participant.lamps, simulated_time_s, middle_m.y);
       placed.seen = whole;
       placed.share_of_sky = sky;
       placed.snowed_on = false;  // What drives has blown it off.
       placed.number = participant.number;
-      placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);
+      placed.tint = glm::vec4(participant.paint, lit);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
         lamps_m += middle_m;
         ++head_lamps;
       }
       const bool in_range = distance_m >= part.visible_from_m && distance_m < part.visible_to_m;
-      if (is_lamp(part.role) && lit && whole && in_range)
+      if (is_lamp(part.role) && lit > 0.0f && whole && in_range)
         result.glows.push_back({participant.world_from_vehicle * middle_m, part.role == PartRole::lamp_head,
                                 glm::vec3(participant.world_from_vehicle.orientation * facing(part.role, middle_m.x)),
-                                mesh.emission, glow_radius_m(part.role), participant.world_from_vehicle.position_m.z});
+                                mesh.emission * lit, glow_radius_m(part.role),
+                                participant.world_from_vehicle.position_m.z});
     }
     if (participant.lamps.has(Lamp::low_beam) || participant.lamps.has(Lamp::high_beam)) {
       const Vec3 lamp_m = head_lamps > 0 ? lamps_m / double(head_lamps) + Vec3(0.15, 0, 0) : Vec3(3.6, 0, 0.65);
@@ -159,6 +218,7 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.front_steer_rad = participant.front_steer_rad;
   drawn.wheel_spin_rad = participant.wheel_spin_rad;
   drawn.wheel_lift_m = participant.wheel_lift_m;
+  drawn.speed_mps = glm::length(participant.velocity_mps);
   drawn.number = participant.id;
   return drawn;
 }

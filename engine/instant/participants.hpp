@@ -41,9 +41,13 @@ struct PlacedParticipants {
   std::vector<Headlight> headlights;
 };
 
-/// Does the lamp of this role shine? Lamps of vehicle state; beacons flash with time, those to the left and to the right of
-/// the vehicle's middle in turn: two pulses of 60 ms, twice a second.
-bool shines(scene::PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m);
+/// What an eye or a film takes in at once, s: a flash that is shorter is seen as bright as its share of that.
+inline constexpr double taken_in_s = 0.04;
+
+/// How much of its light the lamp of this role sends out, 0 to 1. Lamps of vehicle state are on or off; beacons flash with time, those to the left and to
+/// the right of the vehicle's middle in turn: two pulses of 60 ms, twice a second, as the mean over `taken_in_s` around the instant, so
+/// that pictures 40 ms apart have all of their light between them, whenever they are taken.
+float shining(scene::PartRole role, Lamps lamps, double simulated_time_s, double beacon_y_m);
 
 /// Where a part stands in its vehicle now: steered, rolled and lifted.
 RigidTransform vehicle_from_part(const scene::Instance& part, const DrawnParticipant& participant);

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/scenario/storyboard_runtime.hpp"
 #include "engine/world/indicator.hpp"
+#include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
 
 namespace septet::scenario {
@@ -49,8 +52,14 @@ void append_participants(const Scenario& scenario, const ScenarioState& state, P
     if (std::abs(speed) > 0.5) {
       participant.front_steer_rad = std::atan(model.wheelbase_m * glm::dot(from.angular_velocity_radps, up) / speed);
     }
-    participant.wheel_spin_rad = from.wheel_angle_rad;
-    participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;
+    if (model.kind == ParticipantKind::pedestrian) {
+      constexpr double turn_rad = 2.0 * std::numbers::pi;
+      participant.wheel_spin_rad = turn_rad * (std::fmod(std::max(from.travelled_m, 0.0), stride_m) / stride_m);
+      participant.wheel_spin_radps = turn_rad * std::abs(speed) / stride_m;
+    } else {
+      participant.wheel_spin_rad = from.wheel_angle_rad;
+      participant.wheel_spin_radps = model.wheel_radius_m > 0.0 ? speed / model.wheel_radius_m : 0.0;
+    }
     participants.push_back(participant);
   }
 }

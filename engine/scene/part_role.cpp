@@ -5,12 +5,34 @@
 namespace septet::scene {
 namespace {
 
-constexpr std::array<std::string_view, 16> role_names = {
-    "fixed",         "wheel_front_left", "wheel_front_right",   "wheel_rear_left",      "wheel_rear_right",
-    "lamp_brake",    "lamp_reverse",     "lamp_indicator_left", "lamp_indicator_right", "lamp_head",
-    "lamp_tail",     "signal_red",       "signal_amber",        "signal_green",         "beacon",
-    "steering_wheel"};
-static_assert(role_names.size() == static_cast<std::size_t>(PartRole::steering_wheel) + 1);
+constexpr std::array<std::string_view, 27> role_names = {"fixed",
+                                                         "wheel_front_left",
+                                                         "wheel_front_right",
+                                                         "wheel_rear_left",
+                                                         "wheel_rear_right",
+                                                         "lamp_brake",
+                                                         "lamp_reverse",
+                                                         "lamp_indicator_left",
+                                                         "lamp_indicator_right",
+                                                         "lamp_head",
+                                                         "lamp_tail",
+                                                         "signal_red",
+                                                         "signal_amber",
+                                                         "signal_green",
+                                                         "beacon",
+                                                         "steering_wheel",
+                                                         "leg_left",
+                                                         "leg_right",
+                                                         "shin_left",
+                                                         "shin_right",
+                                                         "arm_left",
+                                                         "arm_right",
+                                                         "pedalling_leg_left",
+                                                         "pedalling_leg_right",
+                                                         "pedalling_shin_left",
+                                                         "pedalling_shin_right",
+                                                         "crank"};
+static_assert(role_names.size() == static_cast<std::size_t>(PartRole::crank) + 1);
 
 }  // namespace
 

@@ -89,6 +89,17 @@ enum class PartRole : std::uint8_t {
   signal_green,
   beacon,
   steering_wheel,
+  leg_left,  ///< Of who walks, here and below: engine/world/limbs.hpp. A leg's shin stands where its thigh does.
+  leg_right,
+  shin_left,
+  shin_right,
+  arm_left,
+  arm_right,
+  pedalling_leg_left,  ///< Of a cyclist; with the rear wheel.
+  pedalling_leg_right,
+  pedalling_shin_left,
+  pedalling_shin_right,
+  crank,
 };
 
 /// One placed mesh.

@@ -32,7 +32,7 @@ struct Participant {
   Vec3 acceleration_mps2{0.0};       ///< World frame.
   Vec3 angular_velocity_radps{0.0};  ///< World frame.
   double front_steer_rad = 0.0;      ///< Mean road-wheel angle of the front axle, positive to the left.
-  double wheel_spin_rad = 0.0;       ///< Rolling angle of the wheels, in [0, 2π).
+  double wheel_spin_rad = 0.0;  ///< Rolling angle of the wheels, in [0, 2π); of who walks: of his step (limbs.hpp).
   double wheel_spin_radps = 0.0;
   /// Height of each wheel's centre over its rest position (front left, front right, rear left, rear right).
   std::array<double, 4> wheel_lift_m{};

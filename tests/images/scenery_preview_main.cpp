@@ -106,6 +106,8 @@ void turntable(render::Renderer& renderer, const scene::ResolvedScene& scene, co
     if (i != 2) participant.lamps.set(Lamp::low_beam, true);
     participant.lamps.set(Lamp::beacon, true);
     if (i == 0) participant.front_steer_rad = 0.35;
+    if (i != 1) participant.speed_mps = 1.4;  // People walk, but for one who stands.
+    if (i == 2) participant.wheel_spin_rad = 1.6;
     input.participants.push_back(participant);
     image::blit(sheet, image::resize(drawn(renderer, input), width / 2, height / 2), (i % 2) * width / 2,
                 (i / 2) * height / 2);

@@ -6,19 +6,23 @@
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/lens.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
+#include "engine/scenery/vehicles/person.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/scenery/vehicles/wheel.hpp"
+#include "engine/world/limbs.hpp"
 
 namespace septet::scenery {
 namespace {
 
 using geometry::MeshBuilder;
 
-constexpr glm::vec3 bottom_bracket{0.42f, 0.0f, 0.29f}, saddle{0.20f, 0.0f, 0.95f}, bars{0.86f, 0.0f, 1.02f};
+constexpr glm::vec3 hips{0.22f, 0.0f, 0.95f}, saddle{0.20f, 0.0f, 0.89f}, bars{0.86f, 0.0f, 1.00f};
+constexpr glm::vec3 bottom_bracket{hips.x + static_cast<float>(bracket_ahead_m), 0.0f,
+                                   hips.z - static_cast<float>(bracket_below_m)};
 
 void add_frame(MeshBuilder& b, float wheelbase, float radius, std::uint32_t sides) {
   b.material = index_of(Finish::paint);
-  const glm::vec3 head_low{0.86f, 0, 0.68f}, head_high{0.83f, 0, 0.88f}, seat{0.25f, 0, 0.82f};
+  const glm::vec3 head_low{0.86f, 0, 0.68f}, head_high{0.83f, 0, 0.88f}, seat{0.25f, 0, 0.76f};
   add_limb(b, head_low, bottom_bracket, 0.022f, 0.022f, sides);
   add_limb(b, bottom_bracket, seat, 0.018f, 0.018f, sides);
   add_limb(b, seat, head_high, 0.018f, 0.018f, sides);
@@ -35,29 +39,31 @@ void add_frame(MeshBuilder& b, float wheelbase, float radius, std::uint32_t side
 }
 
 void add_trunk(MeshBuilder& b, std::uint32_t sides, std::uint32_t splits) {
-  const glm::vec3 hips = saddle + glm::vec3(0.02f, 0, 0.10f), shoulders{0.50f, 0, 1.42f};
+  const glm::vec3 shoulders{0.50f, 0, 1.38f};
   b.material = index_of(Finish::cloth_bright);
-  add_limb(b, hips, shoulders, 0.13f, 0.16f, sides + 2);
+  add_limb(b, hips + glm::vec3(0, 0, 0.04f), shoulders, 0.13f, 0.16f, sides + 2);
   for (const float side : {1.0f, -1.0f}) {
     add_limb(b, shoulders + glm::vec3(0, side * 0.17f, -0.03f), {0.68f, side * 0.26f, 1.20f}, 0.05f, 0.042f, sides);
     add_limb(b, {0.68f, side * 0.26f, 1.20f}, bars + glm::vec3(0, side * 0.26f, 0.02f), 0.042f, 0.034f, sides);
   }
   b.material = index_of(Finish::skin);
-  add_limb(b, shoulders, {0.58f, 0, 1.54f}, 0.052f, 0.05f, sides);
-  add_blob(b, {0.61f, 0, 1.63f}, {0.095f, 0.078f, 0.115f}, splits);
+  add_limb(b, shoulders, {0.58f, 0, 1.50f}, 0.052f, 0.05f, sides);
+  add_blob(b, {0.61f, 0, 1.59f}, {0.095f, 0.078f, 0.115f}, splits);
   b.material = index_of(Finish::white_panel);
-  add_blob(b, {0.60f, 0, 1.69f}, {0.125f, 0.095f, 0.075f}, splits);
+  add_blob(b, {0.60f, 0, 1.65f}, {0.125f, 0.095f, 0.075f}, splits);
 }
 
-void add_still_legs(MeshBuilder& b, std::uint32_t sides) {
-  const glm::vec3 hips = saddle + glm::vec3(0.02f, 0, 0.06f);
-  b.material = index_of(Finish::cloth_dark);
+/// Both cranks with their pedals: the left one on top, as pedalling_leg has it.
+geometry::PolygonMesh cranks(std::uint32_t sides) {
+  MeshBuilder b;
+  b.material = index_of(Finish::trim);
+  constexpr auto length = static_cast<float>(crank_m);
   for (const float side : {1.0f, -1.0f}) {
-    const glm::vec3 hip = hips + glm::vec3(0, side * 0.10f, 0), knee{0.58f, side * 0.11f, side > 0 ? 0.85f : 0.68f};
-    const glm::vec3 foot = bottom_bracket + glm::vec3(0.05f, side * 0.12f, side > 0 ? 0.17f : -0.13f);
-    add_limb(b, hip, knee, 0.08f, 0.06f, sides);
-    add_limb(b, knee, foot, 0.058f, 0.04f, sides);
+    add_limb(b, {0, side * 0.055f, 0}, {0, side * 0.06f, side * length}, 0.014f, 0.012f, sides);
+    add_box(b, Finish::trim, {-0.05f, side > 0 ? 0.065f : -0.15f, side * length - 0.015f},
+            {0.05f, side > 0 ? 0.15f : -0.065f, side * length + 0.015f});
   }
+  return b.take();
 }
 
 }  // namespace
@@ -78,9 +84,16 @@ VehicleParts bicycle_parts(const VehicleModel& model) {
       const bool fine = level == DetailLevel::near;
       add_frame(b, wheelbase, radius, fine ? 6 : 3);
       add_trunk(b, fine ? 8 : 4, fine ? 2 : 0);
-      add_still_legs(b, fine ? 8 : 4);
     }
     VehicleParts of_level{{"rider", b.take(), 0, {Placement{}}}};
+    if (level != DetailLevel::far) {
+      const std::uint32_t sides = level == DetailLevel::near ? 8 : 4;
+      add_legs(of_level, scene::PartRole::pedalling_leg_left, hips, sides);
+      Placement place;
+      place.parent_from_object.position_m = Vec3(bottom_bracket);
+      place.role = scene::PartRole::crank;
+      of_level.push_back({"crank", cranks(level == DetailLevel::near ? 6 : 3), 0, {place}});
+    }
     of_level.push_back(
         lens_plate("lamp head", scene::PartRole::lamp_head, Finish::lens_head, true, {0.95f, 0, 0.9f}, {0.06f, 0.06f}));
     of_level.push_back(lens_plate("lamp tail", scene::PartRole::lamp_tail, Finish::lens_tail, false, {-0.30f, 0, 0.72f},

@@ -1,39 +1,41 @@
+#include <utility>
+
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
+#include "engine/scenery/vehicles/person.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
+#include "engine/world/limbs.hpp"
 
 namespace septet::scenery {
 namespace {
 
-/// Somebody in mid step, facing +x; `sides` and `splits` set the level of detail.
-geometry::PolygonMesh walking_person(float height, std::uint32_t sides, std::uint32_t splits) {
+using scene::PartRole;
+
+constexpr float middle_x = 0.10f;  ///< The origin is below the rear foot of a step.
+
+/// Trunk and head, facing +x; `sides` and `splits` set the level of detail.
+geometry::PolygonMesh trunk(std::uint32_t sides, std::uint32_t splits) {
   geometry::MeshBuilder b;
-  const float h = height / 1.75f;
-  const float x0 = 0.10f;  // The body's middle: the origin is below the rear foot.
-  const auto p = [&](float x, float y, float z) { return glm::vec3(x0 + x * h, y * h, z * h); };
   b.material = index_of(Finish::cloth_dark);
-  for (const float side : {1.0f, -1.0f}) {
-    const float stride = side * 0.16f;
-    add_limb(b, p(0, side * 0.09f, 0.90f), p(stride * 0.55f, side * 0.09f, 0.50f), 0.085f * h, 0.062f * h, sides);
-    add_limb(b, p(stride * 0.55f, side * 0.09f, 0.50f), p(stride - 0.04f, side * 0.085f, 0.10f), 0.062f * h, 0.045f * h,
-             sides);
-  }
-  b.material = index_of(Finish::leather);
-  for (const float side : {1.0f, -1.0f})
-    add_blob(b, p(side * 0.16f + 0.03f, side * 0.085f, 0.045f), glm::vec3(0.13f, 0.05f, 0.05f) * h, 0);
+  add_blob(b, {middle_x, 0, 0.93f}, {0.115f, 0.165f, 0.12f}, splits > 0 ? splits - 1 : 0);
   b.material = index_of(Finish::cloth_bright);
-  add_blob(b, p(0, 0, 1.18f), glm::vec3(0.13f, 0.20f, 0.33f) * h, splits);
-  for (const float side : {1.0f, -1.0f}) {
-    const float swing = -side * 0.13f;
-    add_limb(b, p(0, side * 0.20f, 1.40f), p(swing * 0.5f, side * 0.26f, 1.13f), 0.058f * h, 0.048f * h, sides);
-    add_limb(b, p(swing * 0.5f, side * 0.26f, 1.13f), p(swing + 0.06f, side * 0.25f, 0.90f), 0.048f * h, 0.036f * h,
-             sides);
-  }
+  add_blob(b, {middle_x, 0, 1.20f}, {0.125f, 0.185f, 0.31f}, splits);
   b.material = index_of(Finish::skin);
-  add_limb(b, p(0, 0, 1.44f), p(0.01f, 0, 1.54f), 0.055f * h, 0.05f * h, sides);
-  add_blob(b, p(0.015f, 0, 1.635f), glm::vec3(0.095f, 0.078f, 0.115f) * h, splits);
+  add_limb(b, {middle_x, 0, 1.44f}, {middle_x + 0.01f, 0, 1.54f}, 0.055f, 0.05f, sides);
+  add_blob(b, {middle_x + 0.015f, 0, 1.635f}, {0.095f, 0.078f, 0.115f}, splits);
   b.material = index_of(Finish::leather);
-  add_blob(b, p(-0.012f, 0, 1.665f), glm::vec3(0.098f, 0.086f, 0.085f) * h, splits);
+  add_blob(b, {middle_x - 0.012f, 0, 1.665f}, {0.098f, 0.086f, 0.085f}, splits);
+  return b.take();
+}
+
+/// From the shoulder, a little bent.
+geometry::PolygonMesh hanging_arm(float side, std::uint32_t sides) {
+  geometry::MeshBuilder b;
+  b.material = index_of(Finish::cloth_bright);
+  add_limb(b, {0, 0, 0}, {-0.03f, side * 0.05f, -0.29f}, 0.056f, 0.046f, sides);
+  add_limb(b, {-0.03f, side * 0.05f, -0.29f}, {0.05f, side * 0.04f, -0.53f}, 0.046f, 0.036f, sides);
+  b.material = index_of(Finish::skin);
+  add_blob(b, {0.065f, side * 0.04f, -0.59f}, {0.04f, 0.03f, 0.06f}, 0);
   return b.take();
 }
 
@@ -41,20 +43,26 @@ geometry::PolygonMesh walking_person(float height, std::uint32_t sides, std::uin
 
 VehicleParts pedestrian_parts(const VehicleModel& model) {
   VehicleParts parts;
-  const auto height = static_cast<float>(model.height_m);
-  parts.push_back({"person near", walking_person(height, 8, 2), 0, {Placement{}}});
-  set_detail(parts.back(), DetailLevel::near);
-  parts.push_back({"person middle", walking_person(height, 5, 1), 0, {Placement{}}});
-  set_detail(parts.back(), DetailLevel::middle);
+  for (const DetailLevel level : {DetailLevel::near, DetailLevel::middle}) {
+    const std::uint32_t sides = level == DetailLevel::near ? 8 : 5, splits = level == DetailLevel::near ? 2 : 1;
+    VehicleParts of_level{{"person", trunk(sides, splits), 0, {Placement{}}}};
+    add_legs(of_level, PartRole::leg_left, {middle_x, 0, static_cast<float>(hip_height_m)}, sides);
+    for (const float side : {1.0f, -1.0f}) {
+      Placement place;
+      place.parent_from_object.position_m = Vec3(middle_x, side * 0.19f, shoulder_height_m);
+      place.role = side > 0 ? PartRole::arm_left : PartRole::arm_right;
+      of_level.push_back({side > 0 ? "arm left" : "arm right", hanging_arm(side, sides), 0, {place}});
+    }
+    add_level(parts, std::move(of_level), level);
+  }
   geometry::MeshBuilder b;
   b.material = index_of(Finish::cloth_dark);
   add_limb(b, {0.1f, 0, 0.06f}, {0.1f, 0, 0.9f}, 0.09f, 0.15f, 5);
   b.material = index_of(Finish::cloth_bright);
   add_limb(b, {0.1f, 0, 0.9f}, {0.1f, 0, 1.42f}, 0.16f, 0.19f, 5);
   b.material = index_of(Finish::skin);
-  add_blob(b, {0.1f, 0, height - 0.12f}, {0.10f, 0.09f, 0.12f}, 0);
-  parts.push_back({"person far", b.take(), 0, {Placement{}}});
-  set_detail(parts.back(), DetailLevel::far);
+  add_blob(b, {0.1f, 0, static_cast<float>(model.height_m) - 0.12f}, {0.10f, 0.09f, 0.12f}, 0);
+  add_level(parts, {{"person", b.take(), 0, {Placement{}}}}, DetailLevel::far);
   return parts;
 }
 

@@ -1,10 +1,13 @@
 #include "engine/instant/participants.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "engine/world/limbs.hpp"
 #include "tests/engine/instant/reference_scene.hpp"
 
 namespace septet::instant {
@@ -26,13 +29,13 @@ float in_the_open(const RigidTransform&) { return 1.0f; }
 TEST_CASE("each lamp of a traffic light shines by its own bit") {
   Lamps lamps;
   lamps.set(Lamp::signal_red, true);
-  CHECK(shines(PartRole::signal_red, lamps, 0.0, 0.0));
-  CHECK_FALSE(shines(PartRole::signal_amber, lamps, 0.0, 0.0));
-  CHECK_FALSE(shines(PartRole::signal_green, lamps, 0.0, 0.0));
+  CHECK(shining(PartRole::signal_red, lamps, 0.0, 0.0) == 1.0f);
+  CHECK(shining(PartRole::signal_amber, lamps, 0.0, 0.0) == 0.0f);
+  CHECK(shining(PartRole::signal_green, lamps, 0.0, 0.0) == 0.0f);
   lamps = {};
   lamps.set(Lamp::signal_green, true);
-  CHECK(shines(PartRole::signal_green, lamps, 0.0, 0.0));
-  CHECK_FALSE(shines(PartRole::signal_red, lamps, 0.0, 0.0));
+  CHECK(shining(PartRole::signal_green, lamps, 0.0, 0.0) == 1.0f);
+  CHECK(shining(PartRole::signal_red, lamps, 0.0, 0.0) == 0.0f);
 }
 
 TEST_CASE("front wheels steer and every wheel rolls forward and lifts") {
@@ -57,20 +60,78 @@ TEST_CASE("a beacon flashes twice in its half of every half second and not when 
   Lamps on;
   on.set(Lamp::beacon, true);
   for (const double y_m : {0.4, -0.4}) {
-    int lit = 0, edges = 0;
+    double lit_s = 0.0;
+    int edges = 0;
     bool before = false;
     for (int i = 0; i < 1000; ++i) {
-      const bool now = shines(PartRole::beacon, on, 7.0 + i * 0.001, y_m);
-      lit += now;
-      edges += now && !before;
-      before = now;
-      CHECK_FALSE(shines(PartRole::beacon, {}, 7.0 + i * 0.001, y_m));
+      const float now = shining(PartRole::beacon, on, 7.0 + i * 0.001, y_m);
+      lit_s += 0.001 * now;
+      edges += now > 0.5f && !before;
+      before = now > 0.5f;
+      CHECK(shining(PartRole::beacon, {}, 7.0 + i * 0.001, y_m) == 0.0f);
     }
     CHECK(edges == 4);
-    CHECK(lit == doctest::Approx(240).epsilon(0.02));
+    CHECK(lit_s == doctest::Approx(0.24).epsilon(0.02));
   }
-  CHECK(shines(PartRole::beacon, on, 0.03, 0.4));
-  CHECK_FALSE(shines(PartRole::beacon, on, 0.03, -0.4));
+  CHECK(shining(PartRole::beacon, on, 0.03, 0.4) == 1.0f);
+  CHECK(shining(PartRole::beacon, on, 0.03, -0.4) == 0.0f);
+}
+
+TEST_CASE("a film of 25 pictures a second has all of a beacon's light whenever its first picture is taken") {
+  Lamps on;
+  on.set(Lamp::beacon, true);
+  for (int shift = 0; shift < 40; ++shift) {
+    double lit_s = 0.0;
+    for (int picture = 0; picture < 25; ++picture)
+      lit_s += 0.04 * shining(PartRole::beacon, on, 3.0 + 0.001 * shift + 0.04 * picture, 0.4);
+    CHECK(lit_s == doctest::Approx(0.24).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("who walks puts one leg before the other, repeats himself each stride, and stands still when he stands") {
+  DrawnParticipant walker;
+  walker.speed_mps = 1.4;
+  scene::Instance shin;
+  shin.world_from_object.position_m = {0.1, 0.09, hip_height_m};
+  const auto foot = [&](PartRole role, double phase_rad) {
+    shin.role = role;
+    walker.wheel_spin_rad = phase_rad;
+    return vehicle_from_part(shin, walker) * Vec3(0, 0, -shin_m);
+  };
+  const double quarter = 0.5 * std::numbers::pi;
+  CHECK(foot(PartRole::shin_left, quarter).x - foot(PartRole::shin_right, quarter).x > 0.4);
+  CHECK(foot(PartRole::shin_left, 3 * quarter).x - foot(PartRole::shin_right, 3 * quarter).x < -0.4);
+  CHECK(glm::length(foot(PartRole::shin_left, 0.7) - foot(PartRole::shin_left, 0.7 + 4 * quarter)) < 1e-9);
+  for (int i = 0; i < 64; ++i) {
+    const double phase = i * 0.1;
+    // A foot is lifted, but no higher than one steps, and one of the two is near the ground.
+    const double left = foot(PartRole::shin_left, phase).z, right = foot(PartRole::shin_right, phase).z;
+    CHECK(std::min(left, right) < 0.16);
+    CHECK(std::max(left, right) < 0.36);
+    CHECK(std::min(left, right) > 0.05);
+  }
+  walker.speed_mps = 0.0;
+  CHECK(glm::length(foot(PartRole::shin_left, 0.3) - foot(PartRole::shin_left, 2.0)) < 1e-12);
+  CHECK(foot(PartRole::shin_left, 0.3).x == doctest::Approx(0.1));
+}
+
+TEST_CASE("a cyclist's feet stay on the pedals all the way round") {
+  DrawnParticipant cyclist;
+  scene::Instance shin, crank;
+  shin.world_from_object.position_m = {0.22, 0.0, 1.01};
+  crank.world_from_object.position_m = {0.22 + bracket_ahead_m, 0.0, 1.01 - bracket_below_m};
+  crank.role = PartRole::crank;
+  for (int i = 0; i < 48; ++i) {
+    cyclist.wheel_spin_rad = i * 0.13;
+    const RigidTransform pedals = vehicle_from_part(crank, cyclist);
+    for (const double side : {1.0, -1.0}) {
+      shin.role = side > 0 ? PartRole::pedalling_shin_left : PartRole::pedalling_shin_right;
+      const Vec3 foot = vehicle_from_part(shin, cyclist) * Vec3(0, 0, -shin_m);
+      CHECK(glm::length(foot - pedals * Vec3(0, 0, side * crank_m)) < 1e-6);
+    }
+  }
+  cyclist.wheel_spin_rad = 0.2;  // Forward at the top.
+  CHECK((vehicle_from_part(crank, cyclist) * Vec3(0, 0, crank_m)).x > 0.22 + bracket_ahead_m);
 }
 
 TEST_CASE("only lit lamps shine and glow") {
