@@ -126,6 +126,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.share_of_sky = sky;
       placed.snowed_on = false;  // What drives has blown it off.
       placed.number = participant.number;
+      const auto& lift = participant.wheel_lift_m;
+      placed.over_road_m = static_cast<float>(in_vehicle.position_m.z - 0.25 * (lift[0] + lift[1] + lift[2] + lift[3]));
       placed.tint = glm::vec4(participant.paint, lit ? 1.0f : 0.0f);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {

@@ -60,6 +60,7 @@ FrameData store(PassContext& context, std::span<const T> values) {
 struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE;
+  VkImageView road_mirror = VK_NULL_HANDLE, ripples = VK_NULL_HANDLE;  ///< None: the noise takes their place, unread.
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);

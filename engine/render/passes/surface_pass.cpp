@@ -10,11 +10,12 @@ namespace {
 /// What the pipeline of a material is specialised for.
 struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
-  bool glossy, dark, snowy, sooty;
+  bool glossy, dark, snowy, sooty, road, mirror;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | std::uint32_t{glossy} << 2 | std::uint32_t{dark} << 3 | std::uint32_t{snowy} << 4 |
-           std::uint32_t{sooty} << 5 | static_cast<std::uint32_t>(kind) << 6;
+           std::uint32_t{sooty} << 5 | static_cast<std::uint32_t>(kind) << 6 | std::uint32_t{road} << 8 |
+           std::uint32_t{mirror} << 9;
   }
 };
 
@@ -35,13 +36,15 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
-  description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
-  description.depth_write = !blended;
+  // What one sees through is opaque in a puddle.
+  description.blend = variant.mirror ? vulkan::Blend::data : blended ? vulkan::Blend::over : vulkan::Blend::none;
+  description.depth_write = variant.mirror || !blended;
   description.alpha_to_coverage = cut && multisampled;
   description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u,
                            variant.glossy,   blended,
                            variant.dark,     variant.snowy,
-                           variant.sooty,    stripe};
+                           variant.sooty,    stripe,
+                           variant.road,     variant.mirror};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }
@@ -68,8 +71,9 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const bool textured = material.image >= 0;
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const bool glossy = material.glossy || (light.wet && material.wettable);
-    const VkPipeline pipeline =
-        pipeline_of(pass, context, {texturing, glossy, light.dark, light.snowy, light.sooty, kind});
+    const VkPipeline pipeline = pipeline_of(
+        pass, context,
+        {texturing, glossy, light.dark, light.snowy, light.sooty, material.wettable, light.mirror_of_road, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

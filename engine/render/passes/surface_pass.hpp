@@ -21,7 +21,8 @@ struct SurfaceLight {
   bool wet = false;   ///< Wettable materials mirror.
   bool dark = false;  ///< Headlights light what they reach.
   bool snowy = false;
-  bool sooty = false;  ///< FrameInput::soot is bound.
+  bool sooty = false;           ///< FrameInput::soot is bound.
+  bool mirror_of_road = false;  ///< Drawn as what a wet road mirrors: with an alpha of its own.
 };
 
 /// Draws the parts of one kind, in the list's order (blended: in reverse, so farthest first).

@@ -25,10 +25,18 @@ struct ViewUniforms {
   glm::vec4 weather, wind;
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
+  glm::vec4 road, water, target;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 4) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 4 + 3) * 16);
+
+/// Where the wet road's mirror image of a view lies in a picture.
+struct RoadMirror {
+  bool present = false;
+  std::uint32_t width = 1, height = 1;  ///< Of the picture, pixels.
+};
 
 /// Of the headlights the nearest count.
-ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows);
+ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
+                           const RoadMirror& mirror = {});
 
 }  // namespace septet::render
