@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/instant/spray.hpp"
 
 namespace septet::instant {
 namespace {
@@ -86,6 +87,13 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.ice_surroundings_kept = input.ice_surroundings_kept;
   instant.views = std::move(input.views);
   instant.smoke = std::move(input.smoke);
+  for (const DrawnParticipant& participant : input.participants) {
+    constexpr double furthest_m = 250.0;
+    const Vec3& at_m = participant.world_from_vehicle.position_m;
+    // No rain falls under a roof, and the road there is dry.
+    if (glm::length(at_m - world_eye(instant.views.front())) < furthest_m && share_of_sky(scene, at_m) > 0.5f)
+      add_spray(participant, instant.environment, instant.simulated_time_s, instant.smoke);
+  }
   instant.soot = std::move(input.soot);
   instant.overlay = std::move(input.overlay);
   return instant;

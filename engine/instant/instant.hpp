@@ -54,7 +54,7 @@ struct Instant {
   /// As strong as they look beside the light around them: by day as they are, at night and under roofs as many times stronger as the
   /// exposure there is less than a camera's. None whose pool cannot be seen.
   std::vector<Headlight> headlights;
-  std::vector<SmokePuff> smoke;
+  std::vector<SmokePuff> smoke;  ///< Of fires, and the spray behind wheels.
   SootField soot;
   std::vector<OverlayText> overlay;  ///< Over the finished picture.
 };

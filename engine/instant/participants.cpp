@@ -162,6 +162,13 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.wheel_spin_rad = participant.wheel_spin_rad;
   drawn.wheel_lift_m = participant.wheel_lift_m;
   drawn.number = participant.id;
+  const VehicleModel& model = vehicle_models()[participant.model];
+  drawn.velocity_mps = participant.velocity_mps;
+  drawn.yaw_rate_radps = participant.angular_velocity_radps.z;
+  drawn.tail_x_m = -model.rear_overhang_m;
+  drawn.heavy = model.kind == ParticipantKind::lorry || model.kind == ParticipantKind::bus;
+  drawn.raises_spray =
+      model.kind != ParticipantKind::pedestrian && model.kind != ParticipantKind::object && model.wheel_radius_m > 0.0;
   return drawn;
 }
 
