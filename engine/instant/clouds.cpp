@@ -47,8 +47,13 @@ void add_octave(std::vector<float>& sum, std::uint32_t period, std::uint32_t oct
   }
 }
 
-/// Between the four ranks around, 0 to 1.
-float rank_at(std::span<const std::uint8_t> noise, const glm::vec2& at) {
+float density(std::span<const std::uint8_t> noise, float cover, const glm::vec2& at) {
+  return glm::smoothstep(1.0f - cover - 0.08f, 1.0f - cover + 0.34f, cloud_rank(noise, at));
+}
+
+}  // namespace
+
+float cloud_rank(std::span<const std::uint8_t> noise, const glm::vec2& at) {
   const glm::vec2 texel = (at - glm::floor(at)) * float(cloud_noise_side) - 0.5f, low = glm::floor(texel);
   const glm::vec2 share = texel - low;
   const auto read = [&](float x, float y) {
@@ -60,12 +65,6 @@ float rank_at(std::span<const std::uint8_t> noise, const glm::vec2& at) {
   return glm::mix(glm::mix(read(low.x, low.y), read(low.x + 1.0f, low.y), share.x),
                   glm::mix(read(low.x, low.y + 1.0f), read(low.x + 1.0f, low.y + 1.0f), share.x), share.y);
 }
-
-float density(std::span<const std::uint8_t> noise, float cover, const glm::vec2& at) {
-  return glm::smoothstep(1.0f - cover - 0.08f, 1.0f - cover + 0.34f, rank_at(noise, at));
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> cloud_noise() {
   std::vector<float> sum(cloud_noise_side * cloud_noise_side, 0.0f);

@@ -25,6 +25,9 @@ std::vector<std::uint8_t> cloud_noise();
 /// How far the clouds have been blown at an instant, m along x and y, within a tile.
 glm::vec2 cloud_drift_m(const Environment& environment, double simulated_time_s);
 
+/// The rank of a place, in tiles, between the four texels around it: 0 to 1.
+float cloud_rank(std::span<const std::uint8_t> noise, const glm::vec2& at);
+
 struct CloudSeen {
   glm::vec3 radiance{0.0f};
   float cover = 0.0f;  ///< Share of what lies behind that it hides.

@@ -37,6 +37,11 @@ struct DrawnParticipant {
   double steering_wheel_rad = 0.0;       ///< Turns the part about its object's x axis, positive to the left.
   Shown shown = Shown::whole;
   std::uint32_t number = 0;  ///< Tells it from others: its number plate.
+  // What it does to the water that it drives through (spray.hpp).
+  Vec3 velocity_mps{0.0};  ///< World frame.
+  double yaw_rate_radps = 0.0;
+  double tail_x_m = -0.8;  ///< Its rear end, vehicle frame.
+  bool heavy = false, raises_spray = false;
 };
 
 /// Triangles of this instant alone, such as debris between two keyframes. They cast shadows and are culled as a whole.

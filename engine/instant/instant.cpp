@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/check.hpp"
+#include "engine/instant/spray.hpp"
 
 namespace septet::instant {
 namespace {
@@ -77,6 +78,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   const float scale = adapted_scale(scene, *instant.light, input.views.front().world_from_car);
   instant.exposure = exposure_of_scale(scale);
   instant.share_of_sky = share_of_sky(scene, world_eye(input.views.front()));
+  instant.road = road_below(input.participants, scene.prototypes, world_eye(input.views.front()));
   instant.emission_share = 1.0f / std::max(1.0f, 0.35f * scale);
 
   PlacedParticipants placed = place_participants(
@@ -105,6 +107,13 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.ice_surroundings_kept = input.ice_surroundings_kept;
   instant.views = std::move(input.views);
   instant.smoke = std::move(input.smoke);
+  for (const DrawnParticipant& participant : input.participants) {
+    constexpr double furthest_m = 250.0;
+    const Vec3& at_m = participant.world_from_vehicle.position_m;
+    // No rain falls under a roof, and the road there is dry.
+    if (glm::length(at_m - world_eye(instant.views.front())) < furthest_m && share_of_sky(scene, at_m) > 0.5f)
+      add_spray(participant, instant.environment, instant.simulated_time_s, instant.smoke);
+  }
   instant.soot = std::move(input.soot);
   instant.overlay = std::move(input.overlay);
   return instant;

@@ -12,9 +12,10 @@
 ///
 /// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
-/// surfaces; what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
+/// surfaces; water on wet roads (wet_road.hpp); what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/instant/atmosphere.hpp"
@@ -22,6 +23,7 @@
 #include "engine/instant/frame_input.hpp"
 #include "engine/instant/participants.hpp"
 #include "engine/instant/scene_summary.hpp"
+#include "engine/instant/wet_road.hpp"
 
 namespace septet::instant {
 
@@ -40,6 +42,7 @@ struct Instant {
   /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
   float emission_share = 1.0f;
   float share_of_sky = 1.0f;      ///< Where the first view's eye is: no rain falls under a roof.
+  std::optional<RoadPlane> road;  ///< Near the first view's eye: what a wet road mirrors in.
   std::vector<FrameView> views;   ///< At least one.
   std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
@@ -52,7 +55,7 @@ struct Instant {
   /// exposure there is less than a camera's. None whose pool cannot be seen.
   std::vector<Headlight> headlights;
   std::vector<GroundContact> contacts;  ///< Of participants, for renderers that do not find out by rays.
-  std::vector<SmokePuff> smoke;
+  std::vector<SmokePuff> smoke;  ///< Of fires, and the spray behind wheels.
   SootField soot;
   std::vector<OverlayText> overlay;  ///< Over the finished picture.
 };

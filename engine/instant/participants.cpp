@@ -184,6 +184,8 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
       placed.share_of_sky = sky;
       placed.snowed_on = false;  // What drives has blown it off.
       placed.number = participant.number;
+      const auto& lift = participant.wheel_lift_m;
+      placed.over_road_m = static_cast<float>(in_vehicle.position_m.z - 0.25 * (lift[0] + lift[1] + lift[2] + lift[3]));
       placed.tint = glm::vec4(participant.paint, lit);
       result.meshes.push_back(placed);
       if (part.role == PartRole::lamp_head) {
@@ -220,6 +222,13 @@ DrawnParticipant drawn_participant(const Participant& participant, std::uint32_t
   drawn.wheel_lift_m = participant.wheel_lift_m;
   drawn.speed_mps = glm::length(participant.velocity_mps);
   drawn.number = participant.id;
+  const VehicleModel& model = vehicle_models()[participant.model];
+  drawn.velocity_mps = participant.velocity_mps;
+  drawn.yaw_rate_radps = participant.angular_velocity_radps.z;
+  drawn.tail_x_m = -model.rear_overhang_m;
+  drawn.heavy = model.kind == ParticipantKind::lorry || model.kind == ParticipantKind::bus;
+  drawn.raises_spray =
+      model.kind != ParticipantKind::pedestrian && model.kind != ParticipantKind::object && model.wheel_radius_m > 0.0;
   return drawn;
 }
 

@@ -26,7 +26,10 @@ struct PlacedMesh {
   glm::vec4 tint{1.0f};       ///< Paint, for materials that take it; w: how much of the materials' emission shines.
   float share_of_sky = 1.0f;  ///< That reaches it; times that of its materials.
   bool snowed_on = true;      ///< Snow lies on what looks up, but not on what one sees through.
-  std::uint32_t number = 0;   ///< Of its participant: which picture a material of several shows.
+  /// Height of the origin over the road that its vehicle stands on, whose water mirrors it; of what stands still that is not known.
+  float over_road_m = unknown_road;
+  static constexpr float unknown_road = -1e4f;
+  std::uint32_t number = 0;  ///< Of its participant: which picture a material of several shows.
 };
 
 /// Bounds of a mesh in its object's frame.

@@ -1,11 +1,13 @@
 #include "engine/raytrace/world.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/instant/standing_lamps.hpp"
+#include "engine/instant/wet_road.hpp"
 
 namespace septet::raytrace {
 namespace {
@@ -79,6 +81,8 @@ World::World(const scene::ResolvedScene& scene, const SceneIndex& index, const i
       origin_m_(instant::world_eye(instant.views.front())),
       smoke_(instant.smoke, origin_m_),
       nothing_lies_on_it_(!(instant.environment.snow_cover > 0.0) && instant.soot.cover.empty()) {
+  if (instant.environment.rain_mm_per_h > 0.0 && instant.environment.road_wetness > 0.0)
+    ripples_ = instant::ripple_slopes(instant.environment.rain_mm_per_h, instant.simulated_time_s);
   geometry_.keep(scene.meshes.size());
   std::vector<Place> places;
   for (std::size_t n = 0; n < scene.instances.size(); ++n) {
@@ -239,16 +243,26 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
   const Environment& weather = instant_.environment;
   if (weather.snow_cover > 0.0) lay_snow(placed, material, uv, normal.z, share_of_sky, base);
   const float wet = material.wettable ? static_cast<float>(weather.road_wetness) * share_of_sky : 0.0f;
-  base *= 1.0f - 0.55f * wet;
+  const float under_water = wet > 0.0f ? instant::puddle(cloud_noise_, origin_m_.x + double(point.position_m.x),
+                                                         origin_m_.y + double(point.position_m.y),
+                                                         textured ? instant::rut_at(uv.x) : 0.0f, wet)
+                                       : 0.0f;
+  base *= (1.0f - 0.55f * wet) * (1.0f - 0.3f * under_water);
   if (!instant_.soot.cover.empty()) base *= 1.0f - soot(point.position_m);
 
   point.retroreflection = color * (material.retroreflection * (material.stripe ? 1.0f - 0.8f * wet : 1.0f));
   surface.diffuse = base * (1.0f - material.metallic);
   if (material.wettable) {
     // Water covers a share of a wet road, as in the rasteriser; the dry road between is rough.
-    surface.coat = 0.36f * wet;
+    surface.coat = glm::mix(instant::film_share * wet, 0.95f, under_water);
     surface.coat_f0 = 0.02f;
-    surface.coat_alpha = 0.0144f;
+    const float roughness = glm::mix(instant::film_roughness, instant::puddle_roughness, under_water);
+    surface.coat_alpha = roughness * roughness;
+    if (under_water > 0.0f && !ripples_.empty()) {
+      surface.normal = glm::normalize(surface.normal - glm::vec3(under_water * ripple(point.position_m), 0.0f));
+      if (const float facing = -glm::dot(surface.normal, ray.direction); facing < 1e-3f)
+        surface.normal = glm::normalize(surface.normal - (1e-3f - facing) * ray.direction * 1.01f);
+    }
   } else if (material.roughness < rough_from || material.metallic > 0.2f || point.opacity < 1.0f) {
     const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
     surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
@@ -264,6 +278,15 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
     for (const std::uint32_t lamp : placed.lamps)
       if (hit.triangle - lamps_[lamp].first_triangle < lamps_[lamp].triangle_count) point.lamp = lamp;
   }
+}
+
+glm::vec2 World::ripple(const glm::vec3& position_m) const {
+  const Vec3 tiles = (origin_m_ + Vec3(position_m)) / instant::ripple_tile_m;
+  const auto texel = [](double tile) {
+    const auto n = static_cast<std::uint32_t>((tile - std::floor(tile)) * instant::ripple_side);
+    return std::size_t{std::min(n, instant::ripple_side - 1)};
+  };
+  return ripples_[texel(tiles.y) * instant::ripple_side + texel(tiles.x)];
 }
 
 glm::vec3 World::fog_radiance(const glm::vec3& direction) const {

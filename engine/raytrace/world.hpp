@@ -157,6 +157,7 @@ class World : public Openings {
   void lay_snow(const PlacedSurface& placed, const scene::SurfaceMaterial& material, const glm::vec2& uv, float up,
                 float share_of_sky, glm::vec3& albedo) const;
   float soot(const glm::vec3& position_m) const;
+  glm::vec2 ripple(const glm::vec3& position_m) const;
 
   const scene::ResolvedScene& scene_;
   const SceneIndex& index_;
@@ -165,6 +166,7 @@ class World : public Openings {
   Sky sky_;
   std::span<const std::uint8_t> cloud_noise_;
   glm::vec2 cloud_drift_m_;
+  std::vector<glm::vec2> ripples_;  ///< instant::ripple_slopes; none where it is dry.
   Vec3 origin_m_;
   Smoke smoke_;
   bool nothing_lies_on_it_;  ///< Neither snow nor soot.

@@ -18,7 +18,8 @@ namespace {
 
 PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const Instant& instant, const FrameView& view,
                           const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
-                          std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {}) {
+                          std::span<const SmokePuff> smoke, const LampField& lamps, const DetailOf& detail = {},
+                          const RoadMirror& mirror = {}) {
   PreparedView prepared;
   prepared.view = &view;
   const Vec3 eye_m = world_eye(view);
@@ -34,9 +35,10 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.draws = prepare_draws(
       context, scene, instant.parts, dynamic, eye_m, is_seen,
       [&](std::uint32_t material) { return material < scene.materials.size() ? material : no_group; }, detail, &volume);
-  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps);
+  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, mirror);
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
-  prepared.lit_by_lamps = lamps.roofed || (lamps.open && instant.light->night > 0.0f);
+  prepared.lit_by_lamps = lamps.shine(instant.light->night);
+  prepared.mirrored_by_road = mirror.present;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
   const std::vector<PuffRecord> puffs = puff_records(smoke, scene, *instant.light, view, eye_m);
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
@@ -113,8 +115,11 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   const std::vector<SmokePuff> smoke = merged_puffs(instant.smoke, eye_m);
   PreparedFrame frame;
   frame.shadows = shadow_cascades(eye_m, instant.light->light_direction);
+  if (road_mirrors(instant))
+    frame.road_mirror = prepare_road_mirror(context, scene, instant, frame.shadows, dynamic, lamps, width, height);
   for (const FrameView& view : instant.views)
-    frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps));
+    frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps, {},
+                                       {frame.road_mirror && frame.views.empty(), width, height}));
   frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {
     frame.ice_upload = upload_ice(context, instant.ice);

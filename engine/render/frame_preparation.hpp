@@ -2,11 +2,13 @@
 /// What a frame draws, decided on the CPU before anything is recorded: views, and what throws shadows into them.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/lamp_field.hpp"
+#include "engine/render/passes/road_mirror_pass.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
@@ -27,11 +29,13 @@ struct PreparedView {
   FrameData smoke;
   std::uint32_t puff_count = 0;
   bool lit_by_headlights = false, lit_by_lamps = false;
+  bool mirrored_by_road = false;  ///< The road mirror holds this view.
 };
 
 struct PreparedFrame {
   std::vector<PreparedView> views;
   ShadowCascades shadows;
+  std::optional<PreparedRoadMirror> road_mirror;  ///< Of the first view.
   std::array<SurfaceDraws, cascade_count> casters;
   IceTiles ice;
   IceUpload ice_upload;

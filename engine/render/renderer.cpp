@@ -24,6 +24,7 @@
 #include "engine/render/passes/lamp_field.hpp"
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
+#include "engine/render/passes/road_mirror_pass.hpp"
 #include "engine/render/passes/shadow_pass.hpp"
 #include "engine/render/passes/sky_pass.hpp"
 #include "engine/render/passes/smoke_pass.hpp"
@@ -67,6 +68,7 @@ struct Renderer::State {
   GlowPass glow_pass;
   PrecipitationPass precipitation_pass;
   SmokePass smoke_pass;
+  RoadMirrorPass road_mirror_pass;
   IcePass ice_pass;
   ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;
@@ -88,6 +90,7 @@ struct Renderer::State {
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
   void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
                  const std::function<void()>& draw_seen_through);
+  ViewBindings view_bindings() const { return {{}, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view}; }
   void draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant);
   void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
@@ -150,6 +153,7 @@ void Renderer::State::destroy() {
   destroy_smoothing_pass(smoothing_pass, device);
   destroy_tone_mapping_pass(tone_mapping_pass, device);
   destroy_ice_pass(ice_pass, device, memory);
+  destroy_road_mirror(road_mirror_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
   destroy_precipitation_pass(precipitation_pass, device);
   destroy_contact_pass(contact_pass, device);
@@ -170,16 +174,28 @@ void Renderer::State::destroy() {
   destroy_device(device);
 }
 
+namespace {
+SurfaceLight surface_light_of(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps) {
+  return {instant.environment.road_wetness > 0.0, lit_by_headlights, lit_by_lamps,
+          instant.environment.snow_cover > 0.0, !instant.soot.cover.empty()};
+}
+}  // namespace
+
 void Renderer::State::draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant,
                                 const FrameData& soot, const std::function<void()>& draw_seen_through) {
   const Environment& environment = instant.environment;
   set_viewport(context, prepared.view->viewport);
   vkCmdSetFrontFace(context.slot.commands,
                     prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-  push_view(context, {prepared.uniforms, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view});
+  ViewBindings bindings = view_bindings();
+  bindings.uniforms = prepared.uniforms;
+  if (prepared.mirrored_by_road) {
+    bindings.road_mirror = road_mirror_pass.image.view;
+    bindings.ripples = road_mirror_pass.ripples.view;
+  }
+  push_view(context, bindings);
   bind_instances(context, prepared.draws.records);
-  const SurfaceLight surface_light{environment.road_wetness > 0.0, prepared.lit_by_headlights, prepared.lit_by_lamps,
-                                   environment.snow_cover > 0.0, !instant.soot.cover.empty()};
+  const SurfaceLight surface_light = surface_light_of(instant, prepared.lit_by_headlights, prepared.lit_by_lamps);
   push_records(context, soot);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
   mark_pass(context, "opaque");
@@ -277,6 +293,11 @@ void Renderer::State::draw(const Instant& instant) {
     prepare_ice_targets(ice_pass, context, ice_sizes);
   }
 
+  if (frame.road_mirror && !road_mirror_fits(road_mirror_pass, targets.width, targets.height)) {
+    wait_for_frames(ring, device);
+    prepare_road_mirror_targets(road_mirror_pass, memory, formats, targets.width, targets.height);
+  }
+
   RenderGraph graph;
   std::vector<vulkan::ImageBarrier> images;  // By resource.
   const auto add_image = [&](const char* name, const vulkan::DeviceImage& image, Access held) {
@@ -311,6 +332,25 @@ void Renderer::State::draw(const Instant& instant) {
   });
   std::vector<ResourceUse> view_reads{
       {table, Access::sampled}, {shadow_map, Access::sampled}, {lamp_field, Access::sampled}};
+  std::array<ResourceId, 3> mirror{};  // Image, depth, ripples.
+  if (frame.road_mirror) {
+    mirror = {add_image("road mirror", road_mirror_pass.image, road_mirror_pass.image_access),
+              add_image("road mirror depth", road_mirror_pass.depth, road_mirror_pass.depth_access),
+              add_image("ripples", road_mirror_pass.ripples, road_mirror_pass.ripples_access)};
+    graph.add_pass("ripples", {{}, {{mirror[2], Access::transfer_destination}}},
+                   [&] { upload_ripples(road_mirror_pass, context, instant); });
+    graph.add_pass("road mirror",
+                   {view_reads, {{mirror[0], Access::color_attachment}, {mirror[1], Access::depth_attachment}}}, [&] {
+                     draw_road_mirror(road_mirror_pass, context, scene, *frame.road_mirror, instant.views.front(),
+                                      view_bindings(),
+                                      store(context, std::span<const std::uint8_t>(instant.soot.cover)),
+                                      surface_light_of(instant, frame.road_mirror->lit_by_headlights,
+                                                        frame.road_mirror->lit_by_lamps));
+                     mark_pass(context, "road mirror");
+                   });
+    view_reads.push_back({mirror[0], Access::sampled});
+    view_reads.push_back({mirror[2], Access::sampled});
+  }
   std::optional<IceResources> ice;
   if (icy) {
     ice = add_ice_passes(
@@ -379,6 +419,11 @@ void Renderer::State::draw(const Instant& instant) {
   if (ice)
     for (std::size_t i = 0; i < ice_image_count; ++i) ice_pass.targets.accesses[i] = left[(*ice)[i]];
   if (mapped) targets.mapped_access = left[*mapped];
+  if (frame.road_mirror) {
+    road_mirror_pass.image_access = left[mirror[0]];
+    road_mirror_pass.depth_access = left[mirror[1]];
+    road_mirror_pass.ripples_access = left[mirror[2]];
+  }
   if (window_image) {
     submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});
     present(swapchain, device, *window_image);

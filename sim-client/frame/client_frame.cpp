@@ -129,6 +129,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         auto interior = drawn;
         interior.prototype = *inside;
         interior.shown = instant::Shown::whole;
+        interior.raises_spray = false;  // The car around it does.
         if (participant.id == shown.driver_car.participant)
           interior.steering_wheel_rad = shown.driver_car.steering_wheel_rad;
         frame.participants.push_back(interior);

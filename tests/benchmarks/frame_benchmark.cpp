@@ -105,6 +105,9 @@ void virtual_screen_frame(benchmark::State& state, std::uint32_t width, std::uin
     car.world_from_vehicle = in_lane(-2 - i % 5, weather.s_m + 25.0 * i);
     car.paint = body_color(static_cast<std::uint8_t>(i));
     car.lamps.set(Lamp::low_beam, weather.lamps);
+    car.velocity_mps = car.world_from_vehicle.orientation * Vec3(25.0, 0.0, 0.0);
+    car.raises_spray = true;
+    car.number = static_cast<std::uint32_t>(i);
     input.participants.push_back(car);
   }
   double s_m = weather.s_m - 10.0;

@@ -12,7 +12,7 @@ InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m) {
   const glm::mat3& m = placed.world_from_object;
   return {glm::vec4(m[0].x, m[1].x, m[2].x, origin_m.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin_m.y),
           glm::vec4(m[0].z, m[1].z, m[2].z, origin_m.z), placed.tint,
-          glm::vec4(placed.share_of_sky, placed.snowed_on, placed.number, 0.0f)};
+          glm::vec4(placed.share_of_sky, placed.snowed_on, placed.number, placed.over_road_m)};
 }
 
 ViewVolume view_volume(const FrameView& view) {

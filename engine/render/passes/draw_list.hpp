@@ -22,8 +22,9 @@ namespace septet::render {
 /// What a vertex shader takes for each instance: see shaders/instances.glsl and surface.vert.
 struct InstanceRecord {
   glm::vec4 row0{0.0f}, row1{0.0f}, row2{0.0f};
-  glm::vec4 tint{1.0f};   ///< Paint; how much of the material's emission shines.
-  glm::vec4 light{1.0f};  ///< x: share of the sky. y: snow lies on it. z: number of its participant.
+  glm::vec4 tint{1.0f};  ///< Paint; how much of the material's emission shines.
+  glm::vec4 light{
+      1.0f};  ///< x: share of the sky. y: snow lies on it. z: number of its participant. w: its height over the road.
 };
 static_assert(sizeof(InstanceRecord) == 80);
 

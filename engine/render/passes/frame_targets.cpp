@@ -47,13 +47,13 @@ void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory) {
 }
 
 void begin_view_rendering(PassContext& context, const vulkan::DeviceImage& target,
-                          const vulkan::DeviceImage& depth_target) {
+                          const vulkan::DeviceImage& depth_target, float alpha) {
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   color.imageView = target.view;
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  color.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
+  color.clearValue.color = {{0.0f, 0.0f, 0.0f, alpha}};
   VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   depth.imageView = depth_target.view;
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;

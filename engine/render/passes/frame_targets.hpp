@@ -26,9 +26,9 @@ void create_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory, con
                           std::uint32_t width, std::uint32_t height, bool smoothed);
 void destroy_frame_targets(FrameTargets& targets, vulkan::MemoryPool& memory);
 
-/// Begins drawing into all of a target and its depth, cleared to darkness and an empty depth.
+/// Begins drawing into all of a target and its depth, cleared to darkness of this alpha and an empty depth.
 void begin_view_rendering(PassContext& context, const vulkan::DeviceImage& target,
-                          const vulkan::DeviceImage& depth_target);
+                          const vulkan::DeviceImage& depth_target, float alpha = 1.0f);
 /// Empties the depth of a part of the target, for a view that lies over another, and draws a black rim around it.
 void clear_inset(PassContext& context, const FrameTargets& targets, const PixelRectangle& rectangle);
 

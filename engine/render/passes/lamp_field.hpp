@@ -26,6 +26,9 @@ struct LampField {
   bool open = false, roofed = false;  ///< Are there lamps of that kind?
   glm::vec3 hue{1.0f};                ///< Their colour, of luminance 1.
   std::vector<glm::vec4> texels;      ///< Rows to the north; empty without lamps.
+
+  /// Whether any of them lights something, in so deep a night (0 to 1).
+  bool shine(float night) const { return roofed || (open && night > 0.0f); }
 };
 
 /// The corner of the field around an eye.

@@ -64,20 +64,25 @@ FrameData store(PassContext& context, std::span<const std::byte> bytes) {
 void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
   // Without an image of its own a material still needs something bound: the noise.
-  const VkDescriptorImageInfo images[5] = {
+  const auto or_noise = [&](VkImageView view) { return view ? view : bindings.noise; };
+  const VkDescriptorImageInfo images[7] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-      {context.samplers.table, bindings.lamp_field, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[6] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+      {context.samplers.table, bindings.lamp_field, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.table, or_noise(bindings.road_mirror), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.surface, or_noise(bindings.ripples), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
+  VkWriteDescriptorSet writes[8] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
                                     write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-                                    write(vulkan::binding_lamps, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+                                    write(vulkan::binding_lamps, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_road_mirror, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_ripples, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
-  for (int i = 0; i < 5; ++i) writes[1 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 7; ++i) writes[1 + i].pImageInfo = &images[i];
   push(context, writes);
 }
 

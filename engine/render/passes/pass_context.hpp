@@ -65,6 +65,7 @@ struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
               lamp_field = VK_NULL_HANDLE;
+  VkImageView road_mirror = VK_NULL_HANDLE, ripples = VK_NULL_HANDLE;  ///< None: the noise takes their place, unread.
 };
 
 void push_view(PassContext& context, const ViewBindings& bindings);

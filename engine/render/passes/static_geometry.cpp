@@ -201,7 +201,7 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
 InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m) {
   const glm::vec3 origin(block.origin_m - eye_m);
   return {glm::vec4(1, 0, 0, origin.x), glm::vec4(0, 1, 0, origin.y), glm::vec4(0, 0, 1, origin.z), glm::vec4(1.0f),
-          glm::vec4(1.0f)};
+          glm::vec4(1.0f, 1.0f, 1.0f, PlacedMesh::unknown_road)};
 }
 
 }  // namespace septet::render

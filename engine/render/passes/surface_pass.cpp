@@ -11,11 +11,11 @@ namespace {
 struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
-  bool glossy, snowy, sooty;
+  bool glossy, snowy, sooty, road, mirror;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | lamps << 2 | std::uint32_t{glossy} << 4 | std::uint32_t{snowy} << 5 | std::uint32_t{sooty} << 6 |
-           static_cast<std::uint32_t>(kind) << 7;
+           static_cast<std::uint32_t>(kind) << 7 | std::uint32_t{road} << 9 | std::uint32_t{mirror} << 10;
   }
 };
 
@@ -36,13 +36,15 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
   description.color_format = context.formats.radiance;
   description.depth_format = context.formats.depth;
   description.samples = context.formats.samples;
-  description.blend = blended ? vulkan::Blend::over : vulkan::Blend::none;
-  description.depth_write = !blended;
+  // What one sees through is opaque in a puddle.
+  description.blend = variant.mirror ? vulkan::Blend::data : blended ? vulkan::Blend::over : vulkan::Blend::none;
+  description.depth_write = variant.mirror || !blended;
   description.alpha_to_coverage = cut && multisampled;
   description.constants = {variant.textured, cut ? (multisampled ? 1u : 2u) : 0u,
                            variant.glossy,   blended,
                            variant.lamps,    variant.snowy,
-                           variant.sooty,    stripe};
+                           variant.sooty,    stripe,
+                           variant.road,     variant.mirror};
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }
@@ -69,8 +71,9 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const bool textured = material.image >= 0;
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const bool glossy = material.glossy || (light.wet && material.wettable);
-    const VkPipeline pipeline =
-        pipeline_of(pass, context, {texturing, light.lamps(), glossy, light.snowy, light.sooty, kind});
+    const VkPipeline pipeline = pipeline_of(
+        pass, context,
+        {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable, light.mirror_of_road, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

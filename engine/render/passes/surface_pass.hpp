@@ -21,7 +21,8 @@ struct SurfaceLight {
   bool wet = false;                                 ///< Wettable materials mirror.
   bool headlights = false, standing_lamps = false;  ///< Light what they reach.
   bool snowy = false;
-  bool sooty = false;  ///< FrameInput::soot is bound.
+  bool sooty = false;           ///< FrameInput::soot is bound.
+  bool mirror_of_road = false;  ///< Drawn as what a wet road mirrors: with an alpha of its own.
 
   std::uint32_t lamps() const { return std::uint32_t{headlights} | std::uint32_t{standing_lamps} << 1; }
 };

@@ -39,10 +39,26 @@ void set_soot(ViewUniforms& uniforms, const Vec3& eye_m, const SootField& soot) 
   uniforms.soot_size = glm::vec4(soot.nx, soot.ny, soot.nz, 0.0f);
 }
 
+/// What lies in a tile that repeats, so that floats hold it.
+glm::vec2 within_tile(const Vec3& place_m, double tile_m) {
+  return {static_cast<float>(place_m.x - tile_m * std::floor(place_m.x / tile_m)),
+          static_cast<float>(place_m.y - tile_m * std::floor(place_m.y / tile_m))};
+}
+
+void set_water(ViewUniforms& uniforms, const Vec3& eye_m, const Instant& instant, const RoadMirror& mirror) {
+  if (instant.road)
+    uniforms.road = glm::vec4(instant.road->normal,
+                              static_cast<float>(glm::dot(Vec3(instant.road->normal), instant.road->point_m - eye_m)));
+  uniforms.water = glm::vec4(within_tile(eye_m, instant::puddle_tile_m), mirror.present ? 1.0f : 0.0f,
+                             mirror.present && instant.environment.rain_mm_per_h > 0.0 ? 1.0f : 0.0f);
+  uniforms.target = glm::vec4(1.0f / static_cast<float>(mirror.width), 1.0f / static_cast<float>(mirror.height),
+                              within_tile(eye_m, instant::ripple_tile_m));
+}
+
 }  // namespace
 
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
-                           const LampField& lamps) {
+                           const LampField& lamps, const RoadMirror& mirror) {
   const SkyLight& light = *instant.light;
   ViewUniforms uniforms{};
   const OffAxisView& projection = view.projection;
@@ -88,6 +104,7 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   uniforms.lamp_field =
       glm::vec4(offset, static_cast<float>(1.0 / extent_m), instant::open_lamps_light_up(light.night));
   uniforms.lamp_hue = glm::vec4(lamps.hue, instant::roofed_lamps_light_up);
+  set_water(uniforms, eye_m, instant, mirror);
   return uniforms;
 }
 

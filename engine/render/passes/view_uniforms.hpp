@@ -27,11 +27,18 @@ struct ViewUniforms {
   std::array<glm::vec4, most_headlights> headlight_position, headlight_direction;
   glm::vec4 soot_x, soot_y, soot_z, soot_size;
   glm::vec4 lamp_field, lamp_hue;
+  glm::vec4 road, water, target;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 6) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 6 + 3) * 16);
+
+/// Where the wet road's mirror image of a view lies in a picture.
+struct RoadMirror {
+  bool present = false;
+  std::uint32_t width = 1, height = 1;  ///< Of the picture, pixels.
+};
 
 /// Of the headlights the nearest count.
 ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const ShadowCascades& shadows,
-                           const LampField& lamps);
+                           const LampField& lamps, const RoadMirror& mirror = {});
 
 }  // namespace septet::render

@@ -5,6 +5,7 @@
 #include "headlights.glsl"
 #include "sunlit.glsl"
 #include "lamplight.glsl"
+#include "wet_road.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
@@ -15,6 +16,8 @@ layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 s
 layout(constant_id = 5) const uint snowy = 0;
 layout(constant_id = 6) const uint sooty = 0;
 layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
+layout(constant_id = 8) const uint road = 0;            // Gets wet; wheels run on it.
+layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet road mirrors.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -81,6 +84,8 @@ vec4 headlights(vec3 n) {
 }
 
 void main() {
+  // What stands still and lies lower than the road is not mirrored by it.
+  if (mirror_of_road != 0 && snowed > 0.5 && dot(view.road.xyz, relative) < view.road.w) discard;
   vec4 base = color;
   if (textured == 1) base *= decoded(texture(image, uv));
   if (textured == 2) base *= decoded(along_footprint(uv));
@@ -107,13 +112,19 @@ void main() {
       albedo = mix(albedo, vec3(0.11, 0.09, 0.07) * (0.4 + 2.0 * albedo.g), 0.9 * view.weather.y);
       snow = max(snow, 0.35);
     }
-    if (textured == 2) snow *= 1.0 - 0.7 * smoothstep(0.13, 0.07, abs(abs(uv.x - 0.5) - 0.23));
+    if (road != 0 && textured != 0) snow *= 1.0 - 0.7 * smoothstep(0.13, 0.07, abs(abs(uv.x - 0.5) - 0.23));
     albedo = mix(albedo, vec3(0.85, 0.88, 0.92), view.weather.y * share_of_sky * snow * snowed);
   }
-  float wet = 0.0;
-  if (glossy != 0 && material.surface.z > 0.5) {
+  float wet = 0.0, under_water = 0.0;
+  vec2 slope = vec2(0.0);
+  if (glossy != 0 && road != 0) {
     wet = view.weather.x * share_of_sky;
-    albedo *= 1.0 - 0.55 * wet;
+    vec2 ground = relative.xy + view.water.xy;
+    vec2 across = dFdx(ground), down = dFdy(ground);
+    float footprint_m = sqrt(max(dot(across, across), dot(down, down)));
+    under_water = puddle(ground, footprint_m, textured != 0 ? rut_at(uv.x) : 0.0, wet);
+    slope = under_water * ripple_slope(relative.xy, footprint_m);
+    albedo *= (1.0 - 0.55 * wet) * (1.0 - 0.3 * under_water);
   }
 
   vec3 to_light = view.light_direction.xyz;
@@ -146,21 +157,25 @@ void main() {
 
   if (glossy != 0) {
     // Microfacets (GGX, with Kelemen's visibility 1/(4·vh²)) for the light, the sky's table for the mirror image.
-    bool road = material.surface.z > 0.5;
-    float r = mix(roughness, 0.12, wet);
-    vec3 f0 = mix(vec3(mix(material.surface.y, 0.02, wet)), albedo, material.surface.x);
-    float cosine = clamp(dot(n, to_eye), 0.0, 1.0);
+    float r = road != 0 ? mix(0.12, 0.03, under_water) : roughness;
+    vec3 f0 = road != 0 ? vec3(0.02) : mix(vec3(material.surface.y), albedo, material.surface.x);
+    vec3 facet = road != 0 ? normalize(n - vec3(slope, 0.0)) : n;
+    float cosine = clamp(dot(facet, to_eye), 0.0, 1.0);
     vec3 fresnel = f0 + (max(vec3(1.0 - r), f0) - f0) * fifth_power(1.0 - cosine);
-    vec3 mirrored = reflect(-to_eye, n);
-    if (road) mirrored = normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)));
+    vec3 mirrored = reflect(-to_eye, facet);
+    if (road != 0) mirrored = normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)));
     vec3 around = sky_radiance(mirrored) * share_of_sky + vec3(0.15, 0.13, 0.10) * (1.0 - share_of_sky);
-    radiance += fresnel * around * (road ? 0.36 * wet : 1.0 - 0.7 * r);
+    if (road != 0) {
+      vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, 0.85 * r * r);
+      around = around * (1.0 - near_by.a) + near_by.rgb;
+    }
+    radiance += fresnel * around * (road != 0 ? mix(0.36 * wet, 0.95, under_water) : 1.0 - 0.7 * r);
     vec3 h = normalize(to_light + to_eye);
     float a2 = r * r * r * r;
-    float nh = max(dot(n, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
+    float nh = max(dot(facet, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
     float d = nh * nh * (a2 - 1.0) + 1.0;
     vec3 shine = (f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh));
-    radiance += min(shine, vec3(40.0)) * sunlight * (max(facing, 0.0) * (road ? wet : 1.0));
+    radiance += min(shine, vec3(40.0)) * sunlight * (max(facing, 0.0) * (road != 0 ? wet : 1.0));
     if (blended != 0 && stripe == 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
   }
   radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) * view.light_irradiance.w;
@@ -168,6 +183,7 @@ void main() {
 
   float fog = 1.0 - exp2(-distance_m * view.sky_irradiance.w);
   radiance = mix(radiance, fog_light, fog);
+  if (mirror_of_road != 0) alpha = 1.0;
   result = vec4(radiance, alpha);
   if (blended != 0) result.rgb *= alpha;
 }

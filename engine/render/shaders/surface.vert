@@ -5,12 +5,13 @@
 #include "material.glsl"
 
 layout(constant_id = 7) const uint stripe = 0;
+layout(constant_id = 9) const uint mirror_of_road = 0;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec3 normal;
 layout(location = 6) in vec4 tint;   // rgb: paint. a: how much of the material's emission shines.
-layout(location = 7) in vec4 light;  // Share of the sky that reaches it, whether snow lies on it, number of its participant.
+layout(location = 7) in vec4 light;  // Share of the sky that reaches it, whether snow lies on it, number of its participant, its height over the road.
 
 layout(location = 0) out vec3 out_relative;
 layout(location = 1) out vec3 out_normal;
@@ -37,6 +38,13 @@ float widen_stripe() {
   return min(0.01, 0.03 * more_m / max(abs(out_relative.z), 0.3));
 }
 
+// Where water on the road shows this place: below the road under its vehicle, or else under the eye.
+vec3 below_road(vec3 place) {
+  vec3 up = view.road.xyz;
+  float road = light.w > -5000.0 ? dot(up, vec3(row0.w, row1.w, row2.w)) - light.w : view.road.w;
+  return place - up * (2.0 * (dot(up, place) - road));
+}
+
 void main() {
   out_relative = placed(position);
   out_normal = turned_normal(normal);
@@ -50,5 +58,6 @@ void main() {
   out_color = vec4(material.base_color.rgb * paint, material.base_color.a);
   out_emission = vec4(material.emission.rgb * tint.a, material.light.x * light.x);
   out_fog = fog_radiance(out_relative / max(length(out_relative), 1e-3));
-  gl_Position = view.clip_from_relative * vec4(out_relative * (1.0 - nearer), 1.0);
+  vec3 drawn = mirror_of_road != 0 ? below_road(out_relative) : out_relative * (1.0 - nearer);
+  gl_Position = view.clip_from_relative * vec4(drawn, 1.0);
 }

@@ -22,6 +22,9 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 soot_size;               // xyz: cells.
   vec4 lamp_field;              // From relative places to the field's coordinates: xy·z + xy. w: how strongly lamps in the open light.
   vec4 lamp_hue;                // rgb. w: how strongly lamps under roofs light.
+  vec4 road;    // xyz: normal of the road near the eye, w: its height along that from the eye.
+  vec4 water;   // xy: the eye within a tile of puddles, m. z: 1 where mirror_image holds this view, w: where ripples hold rain.
+  vec4 target;  // xy: a pixel as a share of the target's width and height. zw: the eye within a tile of ripples, tiles.
 } view;
 
 layout(set = 0, binding = 2) uniform sampler2D sky_table;

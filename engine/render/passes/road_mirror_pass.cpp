@@ -1,0 +1,137 @@
+#include "engine/render/passes/road_mirror_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "engine/instant/wet_road.hpp"
+#include "engine/render/passes/dynamic_surfaces.hpp"
+#include "engine/render/passes/frame_targets.hpp"
+
+namespace septet::render {
+namespace {
+
+/// Beyond this what stands still is no longer mirrored: the road is not that flat, and pixels are too small to tell.
+constexpr float still_range_m = 120.0f, vehicle_range_m = 250.0f;
+/// Half the size and spread by the water, an image needs no more than what is drawn further off.
+constexpr DetailOf mirror_detail{{0.0f, 3.0f}, {40.0f, 2.0f}};
+
+constexpr std::uint32_t half(std::uint32_t px) { return std::max(1u, (px + 1) / 2); }
+
+PixelRectangle halved(const PixelRectangle& whole) {
+  return {whole.x / 2, whole.y / 2, half(whole.width), half(whole.height)};
+}
+
+}  // namespace
+
+bool road_mirrors(const Instant& instant) {
+  return instant.environment.road_wetness > 0.0 && instant.road && instant.share_of_sky > 0.1f;
+}
+
+bool road_mirror_fits(const RoadMirrorPass& pass, std::uint32_t width, std::uint32_t height) {
+  return pass.image.image != VK_NULL_HANDLE && pass.image.description.width == half(width) &&
+         pass.image.description.height == half(height);
+}
+
+void prepare_road_mirror_targets(RoadMirrorPass& pass, vulkan::MemoryPool& memory, const TargetFormats& formats,
+                                 std::uint32_t width, std::uint32_t height) {
+  destroy_image(memory, pass.image);
+  destroy_image(memory, pass.depth);
+  vulkan::ImageDescription description;
+  description.width = half(width);
+  description.height = half(height);
+  description.format = formats.radiance;
+  description.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  pass.image = create_image(memory, description);
+  description.format = formats.depth;
+  description.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  description.aspect = VK_IMAGE_ASPECT_DEPTH_BIT;
+  pass.depth = create_image(memory, description);
+  pass.image_access = pass.depth_access = Access::none;
+  if (pass.ripples.image != VK_NULL_HANDLE) return;
+  description.width = description.height = instant::ripple_side;
+  description.format = VK_FORMAT_R16G16_SFLOAT;
+  description.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+  description.aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+  pass.ripples = create_image(memory, description);
+}
+
+void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory) {
+  destroy_surface_pass(pass.surfaces, device);
+  for (vulkan::DeviceImage* image : {&pass.image, &pass.depth, &pass.ripples}) destroy_image(memory, *image);
+  pass = {};
+}
+
+PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& scene, const Instant& instant,
+                                       const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
+                                       const LampField& lamps, std::uint32_t width, std::uint32_t height) {
+  const FrameView& view = instant.views.front();
+  const Vec3 eye_m = world_eye(view);
+  const ViewVolume volume = view_volume(view);
+  const OffAxisView& projection = view.projection;
+  const double pixel_slope = (projection.top_slope - projection.bottom_slope) / std::max(1u, view.viewport.height);
+  const auto least = static_cast<float>(2.0 * pixel_slope);
+  const glm::vec3 up = instant.road->normal;
+  const auto road = static_cast<float>(glm::dot(Vec3(up), instant.road->point_m - eye_m));
+  const auto keep = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
+    const bool still = mesh.over_road_m <= 0.5f * PlacedMesh::unknown_road;
+    const float distance_m = glm::length(centre_m);
+    if (!mesh.seen || mesh.radius_m < least * distance_m) return false;
+    // What casts no shadow is ground.
+    if (still && (!mesh.casts_shadow || distance_m - mesh.radius_m > still_range_m)) return false;
+    if (distance_m - mesh.radius_m > vehicle_range_m) return false;
+    const float plane = still ? road : glm::dot(up, centre_m - mesh.centre_m) - mesh.over_road_m;
+    return intersects(volume, centre_m - up * (2.0f * (glm::dot(up, centre_m) - plane)), mesh.radius_m);
+  };
+  PreparedRoadMirror prepared;
+  prepared.draws = prepare_draws(
+      context, scene, instant.parts, dynamic, eye_m, keep,
+      [&](std::uint32_t material) {
+        return material < scene.materials.size() && !scene.materials[material].wettable ? material : no_group;
+      },
+      mirror_detail);
+  const ViewUniforms uniforms = view_uniforms(view, instant, shadows, lamps, {false, width, height});
+  prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
+  prepared.lit_by_lamps = lamps.shine(instant.light->night);
+  prepared.uniforms = store(context, std::span(&uniforms, 1));
+  return prepared;
+}
+
+void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceScene& scene,
+                      const PreparedRoadMirror& prepared, const FrameView& view, const ViewBindings& bindings,
+                      const FrameData& soot, const SurfaceLight& light) {
+  TargetFormats formats = context.formats;
+  formats.samples = VK_SAMPLE_COUNT_1_BIT;
+  PassContext mirror{context.device, context.memory, context.layout,    context.samplers,
+                     formats,        context.slot,   context.statistics};
+  begin_view_rendering(mirror, pass.image, pass.depth, 0.0f);
+  set_viewport(mirror, halved(view.viewport));
+  // Upside down, front faces run the other way round.
+  vkCmdSetFrontFace(context.slot.commands, view.mirrored ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE);
+  ViewBindings own = bindings;
+  own.uniforms = prepared.uniforms;
+  own.road_mirror = VK_NULL_HANDLE;
+  push_view(mirror, own);
+  bind_instances(mirror, prepared.draws.records);
+  push_records(mirror, soot);
+  SurfaceLight mirrored = light;
+  mirrored.mirror_of_road = true;
+  for (const SurfaceKind kind : {SurfaceKind::opaque, SurfaceKind::cut, SurfaceKind::blended})
+    draw_surfaces(pass.surfaces, mirror, scene, prepared.draws, kind, mirrored);
+  vkCmdEndRendering(context.slot.commands);
+}
+
+void upload_ripples(const RoadMirrorPass& pass, PassContext& context, const Instant& instant) {
+  const std::vector<glm::vec2> slopes =
+      instant::ripple_slopes(instant.environment.rain_mm_per_h, instant.simulated_time_s);
+  std::vector<std::uint32_t> texels(slopes.size());
+  std::ranges::transform(slopes, texels.begin(), [](const glm::vec2& slope) { return glm::packHalf2x16(slope); });
+  upload_texels(context, pass.ripples, std::as_bytes(std::span(texels)));
+}
+
+}  // namespace septet::render

@@ -1,0 +1,48 @@
+#pragma once
+/// What a wet road mirrors: vehicles and what stands beside the road, drawn upside down below it into a picture of half the size, and the
+/// rings of rain on its water.
+///
+/// Every vehicle is mirrored in the road that it stands on, what stands still in the plane of the road near the eye (Instant::road), no
+/// further than the road is about flat. The road's shader reads the picture where its pixels lie, shifted and spread as its water is tilted
+/// (shaders/wet_road.glsl). Only a frame's first view has one: mirrors over it are small. Screens of a rig draw the same geometry, so that it
+/// meets at their edges.
+
+#include "engine/instant/instant.hpp"
+#include "engine/render/passes/lamp_field.hpp"
+#include "engine/render/passes/surface_pass.hpp"
+#include "engine/render/passes/view_uniforms.hpp"
+
+namespace septet::render {
+
+struct RoadMirrorPass {
+  SurfacePass surfaces;  ///< Pipelines for one sample a pixel.
+  vulkan::DeviceImage image, depth, ripples;
+  Access image_access = Access::none, depth_access = Access::none, ripples_access = Access::none;
+};
+
+/// What it draws of a frame.
+struct PreparedRoadMirror {
+  SurfaceDraws draws;
+  FrameData uniforms;
+  bool lit_by_headlights = false, lit_by_lamps = false;
+};
+
+/// Whether a frame has one.
+bool road_mirrors(const Instant& instant);
+/// Whether its images are there for a target of this size.
+bool road_mirror_fits(const RoadMirrorPass& pass, std::uint32_t width, std::uint32_t height);
+/// Makes them anew. No frame that uses them may be in flight.
+void prepare_road_mirror_targets(RoadMirrorPass& pass, vulkan::MemoryPool& memory, const TargetFormats& formats,
+                                 std::uint32_t width, std::uint32_t height);
+void destroy_road_mirror(RoadMirrorPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
+
+/// Of the first view.
+PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& scene, const Instant& instant,
+                                       const ShadowCascades& shadows, const DynamicSurfaces& dynamic,
+                                       const LampField& lamps, std::uint32_t width, std::uint32_t height);
+void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceScene& scene,
+                      const PreparedRoadMirror& prepared, const FrameView& view, const ViewBindings& bindings,
+                      const FrameData& soot, const SurfaceLight& light);
+void upload_ripples(const RoadMirrorPass& pass, PassContext& context, const Instant& instant);
+
+}  // namespace septet::render

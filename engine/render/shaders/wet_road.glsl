@@ -1,0 +1,30 @@
+// Water on a road: the twin of engine/instant/wet_road.hpp.
+
+layout(set = 0, binding = 13) uniform sampler2D mirror_image;  // What the road mirrors, where the road is seen; alpha: there is something.
+layout(set = 0, binding = 14) uniform sampler2D ripples;       // Slopes of water.
+
+// 1 where wheels run, across a lane's image.
+float rut_at(float u) { return smoothstep(0.12, 0.05, abs(abs(u - 0.5) - 0.23)); }
+
+// Share of a place under water; further off, where a pixel is wider than a puddle, the mean.
+float puddle(vec2 ground, float footprint_m, float rut, float wetness) {
+  float share = 0.25 * clamp(2.0 * wetness - 1.0, 0.0, 1.0);
+  float root = textureLod(noise, ground / 48.0, 0.0).r;
+  float here = smoothstep(1.0 - share, 1.05 - share, root * root + 0.12 * rut) * step(1e-6, share);
+  return mix(here, share, smoothstep(0.4, 2.5, footprint_m));
+}
+
+// Slope of the water's surface: rings of rain, as long as a pixel tells them apart.
+vec2 ripple_slope(vec2 relative, float footprint_m) {
+  return textureLod(ripples, relative + view.target.zw, 0.0).rg * (view.water.w * (1.0 - smoothstep(0.03, 0.3, footprint_m)));
+}
+
+// What stands over the road as its water shows it, times the share of the mirrored directions that it takes, which is alpha. Facets of the water
+// tilt by `slope` and, up to a deviation, by `spread` rad; by about half of what that turns the ray, the image shifts.
+vec4 mirrored_on_road(vec2 ahead, vec2 slope, float spread) {
+  float per_rad = view.target.y / view.billboard_right.w;
+  vec2 at = gl_FragCoord.xy * view.target.xy, up = vec2(0.0, spread * per_rad);
+  at.y += dot(slope, ahead) * per_rad;
+  vec4 sum = textureLod(mirror_image, at, 0.0) + textureLod(mirror_image, at - up, 0.0) + textureLod(mirror_image, at + up, 0.0);
+  return sum * (view.water.z / 3.0);
+}

@@ -1,0 +1,196 @@
+/// What a wet road shows, in pictures that are measured.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/image/png.hpp"
+#include "engine/instant/clouds.hpp"
+#include "engine/instant/wet_road.hpp"
+#include "engine/render/renderer.hpp"
+#include "tests/engine/instant/reference_scene.hpp"
+
+namespace septet::render::wet_road_pictures {
+namespace {
+
+constexpr std::uint32_t width = 320, height = 210;
+constexpr double across_rad = 1.05;
+
+struct Drawing {
+  Renderer renderer;
+  ReferenceScene reference;
+
+  static Drawing make(const Vec3& origin_m = Vec3(0.0)) {
+    Expected<Renderer> renderer =
+        Renderer::create({width, height, DevicePreference::software, true, Antialiasing::none, nullptr});
+    REQUIRE(renderer.has_value());
+    ReferenceOptions options;
+    options.trees = 0;
+    options.origin_m = origin_m;
+    Drawing drawing{std::move(*renderer), reference_scene(options)};
+    REQUIRE(drawing.renderer.upload(drawing.reference.scene).has_value());
+    return drawing;
+  }
+
+  RadianceImage draw(const FrameInput& input, const std::string& name = {}) {
+    REQUIRE(renderer.draw(input).has_value());
+    if (!name.empty()) {
+      const std::filesystem::path folder = std::filesystem::path(SEPTET_BINARY_DIR) / "images";
+      std::filesystem::create_directories(folder);
+      CHECK(image::write_png(folder / (name + ".png"), *renderer.read_back()).has_value());
+    }
+    CHECK_MESSAGE(renderer.statistics().validation_messages == 0, renderer.statistics().first_validation_message);
+    return *renderer.read_radiance();
+  }
+};
+
+Environment overcast(double wetness, double rain_mm_per_h = 0.0) {
+  Environment environment = reference_day();
+  environment.cloud_cover = 1.0;
+  environment.road_wetness = wetness;
+  environment.rain_mm_per_h = rain_mm_per_h;
+  return environment;
+}
+
+/// A car of which only the shadow and the light are drawn stands around the eye: the road is below it.
+FrameInput ahead(const Drawing& drawing, const Environment& environment) {
+  FrameInput input;
+  input.environment = environment;
+  input.simulated_time_s = 3.0;
+  input.views = {forward_view({0, -1.875, 0.02}, width, height)};
+  DrawnParticipant own = reference_car(drawing.reference, {0, -1.875, 0.02});
+  own.shown = Shown::shadow_and_light;
+  input.participants = {own};
+  return input;
+}
+
+/// Where a place of the world is seen.
+std::pair<double, double> pixel_of(const FrameInput& input, const Vec3& place_m) {
+  const Vec3 from_eye = place_m - world_eye(input.views[0]);
+  const double scale = 0.5 * width / std::tan(0.5 * across_rad) / from_eye.x;
+  return {0.5 * width - from_eye.y * scale, 0.5 * height - from_eye.z * scale};
+}
+
+glm::dvec3 mean_around(const RadianceImage& picture, std::pair<double, double> at, int half_px) {
+  glm::dvec3 sum(0.0);
+  int count = 0;
+  for (int y = static_cast<int>(at.second) - half_px; y <= static_cast<int>(at.second) + half_px; ++y)
+    for (int x = static_cast<int>(at.first) - half_px; x <= static_cast<int>(at.first) + half_px; ++x, ++count)
+      sum += glm::dvec3(picture.radiance[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)]);
+  return sum / double(count);
+}
+
+/// By how much the upper tenth of the pixels of the road before the eye differ, beside their mean. Streaks of rain cover fewer.
+double moved(const RadianceImage& a, const RadianceImage& b) {
+  std::vector<double> away;
+  double sum = 0.0;
+  for (std::size_t y = height * 7 / 10; y < height; ++y)
+    for (std::size_t x = width / 3; x < width * 2 / 3; ++x) {
+      const double one = a.radiance[y * width + x].g, other = b.radiance[y * width + x].g;
+      sum += one;
+      away.push_back(std::abs(one - other));
+    }
+  std::ranges::sort(away);
+  return away[away.size() * 9 / 10] * static_cast<double>(away.size()) / sum;
+}
+
+/// Where along the world the most water stands on the road 3 to 8 m before an eye.
+Vec3 most_puddles() {
+  const std::vector<std::uint8_t> noise = instant::cloud_noise();
+  double most = -1.0;
+  Vec3 place_m(0.0);
+  for (double from_m = 0.0; from_m < instant::puddle_tile_m; from_m += 1.0) {
+    double sum = 0.0;
+    for (double x_m = 3.0; x_m < 8.0; x_m += 0.5)
+      for (double y_m = -1.5; y_m < 1.5; y_m += 0.5) sum += instant::puddle(noise, from_m + x_m, y_m - 1.5, 0.0f, 1.0f);
+    if (sum > most) most = sum, place_m = {from_m, 0.0, 0.0};
+  }
+  REQUIRE(most > 10.0);
+  return place_m;
+}
+
+}  // namespace
+
+TEST_CASE("a wet road shows a car upside down below it, as bright as water mirrors it, and a dry one does not") {
+  Drawing drawing = Drawing::make();
+  const double car_x_m = 21.0;
+  for (const double wetness : {0.0, 0.5}) {
+    FrameInput without = ahead(drawing, overcast(wetness)), with = without;
+    with.participants.push_back(reference_car(drawing.reference, {car_x_m, -1.875, 0.02}));
+    const RadianceImage empty = drawing.draw(without), full = drawing.draw(with, wetness > 0.0 ? "wet_mirror" : "");
+    // The back of the body, and its mirror image on the road before it.
+    const Vec3 back_m(car_x_m - 1.0, -1.875, 0.02 + 0.62), image_m(car_x_m - 1.0, -1.875, 0.02 - 0.62);
+    const auto at = pixel_of(with, image_m);
+    const glm::dvec3 body = mean_around(full, pixel_of(with, back_m), 2), sky = mean_around(empty, {160.0, 8.0}, 3);
+    const glm::dvec3 added = mean_around(full, at, 1) - mean_around(empty, at, 1);
+    const double height_m = world_eye(with.views[0]).z - 0.02;
+    const double way_m = (car_x_m - 1.0 - 1.2) * height_m / (height_m + 0.62);
+    const double cosine = height_m / std::hypot(height_m, way_m);
+    const double fresnel = 0.02 + 0.98 * std::pow(1.0 - cosine, 5.0);
+    INFO("wetness ", wetness, ": added ", added.r, ' ', added.g, ' ', added.b, ", body ", body.r, ' ', body.g, ", sky ",
+         sky.g, ", fresnel ", fresnel);
+    if (wetness == 0.0) {
+      CHECK(std::abs(added.g) < 0.01 * mean_around(empty, at, 1).g);
+    } else {
+      // The sky that was mirrored there gives way to the body, which is red.
+      CHECK(added.g < 0.0);
+      CHECK(added.r > added.g);
+      CHECK((added.r - added.g) / (fresnel * 0.36 * wetness * (body.r - body.g)) == doctest::Approx(1.0).epsilon(0.3));
+    }
+  }
+}
+
+TEST_CASE("a gantry is mirrored by the wet road before it") {
+  Drawing drawing = Drawing::make();
+  FrameInput input = ahead(drawing, overcast(1.0));
+  const RadianceImage with = drawing.draw(input, "wet_gantry");
+  input.participants.clear();  // Nobody stands on the road: where it lies is not known.
+  const RadianceImage without = drawing.draw(input);
+  // Its sign hangs 5.2 to 7.6 m over the road, 45 m ahead.
+  const auto at = pixel_of(input, {44.7, -2.0, -6.4});
+  CHECK(mean_around(with, at, 2).g < 0.97 * mean_around(without, at, 2).g);
+}
+
+TEST_CASE("rain rings the puddles, more of them the harder it rains, and moves them with simulated time") {
+  const Vec3 origin_m = most_puddles();
+  Drawing drawing = Drawing::make(origin_m);
+  std::vector<double> movement;
+  for (const double rain : {0.0, 2.0, 40.0}) {
+    FrameInput input = ahead(drawing, overcast(1.0, rain));
+    input.environment.temperature_k = 283.0;
+    input.views[0].world_from_car.position_m += origin_m;
+    input.participants[0].world_from_vehicle.position_m += origin_m;
+    const RadianceImage before = drawing.draw(input, rain == 40.0 ? "ripples" : "");
+    CHECK(before.radiance == drawing.draw(input).radiance);
+    input.simulated_time_s += 0.1;
+    movement.push_back(moved(before, drawing.draw(input)));
+  }
+  INFO("moved ", movement[0], ' ', movement[1], ' ', movement[2]);
+  CHECK(movement[0] < 1e-4);
+  CHECK(movement[1] > 0.002);
+  CHECK(movement[2] > 1.3 * movement[1]);
+}
+
+TEST_CASE("straight from above and under clouds, wet asphalt is 0.4 to 0.7 as bright as dry") {
+  Drawing drawing = Drawing::make();
+  double means[2]{};
+  for (const double wetness : {0.0, 1.0}) {
+    FrameInput input = ahead(drawing, overcast(wetness));
+    input.views[0].projection = symmetric_view({-4.0, 0.9, 6.0}, 0.0, -1.55, 0.6, 0.4);
+    const RadianceImage picture = drawing.draw(input);
+    means[wetness > 0.0] = mean_around(picture, {160.0, 105.0}, 40).g;
+  }
+  INFO("wet ", means[1], " dry ", means[0]);
+  CHECK(means[1] / means[0] > 0.4);
+  CHECK(means[1] / means[0] < 0.7);
+}
+
+}  // namespace septet::render::wet_road_pictures
