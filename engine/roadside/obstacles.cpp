@@ -13,6 +13,7 @@
 #include "engine/roadside/plane_cells.hpp"
 #include "engine/roadside/plants.hpp"
 #include "engine/roadside/signals.hpp"
+#include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street.hpp"
 #include "engine/roadside/tunnel_shape.hpp"
 
@@ -223,6 +224,20 @@ void add_house(const RigidTransform& world_from_house, const HouseBlock& block, 
     builder.line(ObstacleKind::house, {corners[i], corners[(i + 1) % corners.size()]});
 }
 
+/// What the file places: trees and lamps are among those above and below.
+void add_objects(const RoadShape& roads, Builder& builder) {
+  for (const StandingObject& object : standing_objects(roads)) {
+    if (object.kind == StandingKind::pole)
+      builder.point(ObstacleKind::post, object.world_from_object.position_m, object.radius_m);
+    for (std::size_t i = 0; i < object.footprint_m.size(); ++i) {
+      const auto corner = [&](std::size_t n) {
+        return object.world_from_object * Vec3(object.footprint_m[n % object.footprint_m.size()], 0.0);
+      };
+      builder.line(ObstacleKind::house, {corner(i), corner(i + 1)});
+    }
+  }
+}
+
 void add_land(const RoadShape& roads, const Terrain& terrain, std::uint64_t seed, Builder& builder) {
   for (const Tree& tree : planted_trees(roads, terrain, seed))
     builder.point(tree.kind == TreeKind::bush ? ObstacleKind::bush : ObstacleKind::tree, tree.foot_m,
@@ -256,6 +271,7 @@ Obstacles::Obstacles(const road::RoadNetwork& network, std::uint64_t seed, doubl
   add_tunnels(roads, tiles, builder);
   add_gantries(roads, builder);
   add_signals(roads, builder);
+  add_objects(roads, builder);
   add_land(roads, terrain_, seed, builder);
   close_ends();
   index();

@@ -8,6 +8,7 @@
 
 #include "engine/core/random.hpp"
 #include "engine/geometry/noise.hpp"
+#include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/street.hpp"
 
 namespace septet::roadside {
@@ -86,6 +87,15 @@ std::vector<Tree> planted_trees(const RoadShape& roads, const Terrain& terrain, 
     const Vec2 at(square), corner = at * side;
     if (at.x < first.x || at.y < first.y || at.x >= end.x || at.y >= end.y) continue;
     if (terrain.distance_m(corner + Vec2(side / 2)) < reach) plant_tile(terrain, seed, corner, side, random, trees);
+  }
+  for (const StandingObject& object : standing_objects(roads)) {
+    if (object.kind != StandingKind::tree && object.kind != StandingKind::bush) continue;
+    const Vec3& foot_m = object.world_from_object.position_m;
+    const bool bush = object.kind == StandingKind::bush;
+    constexpr double oak_m = 11.0, bush_m = 2.6;
+    const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
+    trees.push_back({bush ? TreeKind::bush : TreeKind::oak, foot_m, turn, object.height_m / (bush ? bush_m : oak_m),
+                     static_cast<int>(trees.size() % tree_variant_count)});
   }
   const std::vector<TownHouse> houses = town_houses(roads, seed);
   std::erase_if(trees, [&](const Tree& tree) { return is_in_house(houses, Vec2(tree.foot_m), 3.5); });

@@ -12,6 +12,7 @@
 #include "engine/road/lane_geometry.hpp"
 #include "engine/road/road_locate.hpp"
 #include "engine/roadside/plane_cells.hpp"
+#include "engine/roadside/standing_objects.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
@@ -142,6 +143,7 @@ TownHouseSize size_of(TownHouseKind kind) {
 
 std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed) {
   std::vector<TownHouse> houses;
+  if (gives(roads.network(), StandingKind::building)) return houses;
   LotBuilder builder(roads, houses);
   for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
     if (roads.road(index).junction != road::no_index) continue;
@@ -156,6 +158,11 @@ std::vector<TownHouse> town_houses(const RoadShape& roads, std::uint64_t seed) {
 std::vector<StreetLamp> street_lamps(const RoadShape& roads) {
   constexpr double spacing_m = 32.0, clear_of_signal_m = 4.0;
   std::vector<StreetLamp> lamps;
+  if (gives(roads.network(), StandingKind::lamp)) {
+    for (const StandingObject& object : standing_objects(roads))
+      if (object.kind == StandingKind::lamp && lamps.size() < most_lamps) lamps.push_back({object.world_from_object});
+    return lamps;
+  }
   for (road::RoadIndex index = 0; index < roads.network().roads.size(); ++index) {
     const road::Road& road = roads.road(index);
     if (road.junction != road::no_index) continue;

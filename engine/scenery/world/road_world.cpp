@@ -45,6 +45,7 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   if (!options.buildings) return;
   build_buildings(world);
   build_streets(world);
+  build_objects(world);
 }
 
 }  // namespace septet::scenery

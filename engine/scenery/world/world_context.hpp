@@ -55,6 +55,7 @@ void build_bridges(const WorldContext& world);
 void build_tunnels(const WorldContext& world);
 void build_gantries(const WorldContext& world);    ///< With signs and speed displays.
 void build_streets(const WorldContext& world);     ///< Houses and lamps of towns.
+void build_objects(const WorldContext& world);     ///< What the road file itself places beside the road.
 void build_signals(const WorldContext& world);     ///< Boards on posts, traffic lights.
 void build_road_paint(const WorldContext& world);  ///< Crossings, stop lines, arrows.
 void build_trees(const WorldContext& world);
