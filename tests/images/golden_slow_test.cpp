@@ -1,15 +1,18 @@
 /// What fixed instants on the scenario's motorway look like, compared with the pictures in golden/ (see the README there).
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "tests/images/flip.hpp"
 #include "tests/images/motorway_view.hpp"
 
 namespace septet {
@@ -17,28 +20,25 @@ namespace {
 
 constexpr std::uint32_t width = motorway_width_px, height = motorway_height_px;
 
-/// Mean difference of the three colours in steps of 255 that a tile may have. One in which an edge fell on the next pixel stays
-/// below it, one from which a car is missing does not.
-constexpr double accepted = 8.0;
+/// Mean FLIP that the whole and a tile may have. A tile in which an edge fell on the next pixel stays below it, one from which a car is missing does not.
+constexpr double accepted_mean = 0.01, accepted_tile = 0.12;
 constexpr std::uint32_t tile_px = 16;
 
 struct Difference {
   double mean = 0.0;           ///< Of the whole picture.
   double worst = 0.0;          ///< Of the tile that differs most.
   std::uint32_t x = 0, y = 0;  ///< Where that tile begins.
-  bool is_same() const { return mean < 1.0 && worst < accepted; }
+  bool is_same() const { return mean < accepted_mean && worst < accepted_tile; }
 };
 
-Difference difference(const image::Image& a, const image::Image& b) {
+Difference difference(const FlipFeatures& a, const FlipFeatures& b) {
+  const std::vector<float> flips = flip(a, b);
   // Mean over a rectangle.
   const auto over = [&](std::uint32_t left, std::uint32_t top, std::uint32_t wide, std::uint32_t high) {
     double sum = 0.0;
     for (std::uint32_t y = top; y < top + high; ++y)
-      for (std::uint32_t x = left; x < left + wide; ++x) {
-        const image::Color in_a = a.at(x, y), in_b = b.at(x, y);
-        sum += std::abs(in_a.red - in_b.red) + std::abs(in_a.green - in_b.green) + std::abs(in_a.blue - in_b.blue);
-      }
-    return sum / (3.0 * wide * high);
+      for (std::uint32_t x = left; x < left + wide; ++x) sum += double{flips[std::size_t{y} * a.width + x]};
+    return sum / (double{1.0} * wide * high);
   };
   Difference result;
   result.mean = over(0, 0, a.width, a.height);
@@ -110,9 +110,9 @@ TEST_CASE(
     REQUIRE(expected.has_value());
     REQUIRE(expected->width == width);
     REQUIRE(expected->height == height);
-    const Difference differs = difference(picture, *expected);
-    INFO("mean " << differs.mean << ", " << differs.worst << " of 255 in the tile at " << differs.x << ", " << differs.y
-                 << "; see " << made.string());
+    const Difference differs = difference(flip_features(*expected), flip_features(picture));
+    INFO("mean FLIP " << differs.mean << ", " << differs.worst << " in the tile at " << differs.x << ", " << differs.y
+                      << "; see " << made.string());
     CHECK(differs.is_same());
     if (differs.is_same()) continue;
     CHECK(image::write_png(made / ("golden-" + file), picture).has_value());
@@ -120,11 +120,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("pictures alike differ by nothing, white and black by nearly all, and an edge on the next pixel by little") {
+  image::Image black(64, 48), white(64, 48), edge(64, 48), next(64, 48);
+  for (std::uint32_t y = 0; y < 48; ++y)
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      black.set(x, y, {0, 0, 0});
+      white.set(x, y, {255, 255, 255});
+      edge.set(x, y, x < 32 ? image::Color{60, 60, 60} : image::Color{90, 90, 90});
+      next.set(x, y, x < 33 ? image::Color{60, 60, 60} : image::Color{90, 90, 90});
+    }
+  CHECK(difference(flip_features(edge), flip_features(edge)).mean == doctest::Approx(0.0));
+  // As flip.py has it.
+  CHECK(difference(flip_features(black), flip_features(white)).mean == doctest::Approx(0.9674).epsilon(2e-3));
+  const Difference moved = difference(flip_features(edge), flip_features(next));
+  CHECK(moved.mean == doctest::Approx(0.01016).epsilon(0.02));
+  CHECK(moved.worst < 0.5 * accepted_tile);
+}
+
 TEST_CASE("a picture from which one vehicle is missing is not the golden one") {
   constexpr long least_px = 100;  // What can be seen as a vehicle.
   Studio studio;
   const instant::FrameInput all = studio.motorway().frame(day_ahead);
   const image::Image whole = studio.draw(all);
+  const FlipFeatures of_whole = flip_features(whole);
   int seen = 0;
   for (std::size_t i = 0; i + 1 < all.participants.size(); ++i) {  // The last one is the driver's car.
     CAPTURE(i);
@@ -136,7 +154,7 @@ TEST_CASE("a picture from which one vehicle is missing is not the golden one") {
       for (std::uint32_t x = 0; x < width; ++x) changed_px += !(picture.at(x, y) == whole.at(x, y));
     if (changed_px < least_px) continue;
     ++seen;
-    const Difference differs = difference(picture, whole);
+    const Difference differs = difference(of_whole, flip_features(picture));
     CAPTURE(changed_px);
     CAPTURE(differs.mean);
     CAPTURE(differs.worst);
