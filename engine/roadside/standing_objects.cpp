@@ -4,10 +4,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace septet::roadside {
 namespace {
@@ -93,7 +96,7 @@ class ObjectBuilder {
     if (objects_.size() >= most_standing_objects || !(std::abs(t_m) < 1e4)) return;
     const road::RoadPoint at = roads_.at(index, s_m, t_m);
     const double turn = at.heading_rad + object.heading_rad;
-    if (!std::isfinite(turn) || !std::isfinite(at.position_m.z + up_m)) return;
+    if (!std::isfinite(turn + at.position_m.x + at.position_m.y + at.position_m.z + up_m)) return;
     StandingObject standing;
     standing.kind = kind;
     standing.world_from_object = {at.position_m + Vec3(0, 0, std::clamp(up_m, -50.0, 50.0)),

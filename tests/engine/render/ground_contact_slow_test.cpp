@@ -1,5 +1,8 @@
 /// What ties a vehicle to its road where no sun throws its shadow. Software device, validation layer on.
 
+#include <cstdint>
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include "engine/image/png.hpp"

@@ -1,6 +1,7 @@
 #include "engine/roadside/standing_objects.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
