@@ -117,13 +117,14 @@ struct PixelSums {
   }
 };
 
-/// Until the pixel has `samples`.
+/// Until the pixel has `samples` from the `first` one on.
 void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const Camera* later,
-                 const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples) {
+                 const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples,
+                 std::uint32_t first_sample) {
   TracedPixel& sums = pixel.sums;
   const std::uint64_t of_pixel = PathRandom::of_pixel(settings.seed, x, y);
   for (; sums.samples < samples; ++sums.samples) {
-    PathRandom random(of_pixel, sums.samples);
+    PathRandom random(of_pixel, first_sample + sums.samples);
     const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
     const bool blurs = later && settings.blurs;
     const float time = blurs ? random.uniform() : 0.0f;
@@ -173,6 +174,34 @@ std::vector<instant::PixelRectangle> buckets_of(std::uint32_t width, std::uint32
   return buckets;
 }
 
+TracedPixel joined(std::span<const TracedPixel> sets) {
+  if (sets.size() == 1) return sets.front();
+  TracedPixel all;
+  double light = 0.0;
+  for (const TracedPixel& set : sets) {
+    if (set.samples == 0) continue;
+    if (all.samples == 0)
+      all.depth_m = set.depth_m, all.object = set.object, all.participant = set.participant,
+      all.motion_px = set.motion_px;
+    const auto n = static_cast<float>(set.samples);
+    all.radiance += n * set.radiance, all.normal += n * set.normal, all.albedo += n * set.albedo;
+    all.samples += set.samples, all.bad_samples += set.bad_samples;
+    light += double{n} * double{luminance(set.radiance)};
+  }
+  if (all.samples == 0) return all;
+  const double count = all.samples, mean = light / count;
+  const auto share = static_cast<float>(1.0 / count);
+  all.radiance *= share, all.normal *= share, all.albedo *= share;
+  // Within the sets, and between them.
+  double squares = 0.0;
+  for (const TracedPixel& set : sets) {
+    const double n = set.samples, off = double{luminance(set.radiance)} - mean;
+    squares += double{set.variance} * n * (n - 1.0) + n * off * off;
+  }
+  if (all.samples > 1) all.variance = static_cast<float>(squares / (count * (count - 1.0)));
+  return all;
+}
+
 float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure) {
   return std::sqrt(pixel.variance) / std::max(luminance(pixel.radiance), 0.1f / exposure.scale());
 }
@@ -195,11 +224,12 @@ struct RayTracer::Parts {
     const auto found = std::find_if(cameras.rbegin(), cameras.rend(), [&](const Camera& c) { return c.shows(x, y); });
     return found == cameras.rend() ? nullptr : &*found;
   }
-  void refine(PixelSums& pixel, std::int64_t x, std::int64_t y, std::uint32_t samples) const {
+  void refine(PixelSums& pixel, std::int64_t x, std::int64_t y, std::uint32_t samples,
+              std::uint32_t first_sample = 0) const {
     if (const Camera* camera = camera_at(x, y))
       add_samples(pixel, *world, *camera,
                   later_cameras.empty() ? nullptr : &later_cameras[static_cast<std::size_t>(camera - cameras.data())],
-                  settings, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), samples);
+                  settings, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), samples, first_sample);
   }
   void trace_block(std::int64_t left, std::int64_t top, Bucket& bucket) const;
 };
@@ -316,11 +346,20 @@ Bucket RayTracer::trace(const instant::PixelRectangle& rectangle) const {
         p.trace_block(x, y, bucket);
     return bucket;
   }
+  return trace(rectangle, {0, p.settings.samples});
+}
+
+Bucket RayTracer::trace(const instant::PixelRectangle& rectangle, const SampleSet& set) const {
+  const Parts& p = *parts_;
+  SEPTET_CHECK(p.world && set.first <= set.end, "samples {} to {}", set.first, set.end);
+  Bucket bucket{rectangle, std::vector<TracedPixel>(std::size_t{rectangle.width} * rectangle.height)};
+  const std::int64_t right = std::int64_t{rectangle.x} + rectangle.width,
+                     bottom = std::int64_t{rectangle.y} + rectangle.height;
   auto pixel = bucket.pixels.begin();
   for (std::int64_t y = rectangle.y; y < bottom; ++y)
     for (std::int64_t x = rectangle.x; x < right; ++x) {
       PixelSums sums;
-      p.refine(sums, x, y, p.settings.samples);
+      p.refine(sums, x, y, set.end - set.first, set.first);
       *pixel++ = sums.pixel();
     }
   return bucket;

@@ -57,6 +57,18 @@ struct TracedPixel {
 /// Standard error of a pixel's luminance as a share of it, or, where it is darker than a tenth of white, of that.
 float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure);
 
+/// Samples first, first + 1, … below end, of each pixel.
+struct SampleSet {
+  std::uint32_t first = 0, end = 0;
+};
+/// Set `n` of `count`, all about as large.
+constexpr SampleSet sample_set(std::uint32_t samples, std::uint32_t n, std::uint32_t count) {
+  const auto at = [&](std::uint64_t k) { return static_cast<std::uint32_t>(k * samples / count); };
+  return {at(n), at(n + 1)};
+}
+/// One pixel of what its sets have given, in the order in which they are told here: the order in which they came plays no part.
+TracedPixel joined(std::span<const TracedPixel> sets);
+
 /// A rectangle of a picture's pixels, rows from the top.
 struct Bucket {
   instant::PixelRectangle rectangle;
@@ -97,6 +109,8 @@ class RayTracer {
   void set_photons(std::span<const std::vector<Photon>> of_buckets);
   /// Pixels of the instant begun last; the rectangle lies within the picture that its views make.
   Bucket trace(const instant::PixelRectangle& rectangle) const;
+  /// Of their samples one set; all take all of it, whatever the error is.
+  Bucket trace(const instant::PixelRectangle& rectangle, const SampleSet& set) const;
   const instant::Instant& instant() const;
 
  private:

@@ -54,6 +54,7 @@ struct FilmOptions {
   raytrace::Filter filter = raytrace::Filter::quadratic;
   ExrNumbers exr = ExrNumbers::none;  ///< Of what is traced.
   std::set<Layer> layers;
+  std::uint32_t sample_sets = 1;             ///< A tile's samples are dealt in so many sets; at most `samples`.
   raytrace::BucketScheduleOptions schedule;  ///< Of what is traced; the pictures are the same.
   std::filesystem::path statistics;          ///< File that tells who traced what (traced/statistics.hpp); empty: none.
   std::uint32_t every = 1;                   ///< Only the first of so many frames.

@@ -102,6 +102,10 @@ void add_film_options(CLI::App& app, FilmArguments& arguments) {
   app.add_option("--buckets", options.schedule.equal_buckets, "Of a frame, where they are equal")
       ->check(CLI::Range(1u, 1u << 20))
       ->capture_default_str();
+  app.add_option("--sample-sets", options.sample_sets,
+                 "Deal each tile's samples in so many sets too: buckets of samples, as a paper has them")
+      ->check(CLI::Range(1u, 4096u))
+      ->capture_default_str();
   app.add_option("--statistics", options.statistics, "JSON file that tells who traced what, when and at what cost")
       ->default_str("");
   app.add_option("--ranks", arguments.ranks.ranks,
@@ -136,6 +140,11 @@ Expected<void> settle(const CLI::App& app, FilmArguments& arguments) {
   const bool traced = options.renderer == FilmRenderer::traced;
   if (arguments.by_ranks && !traced)
     return failure("several programs share out what is traced alone", "--ranks, --hosts", "add --renderer traced");
+  if (options.sample_sets > 1 && (options.error > 0.0 || arguments.within_s > 0.0))
+    return failure("samples are dealt in sets where it is known how many there are", "--sample-sets",
+                   "leave out --error and --within");
+  if (options.sample_sets > options.samples)
+    return failure("there are more sets than samples", "--sample-sets", "choose at most as many as --samples");
   if (arguments.within_s > 0.0 && !traced)
     return failure("only what is traced takes the time that it is given", "--within", "add --renderer traced");
   arguments.ranks.out = options.out, arguments.ranks.resume = options.resume;

@@ -83,6 +83,7 @@ Expected<FilmRecord> film_record(const FilmOptions& options, const logging::Sess
                     {"renderer", options.renderer == FilmRenderer::traced ? "traced" : "raster"}};
   if (options.renderer == FilmRenderer::traced) {
     record["samples"] = fmt::format("{}", options.samples);
+    record["sample_sets"] = fmt::format("{}", options.sample_sets);
     record["error"] = fmt::format("{}", options.error);
     record["caustic_photons"] = fmt::format("{}", options.caustic_photons);
     record["gather_photons"] = fmt::format("{}", options.gather_photons);

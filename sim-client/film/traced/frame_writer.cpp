@@ -1,6 +1,7 @@
 #include "sim-client/film/traced/frame_writer.hpp"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -21,14 +22,27 @@ struct Assembled {
 
 Assembled assembled(const FilmOptions& options, const KeptTiles& kept, std::span<const instant::PixelRectangle> tiles) {
   Assembled whole{raytrace::TracedPicture(options.width_px, options.height_px), {}, 0};
-  for (std::uint32_t n = 0; n < tiles.size(); ++n) {
-    auto tile = kept.read(n);
-    if (!tile) {
-      ++whole.missing;
-      continue;
+  const std::size_t places = tiles.size() / options.sample_sets;
+  for (std::size_t n = 0; n < places; ++n) {
+    raytrace::Bucket bucket{tiles[n], {}};
+    std::vector<std::vector<raytrace::TracedPixel>> sets;
+    for (std::size_t tile_number = n; tile_number < tiles.size(); tile_number += places) {
+      auto tile = kept.read(static_cast<std::uint32_t>(tile_number));
+      if (!tile) {
+        ++whole.missing;
+        continue;
+      }
+      whole.facts = tile->facts;
+      sets.push_back(std::move(tile->pixels));
     }
-    whole.facts = tile->facts;
-    whole.picture.put({tiles[n], std::move(tile->pixels)});
+    if (sets.empty()) continue;
+    bucket.pixels = std::move(sets.front());
+    for (std::size_t pixel = 0; sets.size() > 1 && pixel < bucket.pixels.size(); ++pixel) {
+      std::vector<raytrace::TracedPixel> of_sets{bucket.pixels[pixel]};
+      for (std::size_t set = 1; set < sets.size(); ++set) of_sets.push_back(sets[set][pixel]);
+      bucket.pixels[pixel] = raytrace::joined(of_sets);
+    }
+    whole.picture.put(bucket);
   }
   return whole;
 }

@@ -66,7 +66,7 @@ class Master {
         folder_(folder),
         others_(others),
         made_(made),
-        tiles_(raytrace::buckets_of(options.width_px, options.height_px, tile_side_px)),
+        tiles_(tiles_of(options)),
         schedule_(frames.plan().frames.size(), static_cast<std::uint32_t>(tiles_.size()), options.schedule),
         writer_(options, folder, frames.session(), tiles_) {
     for (const FilmFrame& frame : frames.plan().frames) numbers_.push_back(frame.number);

@@ -79,6 +79,13 @@ std::optional<TracedTile> decode_tile(std::span<const std::byte> bytes, std::siz
   return tile;
 }
 
+std::vector<instant::PixelRectangle> tiles_of(const FilmOptions& options) {
+  const auto places = raytrace::buckets_of(options.width_px, options.height_px, tile_side_px);
+  std::vector<instant::PixelRectangle> tiles;
+  for (std::uint32_t set = 0; set < options.sample_sets; ++set) tiles.insert(tiles.end(), places.begin(), places.end());
+  return tiles;
+}
+
 Bytes message(Word word) { return {static_cast<std::byte>(word)}; }
 
 Bytes hello_message(unsigned threads) {
@@ -105,6 +112,7 @@ Bytes film_message(const FilmTold& told) {
   writer.put(options.frames_per_second);
   writer.put(options.width_px), writer.put(options.height_px), writer.put(options.samples);
   writer.put(options.error), writer.put(static_cast<std::uint8_t>(options.filter));
+  writer.put(options.sample_sets);
   writer.put(options.caustic_photons), writer.put(options.gather_photons);
   writer.put(options.every);
   put_optional(writer, options.from_s), put_optional(writer, options.to_s);
@@ -125,6 +133,7 @@ std::optional<FilmTold> read_film(ByteReader& reader) {
   options.samples = reader.get<std::uint32_t>();
   options.error = reader.get_double();
   options.filter = static_cast<raytrace::Filter>(reader.get<std::uint8_t>() & 3);
+  options.sample_sets = std::clamp(reader.get<std::uint32_t>(), 1u, std::max(1u, options.samples));
   options.caustic_photons = reader.get<std::uint32_t>(), options.gather_photons = reader.get<std::uint32_t>();
   options.every = std::max(1u, reader.get<std::uint32_t>());
   options.from_s = get_optional(reader), options.to_s = get_optional(reader);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/raytrace/bucket_schedule.hpp"
 #include "engine/raytrace/ray_tracer.hpp"
@@ -37,6 +38,8 @@ enum class Word : std::uint8_t {
 
 /// The tiles of a film's frames: squares of this many pixels, rows from the top.
 inline constexpr std::uint32_t tile_side_px = 16;
+/// Where they lie; with sets of samples all of the first set, then all of the second, and so on.
+std::vector<instant::PixelRectangle> tiles_of(const FilmOptions& options);
 
 /// What is known of a whole frame, beside its pixels.
 struct FrameFacts {

@@ -31,9 +31,9 @@ constexpr std::chrono::microseconds pause{1000};
 /// Threads that trace the tiles of a run one by one, in order.
 class TracingThreads {
  public:
-  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles, unsigned threads,
-                 std::optional<double> pace)
-      : tracer_(tracer), tiles_(tiles), pace_(pace) {
+  TracingThreads(const raytrace::RayTracer& tracer, std::span<const instant::PixelRectangle> tiles,
+                 const FilmOptions& options, unsigned threads, std::optional<double> pace)
+      : tracer_(tracer), tiles_(tiles), options_(options), pace_(pace) {
     for (unsigned n = 0; n < threads; ++n) threads_.emplace_back([this] { work(); });
   }
   ~TracingThreads() {
@@ -72,6 +72,11 @@ class TracingThreads {
   }
 
  private:
+  raytrace::Bucket trace(std::uint32_t tile) const {
+    if (options_.sample_sets == 1) return tracer_.trace(tiles_[tile]);
+    const auto of_set = static_cast<std::uint32_t>(tiles_.size() / options_.sample_sets);
+    return tracer_.trace(tiles_[tile], raytrace::sample_set(options_.samples, tile / of_set, options_.sample_sets));
+  }
   void work() {
     std::unique_lock lock(mutex_);
     std::chrono::steady_clock::time_point due;
@@ -84,7 +89,7 @@ class TracingThreads {
       lock.unlock();
       if (due == std::chrono::steady_clock::time_point()) due = std::chrono::steady_clock::now();
       const double begun_s = thread_cpu_s();
-      const raytrace::Bucket bucket = tracer_.trace(tiles_[tile]);
+      const raytrace::Bucket bucket = trace(tile);
       const double cpu_s = thread_cpu_s() - begun_s;
       if (pace_) {
         due += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -104,6 +109,7 @@ class TracingThreads {
 
   const raytrace::RayTracer& tracer_;
   std::span<const instant::PixelRectangle> tiles_;
+  const FilmOptions& options_;
   std::optional<double> pace_;
   std::mutex mutex_;
   std::condition_variable changed_, came_;
@@ -257,8 +263,8 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   auto tracer = raytrace::RayTracer::create(frames.scene());
   if (!tracer) return tl::unexpected(tracer.error());
   const instant::SceneSummary summary = instant::summarise(frames.scene());
-  const auto tiles = raytrace::buckets_of(options.width_px, options.height_px, tile_side_px);
-  TracingThreads tracing(*tracer, tiles, threads, pace_of_test());
+  const auto tiles = tiles_of(options);
+  TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame, soon;
   machines.send(master, message(Word::prepared));

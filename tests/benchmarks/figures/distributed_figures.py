@@ -4,8 +4,8 @@
     distributed_figures.py FOLDER [--build FOLDER] [--size WIDTHxHEIGHT] [--samples N] [--processors SHARE]
 
 A moment of a drive is traced by programs of one thread whose speeds are made (tests/benchmarks/machines.py): equal ones for figure 3, mixed ones from 1 to 9 for
-the others. The paper's scheme, 81 equal buckets to whoever is free, beside Septet's. Figure 2 is a drawing; the paper's buckets of samples, and the fountain of figure 6, are not
-there. The paper traces 900 x 900 pixels with 16 samples; the default here is smaller, which is said in each figure.
+the others. The paper's scheme, 81 equal buckets to whoever is free, beside Septet's. Figure 2 is a drawing; the fountain of
+figure 6 is not there. The paper traces 900 x 900 pixels with 16 samples; the default here is smaller, which is said in each figure.
 """
 import argparse
 import base64
@@ -136,7 +136,9 @@ def main():
         arguments = ["--shots", str(folder / "shots.toml"), "--fps", "60", "--size", given.size, "--samples", given.samples]
 
         def trace(schedule, shares, buckets=81):
-            made = machines.run(build, session, folder, schedule, shares, arguments, buckets)
+            """`samples`: the paper's scheme with buckets of samples: whole pictures of one sample a pixel, cut into equal buckets."""
+            sets = ["--sample-sets", given.samples] if schedule == "samples" else []
+            made = machines.run(build, session, folder, "paper" if sets else schedule, shares, arguments + sets, buckets)
             print(machines.report(f"{len(shares)} programs, {schedule} {buckets}", made, 1), flush=True)
             return made
 
@@ -154,12 +156,13 @@ def main():
         write("distributed-1-cost-map", svg(964, 340 + tall, "Figure 1: cost of a picture, who traced it, and how much each did, by speed in brackets",
                                             [said + "; the paper's 81 buckets", f"Left: black {1e6 * low:.0f}, white {1e6 * high:.0f} microseconds of a processor a pixel"], body))
 
-        equal = {name: [(1, 1.0)] for name in ("ours", "paper")}
+        equal = {name: [(1, 1.0)] for name in ("ours", "paper", "samples")}
         for count in (2, 4, 8):
             for name, points in equal.items():
                 made = trace(name, [given.processors / 8] * count)
                 points.append((count, made["work_s"] * 8 / given.processors / made["time_s"]))
-        series = [("Septet", equal["ours"], False), ("81 equal buckets", equal["paper"], False), ("ideal", [(0, 0), (8, 8)], True)]
+        series = [("Septet", equal["ours"], False), ("81 equal buckets of pixels", equal["paper"], False),
+                  ("81 equal buckets of samples", equal["samples"], False), ("ideal", [(0, 0), (8, 8)], True)]
         write("distributed-3-equal-programs", svg(640, 460, "Figure 3: speed-up on equal programs", [said], lines_chart((72, 70, 540, 330), series, 8.5, 8.5, "programs", "speed-up")))
 
         mixed = machines.paces(15, given.processors)
@@ -182,9 +185,10 @@ def main():
                                                 [said], bars_chart((72, 70, 876, 200), [("Septet", busy_of(last["ours"])), ("81 equal buckets", busy_of(last["paper"]))], labels, 130, "% of the time")))
 
         times = [(count, trace("paper", mixed, count)["time_s"]) for count in (15, 36, 81, 200, 400)]
+        of_samples = [(count, trace("samples", mixed, count)["time_s"]) for count in (15, 36, 81, 200, 400)]
         own_s = last["ours"]["time_s"]
-        top = 1.25 * max(time for _, time in times)
-        series = [("equal buckets", times, False), (f"Septet: {own_s:.1f} s", [(0, own_s), (400, own_s)], True)]
+        top = 1.25 * max(time for _, time in times + of_samples)
+        series = [("equal buckets of pixels", times, False), ("equal buckets of samples", of_samples, False), (f"Septet: {own_s:.1f} s", [(0, own_s), (400, own_s)], True)]
         write("distributed-7-buckets", svg(640, 460, "Figure 7: time over the number of buckets, 15 programs of speeds 1 to 9",
                                            [said, "Buckets need no padding here: a sample belongs to one pixel"], lines_chart((72, 86, 540, 316), series, 420, top, "buckets", "time, s")))
 

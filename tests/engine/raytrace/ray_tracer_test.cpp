@@ -228,4 +228,30 @@ TEST_CASE("a dipped beam lights a wall as its table says in every direction") {
   }
 }
 
+TEST_CASE("a picture of sets of samples is that of all of them, whichever set is traced first, with the same error") {
+  const scene::ResolvedScene scene = cornell_box();
+  auto tracer = RayTracer::create(scene);
+  REQUIRE(tracer.has_value());
+  const std::uint32_t samples = 13;
+  tracer->begin(before_cornell_box(16), cornell_settings(samples));
+  const instant::PixelRectangle all{0, 0, 16, 16};
+  const Bucket whole = tracer->trace(all);
+  for (const std::uint32_t count : {1u, 3u, 13u, 20u}) {  // Of 20 sets some are empty.
+    std::vector<Bucket> sets(count);
+    for (std::uint32_t n = count; n-- > 0;) sets[n] = tracer->trace(all, sample_set(samples, n, count));
+    CAPTURE(count);
+    for (std::size_t k = 0; k < whole.pixels.size(); ++k) {
+      std::vector<TracedPixel> of_sets;
+      for (const Bucket& set : sets) of_sets.push_back(set.pixels[k]);
+      const TracedPixel& pixel = whole.pixels[k];
+      const TracedPixel joined_pixel = joined(of_sets);
+      CHECK(joined_pixel.samples == samples);
+      CHECK(joined_pixel.radiance.x == doctest::Approx(pixel.radiance.x).epsilon(1e-5));
+      CHECK(joined_pixel.variance == doctest::Approx(pixel.variance).epsilon(1e-3));
+      CHECK(joined_pixel.depth_m == pixel.depth_m);
+      CHECK(joined_pixel.object == pixel.object);
+    }
+  }
+}
+
 }  // namespace septet::raytrace
