@@ -5,7 +5,7 @@
 
 A moment of a drive is traced by programs of one thread whose speeds are made (tests/benchmarks/machines.py): equal ones for figure 3, mixed ones from 1 to 9 for
 the others. The paper's scheme, 81 equal buckets to whoever is free, beside Septet's. Figure 2 is a drawing; the fountain of
-figure 6 is not there. The paper traces 900 x 900 pixels with 16 samples; the default here is smaller, which is said in each figure.
+figure 6 is drawn by septet-fountain (fountain_main.cpp beside this). The paper traces 900 x 900 pixels with 16 samples; the default here is smaller, which is said in each figure.
 """
 import argparse
 import base64
