@@ -39,24 +39,46 @@ def display_code(exposed):
     return numpy.clip(x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06), 0, 1)
 
 
-def surface(folder, group, holes):
+def texture(values, filtering):
+    return {"type": "bitmap", "bitmap": mitsuba.Bitmap(numpy.ascontiguousarray(values, numpy.float32)), "raw": True, "filter_type": filtering}
+
+
+def read_image(folder, group):
+    """Linear colours of the group's surface, and its alpha; none without an image."""
+    if group["image"] < 0:
+        return None
+    image = numpy.array(mitsuba.Bitmap(str(folder / f"image{group['image']}.png"))).astype(numpy.float32) / 255
+    rgb = image[..., :3]
+    if group["srgb"]:
+        rgb = numpy.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return rgb * numpy.array(group["color"], numpy.float32), image[..., 3]
+
+
+def surface(image, group, holes):
     color = {"type": "rgb", "value": group["color"]}
     opacity = None
-    if group["image"] >= 0:
-        file = folder / f"image{group['image']}.png"
-        image = numpy.array(mitsuba.Bitmap(str(file))).astype(numpy.float32) / 255
-        if group["srgb"]:
-            rgb = numpy.where(image[..., :3] <= 0.04045, image[..., :3] / 12.92, ((image[..., :3] + 0.055) / 1.055) ** 2.4)
-        else:
-            rgb = image[..., :3]
-        texture = lambda values, filtering: {"type": "bitmap", "bitmap": mitsuba.Bitmap(numpy.ascontiguousarray(values, numpy.float32)),
-                                             "raw": True, "filter_type": filtering}
-        color = texture(rgb * numpy.array(group["color"], numpy.float32), "bilinear")
-        if holes and image[..., 3].min() < 0.5:
+    if image:
+        color = texture(image[0], "bilinear")
+        if holes and image[1].min() < 0.5:
             # Septet cuts where the image between its texels has less than one half; finer texels have the same edge.
-            opacity = texture((upsampled(image[..., 3]) >= 0.5)[..., None], "nearest")
+            opacity = texture((upsampled(image[1]) >= 0.5)[..., None], "nearest")
     result = {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": color}}
     return {"type": "mask", "opacity": opacity, "bsdf": result} if opacity else result
+
+
+def lamp(image, group):
+    """What shines behind an image, such as a sign, is coloured by it."""
+    if image:
+        return {"type": "area", "radiance": texture(image[0] * numpy.array(group["emission"], numpy.float32), "bilinear")}
+    return {"type": "area", "radiance": {"type": "rgb", "value": group["emission"]}}
+
+
+def area_m2(path):
+    """Of a mesh's triangles, three vertices of eight numbers each."""
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    vertices = int(head.split(b"element vertex ")[1].split()[0])
+    corners = numpy.frombuffer(body, "<f4", 8 * vertices).reshape(-1, 3, 8)[..., :3]
+    return 0.5 * numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
 
 
 def upsampled(plane, times=4):
@@ -86,10 +108,14 @@ def mitsuba_scene(folder, scene):
     if max(scene["sun_irradiance"]) > 0:
         made["sun"] = {"type": "directional", "direction": [-x for x in scene["to_sun"]],
                        "irradiance": {"type": "rgb", "value": scene["sun_irradiance"]}}
+    # Mitsuba draws each lamp as often as the others, unless it is told what they give; then its pictures have less noise.
+    powers = {n: max(group["emission"]) * area_m2(folder / f"mesh{n}.ply") for n, group in enumerate(scene["groups"])}
+    mean_power = sum(powers.values()) / max(1, sum(power > 0 for power in powers.values()))
     for n, group in enumerate(scene["groups"]):
-        made[f"mesh{n}"] = {"type": "ply", "filename": str(folder / f"mesh{n}.ply"), "surface": surface(folder, group, True)}
-        if max(group["emission"]) > 0:
-            made[f"mesh{n}"]["lamp"] = {"type": "area", "radiance": {"type": "rgb", "value": group["emission"]}}
+        image = read_image(folder, group)
+        made[f"mesh{n}"] = {"type": "ply", "filename": str(folder / f"mesh{n}.ply"), "surface": surface(image, group, True)}
+        if powers[n] > 0:
+            made[f"mesh{n}"]["lamp"] = {**lamp(image, group), "sampling_weight": float(powers[n] / mean_power)}
     if scene["smoke"]:
         low, high = numpy.array(scene["smoke"]["low_m"]), numpy.array(scene["smoke"]["high_m"])
         made["air"] = {"type": "sphere", "center": list((low + high) / 2), "radius": float((high - low)[0] / 2),
