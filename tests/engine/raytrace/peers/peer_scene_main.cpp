@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -207,7 +208,9 @@ void run(std::string_view name, const std::filesystem::path& folder, std::uint32
   auto tracer = RayTracer::create(peer.scene);
   if (!tracer) std::fprintf(stderr, "%s\n", describe(tracer.error()).c_str()), std::exit(1);
   tracer->begin(peer.instant, peer.settings);
+  const std::clock_t began = std::clock();
   const TracedPicture picture = whole_picture(*tracer, width, height);
+  const double processor_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   write_pfm(folder / "traced.pfm", width, height,
             [&](std::uint32_t x, std::uint32_t y) { return picture.at(x, y).radiance; });
   // Rows from the top, azimuth from +x towards +y.
@@ -236,13 +239,14 @@ void run(std::string_view name, const std::filesystem::path& folder, std::uint32
   const Quat turn = view.world_from_car.orientation;
   const instant::OffAxisView& p = view.projection;
   write(folder / "scene.json",
-        fmt::format("{{\"width\": {}, \"height\": {}, \"horizontal_deg\": {}, \"ahead\": {}, \"up\": {},\n"
-                    " \"longest\": {}, \"exposure\": {}, \"sun_irradiance\": {}, \"to_sun\": {}, \"smoke\": {},\n"
-                    " \"groups\": [\n  {}]}}\n",
-                    width, height, 2.0 * std::atan(p.right_slope) * 180.0 / std::numbers::pi,
-                    numbers(glm::vec3(turn * -p.back)), numbers(glm::vec3(turn * p.up)), peer.settings.paths.longest,
-                    peer.instant.exposure.scale(), numbers(light.light_irradiance), numbers(light.light_direction),
-                    write_smoke(peer, folder), groups));
+        fmt::format(
+            "{{\"width\": {}, \"height\": {}, \"processor_s\": {}, \"horizontal_deg\": {}, \"ahead\": {}, \"up\": {},\n"
+            " \"longest\": {}, \"exposure\": {}, \"sun_irradiance\": {}, \"to_sun\": {}, \"smoke\": {},\n"
+            " \"groups\": [\n  {}]}}\n",
+            width, height, processor_s, 2.0 * std::atan(p.right_slope) * 180.0 / std::numbers::pi,
+            numbers(glm::vec3(turn * -p.back)), numbers(glm::vec3(turn * p.up)), peer.settings.paths.longest,
+            peer.instant.exposure.scale(), numbers(light.light_irradiance), numbers(light.light_direction),
+            write_smoke(peer, folder), groups));
 }
 
 }  // namespace
