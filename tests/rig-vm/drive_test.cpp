@@ -1,10 +1,13 @@
 // The whole: septet-server and septet-car, the car on USB, its instruments on CAN.
 
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <fmt/core.h>
@@ -26,18 +29,19 @@ namespace fs = std::filesystem;
 /// What the driver's cluster shows: the newest of every signal.
 class Cluster {
  public:
-  explicit Cluster(const char* interface) {
-    auto database = dbc::read_dbc(text_of("/source/rigs/cluster.dbc"), "cluster.dbc");
+  explicit Cluster(const char* interface, const std::string& dbc = text_of("/source/rigs/cluster.dbc"),
+                   bool is_fd = false) {
+    auto database = dbc::read_dbc(dbc, "cluster.dbc");
     REQUIRE(database.has_value());
     database_ = *database;
-    auto bus = open_socket_can(interface, false);
+    auto bus = open_socket_can(interface, is_fd);
     REQUIRE(bus.has_value());
     bus_ = std::move(*bus);
   }
   double operator[](const std::string& signal) {
     for (auto frame = bus_->receive(); frame && *frame; frame = bus_->receive())
       for (const dbc::Message& message : database_.messages)
-        if (message.id == (*frame)->id)
+        if (message.id == (*frame)->id && message.is_fd == (*frame)->is_fd)
           for (const dbc::Signal& each : message.signals)
             shown_[each.name] = dbc::decode(message, each, (*frame)->payload()).value_or(-1.0);
     return shown_[signal];
@@ -160,6 +164,75 @@ TEST_CASE(
   CHECK(said.find("wheel force are cut, for the controls have stopped") != std::string::npos);
   CHECK(said.find("the simulation was silent for 200 ms") != std::string::npos);
   for (const char* file : {"session.sqlite", "summary.json", "report.html"}) CHECK(fs::exists(folder / "out" / file));
+}
+
+TEST_CASE(
+    "a car whose controls and instruments are CAN FD frames has its fan and shaker on USB and is safe when a node is "
+    "silent") {
+  const TemporaryFolder folder;
+  const VirtualCan can("vcan0");
+  UsbCar device(UsbCar::Kind::hid);
+  device.plug();
+  // Septet's own messages, each of them CAN FD.
+  std::string dbc = text_of("/source/rigs/cluster.dbc");
+  for (const int id : {256, 257, 258, 259, 512, 513, 514}) dbc += fmt::format("BA_ \"VFrameFormat\" BO_ {} 14;\n", id);
+  pipeline::write_text(folder / "cluster.dbc", dbc);
+  pipeline::write_text(
+      folder / "rig.toml",
+      pipeline::small_rig(1, "",
+                          "source = \"can\"\nserial = \"VM-1\"\n[car.actuators]\nfan_full_speed_mps = 20\nfan_least = "
+                          "0.2\n[can]\ninterface = \"vcan0\"\ndbc = \"cluster.dbc\""));
+  Cluster cluster("vcan0", dbc, true);
+  const auto database = dbc::read_dbc(dbc, "cluster.dbc");
+  auto node = open_socket_can("vcan0", true);
+  REQUIRE((database.has_value() && node.has_value()));
+  const auto send = [&](const char* name, const char* signal, double value) {
+    const auto& message = *dbc::find_message(*database, name);
+    CanFrame frame{message.id, false, message.is_fd, message.bytes, {}};
+    CHECK(frame.is_fd);
+    dbc::encode(*dbc::find_signal(message, signal), value, frame.data);
+    (void)(*node)->send(frame);
+  };
+  std::atomic<bool> has_ended = false, is_silent = false, is_rearming = false;
+  std::thread controls([&] {
+    for (; !has_ended; sleep_s(0.01)) {
+      if (is_silent) continue;
+      send("STEERING", "steering_wheel_deg", 0.0);
+      send("PEDALS", "accelerator_percent", 100.0);
+      const auto& stalks = *dbc::find_message(*database, "STALKS");
+      CanFrame frame{stalks.id, false, true, stalks.bytes, {}};
+      dbc::encode(*dbc::find_signal(stalks, "selector_position"), 3.0, frame.data);
+      dbc::encode(*dbc::find_signal(stalks, "rearm_switch"), is_rearming ? 1.0 : 0.0, frame.data);
+      (void)(*node)->send(frame);
+    }
+  });
+  auto server = pipeline::start(
+      "septet-server",
+      {"--rig", (folder / "rig.toml").string(), "--keys", pipeline::make_keys(folder / "keys", "a").string(), "--out",
+       (folder / "out").string(), "--any-port", "--start-now", "--wait-for-screens", "2", "--seconds", "600",
+       "--scenario", "/source/tests/conformance/data/scenarios/xosc/velodrome.xosc"},
+      folder / "server.err");
+  const bool drives =
+      becomes_true([&] { return cluster["speed_kmh"] > 15.0 && device.actuators().fan > 0.2; }, 60.0);
+  CHECK_MESSAGE(drives, text_of(folder / "server.err"));
+  CHECK(cluster["engine_rpm"] > 800.0);
+  CHECK(device.watchdog_ms() == 250);
+
+  is_silent = true;
+  const double since_s = now_s();
+  CHECK(becomes_true([&] { return device.actuators().fan == 0.0 && device.actuators().vibration == 0.0; }));
+  measured("silent CAN node to fan and shaker at rest", 1000.0 * (now_s() - since_s), "ms");
+  CHECK(now_s() - since_s < 0.36);
+  is_silent = false;
+  sleep_s(1.0);
+  CHECK(device.actuators().fan == 0.0);  // Nobody has re-armed.
+  is_rearming = true;
+  CHECK(becomes_true([&] { return device.actuators().fan > 0.2; }, 5.0));
+  has_ended = true;
+  controls.join();
+  server.send_signal(SIGTERM);
+  CHECK(pipeline::exit_code(server) == 3);
+  CHECK(device.actuators().fan == 0.0);
 }
 
 TEST_SUITE_END();
