@@ -51,7 +51,16 @@ VehicleParts car_parts(const VehicleModel& model) {
       if (ambulance) builder.append(livery(surface));
       of_level.push_back(part("body" + suffix, builder.take()));
     } else {
-      of_level.push_back(part("body" + suffix, std::move(cage), steps));
+      // Near by one looks in: the surface is cut here, not on the screen.
+      if (level == DetailLevel::near) {
+        of_level.push_back(part("body" + suffix, open_body(surface)));
+        for (VehiclePart& inside : occupants(surface)) {
+          inside.name += suffix;
+          of_level.push_back(std::move(inside));
+        }
+      } else {
+        of_level.push_back(part("body" + suffix, std::move(cage), steps));
+      }
       of_level.push_back(part("trim" + suffix, car_trim(surface)));
     }
     if (!ambulance || level != DetailLevel::far) of_level.push_back(part("livery" + suffix, livery(surface)));

@@ -36,92 +36,26 @@ struct TrimPen {
     builder.material = index_of(finish);
     draw_patch(builder, car.body, face, outline, patch);
   }
-  void side_window(const PatchOutline& outline) const {
-    if (fine) both_sides(Finish::trim, grown(outline, 0.022f), options(0.004f));
-    both_sides(Finish::glass, outline, options(0.009f));
-  }
-  void window(Face face, const PatchOutline& outline) const {
-    // What is flatter than this is roof or bonnet.
-    constexpr float steepest = 0.2f;
-    if (fine) one(Finish::trim, face, grown(outline, 0.025f), {0.004f, 0.10f, steepest});
-    one(Finish::glass, face, outline, {0.010f, fine ? 0.10f : 0.0f, steepest});
-  }
-};
-
-/// Where the side windows end.
-struct Glasshouse {
-  float cowl, roof_front, roof_rear, backlight, pillar, low_front, low_rear, high;
-};
-
-Glasshouse glasshouse_of(const CarSurface& car) {
-  const CarShape& s = car.shape;
-  const auto axle = static_cast<float>(car.model.wheelbase_m), rear = static_cast<float>(-car.model.rear_overhang_m);
-  Glasshouse g{axle - s.cowl_m,         axle - s.roof_front_m,  rear + s.roof_rear_m,   rear + s.backlight_m, 0.0f,
-               s.belt_front_m + 0.035f, s.belt_rear_m + 0.035f, car.height_m() - 0.145f};
-  g.pillar = g.roof_front - 0.64f;
-  return g;
-}
-
-void draw_car_windows(const TrimPen& pen, const Glasshouse& g) {
-  const CarSurface& car = pen.car;
-  const float half = car.half_width_m(), height = car.height_m();
-  const float middle_low = (g.low_front + g.low_rear) / 2;
-  pen.side_window({{{{g.cowl - 0.20f, g.low_front},
-                     {g.pillar + 0.045f, middle_low},
-                     {g.pillar + 0.035f, g.high},
-                     {g.roof_front - 0.10f, g.high}}}});
-  const float rear_low =
-      car.shape.third_window ? g.roof_rear + 0.62f : g.backlight * 0.35f + g.roof_rear * 0.65f + 0.02f;
-  const float rear_high = car.shape.third_window ? g.roof_rear + 0.60f : g.roof_rear + 0.16f;
-  pen.side_window({{{{g.pillar - 0.045f, middle_low},
-                     {rear_low, g.low_rear},
-                     {rear_high, g.high - 0.01f},
-                     {g.pillar - 0.055f, g.high}}}});
-  if (car.shape.third_window)
-    pen.side_window({{{{rear_low - 0.09f, g.low_rear},
-                       {g.roof_rear + 0.02f, g.low_rear + 0.02f},
-                       {g.roof_rear + 0.16f, g.high - 0.03f},
-                       {rear_high - 0.09f, g.high - 0.01f}}}});
-  const float top = half * car.shape.roof_half_width;
-  pen.window(Face::front, {{{{-0.76f * half, car.shape.hood_rear_m + 0.035f},
-                             {0.76f * half, car.shape.hood_rear_m + 0.035f},
-                             {top * 0.93f, height - 0.135f},
-                             {-top * 0.93f, height - 0.135f}}}});
-  const float foot = std::max(car.shape.deck_m + 0.04f, car.shape.belt_rear_m + 0.02f);
-  pen.window(
-      Face::rear,
-      {{{{0.70f * half, foot}, {-0.70f * half, foot}, {-top * 0.88f, height - 0.14f}, {top * 0.88f, height - 0.14f}}}});
-}
-
-void draw_van_windows(const TrimPen& pen, const Glasshouse& g) {
-  const CarSurface& car = pen.car;
-  const float half = car.half_width_m(), height = car.height_m();
-  const float top = std::min(height - 0.42f, car.shape.belt_front_m + 0.72f);
-  pen.side_window({{{{g.cowl - 0.26f, g.low_front},
-                     {g.roof_front - 0.72f, g.low_front},
-                     {g.roof_front - 0.72f, top},
-                     {g.roof_front + 0.08f, top}}}});
-  pen.window(Face::front, {{{{-0.80f * half, car.shape.hood_rear_m + 0.06f},
-                             {0.80f * half, car.shape.hood_rear_m + 0.06f},
-                             {0.80f * half, top + 0.06f},
-                             {-0.80f * half, top + 0.06f}}}});
-  if (car.model.name == "minibus" || car.model.name == "police-van") {
-    // Passengers look out as far as the tail.
-    const float from = g.roof_front - 0.86f, to = static_cast<float>(-car.model.rear_overhang_m) + 0.28f;
-    for (int k = 0; k < 3; ++k) {
-      const float a = std::lerp(from, to, static_cast<float>(k) / 3.0f),
-                  b = std::lerp(from, to, (static_cast<float>(k) + 1.0f) / 3.0f) + 0.09f;
-      pen.side_window({{{{a, g.low_front}, {b, g.low_front}, {b, top}, {a, top}}}});
+  /// Near by the body has a hole there, and so has its frame.
+  void window(const Window& window) const {
+    const PatchOptions glass = window_options(car, window.face, 0.009f);
+    const Finish finish = fine && window.clear ? Finish::clear_glass : Finish::glass;
+    const bool side = window.face == Face::left;
+    if (fine) {
+      builder.material = index_of(Finish::trim);
+      const PatchOptions frame = window_options(car, window.face, 0.004f);
+      const auto band = [&](Face face, const PatchOutline& outline, const PatchOutline& wider) {
+        draw_patch(builder, cut_out(car.body, face, outline, frame), face, wider, frame);
+      };
+      band(window.face, window.outline, grown(window.outline, 0.023f));
+      if (side) band(Face::right, mirrored(window.outline), grown(mirrored(window.outline), 0.023f));
     }
+    if (side)
+      both_sides(finish, window.outline, glass);
+    else
+      one(finish, window.face, window.outline, glass);
   }
-  if (car.model.name == "dropside-van" || car.model.name == "box-van") return;
-  for (const float side : {-1.0f, 1.0f}) {
-    const float inner = 0.06f * half, outer = 0.74f * half;
-    pen.window(Face::rear, rectangle(Face::rear, {side > 0 ? inner : -outer, 1.45f}, {side > 0 ? outer : -inner, top}));
-  }
-  if (car.model.kind == ParticipantKind::ambulance)
-    pen.side_window({{{{1.55f, 1.52f}, {0.55f, 1.52f}, {0.55f, 1.98f}, {1.55f, 1.98f}}}});
-}
+};
 
 void draw_seams(const TrimPen& pen, const Glasshouse& g) {
   const CarSurface& car = pen.car;
@@ -214,10 +148,7 @@ geometry::PolygonMesh car_trim(const CarSurface& car) {
   MeshBuilder builder;
   const TrimPen pen{builder, car, car.level == DetailLevel::near};
   const Glasshouse glass = glasshouse_of(car);
-  if (car.model.kind == ParticipantKind::car)
-    draw_car_windows(pen, glass);
-  else
-    draw_van_windows(pen, glass);
+  for (const Window& window : car_windows(car)) pen.window(window);
   draw_ends(pen);
   if (pen.fine) {
     draw_seams(pen, glass);

@@ -19,10 +19,11 @@ struct Look {
   float roughness;
   float metallic = 0.0f;
   glm::vec3 emission{0.0f};
+  float opacity = 1.0f;
 };
 
 /// In the order of Finish.
-constexpr std::array<Look, 30> looks{{
+constexpr std::array<Look, 31> looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
@@ -53,6 +54,7 @@ constexpr std::array<Look, 30> looks{{
     {"police lettering", {1.0f, 1.0f, 1.0f}, 0.4f},
     {"taxi sign", {1.0f, 1.0f, 1.0f}, 0.4f, 0.0f, {0.5f, 0.5f, 0.5f}},
     {"timber", {0.23f, 0.14f, 0.075f}, 0.9f},
+    {"clear glass", {0.012f, 0.016f, 0.018f}, 0.06f, 0.0f, {0.0f, 0.0f, 0.0f}, 0.42f},
 }};
 
 constexpr std::uint32_t plate_columns = 4, plate_rows = 8, plate_width_px = 128, plate_height_px = 28;
@@ -122,6 +124,7 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     material.roughness = look.roughness;
     material.metallic = look.metallic;
     material.emission = look.emission;
+    material.opacity = look.opacity;
     material.takes_paint = i == index_of(Finish::paint);
     const std::string name = std::string("vehicle/") + look.name;
     const auto with_image = [&](const Image& picture) {

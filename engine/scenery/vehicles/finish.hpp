@@ -38,6 +38,7 @@ enum class Finish : std::uint32_t {
   police_lettering,
   taxi_sign,
   timber,
+  clear_glass,  ///< Tinted: one sees through it what is inside.
 };
 
 constexpr std::uint32_t index_of(Finish finish) { return static_cast<std::uint32_t>(finish); }

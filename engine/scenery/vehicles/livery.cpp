@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/scenery/vehicles/car_details.hpp"
@@ -27,24 +28,27 @@ void add_bar(VehicleParts& parts, const CarSurface& car, float x, float inner, f
                                {0.22f, outer - inner, high + 0.02f}));
 }
 
+/// A band of two rows on both sides, in pieces of four pairs: as many as keep the chequers square.
+void draw_chequers(MeshBuilder& builder, const CarSurface& car, float rear, float front, float low, float high) {
+  builder.material = index_of(Finish::chequers);
+  const float pieces = std::max(1.0f, std::round((front - rear) / ((high - low) * 4.0f)));
+  const float length = (front - rear) / pieces;
+  for (float k = 0.0f; k < pieces; k += 1.0f) {
+    const float x = front - k * length, end = x - length;
+    draw_patch_on_both_sides(builder, car.body, {{{{x, low}, {end, low}, {end, high}, {x, high}}}}, {0.014f, 0.0f});
+  }
+}
+
 geometry::PolygonMesh police_livery(const CarSurface& car) {
   MeshBuilder builder;
   const bool van = car.model.kind == ParticipantKind::van;
   const float front = static_cast<float>(car.model.wheelbase_m) - 0.42f, rear = 0.42f, low = van ? 0.85f : 0.52f,
               high = van ? 1.2f : 0.82f;
-  builder.material = index_of(Finish::chequers);
-  // As many as keep the chequers square.
-  const float length = (high - low) / 2 * 8;
-  for (float x = front; x - 0.1f > rear; x -= length) {
-    const float end = std::max(x - length, rear);
-    draw_patch_on_both_sides(builder, car.body, {{{{x, low}, {end, low}, {end, high}, {x, high}}}}, {0.014f, 0.0f});
-  }
+  draw_chequers(builder, car, rear, front, low, high);
   if (car.level == DetailLevel::far) return builder.take();
   builder.material = index_of(Finish::police_lettering);
-  const float word = van ? 1.3f : 0.0f;
   if (van)
-    draw_patch_on_both_sides(builder, car.body,
-                             {{{{0.9f, word}, {-0.1f, word}, {-0.1f, word + 0.3f}, {0.9f, word + 0.3f}}}},
+    draw_patch_on_both_sides(builder, car.body, {{{{1.9f, 0.5f}, {1.0f, 0.5f}, {1.0f, 0.78f}, {1.9f, 0.78f}}}},
                              {0.014f, 0.0f});
   else
     draw_patch(builder, car.body, Face::rear, rectangle(Face::rear, {-0.3f, 0.70f}, {0.3f, 0.86f}), {0.014f, 0.0f});
@@ -60,16 +64,11 @@ geometry::PolygonMesh police_livery(const CarSurface& car) {
 
 geometry::PolygonMesh ambulance_livery(const CarSurface& car) {
   MeshBuilder builder;
-  const float front = static_cast<float>(car.model.wheelbase_m) - 0.30f,
+  const float front = static_cast<float>(car.model.wheelbase_m) - 0.46f,
               rear = static_cast<float>(-car.model.rear_overhang_m) + 0.08f;
   const PatchOptions flat{0.012f, 0.0f};
-  // Lengths of four chequers, so that they stay square.
-  builder.material = index_of(Finish::chequers);
-  const float low = 0.92f, high = 1.40f, length = (high - low) / 2 * 8;
-  for (float x = front; x - length * 0.4f > rear; x -= length) {
-    const float end = x - length < rear ? rear : x - length;
-    draw_patch_on_both_sides(builder, car.body, {{{{x, low}, {end, low}, {end, high}, {x, high}}}}, flat);
-  }
+  // Below the windows, and behind the foot of the windscreen.
+  draw_chequers(builder, car, rear, front, 0.82f, 1.24f);
   if (car.level == DetailLevel::far) return builder.take();
   const float half = car.half_width_m() * 0.72f, hood = car.shape.hood_front_m;
   draw_patch(builder, car.body, Face::rear, rectangle(Face::rear, {-half, 0.98f}, {half, 1.38f}), flat);

@@ -82,25 +82,59 @@ float twice_area(const std::vector<glm::vec2>& polygon) {
   return area;
 }
 
-/// Sutherland and Hodgman 1974: what of `piece` lies left of every edge of the border.
+/// Sutherland and Hodgman 1974: what of `piece` lies to the left of a line.
+std::vector<SurfaceVertex> left_of(const std::vector<SurfaceVertex>& piece, glm::vec2 from, glm::vec2 to,
+                                   const FaceAxes& axes) {
+  const auto side = [&](const SurfaceVertex& v) { return cross2(to - from, flat(axes, v.position_m) - from); };
+  std::vector<SurfaceVertex> kept;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const SurfaceVertex &a = piece[k], &b = piece[(k + 1) % piece.size()];
+    const float side_a = side(a), side_b = side(b);
+    if (side_a >= 0.0f) kept.push_back(a);
+    if ((side_a > 0.0f && side_b < 0.0f) || (side_a < 0.0f && side_b > 0.0f)) {
+      const float t = side_a / (side_a - side_b);
+      kept.push_back({glm::mix(a.position_m, b.position_m, t), glm::mix(a.normal, b.normal, t)});
+    }
+  }
+  return kept;
+}
+
+/// What of `piece` lies left of every edge of the border.
 std::vector<SurfaceVertex> clipped(std::vector<SurfaceVertex> piece, const std::vector<glm::vec2>& border,
                                    const FaceAxes& axes) {
-  for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e) {
-    const glm::vec2 from = border[e], along = border[(e + 1) % border.size()] - from;
-    const auto side = [&](const SurfaceVertex& v) { return cross2(along, flat(axes, v.position_m) - from); };
-    std::vector<SurfaceVertex> kept;
-    for (std::size_t k = 0; k < piece.size(); ++k) {
-      const SurfaceVertex &a = piece[k], &b = piece[(k + 1) % piece.size()];
-      const float side_a = side(a), side_b = side(b);
-      if (side_a >= 0.0f) kept.push_back(a);
-      if ((side_a > 0.0f && side_b < 0.0f) || (side_a < 0.0f && side_b > 0.0f)) {
-        const float t = side_a / (side_a - side_b);
-        kept.push_back({glm::mix(a.position_m, b.position_m, t), glm::mix(a.normal, b.normal, t)});
-      }
-    }
-    piece = std::move(kept);
-  }
+  for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e)
+    piece = left_of(piece, border[e], border[(e + 1) % border.size()], axes);
   return piece;
+}
+
+/// The border counter-clockwise in the picture's own axes.
+std::vector<glm::vec2> border_of(const PatchOutline& outline, float corner_cut) {
+  std::vector<glm::vec2> border = rounded(outline, corner_cut);
+  if (twice_area(border) < 0.0f) std::reverse(border.begin(), border.end());
+  return border;
+}
+
+std::vector<SurfaceVertex> piece_of(const PolygonMesh& body, const geometry::PolygonCorners& corners,
+                                    const std::vector<glm::vec3>& normals) {
+  std::vector<SurfaceVertex> piece;
+  for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
+    piece.push_back({body.vertices_m[corners[k]], normals[corners[k]]});
+  return piece;
+}
+
+bool faces(const std::vector<SurfaceVertex>& piece, const FaceAxes& axes, float min_facing) {
+  const glm::vec3 facing =
+      glm::cross(piece[2].position_m - piece[0].position_m, piece.back().position_m - piece[1].position_m);
+  return facing[axes.depth] * axes.towards_viewer > min_facing * glm::length(facing);
+}
+
+/// Whether another part of the body hides it from the viewer.
+bool is_hidden(const PolygonMesh& body, Face face, const std::vector<SurfaceVertex>& piece) {
+  const FaceAxes axes = axes_of(face);
+  glm::vec3 middle(0.0f);
+  for (const SurfaceVertex& v : piece) middle += v.position_m / static_cast<float>(piece.size());
+  const auto front = surface_point(body, face, flat(axes, middle));
+  return front && ((*front)[axes.depth] - middle[axes.depth]) * axes.towards_viewer > 0.15f;
 }
 
 }  // namespace
@@ -135,9 +169,7 @@ std::optional<glm::vec3> surface_point(const PolygonMesh& body, Face face, glm::
 void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face face, const PatchOutline& outline,
                 const PatchOptions& options) {
   const FaceAxes axes = axes_of(face);
-  std::vector<glm::vec2> border = rounded(outline, options.corner_cut);
-  // The clipping below wants the border counter-clockwise in the picture's own axes.
-  if (twice_area(border) < 0.0f) std::reverse(border.begin(), border.end());
+  const std::vector<glm::vec2> border = border_of(outline, options.corner_cut);
   const std::vector<glm::vec3> normals = vertex_normals(body);
   std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
   const auto vertex = [&](const SurfaceVertex& v) {
@@ -155,19 +187,12 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
     return glm::vec2(cross2(offset, up) / area, 1.0f - cross2(across, offset) / area);
   };
   for (const auto& corners : body.polygons) {
-    std::vector<SurfaceVertex> piece;
-    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k)
-      piece.push_back({body.vertices_m[corners[k]], normals[corners[k]]});
-    const glm::vec3 facing =
-        glm::cross(piece[2].position_m - piece[0].position_m, piece.back().position_m - piece[1].position_m);
-    if (facing[axes.depth] * axes.towards_viewer <= options.min_facing * glm::length(facing)) continue;
+    std::vector<SurfaceVertex> piece = piece_of(body, corners, normals);
+    if (!faces(piece, axes, options.min_facing)) continue;
     piece = clipped(std::move(piece), border, axes);
     if (piece.size() < 3) continue;
     // A polygon that another part of the body hides from the viewer keeps clear of the patch.
-    glm::vec3 middle(0.0f);
-    for (const SurfaceVertex& v : piece) middle += v.position_m / static_cast<float>(piece.size());
-    const auto front = surface_point(body, face, flat(axes, middle));
-    if (front && ((*front)[axes.depth] - middle[axes.depth]) * axes.towards_viewer > 0.15f) continue;
+    if (is_hidden(body, face, piece)) continue;
     for (std::size_t k = 1; k + 1 < piece.size(); k += 2) {
       const std::uint32_t a = vertex(piece[0]), b = vertex(piece[k]), c = vertex(piece[k + 1]);
       const bool has_fourth = k + 2 < piece.size();
@@ -183,11 +208,70 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
   }
 }
 
+PatchOutline mirrored(const PatchOutline& outline) {
+  const auto& c = outline.corners;
+  return {{c[1], c[0], c[3], c[2]}};
+}
+
+geometry::PolygonMesh cut_out(const geometry::PolygonMesh& body, Face face, const PatchOutline& outline,
+                              const PatchOptions& options) {
+  const FaceAxes axes = axes_of(face);
+  const std::vector<glm::vec2> border = border_of(outline, options.corner_cut);
+  const std::vector<glm::vec3> normals = vertex_normals(body);
+  PolygonMesh left;
+  left.vertices_m = body.vertices_m;
+  left.vertex_creases = body.vertex_creases;
+  left.default_vertex_crease = body.default_vertex_crease, left.default_edge_crease = body.default_edge_crease;
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
+  const auto key_of = [](const glm::vec3& p) {
+    return std::array<std::int64_t, 3>{std::llround(p.x * 4096.0), std::llround(p.y * 4096.0),
+                                       std::llround(p.z * 4096.0)};
+  };
+  for (std::uint32_t v = 0; v < body.vertices_m.size(); ++v) known.try_emplace(key_of(body.vertices_m[v]), v);
+  const auto vertex = [&](const SurfaceVertex& v) {
+    const auto [place, fresh] =
+        known.try_emplace(key_of(v.position_m), static_cast<std::uint32_t>(left.vertices_m.size()));
+    if (fresh) {
+      left.vertices_m.push_back(v.position_m);
+      if (!left.vertex_creases.empty()) left.vertex_creases.push_back(left.default_vertex_crease);
+    }
+    return place->second;
+  };
+  const auto add = [&](const geometry::PolygonCorners& corners, std::size_t from, bool whole) {
+    left.polygons.push_back(corners);
+    if (!body.polygon_materials.empty()) left.polygon_materials.push_back(body.polygon_materials[from]);
+    if (!body.edge_creases.empty())
+      left.edge_creases.push_back(
+          whole ? body.edge_creases[from]
+                : std::array<std::uint32_t, 4>{body.default_edge_crease, body.default_edge_crease,
+                                               body.default_edge_crease, body.default_edge_crease});
+  };
+  for (std::size_t p = 0; p < body.polygons.size(); ++p) {
+    std::vector<SurfaceVertex> piece = piece_of(body, body.polygons[p], normals);
+    const std::vector<SurfaceVertex> within =
+        faces(piece, axes, options.min_facing) ? clipped(piece, border, axes) : std::vector<SurfaceVertex>();
+    if (within.size() < 3 || is_hidden(body, face, within)) {
+      add(body.polygons[p], p, true);
+      continue;
+    }
+    // What lies to the right of one edge and to the left of those before it.
+    for (std::size_t e = 0; e < border.size() && piece.size() >= 3; ++e) {
+      const glm::vec2 from = border[e], to = border[(e + 1) % border.size()];
+      const std::vector<SurfaceVertex> outside = left_of(piece, to, from, axes);
+      for (std::size_t k = 1; k + 1 < outside.size(); ++k) {
+        const std::uint32_t a = vertex(outside[0]), b = vertex(outside[k]), c = vertex(outside[k + 1]);
+        if (a != b && b != c && c != a) add({a, b, c, geometry::no_vertex}, p, false);
+      }
+      piece = left_of(piece, from, to, axes);
+    }
+  }
+  return left;
+}
+
 void draw_patch_on_both_sides(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body,
                               const PatchOutline& outline, const PatchOptions& options) {
   draw_patch(builder, body, Face::left, outline, options);
-  const auto& c = outline.corners;
-  draw_patch(builder, body, Face::right, {{c[1], c[0], c[3], c[2]}}, options);
+  draw_patch(builder, body, Face::right, mirrored(outline), options);
 }
 
 }  // namespace septet::scenery

@@ -39,6 +39,13 @@ std::optional<glm::vec3> surface_point(const geometry::PolygonMesh& body, Face f
 void draw_patch(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body, Face face,
                 const PatchOutline& outline, const PatchOptions& options = {});
 
+/// What is left of `body` where draw_patch would have drawn on it: a hole as large as the patch.
+geometry::PolygonMesh cut_out(const geometry::PolygonMesh& body, Face face, const PatchOutline& outline,
+                              const PatchOptions& options = {});
+
+/// The outline of the left side as seen from the right.
+PatchOutline mirrored(const PatchOutline& outline);
+
 /// The same on both sides: `outline` is that of the left side.
 void draw_patch_on_both_sides(geometry::MeshBuilder& builder, const geometry::PolygonMesh& body,
                               const PatchOutline& outline, const PatchOptions& options = {});

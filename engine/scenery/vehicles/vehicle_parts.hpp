@@ -1,7 +1,7 @@
 #pragma once
 /// The parts of the vehicles, as meshes with finishes, before they enter the scene.
 ///
-/// Three levels of detail: near (up to about 4,000 triangles), middle (800) and far (120). Parts
+/// Three levels of detail: near (up to about 6,000 triangles, with what is seen through windows), middle (800) and far (120). Parts
 /// that turn or shine are parts of their own with a role. Vehicle frame, metres; wheels have their
 /// origin in their centre.
 
