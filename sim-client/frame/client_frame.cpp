@@ -14,6 +14,7 @@
 #include "engine/world/traffic_light.hpp"
 #include "sim-client/frame/cockpit_drawing.hpp"
 #include "sim-client/frame/prototype_of.hpp"
+#include "sim-client/frame/windscreen_drawing.hpp"
 
 namespace septet::frame {
 namespace {
@@ -135,6 +136,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         frame.participants.push_back(interior);
         add_hands(frame, interior.steering_wheel_rad, participant, scene);
         add_instruments(frame, readings_of(shown, participant), participant, scene);
+        add_windscreen(frame, shown, participant, scene);
       }
     }
     frame.participants.push_back(drawn);

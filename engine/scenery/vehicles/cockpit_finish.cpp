@@ -17,7 +17,7 @@ struct InsideLook {
 };
 
 /// In the order of CockpitFinish.
-constexpr std::array<InsideLook, 12> inside_looks{{
+constexpr std::array<InsideLook, 13> inside_looks{{
     {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
     {"soft", {0.060f, 0.060f, 0.062f}, 0.95f},
     {"panel", {0.19f, 0.165f, 0.135f}, 0.9f},
@@ -30,6 +30,7 @@ constexpr std::array<InsideLook, 12> inside_looks{{
     {"rubber", {0.014f, 0.014f, 0.014f}, 0.9f},
     {"dial faces", {0.75f, 0.75f, 0.75f}, 0.9f, 0.0f, 0.42f},
     {"signs", {0.60f, 0.60f, 0.60f}, 0.9f, 0.0f, 0.80f},
+    {"water", {0.62f, 0.64f, 0.66f}, 0.3f},
 }};
 
 }  // namespace
@@ -43,6 +44,10 @@ Palette add_cockpit_finishes(scene::SceneBuilder& builder) {
     material.roughness = look.roughness;
     material.metallic = look.metallic;
     material.emission = glm::vec3(look.glow);
+    if (i == index_of(CockpitFinish::water)) {
+      material.opacity = 0.65f;
+      material.refraction_index = 1.33f;
+    }
     material.takes_paint = i == index_of(CockpitFinish::paint);
     const std::string name = std::string("cockpit/") + look.name;
     const auto with_image = [&](const image::Image& picture) {

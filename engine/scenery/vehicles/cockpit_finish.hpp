@@ -20,6 +20,7 @@ enum class CockpitFinish : std::uint32_t {
   rubber,
   dial_faces,  ///< Lit from behind, as the signs.
   signs,
+  water,  ///< Drops on the windscreen.
 };
 
 constexpr std::uint32_t index_of(CockpitFinish finish) { return static_cast<std::uint32_t>(finish); }

@@ -48,6 +48,14 @@ void seen_from_within(VehicleParts& parts) {
     }
 }
 
+/// What each frame makes of a material has it from such a piece.
+VehicleParts sample_of(CockpitFinish finish) {
+  MeshBuilder plate;
+  plate.material = index_of(finish);
+  plate.patch({0, 0, 0}, {0.01f, 0, 0}, {0.01f, 0.01f, 0}, {0, 0.01f, 0});
+  return {{"sample", plate.take(), 0, {Placement{}}}};
+}
+
 }  // namespace
 
 VehicleParts interior_parts() {
@@ -83,11 +91,8 @@ VehicleParts instrument_parts() {
   return parts;
 }
 
-VehicleParts sign_parts() {
-  MeshBuilder plate;
-  plate.material = index_of(CockpitFinish::signs);
-  plate.patch({0, 0, 0}, {0.01f, 0, 0}, {0.01f, 0.01f, 0}, {0, 0.01f, 0});
-  return {{"signs", plate.take(), 0, {Placement{}}}};
-}
+VehicleParts sign_parts() { return sample_of(CockpitFinish::signs); }
+
+VehicleParts water_parts() { return sample_of(CockpitFinish::water); }
 
 }  // namespace septet::scenery

@@ -47,10 +47,11 @@ VehicleParts bicycle_parts(const VehicleModel& model);
 VehicleParts motorcycle_parts(const VehicleModel& model);
 VehicleParts pedestrian_parts(const VehicleModel& model);
 /// What the driver of the S80 sees of his own car: bonnet, dashboard, pillars, steering wheel. Materials are CockpitFinish indices, here
-/// and in the next three.
+/// and in the next four.
 VehicleParts interior_parts();
 VehicleParts hands_parts();       ///< The driver's hands; they turn as the wheel does.
 VehicleParts instrument_parts();  ///< The faces of the instruments alone, for a screen that shows nothing else.
+VehicleParts water_parts();       ///< Of the material of drops on the windscreen.
 VehicleParts sign_parts();        ///< Of the material of needles and lit signs, which each frame puts in their places.
 
 /// Triangles of everything that is drawn at a distance.

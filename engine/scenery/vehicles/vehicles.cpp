@@ -62,6 +62,7 @@ void build_vehicles(scene::SceneBuilder& builder) {
   add_prototype(builder, inside, known_inside, "cockpit/hands", hands_parts());
   add_prototype(builder, inside, known_inside, "cockpit/instruments", instrument_parts());
   add_prototype(builder, inside, known_inside, "cockpit/signs", sign_parts());
+  add_prototype(builder, inside, known_inside, "cockpit/water", water_parts());
 }
 
 }  // namespace septet::scenery

@@ -7,7 +7,7 @@ namespace septet::scenery {
 
 /// Adds "model/NAME" for every entry of vehicle_models(), with turning wheels and lamps by role and
 /// three levels of detail, and "model/interior/volvo-s80": what the driver sees of his own car, for
-/// rigs that have no car around the driver; "model/cockpit/hands", "…/instruments" and "…/signs" go with it.
+/// rigs that have no car around the driver; "model/cockpit/hands", "…/instruments", "…/signs" and "…/water" go with it.
 void build_vehicles(scene::SceneBuilder& builder);
 
 }  // namespace septet::scenery

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/world/instrument_panel.hpp"
+#include "sim-client/frame/windscreen_drawing.hpp"
 #include "tests/sim-client/frame/cockpit_view.hpp"
 
 namespace septet::frame {
@@ -122,6 +123,51 @@ upper_left_m = [1.96, 0.52, 1.02]
       const image::Color c = picture->image.at(x, 4);
       CHECK(std::max({c.red, c.green, c.blue}) < 60);
     }
+  }
+}
+
+TEST_CASE("drops lie on the windscreen in rain, and fewer where the wipers run") {
+  const rig::Rig rig = rig_called("desktop");
+  Snapshot shown = in_the_seat(60.0, 2000.0);
+  shown.environment.cloud_cover = 1.0;
+  const auto dry = seat_picture(shown, rig, rig.screens[0], "windscreen-dry");
+  shown.environment.rain_mm_per_h = 6.0;
+  CHECK(drops_on_glass(in_the_seat().environment, 10.0).empty());
+  for (const double time_s : {10.0, 10.4, 11.1}) {
+    CAPTURE(time_s);
+    shown.simulated_time_s = time_s;
+    const auto wet = seat_picture(shown, rig, rig.screens[0], "windscreen-" + std::to_string(time_s));
+    CHECK(seat_picture(shown, rig, rig.screens[0], "windscreen-again").image.rgba == wet.image.rgba);
+    int swept = 0, unswept = 0;
+    for (const GlassDrop& drop : drops_on_glass(shown.environment, time_s))
+      (swept_share(drop.place_m) ? swept : unswept) += 1;
+    CHECK(unswept > 150);
+    CHECK(swept < unswept / 2);
+  }
+}
+
+TEST_CASE("the steering wheel turns with the driver's") {
+  const rig::Rig rig = rig_called("desktop");
+  const glm::dvec2 top = seat_picture(in_the_seat(), rig, rig.screens[0], "wheel-straight").pixel({1.756, 0.37, 0.987});
+  for (const double turn_rad : {0.0, 0.35, -0.35}) {
+    CAPTURE(turn_rad);
+    Snapshot shown = in_the_seat();
+    shown.driver_car.steering_wheel_rad = turn_rad;
+    const auto picture = seat_picture(shown, rig, rig.screens[0], "wheel-" + std::to_string(turn_rad));
+    // The bright mark on the rim: straight ahead it is at its top, and it goes to the left with a turn to the left.
+    double weight = 0.0, sum = 0.0;
+    for (double x = top.x - 140.0; x <= top.x + 140.0; x += 1.0)
+      for (double y = top.y; y <= top.y + 60.0; y += 1.0) {
+        const image::Color c = picture.at({x, y});
+        const double bright = std::max(0.0, c.blue - 70.0);
+        weight += bright, sum += bright * (x - top.x);
+      }
+    REQUIRE(weight > 500.0);
+    const double aside_px = sum / weight;
+    if (turn_rad == 0.0)
+      CHECK(std::abs(aside_px) < 12.0);
+    else
+      CHECK(aside_px * turn_rad < -20.0 * std::abs(turn_rad));
   }
 }
 

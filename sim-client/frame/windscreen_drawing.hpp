@@ -1,0 +1,45 @@
+#pragma once
+/// Rain on the windscreen of the car whose inside is drawn, and the wipers that clear it.
+///
+/// Pure: both are functions of simulated time and weather, so that every screen, a replay and a film agree. On the glass, metres: x to the
+/// right of its middle and y up from its foot, as the driver sees it. Wipers run once in 4 s in light rain, else 45 or 60 times a minute
+/// (EU 1008/2010, annex III: one speed of at least 45, another 15 below it).
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/instant/frame_input.hpp"
+#include "engine/scene/resolved_scene.hpp"
+#include "engine/world/snapshot.hpp"
+
+namespace septet::frame {
+
+/// Where one wiper turns, how far its blade reaches, and from which angle to which it sweeps (from x, counter-clockwise).
+struct Wiper {
+  glm::dvec2 pivot_m;
+  double from_m, to_m;
+  double rest_rad, turn_rad;
+};
+extern const std::vector<Wiper> wipers;
+
+/// 0 at rest to 1 at the other end of the sweep.
+double wiper_share(double rain_mm_per_h, double time_s);
+/// When a blade last passed where its share was `share`, at or before `time_s`. Nothing while they rest.
+std::optional<double> last_passed_s(double rain_mm_per_h, double share, double time_s);
+/// How far along its sweep a wiper is when it passes this place; nothing where none does.
+std::optional<double> swept_share(const glm::dvec2& place_m);
+
+struct GlassDrop {
+  glm::dvec2 place_m;
+  double radius_m;
+};
+/// Those that have fallen since the wipers last passed. None in snow.
+std::vector<GlassDrop> drops_on_glass(const Environment& environment, double time_s);
+
+/// Into a frame in which the inside of `car` is drawn. What the scene does not have (yet) is left out.
+void add_windscreen(instant::FrameInput& frame, const Snapshot& shown, const Participant& car,
+                    const scene::ResolvedScene& scene);
+
+}  // namespace septet::frame
