@@ -24,6 +24,7 @@ MeshSummary summary_of(const scene::SurfaceMesh& mesh, const std::vector<scene::
 BodyBounds body_of(const scene::Prototype& prototype, const std::vector<MeshSummary>& meshes) {
   BodyBounds body{glm::vec3(1e9f), glm::vec3(-1e9f)};
   for (const scene::Instance& part : prototype.parts) {
+    if (!part.casts_shadow) continue;  // Such as what is inside of another.
     if (part.mesh >= meshes.size() || part.role != scene::PartRole::fixed || part.visible_from_m > 0.0f) continue;
     const MeshBounds& bounds = meshes[part.mesh].bounds;
     for (int corner = 0; corner < 8; ++corner) {
