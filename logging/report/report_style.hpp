@@ -44,6 +44,7 @@ td.value { white-space: nowrap; font-variant-numeric: tabular-nums; font-weight:
 td.name { white-space: nowrap; }
 .warning { border-left: 3px solid var(--mark); padding-left: 12px; }
 @media print { body { background: white; } figure, .tile { break-inside: avoid; } }
+@media (max-width: 700px) { main { padding: 18px 14px 40px; } table { display: block; overflow-x: auto; } figure { padding: 8px 6px; } }
 )css";
 
 }  // namespace septet::logging
