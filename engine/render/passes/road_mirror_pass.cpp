@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
 
 #include "engine/instant/wet_road.hpp"
 #include "engine/render/passes/dynamic_surfaces.hpp"
