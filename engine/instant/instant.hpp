@@ -55,7 +55,7 @@ struct Instant {
   /// exposure there is less than a camera's. None whose pool cannot be seen.
   std::vector<Headlight> headlights;
   std::vector<GroundContact> contacts;  ///< Of participants, for renderers that do not find out by rays.
-  std::vector<SmokePuff> smoke;  ///< Of fires, and the spray behind wheels.
+  std::vector<SmokePuff> smoke;         ///< Of fires, and the spray behind wheels.
   SootField soot;
   std::vector<OverlayText> overlay;  ///< Over the finished picture.
 };

@@ -90,7 +90,9 @@ struct Renderer::State {
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
   void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
                  const std::function<void()>& draw_seen_through);
-  ViewBindings view_bindings() const { return {{}, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view}; }
+  ViewBindings view_bindings() const {
+    return {{}, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view};
+  }
   void draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant);
   void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
 };
@@ -176,8 +178,8 @@ void Renderer::State::destroy() {
 
 namespace {
 SurfaceLight surface_light_of(const Instant& instant, bool lit_by_headlights, bool lit_by_lamps) {
-  return {instant.environment.road_wetness > 0.0, lit_by_headlights, lit_by_lamps,
-          instant.environment.snow_cover > 0.0, !instant.soot.cover.empty()};
+  return {instant.environment.road_wetness > 0.0, lit_by_headlights, lit_by_lamps, instant.environment.snow_cover > 0.0,
+          !instant.soot.cover.empty()};
 }
 }  // namespace
 
@@ -339,15 +341,15 @@ void Renderer::State::draw(const Instant& instant) {
               add_image("ripples", road_mirror_pass.ripples, road_mirror_pass.ripples_access)};
     graph.add_pass("ripples", {{}, {{mirror[2], Access::transfer_destination}}},
                    [&] { upload_ripples(road_mirror_pass, context, instant); });
-    graph.add_pass("road mirror",
-                   {view_reads, {{mirror[0], Access::color_attachment}, {mirror[1], Access::depth_attachment}}}, [&] {
-                     draw_road_mirror(road_mirror_pass, context, scene, *frame.road_mirror, instant.views.front(),
-                                      view_bindings(),
-                                      store(context, std::span<const std::uint8_t>(instant.soot.cover)),
-                                      surface_light_of(instant, frame.road_mirror->lit_by_headlights,
-                                                        frame.road_mirror->lit_by_lamps));
-                     mark_pass(context, "road mirror");
-                   });
+    graph.add_pass(
+        "road mirror", {view_reads, {{mirror[0], Access::color_attachment}, {mirror[1], Access::depth_attachment}}},
+        [&] {
+          draw_road_mirror(
+              road_mirror_pass, context, scene, *frame.road_mirror, instant.views.front(), view_bindings(),
+              store(context, std::span<const std::uint8_t>(instant.soot.cover)),
+              surface_light_of(instant, frame.road_mirror->lit_by_headlights, frame.road_mirror->lit_by_lamps));
+          mark_pass(context, "road mirror");
+        });
     view_reads.push_back({mirror[0], Access::sampled});
     view_reads.push_back({mirror[2], Access::sampled});
   }

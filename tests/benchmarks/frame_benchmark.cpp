@@ -141,12 +141,12 @@ void thirty_frames_thrice(benchmark::internal::Benchmark* frame) {
 
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420, 640, 420, "day")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 320x240, 320, 240, "day")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / dusk, 640, 420, "dusk")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / rain_at_dusk, 640, 420, "rain_at_dusk")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / night, 640, 420, "night")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / snow, 640, 420, "snow")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / fog, 640, 420, "fog")->Apply(thirty_frames_thrice);
-BENCHMARK_CAPTURE(virtual_screen_frame, 640x420 / tunnel, 640, 420, "tunnel")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_dusk, 640, 420, "dusk")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_rain_at_dusk, 640, 420, "rain_at_dusk")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_night, 640, 420, "night")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_snow, 640, 420, "snow")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_fog, 640, 420, "fog")->Apply(thirty_frames_thrice);
+BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_tunnel, 640, 420, "tunnel")->Apply(thirty_frames_thrice);
 BENCHMARK_CAPTURE(virtual_screen_frame, 640x420_by_passes_ms, 640, 420, "day", true)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(10);

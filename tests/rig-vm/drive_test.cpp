@@ -212,8 +212,7 @@ TEST_CASE(
        (folder / "out").string(), "--any-port", "--start-now", "--wait-for-screens", "2", "--seconds", "600",
        "--scenario", "/source/tests/conformance/data/scenarios/xosc/velodrome.xosc"},
       folder / "server.err");
-  const bool drives =
-      becomes_true([&] { return cluster["speed_kmh"] > 15.0 && device.actuators().fan > 0.2; }, 60.0);
+  const bool drives = becomes_true([&] { return cluster["speed_kmh"] > 15.0 && device.actuators().fan > 0.2; }, 60.0);
   CHECK_MESSAGE(drives, text_of(folder / "server.err"));
   CHECK(cluster["engine_rpm"] > 800.0);
   CHECK(device.watchdog_ms() == 250);
