@@ -122,6 +122,16 @@ Vec3 table_direction(std::uint32_t column, std::uint32_t row, const Vec3& sun) {
   return {level * std::cos(azimuth), level * std::sin(azimuth), z};
 }
 
+/// How strong the sun is beside a usual one, 1, for so much light that arrives of it, across its beam. A usual one gives 80,000 lx from high up and less from
+/// further down, through more air: who tells a low sun's true light means that one, and who leaves 80,000 lx there means it, too.
+double share_of_sun(const Air& air, double sine, double illuminance_lux) {
+  constexpr double usual_lux = 80000.0, usual_sine = 0.68;
+  const double of_high = illuminance_lux / usual_lux;
+  const double through =
+      luminance(air.transmittance(2.0, std::min(sine, usual_sine))) / luminance(air.transmittance(2.0, usual_sine));
+  return std::clamp(std::min(of_high / std::max(through, 1e-6), std::max(1.0, of_high)), 0.0, 1.5);
+}
+
 }  // namespace
 
 SkyLight sky_light(const Environment& environment) {
@@ -134,9 +144,9 @@ SkyLight sky_light(const Environment& environment) {
   light.fog_per_m = static_cast<float>(3.912 / visibility_m);
   const double overcast = step_between(0.55, 1.0, environment.cloud_cover);
   light.overcast = static_cast<float>(overcast);
-  const double sun_scale = std::clamp(environment.sun_illuminance_lux / 80000.0, 0.0, 1.5);
   // Haze near the ground, where visibility is measured, is thicker than the column above it tells: a share of it counts.
   const Air air(std::clamp(0.15 * 3.912 / visibility_m, 4.0e-6, 6.0e-5));
+  const double sun_scale = share_of_sun(air, sun.z, environment.sun_illuminance_lux);
 
   const Vec3 direct = solar_constant * sun_scale * air.transmittance(2.0, sun.z) * (1.0 - 0.97 * overcast);
   // Fog lies some 150 m deep: it takes the sun's beam and gives its light back evenly.

@@ -54,6 +54,20 @@ TEST_CASE("the sun reddens and fades as it sinks") {
   CHECK(brightness(low.light_irradiance) < 0.5f * brightness(high.light_irradiance));
 }
 
+TEST_CASE("a low sun gives the light that is told of it and not that light dimmed again by the air") {
+  const auto brightness_of_sun = [](double elevation_rad, double illuminance_lux) {
+    Environment environment;
+    environment.sun_elevation_rad = elevation_rad;
+    environment.sun_illuminance_lux = illuminance_lux;
+    return double(brightness(sky_light(environment).light_irradiance));
+  };
+  const double high = brightness_of_sun(0.75, 80000.0);
+  CHECK(brightness_of_sun(0.05, 1500.0) / high == doctest::Approx(1500.0 / 80000.0).epsilon(0.05));
+  CHECK(brightness_of_sun(0.3, 35000.0) / high == doctest::Approx(35000.0 / 80000.0).epsilon(0.05));
+  // Who leaves it as it is by day means the same sun, lower.
+  CHECK(brightness_of_sun(0.05, 80000.0) < 0.5 * high);
+}
+
 TEST_CASE("a closed cover takes the sun's beam and the colour of the sky") {
   const SkyLight light = light_at(0.8, 1.0);
   CHECK(brightness(light.light_irradiance) < 0.05f * brightness(light_at(0.8).light_irradiance));
