@@ -52,7 +52,8 @@ const rig::Screen& screen_with_dials(const rig::Rig& rig) { return rig::screen_a
 
 TEST_CASE("needles point at the speed and the revolutions of the snapshot") {
   for (const char* name : {"desktop", "three-monitors"})
-    for (const auto& [kmh, rpm] : {std::pair{0.0, 800.0}, {50.0, 2000.0}, {117.0, 3300.0}, {400.0, 9000.0}}) {
+    for (const auto& reading : {std::pair{0.0, 800.0}, {50.0, 2000.0}, {117.0, 3300.0}, {400.0, 9000.0}}) {
+      const double kmh = reading.first, rpm = reading.second;
       CAPTURE(name);
       CAPTURE(kmh);
       const rig::Rig rig = rig_called(name);
@@ -79,7 +80,9 @@ TEST_CASE("each lamp among the instruments shines when its own is lit, by day an
     Snapshot dark = in_the_seat();
     if (night) dark.environment.sun_elevation_rad = -0.4;
     const auto unlit = seat_picture(dark, rig, rig.screens[0], night ? "lamps-none-night" : "lamps-none");
-    for (const auto& [lamp, sign] : lamps) {
+    for (const auto& each : lamps) {
+      const Lamp lamp = each.first;
+      const Sign sign = each.second;
       CAPTURE(static_cast<int>(sign));
       Snapshot shown = dark;
       shown.participants[0].lamps.set(lamp, true);
