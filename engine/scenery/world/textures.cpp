@@ -112,7 +112,7 @@ Image concrete_texture(std::uint64_t seed) {
     // Rain streaks run down; panels meet at the texture's edge.
     value -= 16.0 * std::max(0.0, fractal_noise(u * 32, v * 2, 2, seed + 2, 2)) * (0.4 + 0.6 * v);
     if (x < 2 || y < 2) value -= 42.0;
-    if (lattice_random(x / 2, y / 2, seed + 3) > 0.994) value -= 45.0;
+    if (lattice_random(x, y, seed + 3) > 0.998) value -= 32.0;  // Pores of 16 mm.
     return grey(value, 2.0);
   });
 }
