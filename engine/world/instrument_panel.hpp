@@ -53,6 +53,14 @@ enum class Sign : std::uint8_t {
 };
 inline constexpr std::uint32_t columns = 8, rows = 3;
 
+/// Where a sign's picture lies: column and row, the first row on top.
+constexpr glm::uvec2 cell_of(Sign sign) {
+  const auto index = static_cast<std::uint32_t>(sign);
+  return {index % columns, index / columns};
+}
+/// The middle of a sign's picture in texture coordinates.
+inline glm::vec2 uv_of_middle(Sign sign) { return (glm::vec2(cell_of(sign)) + 0.5f) / glm::vec2(columns, rows); }
+
 /// A sign on the panel, as high as `height_m`.
 struct Place {
   glm::dvec2 middle_m;

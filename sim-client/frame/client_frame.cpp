@@ -71,7 +71,7 @@ instant::FrameInput panel_frame(const Snapshot& shown, const ScreenViews& views,
   if (!car || !faces) return frame;
   auto drawn = instant::drawn_participant(*car, *faces);
   drawn.lamps = {};  // Its headlights are not those of the panel.
-  frame.participants.push_back(std::move(drawn));
+  frame.participants.push_back(drawn);
   add_instruments(frame, readings_of(shown, *car), *car, scene);
   return frame;
 }

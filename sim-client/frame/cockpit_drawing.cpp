@@ -27,17 +27,14 @@ class PanelPen {
   void sign(Sign sign, const face::Place& place, double share = 1.0) {
     const double half = 0.5 * place.height_m, across = share * half;
     const glm::dvec2 low = place.middle_m - glm::dvec2(across, half), high = place.middle_m + glm::dvec2(across, half);
-    const auto index = static_cast<std::uint32_t>(sign);
-    const glm::vec2 cell(index % face::columns, index / face::columns), cells(face::columns, face::rows);
+    const glm::vec2 cell(face::cell_of(sign)), cells(face::columns, face::rows);
     const auto inset = static_cast<float>(0.5 - 0.5 * share);
     const glm::vec2 from = (cell + glm::vec2(inset, 0.0f)) / cells, to = (cell + glm::vec2(1.0f - inset, 1.0f)) / cells;
     quad({low, {high.x, low.y}, high, {low.x, high.y}}, {glm::vec2(from.x, to.y), to, glm::vec2(to.x, from.y), from});
   }
   /// Plain, of the colour in the middle of a sign's picture.
   void plain(Sign sign, const std::array<glm::dvec2, 4>& corners) {
-    const auto index = static_cast<std::uint32_t>(sign);
-    const glm::vec2 at((static_cast<float>(index % face::columns) + 0.5f) / face::columns,
-                       (static_cast<float>(index / face::columns) + 0.5f) / face::rows);
+    const glm::vec2 at = face::uv_of_middle(sign);
     quad(corners, {at, at, at, at});
   }
   void needle(const face::Dial& dial, double reading) {
@@ -152,7 +149,7 @@ void add_hands(instant::FrameInput& frame, double steering_wheel_rad, const Part
   instant::DrawnParticipant hands = instant::drawn_participant(car, *prototype);
   hands.lamps = {};
   hands.steering_wheel_rad = std::clamp(steering_wheel_rad, -most_rad, most_rad);
-  frame.participants.push_back(std::move(hands));
+  frame.participants.push_back(hands);
 }
 
 }  // namespace septet::frame

@@ -71,9 +71,7 @@ class GlassPen {
 };
 
 void add_bar(GlassPen& pen, const glm::dvec2& a, const glm::dvec2& b, double half_m, double lift_m) {
-  constexpr auto hub = static_cast<std::uint32_t>(instrument_panel::Sign::hub);  // A dull black.
-  const glm::vec2 uv((static_cast<float>(hub % instrument_panel::columns) + 0.5f) / instrument_panel::columns,
-                     (static_cast<float>(hub / instrument_panel::columns) + 0.5f) / instrument_panel::rows);
+  const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // A dull black.
   const glm::dvec2 along = glm::normalize(b - a), beside = half_m * glm::dvec2(-along.y, along.x);
   const std::array<glm::dvec2, 4> corners{a - beside, b - beside, b + beside, a + beside};
   for (const std::size_t i : {0, 1, 2, 0, 2, 3}) pen.corner(corners[i], lift_m, {0.0, 0.0}, uv);

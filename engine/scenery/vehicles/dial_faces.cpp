@@ -68,14 +68,15 @@ class SignPen {
  public:
   SignPen(Image& image, Sign sign)
       : image_(image),
-        x_((static_cast<int>(sign) % static_cast<int>(instrument_panel::columns) + 0.5) * cell_px),
-        y_((static_cast<int>(sign) / static_cast<int>(instrument_panel::columns) + 0.5) * cell_px) {}
+        x_((instrument_panel::cell_of(sign).x + 0.5) * cell_px),
+        y_((instrument_panel::cell_of(sign).y + 0.5) * cell_px) {}
   void line(double x0, double y0, double x1, double y1, double width, Color color) const {
     const Point a = at({x0, y0}), b = at({x1, y1});
     image::line(image_, a.x, a.y, b.x, b.y, width * half_px, color);
   }
   void polygon(const std::vector<Point>& corners, Color color) const {
     std::vector<Point> points;
+    points.reserve(corners.size());
     for (const Point& corner : corners) points.push_back(at(corner));
     image::polygon(image_, points, color);
   }
