@@ -202,6 +202,7 @@ SkyLight sky_light(const Environment& environment) {
 
   light.sky_irradiance = glm::vec3(sky_irradiance);
   light.ground_irradiance = glm::vec3(pi * ground);
+  light.irradiance = instant::sky_irradiance(table, light.sky_irradiance, glm::vec3(ground));
   light.night = static_cast<float>(night);
   if (luminance(sunlight) > 0.01) {
     light.light_direction = glm::vec3(sun);

@@ -14,6 +14,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/instant/sky_irradiance.hpp"
 #include "engine/world/snapshot.hpp"
 
 namespace septet::instant {
@@ -35,6 +36,7 @@ struct SkyLight {
   glm::vec3 sun_direction{0.0f, 0.0f, 1.0f};
   glm::vec3 sky_irradiance{0.0f};     ///< On a level surface that looks up.
   glm::vec3 ground_irradiance{0.0f};  ///< On one that looks down.
+  SkyIrradiance irradiance{};         ///< On one that looks anywhere.
   float fog_per_m = 0.0f;             ///< Extinction.
   float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.
   float night = 0.0f;                 ///< 0 day to 1 night.

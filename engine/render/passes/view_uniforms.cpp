@@ -80,6 +80,9 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const glm::vec2 sun_level = glm::length(sun) > 1e-6f ? glm::normalize(sun) : glm::vec2(1.0f, 0.0f);
   uniforms.sun_level = glm::vec4(sun_level, light.overcast, static_cast<float>(instant.environment.cloud_cover));
 
+  for (std::size_t i = 0; i < light.irradiance.size(); ++i)
+    uniforms.irradiance[i] = glm::vec4(light.irradiance[i], 0.0f);
+
   // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.
   const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
   const double across = 0.5 * (projection.right_slope - projection.left_slope) * (view.mirrored ? -1.0 : 1.0);

@@ -21,6 +21,7 @@ struct ViewUniforms {
   glm::mat4 shadow_from_relative;
   glm::vec4 far_from_near;
   glm::vec4 light_direction, light_irradiance, sky_irradiance, ground_irradiance, sun_direction, sun_level;
+  std::array<glm::vec4, 7> irradiance;
   glm::vec4 ray_middle, ray_right, ray_down;
   glm::vec4 billboard_right, billboard_up;
   glm::vec4 weather, wind;
@@ -29,7 +30,7 @@ struct ViewUniforms {
   glm::vec4 lamp_field, lamp_hue;
   glm::vec4 road, water, target;
 };
-static_assert(sizeof(ViewUniforms) == (4 * 2 + 14 + 2 * most_headlights + 6 + 3) * 16);
+static_assert(sizeof(ViewUniforms) == (4 * 2 + 21 + 2 * most_headlights + 6 + 3) * 16);
 
 /// Where the wet road's mirror image of a view lies in a picture.
 struct RoadMirror {

@@ -53,7 +53,7 @@ float feathers(vec2 place, float pixel_m) {
 }
 
 // Light that comes to a direction from the whole half space before it, over pi.
-vec3 light_from(vec3 n) { return mix(view.ground_irradiance.rgb, view.sky_irradiance.rgb, 0.5 + 0.5 * n.z) / pi; }
+vec3 light_from(vec3 n) { return irradiance_on(n) / pi; }
 
 vec4 frost(vec3 eye, vec3 n, vec3 place) {
   vec2 across = dFdx(place.xy), down = dFdy(place.xy);

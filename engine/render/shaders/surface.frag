@@ -134,7 +134,7 @@ void main() {
   float diffuse = max(facing, 0.0);
   if (cut != 0) diffuse = 0.75 * diffuse + 0.25 * abs(facing) + 0.1;  // Leaves let light through.
   vec3 sunlight = view.light_irradiance.rgb * lit;
-  vec3 ambient = mix(view.ground_irradiance.rgb, view.sky_irradiance.rgb, 0.5 + 0.5 * n.z) * share_of_sky;
+  vec3 ambient = (road != 0 ? view.sky_irradiance.rgb : irradiance_on(n)) * share_of_sky;  // Roads lie level.
   // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
   float between_pools = 0.35 * (1.0 - share_of_sky);
   if ((lamps & 2) != 0) {

@@ -12,6 +12,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
   vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
   vec4 sun_level;          // xy: the sun's direction on the level, unit. z: overcast, w: cloud cover.
+  vec4 irradiance[7];      // rgb: of sky and ground, see engine/instant/sky_irradiance.hpp.
   vec4 ray_middle, ray_right, ray_down;  // Direction to a pixel: middle + right·x + down·y in NDC.
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
@@ -43,6 +44,15 @@ vec2 sky_coordinates(vec3 direction) {
 }
 
 vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
+
+// Light of sky and ground on a surface that faces `n`.
+vec3 irradiance_on(vec3 n) {
+  float x = dot(view.sun_level.xy, n.xy), z2 = n.z * n.z;
+  vec3 sum = view.irradiance[0].rgb + view.irradiance[1].rgb * n.z + view.irradiance[2].rgb * x + view.irradiance[3].rgb * (3.0 * z2 - 1.0) +
+             view.irradiance[4].rgb * (x * n.z) + view.irradiance[5].rgb * (2.0 * x * x + z2 - 1.0) +
+             view.irradiance[6].rgb * ((35.0 * z2 - 30.0) * z2 + 3.0);
+  return max(sum, vec3(0.0));
+}
 
 // What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.
 vec3 fog_radiance(vec3 direction) { return sky_radiance(vec3(direction.xy, max(direction.z, 0.02))); }

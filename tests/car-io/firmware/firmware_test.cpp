@@ -226,7 +226,7 @@ TEST_CASE("the host's writer sets the watchdog and finds it kept") {
   car.run(settled_ms);
   {
     ActuatorWriter writer(car.opener(), {.period_s = 0.001, .silent_after_s = 60.0});
-    for (int i = 0; i < 100'000 && car.device.state != SEPTET_RUNS; ++i) car.run(0);
+    for (int i = 0; i < 100'000 && car.state() != SEPTET_RUNS; ++i) car.run(0);
     CHECK_FALSE(writer.take_error().has_value());
   }
   CHECK(car.device.watchdog_ms == 250);

@@ -37,6 +37,10 @@ class SimulatedCar {
     return septet_take_report(&device, reinterpret_cast<const std::uint8_t*>(report.data()),
                               static_cast<std::uint32_t>(report.size()), now_ms);
   }
+  auto state() {
+    const std::lock_guard lock(mutex);
+    return device.state;
+  }
   bool is_off() {
     const std::lock_guard lock(mutex);
     return outputs.fan == 0 && outputs.vibration == 0 && outputs.steering == 0 && !outputs.fan_power &&

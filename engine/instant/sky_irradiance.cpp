@@ -1,0 +1,63 @@
+#include "engine/instant/sky_irradiance.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/instant/atmosphere.hpp"
+
+namespace septet::instant {
+namespace {
+
+/// The functions beside the terms.
+std::array<double, 7> functions(double x, double y, double z) {
+  const double z2 = z * z;
+  return {1.0, z, x, 3.0 * z2 - 1.0, x * z, x * x - y * y, 35.0 * z2 * z2 - 30.0 * z2 + 3.0};
+}
+
+}  // namespace
+
+SkyIrradiance sky_irradiance(const SkyTable& table, const glm::vec3& level_irradiance,
+                             const glm::vec3& ground_radiance) {
+  std::array<Vec3, 7> sums{};
+  for (std::uint32_t row = 0; row < SkyTable::rows; ++row)
+    for (std::uint32_t column = 0; column < SkyTable::columns; ++column) {
+      const double s = 2.0 * (row + 0.5) / SkyTable::rows - 1.0, z = s * std::abs(s);
+      const double u = (column + 0.5) / SkyTable::columns;
+      const double cosine = 1.0 - 2.0 * u * u, level = std::sqrt(1.0 - z * z);
+      const double x = level * cosine, y = level * std::sqrt(1.0 - cosine * cosine);
+      // Δz · ΔΔ of the cell, with z = s·|s| and Δ = 2·asin u, on both sides of the sun.
+      const double height = 4.0 * std::abs(s) / SkyTable::rows;
+      const double width =
+          2.0 * (std::asin((column + 1.0) / SkyTable::columns) - std::asin(double(column) / SkyTable::columns));
+      const double solid_angle = 2.0 * height * width;
+      const std::array<double, 7> shape = functions(x, y, z);
+      const bool is_sky = row >= SkyTable::rows / 2;
+      const Vec3 light =
+          Vec3(is_sky ? table.radiance[row * SkyTable::columns + column] : ground_radiance) * solid_angle;
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += light * shape[i];
+    }
+  // The harmonics' norms squared, times π, 2π/3, π/4 and −π/24, the cosine's own numbers.
+  constexpr std::array<double, 7> weights{1.0 / 4.0,   1.0 / 2.0,   1.0 / 2.0,    5.0 / 64.0,
+                                          15.0 / 16.0, 15.0 / 64.0, -3.0 / 2048.0};
+  SkyIrradiance irradiance;
+  for (std::size_t i = 0; i < sums.size(); ++i) irradiance[i] = glm::vec3(sums[i] * weights[i]);
+  const glm::vec3 missing =
+      level_irradiance - (irradiance[0] + irradiance[1] + 2.0f * irradiance[3] + 8.0f * irradiance[6]);
+  irradiance[0] += 0.5f * missing;
+  irradiance[1] += 0.5f * missing;
+  return irradiance;
+}
+
+glm::vec3 irradiance_on(const SkyIrradiance& irradiance, const glm::vec2& sun_level, const glm::vec3& normal) {
+  const double x = glm::dot(sun_level, glm::vec2(normal)), y = sun_level.x * normal.y - sun_level.y * normal.x;
+  const std::array<double, 7> shape = functions(x, y, normal.z);
+  glm::vec3 sum(0.0f);
+  for (std::size_t i = 0; i < shape.size(); ++i) sum += irradiance[i] * static_cast<float>(shape[i]);
+  return glm::max(sum, glm::vec3(0.0f));
+}
+
+}  // namespace septet::instant
