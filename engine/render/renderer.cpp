@@ -16,6 +16,7 @@
 #include "engine/render/frame_preparation.hpp"
 #include "engine/render/graph/render_graph.hpp"
 #include "engine/render/ice_frame.hpp"
+#include "engine/render/passes/bloom_pass.hpp"
 #include "engine/render/passes/contact_pass.hpp"
 #include "engine/render/passes/device_scene.hpp"
 #include "engine/render/passes/frame_targets.hpp"
@@ -70,6 +71,7 @@ struct Renderer::State {
   SmokePass smoke_pass;
   RoadMirrorPass road_mirror_pass;
   IcePass ice_pass;
+  BloomPass bloom_pass;
   ToneMappingPass tone_mapping_pass;
   SmoothingPass smoothing_pass;
   std::optional<OverlayPass> overlay_pass;
@@ -137,6 +139,10 @@ void Renderer::State::create(const RendererOptions& wanted) {
   create_glow_pass(glow_pass, device, layout, formats);
   create_precipitation_pass(precipitation_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);
+  if (wanted.bloom == Bloom::present || (wanted.bloom == Bloom::automatic && !software)) {
+    create_bloom_pass(bloom_pass, device, layout, formats);
+    create_bloom_targets(bloom_pass, memory, formats, wanted.width, wanted.height);
+  }
   create_tone_mapping_pass(tone_mapping_pass, device, layout, formats);
   create_smoothing_pass(smoothing_pass, device, layout, formats.picture);
   Expected<image::Font> font = image::Font::find(image::FontStyle::bold);
@@ -154,6 +160,7 @@ void Renderer::State::destroy() {
   if (overlay_pass) destroy_overlay_pass(*overlay_pass, device, memory);
   destroy_smoothing_pass(smoothing_pass, device);
   destroy_tone_mapping_pass(tone_mapping_pass, device);
+  destroy_bloom_pass(bloom_pass, device, memory);
   destroy_ice_pass(ice_pass, device, memory);
   destroy_road_mirror(road_mirror_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
@@ -367,6 +374,8 @@ void Renderer::State::draw(const Instant& instant) {
   }
   graph.add_pass("views", {view_reads, {{radiance, Access::color_attachment}, {depth, Access::depth_attachment}}},
                  [&] { draw_views(context, frame, instant); });
+  std::optional<std::array<ResourceId, bloom_levels>> bloom;
+  if (bloom_pass.present()) bloom = add_bloom_passes(graph, bloom_pass, context, add_image, radiance, targets.radiance);
   graph.add_pass("tone mapping",
                  {{{radiance, Access::sampled}}, {{mapped.value_or(picture), Access::color_attachment}}}, [&] {
                    draw_tone_mapped(tone_mapping_pass, context, targets.radiance.view,
@@ -420,6 +429,8 @@ void Renderer::State::draw(const Instant& instant) {
   targets.radiance_access = left[radiance];
   if (ice)
     for (std::size_t i = 0; i < ice_image_count; ++i) ice_pass.targets.accesses[i] = left[(*ice)[i]];
+  if (bloom)
+    for (std::size_t i = 0; i < bloom_levels; ++i) bloom_pass.accesses[i] = left[(*bloom)[i]];
   if (mapped) targets.mapped_access = left[*mapped];
   if (frame.road_mirror) {
     road_mirror_pass.image_access = left[mirror[0]];
@@ -474,6 +485,10 @@ Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
     wait_for_frames(state_->ring, state_->device);
     destroy_frame_targets(state_->targets, state_->memory);
     create_frame_targets(state_->targets, state_->memory, state_->formats, width, height, state_->smoothed);
+    if (state_->bloom_pass.present()) {
+      destroy_bloom_targets(state_->bloom_pass, state_->memory);
+      create_bloom_targets(state_->bloom_pass, state_->memory, state_->formats, width, height);
+    }
     state_->drawn = false;
     state_->swapchain.stale = true;
   } catch (const vulkan::Failure& refused) {

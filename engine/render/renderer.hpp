@@ -35,6 +35,9 @@ enum class Antialiasing : std::uint8_t {
   multisampled,  ///< Four samples a pixel.
 };
 
+/// Light that the eye scatters around what is bright (passes/bloom_pass.hpp).
+enum class Bloom : std::uint8_t { automatic, none, present };  ///< Automatic: on a graphics card.
+
 struct RendererOptions {
   std::uint32_t width = 0, height = 0;  ///< Of the target, pixels.
   DevicePreference device = DevicePreference::any;
@@ -42,6 +45,7 @@ struct RendererOptions {
   Antialiasing antialiasing = Antialiasing::automatic;
   Window* window = nullptr;  ///< Where to present; null draws off-screen. Outlives the renderer.
   bool timed = false;        ///< The device's clock times each pass, for the statistics.
+  Bloom bloom = Bloom::automatic;
 };
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.

@@ -54,6 +54,15 @@ constexpr std::uint32_t wet_lamp_frag_code[] = {
 constexpr std::uint32_t whole_target_vert_code[] = {
 #include "engine/render/shaders/whole_target.vert.inc"
 };
+constexpr std::uint32_t bloom_down_frag_code[] = {
+#include "engine/render/shaders/bloom_down.frag.inc"
+};
+constexpr std::uint32_t bloom_down_samples_frag_code[] = {
+#include "engine/render/shaders/bloom_down_samples.frag.inc"
+};
+constexpr std::uint32_t bloom_up_frag_code[] = {
+#include "engine/render/shaders/bloom_up.frag.inc"
+};
 constexpr std::uint32_t smoothing_frag_code[] = {
 #include "engine/render/shaders/smoothing.frag.inc"
 };
@@ -113,6 +122,9 @@ std::span<const std::uint32_t> contact_frag() { return contact_frag_code; }
 std::span<const std::uint32_t> wet_lamp_vert() { return wet_lamp_vert_code; }
 std::span<const std::uint32_t> wet_lamp_frag() { return wet_lamp_frag_code; }
 std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_code; }
+std::span<const std::uint32_t> bloom_down_frag() { return bloom_down_frag_code; }
+std::span<const std::uint32_t> bloom_down_samples_frag() { return bloom_down_samples_frag_code; }
+std::span<const std::uint32_t> bloom_up_frag() { return bloom_up_frag_code; }
 std::span<const std::uint32_t> smoothing_frag() { return smoothing_frag_code; }
 std::span<const std::uint32_t> tone_mapping_frag() { return tone_mapping_frag_code; }
 std::span<const std::uint32_t> tone_mapping_samples_frag() { return tone_mapping_samples_frag_code; }

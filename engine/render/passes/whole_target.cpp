@@ -5,23 +5,28 @@
 namespace septet::render {
 
 VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                                        VkFormat format, std::span<const std::uint32_t> fragment_code) {
+                                        VkFormat format, std::span<const std::uint32_t> fragment_code,
+                                        vulkan::Blend blend, VkSampleCountFlagBits samples) {
   vulkan::PipelineDescription description;
   description.vertex_code = shaders::whole_target_vert();
   description.fragment_code = fragment_code;
   description.vertex_input = vulkan::VertexInput::none;
   description.color_format = format;
   description.depth_write = false;
+  description.blend = blend;
+  description.samples = samples;
   return create_pipeline(device, layout, description);
 }
 
-void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
-                       std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
+namespace {
+
+void draw(VkAttachmentLoadOp load, VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+          std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
   const VkCommandBuffer commands = context.slot.commands;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
   color.imageView = target;
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;  // For the alpha, which drawing leaves alone.
+  color.loadOp = load;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   color.clearValue.color = {{0.0f, 0.0f, 0.0f, 1.0f}};
   VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
@@ -40,6 +45,19 @@ void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView so
   ++context.statistics.draws;
   ++context.statistics.triangles;
   vkCmdEndRendering(commands);
+}
+
+}  // namespace
+
+void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+                       std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
+  // Cleared for the alpha, which drawing leaves alone.
+  draw(VK_ATTACHMENT_LOAD_OP_CLEAR, pipeline, context, source, target, width, height, constants);
+}
+
+void draw_over_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+                            std::uint32_t width, std::uint32_t height, const glm::vec4& constants) {
+  draw(VK_ATTACHMENT_LOAD_OP_LOAD, pipeline, context, source, target, width, height, constants);
 }
 
 }  // namespace septet::render

@@ -1,5 +1,5 @@
 #pragma once
-/// Passes that draw one triangle over a whole target, from an image that is sampled: tone mapping, smoothing.
+/// Passes that draw one triangle over a whole target, from an image that is sampled: tone mapping, smoothing, bloom.
 
 #include <glm/vec4.hpp>
 
@@ -8,10 +8,15 @@
 namespace septet::render {
 
 VkPipeline create_whole_target_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                                        VkFormat format, std::span<const std::uint32_t> fragment_code);
+                                        VkFormat format, std::span<const std::uint32_t> fragment_code,
+                                        vulkan::Blend blend = vulkan::Blend::none,
+                                        VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
 
-/// Both images have this size; `constants` is what the fragment shader takes.
+/// The target has this size; `constants` is what the fragment shader takes. What the target held is lost.
 void draw_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
                        std::uint32_t width, std::uint32_t height, const glm::vec4& constants);
+/// The same, blended with what the target holds.
+void draw_over_whole_target(VkPipeline pipeline, PassContext& context, VkImageView source, VkImageView target,
+                            std::uint32_t width, std::uint32_t height, const glm::vec4& constants);
 
 }  // namespace septet::render

@@ -1,0 +1,42 @@
+#pragma once
+/// Bloom: the light that the eye's own media, or a lens, scatter around what is bright. No threshold: each pixel gives away the same share of its light.
+///
+/// The radiance is halved level by level, and from the smallest level up each is mixed into the next larger one, the last into the radiance itself:
+/// a point spread with a bright middle and wide skirts, by which no light is gained or lost. Lamps whose glare tells the driver something have it
+/// without bloom (glow_pass.hpp): nothing that the driver acts on depends on this pass.
+
+#include <array>
+#include <functional>
+
+#include "engine/render/graph/render_graph.hpp"
+#include "engine/render/passes/pass_context.hpp"
+
+namespace septet::render {
+
+inline constexpr std::size_t bloom_levels = 5;
+
+struct BloomPass {
+  VkPipeline first = VK_NULL_HANDLE, down = VK_NULL_HANDLE;  ///< From the radiance, from level to level.
+  VkPipeline up = VK_NULL_HANDLE, last = VK_NULL_HANDLE;     ///< From level to level, into the radiance.
+  std::array<vulkan::DeviceImage, bloom_levels> images;      ///< Half of the target, a quarter, …
+  std::array<Access, bloom_levels> accesses{};
+
+  bool present() const { return first != VK_NULL_HANDLE; }
+};
+
+void create_bloom_pass(BloomPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
+                       const TargetFormats& formats);
+/// Anew for a target of this size.
+void create_bloom_targets(BloomPass& pass, vulkan::MemoryPool& memory, const TargetFormats& formats,
+                          std::uint32_t width, std::uint32_t height);
+void destroy_bloom_targets(BloomPass& pass, vulkan::MemoryPool& memory);
+void destroy_bloom_pass(BloomPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
+
+using AddImage = std::function<ResourceId(const char* name, const vulkan::DeviceImage& image, Access held)>;
+
+/// Everything from the finished radiance to the radiance with its bloom. Its images' resources.
+std::array<ResourceId, bloom_levels> add_bloom_passes(RenderGraph& graph, const BloomPass& pass, PassContext& context,
+                                                      const AddImage& add_image, ResourceId radiance,
+                                                      const vulkan::DeviceImage& target);
+
+}  // namespace septet::render
