@@ -4,7 +4,7 @@
 static int64_t along(int64_t way, int64_t length, int64_t full) {
   int64_t result = 0;
   if (length > 0) {
-    result = (way * full + length / 2) / length;
+    result = ((way * full) + (length / 2)) / length;
     if (result < 0) {
       result = 0;
     } else if (result > full) {
@@ -16,10 +16,19 @@ static int64_t along(int64_t way, int64_t length, int64_t full) {
   return result;
 }
 
+/// 1 where readings count the way that the host does, −1 where they count against it.
+static int64_t turn_of(const septet_axis *axis) {
+  int64_t turn = 1;
+  if (axis->at_most < axis->at_least) {
+    turn = -1;
+  }
+  return turn;
+}
+
 int16_t septet_wheel(const septet_axis *axis, int32_t raw) {
   const int64_t full = 32767;
   // Counted so that left is more.
-  const int64_t turn = (axis->at_most >= axis->at_least) ? 1 : -1;
+  const int64_t turn = turn_of(axis);
   const int64_t from_centre = turn * ((int64_t)raw - axis->at_centre);
   const int64_t to_left = turn * ((int64_t)axis->at_most - axis->at_centre);
   const int64_t to_right = turn * ((int64_t)axis->at_centre - axis->at_least);
@@ -35,8 +44,8 @@ int16_t septet_wheel(const septet_axis *axis, int32_t raw) {
 }
 
 uint16_t septet_pedal(const septet_axis *axis, int32_t raw) {
-  const int64_t turn = (axis->at_most >= axis->at_least) ? 1 : -1;
-  const int64_t way = turn * ((int64_t)raw - axis->at_least) - axis->dead_zone;
-  const int64_t length = turn * ((int64_t)axis->at_most - axis->at_least) - axis->dead_zone;
+  const int64_t turn = turn_of(axis);
+  const int64_t way = (turn * ((int64_t)raw - axis->at_least)) - axis->dead_zone;
+  const int64_t length = (turn * ((int64_t)axis->at_most - axis->at_least)) - axis->dead_zone;
   return (uint16_t)along(way, length, 65535);
 }

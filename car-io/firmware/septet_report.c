@@ -40,8 +40,11 @@ static uint16_t get_u16(const uint8_t *bytes) { return (uint16_t)(bytes[0] | ((u
 
 /// Two's complement, without what C leaves to the compiler.
 static int16_t get_i16(const uint8_t *bytes) {
-  const int32_t value = (int32_t)get_u16(bytes);
-  return (int16_t)((value > 32767) ? (value - 65536) : value);
+  int32_t value = (int32_t)get_u16(bytes);
+  if (value > 32767) {
+    value -= 65536;
+  }
+  return (int16_t)value;
 }
 
 void septet_pack_controls(septet_device *device, uint8_t report[SEPTET_CONTROLS_BYTES]) {
@@ -77,7 +80,8 @@ static void take_actuators(septet_device *device, const uint8_t *report, uint32_
     device->is_fed = true;
     device->fed_sequence = sequence;
     device->fed_ms = now_ms;
-    const bool at_rest = (device->wanted_fan == 0U) && (device->wanted_vibration == 0U) && (device->wanted_hz == 0U);
+    const bool at_rest = (device->wanted_fan == 0U) && (device->wanted_vibration == 0U) && (device->wanted_hz == 0U) &&
+                         (device->wanted_steering == 0);
     if (at_rest && ((device->state == SEPTET_NOT_ARMED) || (device->state == SEPTET_HOST_SILENT))) {
       device->state = SEPTET_RUNS;
     }

@@ -12,11 +12,19 @@ static const int16_t quarter[65] = {
 /// Of a full turn of 2³².
 static int32_t sine(uint32_t phase) {
   const uint32_t position = (phase & 0x3fffffffU) >> 16U; // Of a quarter, 0 to 16383.
-  const uint32_t way = ((phase & 0x40000000U) != 0U) ? (16384U - position) : position;
+  uint32_t way = position;
+  if ((phase & 0x40000000U) != 0U) {
+    way = 16384U - position;
+  }
   const uint32_t index = way >> 8U;
+  uint32_t next = index;
+  if (index < 64U) {
+    next = index + 1U;
+  }
   const int32_t low = quarter[index];
-  const int32_t high = quarter[(index < 64U) ? (index + 1U) : index];
-  const int32_t size = low + (((high - low) * (int32_t)(way & 0xffU)) / 256);
+  const int32_t high = quarter[next];
+  const uint32_t part = way & 0xffU;
+  const int32_t size = low + (((high - low) * (int32_t)part) / 256);
   return ((phase & 0x80000000U) != 0U) ? -size : size;
 }
 
@@ -24,6 +32,10 @@ int16_t septet_vibration_sample(septet_outputs *outputs, uint32_t rate_hz) {
   if (rate_hz >= 1000U) {
     outputs->vibration_phase += (uint32_t)(((uint64_t)outputs->vibration_hz << 32U) / rate_hz);
   }
-  const int64_t sample = ((int64_t)sine(outputs->vibration_phase) * outputs->vibration) / 65535;
-  return (int16_t)(outputs->amplifier_power ? sample : 0);
+  int64_t sample = 0;
+  if (outputs->amplifier_power) {
+    const int64_t size = outputs->vibration;
+    sample = ((int64_t)sine(outputs->vibration_phase) * size) / 65535;
+  }
+  return (int16_t)sample;
 }

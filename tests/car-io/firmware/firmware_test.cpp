@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -117,6 +121,45 @@ TEST_CASE("after a reset everything is off until a report at rest comes, whateve
     car.run(10);
     REQUIRE(car.is_off());
   }
+}
+
+TEST_CASE("a report at rest beside a wheel that is still pulled arms nothing") {
+  DrivenCar car;
+  car.tell_for(200, {.fan = 1.0}, 0.5);
+  car.readings.buttons = 1u << SEPTET_EMERGENCY_STOP_BIT;
+  car.run(1);
+  car.readings.buttons = 0;
+  car.tell_for(500, {}, 0.5);  // A host that knows of no stop, and whose car stands.
+  CHECK(car.is_off());
+  car.tell_for(20, {}, 0.0);
+  CHECK_FALSE(car.is_off());
+}
+
+TEST_CASE("the parts list is what its lines come to and less than the paper's 20 000 euros") {
+  std::ifstream readme(SEPTET_SOURCE_DIR "/car-io/firmware/README.md");
+  const auto number = [](std::string text) {
+    std::erase_if(text, [](char c) { return c < '0' || c > '9'; });
+    return text.empty() ? 0 : std::stoi(text);
+  };
+  int sum = 0, said = 0, parts = 0;
+  for (std::string line; std::getline(readme, line);) {
+    std::vector<std::string> cells;
+    for (std::size_t at = 1; line.starts_with('|') && at < line.size();) {
+      const std::size_t end = line.find('|', at);
+      if (end == std::string::npos) break;
+      cells.push_back(line.substr(at, end - at));
+      at = end + 1;
+    }
+    if (cells.size() != 4) continue;
+    if (cells[3].find("**") != std::string::npos) said = number(cells[3]);
+    if (number(cells[1]) == 0 || number(cells[2]) == 0) continue;
+    CHECK_MESSAGE(number(cells[1]) * number(cells[2]) == number(cells[3]), line);
+    sum += number(cells[3]);
+    ++parts;
+  }
+  CHECK(parts >= 12);
+  CHECK(sum == said);
+  CHECK(sum < 20000);
 }
 
 TEST_CASE("an emergency stop is off within a millisecond, is told to the host, and lasts until a report at rest") {
