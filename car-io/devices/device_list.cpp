@@ -8,6 +8,8 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <optional>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -15,6 +17,7 @@
 
 #include <fmt/core.h>
 
+#include "car-io/pid/pid_node.hpp"
 #include "engine/core/printable.hpp"
 
 namespace septet::car_io {
@@ -72,8 +75,17 @@ bool has_bit(const std::string& bitmap, std::size_t bit) {
   return word < words.size() && (words[words.size() - 1 - word] >> bit % 64 & 1u) != 0;
 }
 
+bool may_open(const std::string& node) { return access(node.c_str(), R_OK | W_OK) == 0; }
+
+constexpr const char* access_for = R"(MODE="0660", GROUP="plugdev", TAG+="uaccess")";
+
+std::string hidraw_rule(const FoundDevice& device) {
+  return fmt::format(R"(SUBSYSTEM=="hidraw", KERNELS=="0003:{:04X}:{:04X}.*", {})", device.vendor_id, device.product_id,
+                     access_for);
+}
+
 void ask_whether_it_may_be_opened(FoundDevice& device) {
-  device.may_be_opened = access(device.node.c_str(), R_OK | W_OK) == 0;
+  device.may_be_opened = may_open(device.node);
   if (!device.may_be_opened)
     device.remedy =
         device.vendor_id != 0 ? udev_rule(device) : "sudo usermod -aG input,audio,plugdev $USER, and log in again";
@@ -99,6 +111,24 @@ void find_hid(const fs::path& sys, const fs::path& dev, std::vector<FoundDevice>
   }
 }
 
+/// By which way its motor would be moved: evdev's constant force where the kernel's driver has it, HID PID reports where it has not. A rumble is no motor.
+void describe_motor(FoundDevice& device, const std::string& effects, const std::optional<PidNode>& pid) {
+  constexpr std::size_t constant = 0x52;
+  constexpr std::pair<std::size_t, const char*> others[] = {{0x53, "spring"}, {0x55, "damper"}, {0x54, "friction"}};
+  if (has_bit(effects, constant)) {
+    device.detail = "force by evdev: constant";
+    for (const auto& [bit, name] : others)
+      if (has_bit(effects, bit)) device.detail += std::string(", ") + name;
+    return;
+  }
+  if (!pid) return;
+  device.motor_node = pid->node;
+  device.detail = "force by HID PID through " + pid->node;
+  if (may_open(pid->node)) return;
+  device.detail += ", which MAY NOT BE OPENED";
+  device.remedy += (device.remedy.empty() ? "" : "\n") + hidraw_rule(device);
+}
+
 /// Of all input devices those with an axis and a joystick's or a gamepad's button, or with a wheel's axis.
 void find_joysticks(const fs::path& sys, const fs::path& dev, std::vector<FoundDevice>& found) {
   constexpr std::size_t abs_x = 0, abs_wheel = 8, abs_gas = 9;
@@ -115,9 +145,9 @@ void find_joysticks(const fs::path& sys, const fs::path& dev, std::vector<FoundD
     device.serial = line_of(entry / "device/uniq");
     device.vendor_id = id_of(entry / "device/id/vendor");
     device.product_id = id_of(entry / "device/id/product");
-    const std::string effects = line_of(entry / "device/capabilities/ff");
-    if (effects.find_first_not_of("0 ") != std::string::npos) device.detail = "force feedback";
     ask_whether_it_may_be_opened(device);
+    describe_motor(device, line_of(entry / "device/capabilities/ff"),
+                   find_pid_node(entry.filename().string(), sys, dev));
     found.push_back(std::move(device));
   }
 }
@@ -174,16 +204,22 @@ void find_sound(const fs::path& sys, const fs::path& dev, std::vector<FoundDevic
   }
 }
 
+/// Beside a hidraw node whose it is.
+void name_motors(std::vector<FoundDevice>& found) {
+  for (const FoundDevice& wheel : found)
+    for (FoundDevice& device : found)
+      if (!wheel.motor_node.empty() && device.kind == DeviceKind::hid && device.node == wheel.motor_node)
+        device.detail += (device.detail.empty() ? "motor of " : ", motor of ") + wheel.node;
+}
+
 constexpr std::string_view kind_names[] = {"HID", "joystick", "USB", "CAN", "sound"};
 
 }  // namespace
 
 std::string udev_rule(const FoundDevice& device) {
-  constexpr const char* access_for = R"(MODE="0660", GROUP="plugdev", TAG+="uaccess")";
   switch (device.kind) {
     case DeviceKind::hid:
-      return fmt::format(R"(SUBSYSTEM=="hidraw", KERNELS=="0003:{:04X}:{:04X}.*", {})", device.vendor_id,
-                         device.product_id, access_for);
+      return hidraw_rule(device);
     case DeviceKind::joystick:
       return fmt::format(R"(SUBSYSTEM=="input", ATTRS{{id/vendor}}=="{:04x}", ATTRS{{id/product}}=="{:04x}", {})",
                          device.vendor_id, device.product_id, access_for);
@@ -204,6 +240,7 @@ std::vector<FoundDevice> list_devices(const fs::path& sys, const fs::path& dev) 
   find_usb(sys, dev, found);
   find_can(sys, found);
   find_sound(sys, dev, found);
+  name_motors(found);
   for (FoundDevice& device : found)
     for (std::string* text : {&device.node, &device.name, &device.serial}) *text = printable(*text, longest_name);
   std::ranges::sort(found, {}, [](const FoundDevice& device) {
@@ -231,8 +268,9 @@ std::string device_table(const std::vector<FoundDevice>& devices) {
     if (!device.may_be_opened) line += "  MAY NOT BE OPENED";
     line.erase(line.find_last_not_of(' ') + 1);
     table += line + "\n";
-    if (!device.remedy.empty()) table += "          " + device.remedy + "\n";
-    names_a_rule |= device.remedy.starts_with("SUBSYSTEM");
+    std::istringstream remedies(device.remedy);
+    for (std::string remedy; std::getline(remedies, remedy);) table += "          " + remedy + "\n";
+    names_a_rule |= device.remedy.find("SUBSYSTEM") != std::string::npos;
   }
   if (names_a_rule)
     table +=

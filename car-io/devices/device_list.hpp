@@ -1,6 +1,7 @@
 #pragma once
 /// What is connected to this machine that a rig may use: HID devices, wheels and joysticks, USB devices, CAN interfaces, sound cards.
 ///
+/// Of a wheel it is said by which of the two its motor would be moved, evdev or HID PID through hidraw, as car-io/joystick does it.
 /// Read from /sys alone: nothing is opened, so that nothing is disturbed; /dev is asked whether it may be. Names come from the devices and are
 /// made printable. What disappears while it is read is left out.
 
@@ -19,9 +20,11 @@ struct FoundDevice {
   std::string name;
   std::uint16_t vendor_id = 0, product_id = 0;  ///< 0 where it has none.
   std::string serial;
-  std::string detail;         ///< "force feedback", "down", "CAN FD".
+  std::string detail;         ///< "force by evdev: constant, spring", "down", "CAN FD".
   bool may_be_opened = true;  ///< By this user.
-  std::string remedy;         ///< What to do where it may not, or is down.
+  std::string remedy;         ///< What to do where it may not, or is down; a line each.
+  /// Of a wheel whose force the kernel's driver does not know: the hidraw node that its motor is moved through (car-io/pid).
+  std::string motor_node;
 };
 
 /// `sys` and `dev`: "/sys" and "/dev", or those of a test. Sorted by kind and node.

@@ -20,6 +20,7 @@
 #include "car-io/devices/device_list.hpp"
 #include "car-io/joystick/input_device.hpp"
 #include "car-io/joystick/pid_input.hpp"
+#include "car-io/pid/pid_node.hpp"
 
 namespace septet::car_io {
 namespace {

@@ -22,6 +22,7 @@
 
 #include "car-io/actuator_writer.hpp"
 #include "car-io/car_connection.hpp"
+#include "car-io/devices/device_list.hpp"
 #include "car-io/joystick/input_device.hpp"
 #include "car-io/joystick/joystick_controls.hpp"
 #include "tests/car-io/pid/simulated_pid_wheel.hpp"
@@ -196,7 +197,17 @@ TEST_CASE("a wheel whose motor may not be reached drives and whoever wants its f
     return fault.has_value();
   }));
   CHECK(fault->what.find("it has no motor that may be reached") != std::string::npos);
+  // What septet devices says of it.
+  const auto listed = [] {
+    for (const FoundDevice& found : list_devices("/sys", "/dev"))
+      if (found.kind == DeviceKind::joystick && found.product_id == 0x0f0f) return found;
+    return FoundDevice{};
+  };
+  CHECK(listed().detail.starts_with("force by HID PID through /dev/hidraw"));
+  CHECK(listed().detail.ends_with("MAY NOT BE OPENED"));
+  CHECK(listed().remedy.starts_with(R"(SUBSYSTEM=="hidraw", KERNELS=="0003:1234:0F0F.*")"));
   command("mv /tmp/hidden/* /dev");
+  CHECK(listed().remedy.empty());
 }
 
 TEST_SUITE_END();

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
+#include "engine/core/printable.hpp"
+#include "tests/car-io/pid/simulated_pid_wheel.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace septet::car_io {
@@ -69,9 +72,56 @@ TEST_CASE("of input devices wheels and joysticks are listed and no keyboard or m
   input("js0", "30007", "ffff00000000 0 0 0 0", "0");               // Another view of event2.
   const auto found = machine.list();
   REQUIRE(found.size() == 2);
-  CHECK(
-      (found[0].node.ends_with("input/event2") && found[0].detail == "force feedback" && found[0].vendor_id == 0x0eb7));
+  CHECK((found[0].node.ends_with("input/event2") && found[0].detail == "force by evdev: constant" &&
+         found[0].vendor_id == 0x0eb7));
   CHECK((found[1].node.ends_with("input/event3") && found[1].detail.empty()));
+}
+
+TEST_CASE("of a wheel it is said whether evdev or HID PID moves it and what rule lets the motor be reached") {
+  const Machine machine;
+  const auto wheel = [&](int number, const std::string& effects, bool is_pid) {
+    const fs::path input = machine.sys / fmt::format("class/input/event{}/device", number);
+    machine.file(input / "name", "wheel\n");
+    machine.file(input / "id/vendor", "346e\n");
+    machine.file(input / "id/product", fmt::format("000{}\n", number));
+    machine.file(input / "capabilities/abs", "1\n");
+    machine.file(input / "capabilities/key", "ffff00000000 0 0 0 0\n");
+    machine.file(input / "capabilities/ff", effects + "\n");
+    const std::string descriptor(reinterpret_cast<const char*>(pid_wheel_descriptor), sizeof pid_wheel_descriptor);
+    machine.file(input / "device/report_descriptor", is_pid ? descriptor : descriptor.substr(0, 100));
+    machine.file(input / fmt::format("device/hidraw/hidraw{}/dev", number), "");
+    machine.file(machine.sys / fmt::format("class/hidraw/hidraw{}/device/uevent", number),
+                 fmt::format("HID_ID=0003:0000346E:0000000{}\n", number));
+    machine.file(machine.dev / fmt::format("input/event{}", number), "");
+  };
+  wheel(1, "f00000000 0", false);  // Nothing but what a gamepad has.
+  wheel(2, "0", true);             // One whose force the kernel does not know.
+  wheel(3, "0", true);             // Another, which may be opened.
+  wheel(4, "3003c0000 0", true);   // One whose force it knows: evdev is the way.
+  wheel(5, "107030000 0", false);  // A gamepad that rumbles.
+  machine.file(machine.dev / "hidraw3", "");
+  const auto found = machine.list();
+  REQUIRE(found.size() == 10);
+  const std::string hidraw = (machine.dev / "hidraw").string();
+  const auto by_pid = "force by HID PID through " + printable(hidraw, 80);
+  const FoundDevice *hid = found.data(), *wheels = found.data() + 5;
+  CHECK((wheels[0].detail.empty() && wheels[0].motor_node.empty() && hid[0].detail.empty()));
+  CHECK(wheels[1].detail == by_pid + "2, which MAY NOT BE OPENED");
+  CHECK(wheels[1].may_be_opened);
+  CHECK(wheels[1].remedy ==
+        R"(SUBSYSTEM=="hidraw", KERNELS=="0003:346E:0002.*", MODE="0660", GROUP="plugdev", TAG+="uaccess")");
+  CHECK(hid[1].detail == "motor of " + (machine.dev / "input/event2").string());
+  CHECK(wheels[2].detail == by_pid + "3");
+  CHECK((wheels[2].remedy.empty() && hid[2].may_be_opened));
+  CHECK(wheels[3].detail == "force by evdev: constant, spring, damper, friction");
+  CHECK((wheels[3].motor_node.empty() && hid[3].detail.empty()));
+  CHECK(wheels[4].detail.empty());
+  // Neither of the two may be opened: both rules, each on its line.
+  fs::remove(machine.dev / "input/event2");
+  const std::string table = device_table(machine.list());
+  CHECK(table.find("\n          SUBSYSTEM==\"input\", ATTRS{id/vendor}==\"346e\", ATTRS{id/product}==\"0002\"") !=
+        std::string::npos);
+  CHECK(table.find("TAG+=\"uaccess\"\n          SUBSYSTEM==\"hidraw\"") != std::string::npos);
 }
 
 TEST_CASE("USB devices CAN interfaces and sound cards are listed and hubs and other networks are not") {

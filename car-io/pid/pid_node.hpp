@@ -1,0 +1,20 @@
+#pragma once
+/// Where the motor of a wheel is that the kernel's own driver does not know: the hidraw node of its HID device, and the reports that move it.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "car-io/pid/pid_reports.hpp"
+
+namespace septet::car_io {
+
+struct PidNode {
+  std::string node;  ///< "/dev/hidraw0".
+  PidReports reports;
+};
+/// Of the HID device that an input device ("event5") belongs to; nothing where it has no force of this class. Read from /sys alone, which everybody may.
+std::optional<PidNode> find_pid_node(const std::string& event, const std::filesystem::path& sys,
+                                     const std::filesystem::path& dev);
+
+}  // namespace septet::car_io
