@@ -117,4 +117,64 @@ TEST_CASE("A hard blow breaks glass, a soft one does not, and pieces clatter") {
   CHECK(std::abs(hard.front()) < 0.01f);  // It begins without an edge.
 }
 
+TEST_CASE("The exhaust's pipe of 2 m rings at a quarter of its wave, 65 Hz, and not at a half, 130 Hz") {
+  const auto above_engine_db = [](double firing_hz) {
+    const auto voices = voices_of(180, [=](int) { return cruising(0.0, firing_hz / 3.0, 0.3); });
+    return decibels(power_at(voices[std::size_t(OwnVoice::exhaust)], firing_hz) /
+                    power_at(voices[std::size_t(OwnVoice::engine)], firing_hz));
+  };
+  CHECK(above_engine_db(65.1) - above_engine_db(130.2) == doctest::Approx(20.0 * std::log10(3.0)).epsilon(0.1));
+}
+
+TEST_CASE(
+    "An open throttle draws air: between the engine's orders there is more below 500 Hz than its mechanics make") {
+  const auto noise = [](double load, double low_hz, double high_hz) {
+    const auto voices = voices_of(240, [=](int) { return cruising(0.0, 2000.0 / 60.0, load); });
+    return power_within(voices[std::size_t(OwnVoice::engine)], low_hz, high_hz);
+  };
+  // Of a six its orders are multiples of 50 Hz.
+  const double intake_db = decibels(noise(1.0, 315.0, 340.0) / noise(0.2, 315.0, 340.0)),
+               mechanics_db = decibels(noise(1.0, 2000.0, 3000.0) / noise(0.2, 2000.0, 3000.0));
+  CHECK(mechanics_db == doctest::Approx(0.8 * 9.0).epsilon(0.15));
+  CHECK(intake_db > mechanics_db + 1.0);
+}
+
+TEST_CASE("Wind has its most, A-weighted, between 180 and 700 Hz and falls off above") {
+  const auto wind = voices_of(300, [](int) { return cruising(35.0, 0.0, 0.0); })[std::size_t(OwnVoice::wind_left)];
+  const auto octave_db = [&](double hz) {
+    return decibels(a_weight(hz) * a_weight(hz) * power_within(wind, hz / std::sqrt(2.0), hz * std::sqrt(2.0)));
+  };
+  const double most = std::max(octave_db(250.0), octave_db(500.0));
+  for (const double hz : {63.0, 125.0, 1000.0, 2000.0, 4000.0}) {
+    CAPTURE(hz);
+    CHECK(octave_db(hz) < most);
+  }
+  CHECK(octave_db(4000.0) < octave_db(1000.0) - 10.0);
+}
+
+TEST_CASE("Another car sings at its own firing order, raised as it comes, and a lorry's horn and wheels are heard") {
+  const auto heard_of = [](const OtherSound& sound) {
+    const auto voices = voices_of(180, [=](int) {
+      Heard heard = quiet();
+      heard.others.push_back(sound);
+      return heard;
+    });
+    return voices[own_voices];
+  };
+  const OtherSound car{.id = 5, .position_m = {20.0, 0.0, 0.0}, .doppler = 1.08, .engine_hz = 50.0, .load = 1.0};
+  CHECK(peak_hz(heard_of(car), 90.0, 130.0) == doctest::Approx(100.0 * 1.08).epsilon(0.01));
+  const OtherSound rolls{.id = 5, .position_m = {20.0, 0.0, 0.0}, .speed_mps = 30.0};
+  OtherSound slow = rolls, lorry = rolls;
+  slow.speed_mps = 10.0;
+  lorry.kind = ParticipantKind::lorry;
+  const auto rolling = [&](const OtherSound& sound) { return power_within(heard_of(sound), 500.0, 1500.0); };
+  CHECK(decibels(rolling(rolls) / rolling(slow)) > 8.0);
+  CHECK(decibels(rolling(lorry) / rolling(rolls)) == doctest::Approx(8.0).epsilon(0.2));
+  OtherSound hooting = rolls;
+  hooting.speed_mps = 0.0;
+  const double quiet_there = power_at(heard_of(hooting), 400.0);
+  hooting.horn = true;
+  CHECK(power_at(heard_of(hooting), 400.0) > 100.0 * (quiet_there + 1e-15));
+}
+
 }  // namespace septet::audio
