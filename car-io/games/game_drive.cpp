@@ -7,7 +7,8 @@
 namespace septet::car_io {
 namespace {
 
-constexpr double silent_after_s = 0.2, rearm_held_for_s = 1.0, rests_for_s = 0.1;
+constexpr double silent_after_s = 0.2, falls_asleep_in_s = 0.2, wakes_in_s = 1.0, rearm_held_for_s = 1.0,
+                 rests_for_s = 0.1;
 constexpr double fan_full_in_s = 1.0, vibration_full_in_s = 0.2, force_full_in_s = 0.05, dies_in_s = 0.09;
 constexpr double stop_within = 0.03;  // Of the wheel's way, before its end.
 
@@ -59,7 +60,8 @@ double GameDrive::wheel_force(const CarReading& reading, const ForceEffects& eff
     wheel_.speed_per_s = speed_per_s;
   }
   wheel_.share = share;
-  double wanted = effects.force(wheel_, now_s);
+  // A game that hangs leaves its force where it was.
+  double wanted = awake_ * effects.force(wheel_, now_s);
   // The end wins over whatever the game pulls.
   const double beyond = (std::abs(share) - (1.0 - stop_within)) / stop_within;
   if (beyond > 0.0) {
@@ -73,13 +75,15 @@ Actuators GameDrive::actuate(const CarReading& reading, const ForceEffects& effe
   const double dt_s = std::clamp(stepped_s_ ? now_s - *stepped_s_ : 0.0, 0.0, 0.1);
   stepped_s_ = now_s;
   watch(reading, dt_s);
+  const bool is_silent = told_s_ && !is_told(now_s);
+  awake_ = std::clamp(awake_ + (is_silent ? -dt_s / falls_asleep_in_s : dt_s / wakes_in_s), 0.0, 1.0);
   const double left = std::exp(-dt_s / dies_in_s);
-  CarMotion motion = is_told(now_s) ? motion_of(now_, now_, 0.0) : CarMotion{};
+  CarMotion motion = told_s_ ? motion_of(now_, now_, 0.0) : CarMotion{};
   bump_ *= left, blow_ *= left;
   motion.bump = bump_, motion.blow = blow_;
   Actuators wanted = actuators_for(motion, limits_);
-  wanted.fan = fan_ = towards(fan_, wanted.fan, dt_s / fan_full_in_s);
-  wanted.vibration = vibration_ = towards(vibration_, wanted.vibration, dt_s / vibration_full_in_s);
+  wanted.fan = awake_ * (fan_ = towards(fan_, wanted.fan, dt_s / fan_full_in_s));
+  wanted.vibration = awake_ * (vibration_ = towards(vibration_, wanted.vibration, dt_s / vibration_full_in_s));
   wanted.steering = wheel_force(reading, effects, now_s, dt_s) * limits_.steering_most;
   // Not at rest, which would re-arm what writes.
   wanted.vibration_hz = std::max(wanted.vibration_hz, 1.0);

@@ -1,7 +1,8 @@
 #pragma once
 /// A commercial game driven from the car: what its telemetry and its force effects make the car's actuators do, and when they rest.
 ///
-/// Telemetry that is silent for 200 ms is a menu or a game that has gone: fan and shaker fade. The emergency stop, and a car whose reports stop, cut
+/// Telemetry that is silent for 200 ms is a menu, or a game that has gone or hangs: fan, shaker and the game's force fade in 200 ms, and are back over a
+/// second when it goes on. A game that never told anything has its force all the same. The emergency stop, and a car whose reports stop, cut
 /// everything until the re-arm button has been held for a second. At the beginning and then a tenth of a second of rest is told, which is what arms a
 /// device (car-io/firmware), and everything rises over a second. No socket, device or clock of its own; one thread.
 
@@ -49,6 +50,7 @@ class GameDrive {
   std::optional<double> told_s_, stepped_s_;
   ActuatorGuard guard_;
   bool was_fresh_ = false, stop_is_pressed_ = false, has_told_refusal_ = false;
+  double awake_ = 1.0;  ///< 0: the telemetry has fallen silent.
   double resting_s_ = 0.1, rearm_held_s_ = 0.0, fan_ = 0.0, vibration_ = 0.0, force_ = 0.0;
   WheelPlace wheel_;
   std::uint64_t refused_ = 0;

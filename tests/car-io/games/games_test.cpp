@@ -17,6 +17,7 @@
 #include "car-io/games/telemetry.hpp"
 #include "car-io/games/uinput_wheel.hpp"
 #include "engine/core/bytes.hpp"
+#include "engine/core/random.hpp"
 
 namespace septet::car_io {
 namespace {
@@ -138,12 +139,78 @@ TEST_CASE("fan and shaker follow a game's telemetry and rest 200 ms after its la
   CHECK(drive.instruments(now_s).has_value());
   run(0.15, false);
   CHECK(told.fan == doctest::Approx(0.6));
-  run(1.3, false);
+  run(0.27, false);
   CHECK(told.fan == 0.0);
   CHECK(told.vibration == 0.0);
   CHECK_FALSE(drive.instruments(now_s).has_value());
   run(1.5, true);
   CHECK(told.fan == doctest::Approx(0.6));
+}
+
+TEST_CASE("a game that hangs leaves no force on the wheel where it has told anything, and the end of the way stays") {
+  ForceEffects effects;
+  effects.load(0, {.kind = ForceKind::constant, .level = 1.0});
+  effects.play(0, 1, 0.0);
+  for (const bool tells : {true, false}) {
+    CAPTURE(tells);
+    GameDrive drive({.steering_most = 1.0}, 7.85);
+    Actuators told;
+    double now_s = 0.0;
+    const auto run = [&](double seconds, bool talks, double wheel_rad = 0.0) {
+      for (const double end_s = now_s + seconds; now_s < end_s; now_s += 0.01) {
+        if (talks) drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), now_s);
+        told = drive.actuate(reading(wheel_rad), effects, now_s);
+      }
+    };
+    run(2.0, tells);
+    CHECK(told.steering == doctest::Approx(1.0));
+    run(0.42, false);
+    CHECK(told.steering == (tells ? 0.0 : doctest::Approx(1.0)));
+    run(0.2, false, 7.85);
+    CHECK(told.steering == doctest::Approx(-1.0));
+    run(1.2, tells);
+    CHECK(told.steering == doctest::Approx(1.0));
+  }
+}
+
+TEST_CASE(
+    "two senders, and a hundred thousand datagrams of anything, move nothing beyond the rig's limits, and then all "
+    "rests") {
+  const rig::CarActuators limits{.fan_full_speed_mps = 50.0, .fan_least = 0.2, .steering_most = 0.5};
+  GameDrive drive(limits, 7.85);
+  const ForceEffects none;
+  Random random(17);
+  Actuators told, most;
+  double now_s = 0.0;
+  const auto step = [&] {
+    told = drive.actuate(reading(), none, now_s);
+    for (const double value : {told.fan, told.vibration, told.vibration_hz, told.steering})
+      REQUIRE(std::isfinite(value));
+    most.fan = std::max(most.fan, told.fan);
+    most.vibration = std::max(most.vibration, told.vibration);
+    REQUIRE(told.vibration_hz <= 200.0);
+    now_s += 0.01;
+  };
+  for (int i = 0; i < 200; ++i) {
+    drive.receive(format("outgauge"), outgauge(0.0f, 900.0f), now_s);
+    drive.receive(format("outgauge"), outgauge(90.0f, 9000.0f), now_s);
+    step();
+  }
+  for (int i = 0; i < 100'000; ++i) {
+    const auto& known = known_telemetry_formats()[random.next_bits() % known_telemetry_formats().size()];
+    // Half of them of the length that the format has.
+    Bytes bytes(random.next_bits() % 2 == 0 ? known.least_bytes : random.next_bits() % 300);
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random.next_bits());
+    drive.receive(known, bytes, now_s);
+    if (i % 10 == 0) step();
+    if (const auto shown = drive.instruments(now_s)) REQUIRE(std::isfinite(shown->speed_kmh));
+  }
+  CHECK(drive.refused_datagrams() > 10'000);
+  CHECK(most.fan <= 1.0);
+  CHECK(most.vibration <= limits.vibration_most);
+  for (int i = 0; i < 42; ++i) step();
+  CHECK(told.fan == 0.0);
+  CHECK(told.vibration == 0.0);
 }
 
 TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re-arm button") {
