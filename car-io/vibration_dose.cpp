@@ -4,6 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
+
+#include <fmt/core.h>
 
 namespace septet::car_io {
 
@@ -30,6 +33,19 @@ void VibrationDose::add(const Actuators& actuators, double full_mps2, double dt_
 double VibrationDose::a8_mps2() const {
   constexpr double day_s = 8.0 * 3600.0;
   return std::sqrt(exposure_m2ps3 / day_s);
+}
+
+Actuators DoseLimit::pass(Actuators wanted, const rig::CarActuators& limits, double dt_s) {
+  if (!is_reached_) dose_.add(wanted, limits.vibration_full_mps2, dt_s);
+  is_reached_ = is_reached_ || dose_.a8_mps2() > limits.vibration_dose_mps2;
+  if (is_reached_) wanted.vibration = 0.0;
+  return wanted;
+}
+
+std::optional<std::string> DoseLimit::take_message() {
+  if (!is_reached_ || std::exchange(is_told_, true)) return std::nullopt;
+  return fmt::format("the shaker is cut: the driver has had {:.2f} m/s2 over eight hours' time (2002/44/EC)",
+                     dose_.a8_mps2());
 }
 
 }  // namespace septet::car_io

@@ -5,7 +5,11 @@
 /// from 0.5 m/s² and allows 1.15 m/s². What the shaker does at its full is measured once at the seat and stands in the rig
 /// (vibration_full_mps2); without that there is no dose.
 
+#include <optional>
+#include <string>
+
 #include "car-io/car_report.hpp"
+#include "engine/rig/rig.hpp"
 
 namespace septet::car_io {
 
@@ -17,6 +21,20 @@ struct VibrationDose {
 
   void add(const Actuators& actuators, double full_mps2, double dt_s);
   double a8_mps2() const;
+};
+
+/// A shaker that has shaken for a day rests until the program ends.
+class DoseLimit {
+ public:
+  /// What of `wanted` is done for the next dt_s.
+  Actuators pass(Actuators wanted, const rig::CarActuators& limits, double dt_s);
+  bool is_reached() const { return is_reached_; }
+  /// What a person should know, once.
+  std::optional<std::string> take_message();
+
+ private:
+  VibrationDose dose_;
+  bool is_reached_ = false, is_told_ = false;
 };
 
 }  // namespace septet::car_io

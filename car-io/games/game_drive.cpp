@@ -92,7 +92,9 @@ Actuators GameDrive::actuate(const CarReading& reading, const ForceEffects& effe
     guard_.share = 0.0;
     return {};
   }
-  return guard_.pass(wanted, dt_s);
+  const Actuators done = dose_.pass(guard_.pass(wanted, dt_s), limits_, dt_s);
+  if (auto message = dose_.take_message()) messages_.push_back(std::move(*message));
+  return done;
 }
 
 std::optional<Instruments> GameDrive::instruments(double now_s) const {

@@ -16,6 +16,7 @@
 #include "car-io/car_connection.hpp"
 #include "car-io/games/force_effects.hpp"
 #include "car-io/games/telemetry.hpp"
+#include "car-io/vibration_dose.hpp"
 
 namespace septet::car_io {
 
@@ -49,6 +50,7 @@ class GameDrive {
   double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.
   std::optional<double> told_s_, stepped_s_;
   ActuatorGuard guard_;
+  DoseLimit dose_;
   bool was_fresh_ = false, stop_is_pressed_ = false, has_told_refusal_ = false;
   double awake_ = 1.0;  ///< 0: the telemetry has fallen silent.
   double resting_s_ = 0.1, rearm_held_s_ = 0.0, fan_ = 0.0, vibration_ = 0.0, force_ = 0.0;

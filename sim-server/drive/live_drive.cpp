@@ -197,24 +197,12 @@ void LiveDrive::move_actuators(const Snapshot& before) {
   const bool rests = resting_ticks_ > 0;
   if (rests) --resting_ticks_;
   const auto passed = rests ? car_io::Actuators{} : guard_.pass(car_io::actuators_for(motion, seat_.actuators), tick_s);
-  const auto done = within_dose(passed, tick_s);
+  const auto done = dose_.pass(passed, seat_.actuators, tick_s);
+  if (const auto message = dose_.take_message()) tell(*message);
   if (log_ && logging::is_sample_due(state_.tick, simulation::tick_rate_hz))
     log_->record_actuators(
         {state_.tick, done.fan, done.vibration, done.vibration_hz, done.steering, cut_why_.has_value()});
   if (const auto error = seat_.actuate(state_.tick, done)) tell(describe(*error));
-}
-
-/// A shaker that has shaken for a day rests until the next drive.
-car_io::Actuators LiveDrive::within_dose(car_io::Actuators wanted, double dt_s) {
-  const rig::CarActuators& limits = seat_.actuators;
-  dose_.add(dose_is_full_ ? car_io::Actuators{} : wanted, limits.vibration_full_mps2, dt_s);
-  if (!dose_is_full_ && dose_.a8_mps2() > limits.vibration_dose_mps2) {
-    dose_is_full_ = true;
-    tell(fmt::format("the shaker is cut: the driver has had {:.2f} m/s2 over eight hours' time (2002/44/EC)",
-                     dose_.a8_mps2()));
-  }
-  if (dose_is_full_) wanted.vibration = 0.0;
-  return wanted;
 }
 
 void LiveDrive::show_instruments(const DriverInput& input) {

@@ -83,7 +83,6 @@ class LiveDrive final : public TickSource {
   void watch_faults();
   void feel(const Snapshot& before, car_io::CarMotion& motion);
   void move_actuators(const Snapshot& before);
-  car_io::Actuators within_dose(car_io::Actuators wanted, double dt_s);
   void show_instruments(const DriverInput& input);
   void keep_state();
   void tell(const std::string& what);
@@ -108,9 +107,8 @@ class LiveDrive final : public TickSource {
   car_io::ActuatorGuard guard_;
   std::optional<road::RoadPosition> felt_at_;
   double bump_ = 0.0, blow_ = 0.0;  ///< What is left of the last.
-  car_io::VibrationDose dose_;
+  car_io::DoseLimit dose_;
   car_io::WheelTorqueState wheel_torque_;
-  bool dose_is_full_ = false;
   std::optional<DriverInput> found_;  ///< The device's controls before anybody touched them.
   double waited_s_ = 0.0;             ///< For the driver, before the first tick.
   std::optional<logging::DriveEnd> end_;

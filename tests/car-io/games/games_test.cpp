@@ -213,6 +213,24 @@ TEST_CASE(
   CHECK(told.vibration == 0.0);
 }
 
+TEST_CASE("a game's shaking counts to the day's dose, which cuts the shaker and nothing else") {
+  GameDrive drive({.fan_full_speed_mps = 50.0, .vibration_full_mps2 = 100.0, .vibration_dose_mps2 = 0.02}, 7.85);
+  Actuators told;
+  double now_s = 0.0, shaken_s = 0.0;
+  std::size_t messages = 0;
+  for (; now_s < 20.0; now_s += 0.01) {
+    drive.receive(format("outgauge"), outgauge(25.0f, 3000.0f), now_s);
+    told = drive.actuate(reading(), {}, now_s);
+    if (told.vibration > 0.0) shaken_s = now_s;
+    messages += drive.take_messages().size();
+  }
+  CHECK(shaken_s > 0.2);
+  CHECK(shaken_s < 19.0);
+  CHECK(told.vibration == 0.0);
+  CHECK(told.fan > 0.2);
+  CHECK(messages == 1);
+}
+
 TEST_CASE("an emergency stop cuts a game's force at once and it waits for the re-arm button") {
   GameDrive drive({.steering_most = 0.5}, 7.85);
   ForceEffects effects;
