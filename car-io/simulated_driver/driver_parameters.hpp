@@ -2,7 +2,8 @@
 /// Who the simulated driver is: a few named parameters, and the sets that stand for kinds of
 /// drivers.
 ///
-/// None is fitted to a histogram or a participant. The steering gains follow from the driver's
+/// None is fitted to a histogram, a participant or a lesson's marks; what tells novices and experienced drivers apart has its findings in
+/// README.md. The steering gains follow from the driver's
 /// knowledge of the car and the natural frequency and damping with which they keep the lane; noise
 /// and delays are of the size that the literature names (README.md beside this file).
 
@@ -51,14 +52,19 @@ struct SteeringParameters {
 struct SpeedParameters {
   double limit_factor = 1.0;        ///< Desired speed over the limit.
   double desired_speed_mps = 33.3;  ///< Where no limit is posted.
+  double on_snow = 0.8;             ///< Share of it on a road under snow.
   double time_gap_s = 1.5;
   double acceleration_mps2 = 1.6, braking_mps2 = 2.0;
   double standstill_gap_m = 3.0;
   double coolness = 0.99;  ///< Trust that the one ahead keeps its acceleration.
   double reaction_time_s = 0.7;
   double distance_noise = 0.06,
-         noise_s = 8.0;            ///< Relative SD of perceived distances and speeds, correlation time.
+         noise_s = 8.0;            ///< Relative SD of perceived distances, correlation time.
+  double speed_noise = 0.015;      ///< Relative SD of the perceived own speed.
   double largest_jerk_mps3 = 2.5;  ///< Of the wish, unless it is an emergency.
+  double preview_s = 10.0;         ///< Who is farther ahead than this, over one's own speed, is not minded yet.
+  double warned_gap_m = 3.0;       ///< Left beyond the standstill gap to who warns by hazard lights.
+  double warns_after_s = 6.0, warns_spread = 0.4;  ///< Own hazard lights behind him: median, and SD of its logarithm.
 };
 
 struct LaneChoiceParameters {
@@ -70,6 +76,7 @@ struct LaneChoiceParameters {
   double safe_braking_mps2 = 1.5;      ///< The most that a change may ask of anybody.
   double strictness_underway = 0.6;    ///< Of both, once the car moves over: below this the driver goes back.
   double signal_s = 1.5;               ///< Indicator before the wheel turns.
+  double looks_again = 1.0;            ///< How probably the mirror is looked into once more before that.
   double duration_s = 5.0;
   double pause_s = 4.0;  ///< Between two changes.
 };
@@ -91,6 +98,8 @@ struct CourseParameters {
   double judgement = 0.10;        ///< …judged with an error of this relative SD, that wanders.
   double judgement_time_s = 2.0;  ///< Its correlation time.
   double turn_signal_s = 2.2;     ///< Indicator before a turn.
+  double preview_m = 120.0;       ///< How far ahead bends and limits are looked for.
+  double crossing_mps = 100.0;    ///< Towards a crossing at whose edge somebody stands.
 };
 
 /// Clutch and lever of a manual gearbox; engine speeds as the driver hears them, with little

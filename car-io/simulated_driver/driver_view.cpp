@@ -153,6 +153,7 @@ std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const tr
         vehicle.is_ahead ? ahead_m - model.rear_overhang_m - own.front_m : -ahead_m - model.front_m() - own.rear_m;
     vehicle.speed_mps = glm::dot(other.velocity_mps, heads);
     vehicle.is_ambulance = model.kind == ParticipantKind::ambulance && other.lamps.has(Lamp::beacon);
+    if (other.lamps.has(Lamp::indicator_left) && other.lamps.has(Lamp::indicator_right)) vehicle.warned_ago_s = 0.0;
     seen.push_back(vehicle);
   }
   return seen;
@@ -171,6 +172,7 @@ void see_accelerations(std::span<const SeenVehicle> before, double dt_s, std::ve
   for (SeenVehicle& vehicle : now) {
     const auto last = std::ranges::lower_bound(before, vehicle.id, {}, &SeenVehicle::id);
     if (last == before.end() || last->id != vehicle.id) continue;
+    vehicle.warned_ago_s = std::min(vehicle.warned_ago_s, last->warned_ago_s + dt_s);
     const double rate_mps2 = (vehicle.speed_mps - last->speed_mps) / dt_s;
     vehicle.acceleration_mps2 = last->acceleration_mps2 + share * (rate_mps2 - last->acceleration_mps2);
   }

@@ -43,7 +43,11 @@ struct SeenVehicle {
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;  ///< As its changing speed has told it.
   bool is_ambulance = false;       ///< With its beacon on.
+  double warned_ago_s = 1e9;       ///< Since its hazard lights were last seen lit.
 };
+
+/// Whether its hazard lights flash: dark for half a second in between.
+inline bool warns(const SeenVehicle& vehicle) { return vehicle.warned_ago_s < 1.0; }
 
 /// Bearings of two points of the intended path from the car's origin, against its heading, positive
 /// to the left.
@@ -63,7 +67,7 @@ std::optional<OwnPlace> see_own_place(const road::RoadNetwork& network, const tr
 std::vector<SeenVehicle> see_vehicles(const road::RoadNetwork& network, const traffic::Corridor& corridor,
                                       const Snapshot& snapshot, const OwnPlace& own);
 
-/// Accelerations by what changed since the look `dt_s` before: the eye takes half a second to tell.
+/// Accelerations by what changed since the look `dt_s` before: the eye takes half a second to tell. And whose lights had flashed before.
 void see_accelerations(std::span<const SeenVehicle> before, double dt_s, std::vector<SeenVehicle>& now);
 
 /// What was seen some time ago, as the driver takes it to be now: everybody has gone on evenly.

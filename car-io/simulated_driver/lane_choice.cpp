@@ -10,6 +10,8 @@ constexpr double thought_interval_s = 0.5;
 /// Below this speed a way across is a matter of distance: nobody slides sideways while standing.
 constexpr double slow_mps = 8.0;
 
+constexpr double slowest_preview_mps = 5.0;
+
 double pace(double own_speed_mps) { return std::clamp(own_speed_mps / slow_mps, 0.0, 1.0); }
 
 bool is_in(const SeenVehicle& vehicle, int lane) {
@@ -85,7 +87,11 @@ std::optional<Obstacle> obstacle_in_lane(const LaneScene& scene, int lane, const
   double least_mps2 = 0.0;
   for (const SeenVehicle& vehicle : scene.vehicles) {
     if (!vehicle.is_ahead || !(is_in(vehicle, lane) || vehicle.is_ambulance)) continue;
+    // A beacon is seen from afar by everybody.
+    if (!vehicle.is_ambulance && vehicle.gap_m > speed.preview_s * std::max(scene.own.speed_mps, slowest_preview_mps))
+      continue;
     Obstacle obstacle{vehicle.gap_m, vehicle.speed_mps, vehicle.acceleration_mps2};
+    if (warns(vehicle)) obstacle.gap_m -= std::min(speed.warned_gap_m, 0.8 * std::max(vehicle.gap_m, 0.0));
     if (!is_in(vehicle, lane)) obstacle.worth_mps2 = speed.braking_mps2;
     const double wish_mps2 = wished_acceleration_mps2(speed, scene.own.speed_mps, scene.desired_speed_mps, obstacle);
     if (hardest && wish_mps2 >= least_mps2) continue;
@@ -152,6 +158,11 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
   state.phase_s += state.phase < LanePhase::change ? dt_s : pace(scene.own.speed_mps) * dt_s;
   state.since_change_s += dt_s;
   const auto mirror_of_target = [&] { return lies_left(scene, state.target) ? Mirror::left : Mirror::right; };
+  const auto begin_change = [&] {
+    if (!is_safe(scene, state.target, driver)) return give_up(state);
+    state.way = {.duration_s = driver.lanes.duration_s};
+    enter(state, LanePhase::change);
+  };
   switch (state.phase) {
     case LanePhase::keep:
       state.next_thought_s -= dt_s;
@@ -173,13 +184,12 @@ void advance_lane_choice(LaneState& state, const DriverParameters& driver, const
       return;
     case LanePhase::signal:
       if (state.phase_s < driver.lanes.signal_s) return;
+      if (driver.lanes.looks_again < 1.0 && random.uniform() >= driver.lanes.looks_again) return begin_change();
       if (begin_glance(mirrors, mirror_of_target(), driver.mirrors, random)) enter(state, LanePhase::look_again);
       return;
     case LanePhase::look_again:
       if (!looked) return;
-      if (!is_safe(scene, state.target, driver)) return give_up(state);
-      state.way = {.duration_s = driver.lanes.duration_s};
-      return enter(state, LanePhase::change);
+      return begin_change();
     case LanePhase::change:
       if (scene.own.lane != state.target && !is_safe(scene, state.target, driver, driver.lanes.strictness_underway))
         return turn_back(state, driver.lanes);

@@ -62,7 +62,7 @@ double wished_acceleration_mps2(const SpeedParameters& speed, double own_speed_m
 void advance_pedals(PedalState& state, const SpeedParameters& speed, const CarKnowledge& car, const OwnPlace& own,
                     double desired_speed_mps, std::optional<Obstacle> obstacle, double dt_s, Random& random) {
   const double distance_error = state.distance_error.advance(speed.distance_noise, speed.noise_s, dt_s, random);
-  const double speed_error = state.speed_error.advance(speed.distance_noise / 4.0, speed.noise_s, dt_s, random);
+  const double speed_error = state.speed_error.advance(speed.speed_noise, speed.noise_s, dt_s, random);
   if (obstacle) obstacle->gap_m *= 1.0 + distance_error;
   const double wish = wished_acceleration_mps2(speed, own.speed_mps * (1.0 + speed_error), desired_speed_mps, obstacle);
   const bool emergency = obstacle && heuristic_acceleration_mps2(own.speed_mps, *obstacle) < emergency_mps2;

@@ -12,6 +12,7 @@ namespace septet::car_io {
 namespace {
 
 constexpr double look_around_interval_s = 0.05;
+constexpr double all_snow_cover = 0.3;    ///< From here on a road counts as snowy altogether.
 constexpr double lane_preview_m = 300.0;  ///< A lane counts as open if it is so for this far.
 
 /// A point of the lane's centre, or of the way between two while changing.
@@ -76,10 +77,13 @@ double open_for_m(const road::RoadNetwork& network, const traffic::Corridor& cor
   return std::numeric_limits<double>::infinity();
 }
 
-double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own) {
+double desired_speed_mps(const SimulatedDriver& driver, const road::RoadNetwork& network, const OwnPlace& own,
+                         double snow_cover) {
   const SpeedParameters& speed = driver.parameters.speed;
   const double limit = road::speed_limit_mps(network, traffic::position_at(*driver.corridor, own.x_m, own.lane));
-  return std::min(limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps, driver.course.speed_mps);
+  const double dry = limit > 0.0 ? limit * speed.limit_factor : speed.desired_speed_mps;
+  const double snow = std::clamp(snow_cover / all_snow_cover, 0.0, 1.0);
+  return std::min(dry * (1.0 - snow * (1.0 - speed.on_snow)), driver.course.speed_mps);
 }
 
 /// What the foot minds: whoever was seen in the way a reaction time ago, or the end of the lane. Which way the car goes the
@@ -155,7 +159,7 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
 
   const DriverParameters& parameters = driver.parameters;
   LaneScene scene{.own = *own, .vehicles = driver.vehicles};
-  scene.desired_speed_mps = desired_speed_mps(driver, network, *own);
+  scene.desired_speed_mps = desired_speed_mps(driver, network, *own, snapshot.environment.snow_cover);
   scene.grows_to_the_right = lanes_grow_to_the_right(traffic::piece_at(*driver.corridor, own->x_m));
   scene.open_inside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane - 1));
   scene.open_outside = std::isinf(open_for_m(network, *driver.corridor, own->x_m, own->lane + 1));
@@ -200,6 +204,8 @@ DriverInput advance(SimulatedDriver& driver, const road::RoadNetwork& network, c
                                                                                             : IndicatorStalk::right;
   else
     input.indicator = turn_indicator(driver.course, parameters.course, *own);
+  input.hazard_lights =
+      advance_warning(driver.warning, parameters.speed, *own, driver.vehicles, dt_s, driver.foot_random);
   input.gaze_heading_rad = driver.mirrors.head_rad;
   input.sequence = driver.sequence;
   return input;

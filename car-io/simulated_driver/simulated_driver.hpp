@@ -23,6 +23,7 @@
 #include "car-io/simulated_driver/mirrors.hpp"
 #include "car-io/simulated_driver/pedals.hpp"
 #include "car-io/simulated_driver/steering.hpp"
+#include "car-io/simulated_driver/warning.hpp"
 #include "car-io/simulated_hid_device.hpp"
 #include "engine/core/random.hpp"
 #include "engine/world/driver_input.hpp"
@@ -54,6 +55,7 @@ struct SimulatedDriver {
   LaneState lanes;
   TracksState tracks;
   CourseState course;
+  WarningState warning;
   bool plays = false;  ///< Has seen that this is a game.
   std::uint8_t sequence = 0;
 };

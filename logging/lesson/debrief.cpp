@@ -91,10 +91,23 @@ std::string picture(double time_s, const DebriefPlace& place) {
                      escaped(place.picture_folder), tick, second);
 }
 
+/// How often, or for how long: what each sample is measured of is no occasion.
+std::string how_often(const LessonTask& task, const TaskMark& mark) {
+  if (mark.faults == 0) return "kept";
+  if (is_of_each_sample(task.measure))
+    return fmt::format("not kept for {:.0f} % of the time",
+                       std::ceil(100.0 * static_cast<double>(mark.faults) / static_cast<double>(mark.occasions)));
+  return fmt::format("not kept {} of {} times", mark.faults, mark.occasions);
+}
+
 std::string why(const LessonTask& task, const TaskMark& mark) {
-  return fmt::format("{}{}{} at {:.1f} s; bound {}; {} of {} occasions beyond it", value_text(task, mark.worst),
-                     mark.worst_at.empty() ? "" : " ", mark.worst_at, mark.worst_s, value_text(task, task.bound),
-                     mark.faults, mark.occasions);
+  if (task.measure == LessonMeasure::collision)
+    return mark.faults == 0 ? std::string("nobody touched")
+                            : fmt::format("{:.0f} touched, the last at {:.1f} s", mark.worst, mark.worst_s);
+  return fmt::format("{}{}{} at {:.1f} s; asked: {} {}; {}", value_text(task, mark.worst),
+                     mark.worst_at.empty() ? "" : " ", mark.worst_at, mark.worst_s,
+                     is_at_most(task.measure) ? "at most" : "at least", value_text(task, task.bound),
+                     how_often(task, mark));
 }
 
 }  // namespace
@@ -135,7 +148,9 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
   html += fmt::format("<title>{}</title><style>{}</style></head><body><main>\n", escaped(lesson.title), report_style);
   html += fmt::format("<h1>{}</h1>\n", escaped(lesson.title));
   html += fmt::format("<p>{}</p>\n", escaped(lesson.aim));
-  html += "<p class=\"warning\">Before you read on: which mark would you give yourself, and why?</p>\n";
+  html +=
+      "<p class=\"warning\">Before you read on: which mark would you give yourself, and why?</p>\n"
+      "<details><summary>My own mark is said: show what the lesson marks</summary>\n";
   html += "<div class=\"tiles\">\n";
   html +=
       fmt::format("<div class=\"tile\"><b>{} <small>of 10</small></b><span>mark</span></div>\n", mark_text(marks.mark));
@@ -160,10 +175,11 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
                         mark.mark ? why(task, mark) : std::string("no occasion"));
   }
   html +=
-      "</table>\n<p class=\"soft\">10 within the bound, 0 at the bound and its tolerance; the mark is the weighted "
-      "mean of what was "
-      "seen. Glances are known by the head's direction alone; where no head tracker told it, they are not seen.</p>\n";
-  return html + "</main></body></html>\n";
+      "</table>\n<p class=\"soft\">10 for what was asked, less the farther from it, 0 from the lesson's tolerance on; "
+      "the mark is the "
+      "weighted mean of what was seen. Glances are known by the head's direction alone; where no head tracker told it, "
+      "they are not seen.</p>\n";
+  return html + "</details>\n</main></body></html>\n";
 }
 
 }  // namespace septet::logging

@@ -21,7 +21,7 @@ enum class LessonMeasure {
   speed,  ///< The fastest, km/h; at most the bound.
   gap,    ///< The shortest time gap to who is ahead, s, at 5 m/s or more; at least the bound.
   position,  ///< The farthest from the middle of the lane, m, without 4 s on either side of lane changes; at most the bound.
-  indicator,  ///< Per lane change: for how long the indicator had been on, s; at least the bound.
+  indicator,  ///< Per lane change: for how long the indicator had been on when the car began to move aside, s; at least the bound.
   mirror,     ///< Per lane change: how long ago the last glance at a mirror began, s; at most the bound.
   lookout,    ///< The longest time without a glance at a mirror, s, at 5 m/s or more; at most the bound.
   stop,       ///< How far behind who is ahead the car stood, m, at its first halt; at least the bound.
@@ -30,6 +30,7 @@ enum class LessonMeasure {
   yielding,  ///< Per line where others had right of way: the time that was left until they would have been there, s; at least the bound.
   turn,      ///< Per turn at a fork: for how long the indicator had been on when it began, s; at least the bound.
   limit,     ///< The most over the posted limit, km/h; at most the bound.
+  braking,   ///< The hardest braking of half a second, m/s², as far as 2 m/s; at most the bound.
 };
 
 struct LessonTask {
@@ -72,7 +73,11 @@ struct LessonMarks {
 /// Whether the head's direction was measured is told by whether it ever moved: where it did not, glances are not marked.
 LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events);
 
-/// What a measure is told in: "km/h", "s", "m", "".
+/// Whether more of it is worse.
+bool is_at_most(LessonMeasure measure);
+/// Whether every sample is an occasion.
+bool is_of_each_sample(LessonMeasure measure);
+/// What a measure is told in: "km/h", "s", "m", "m/s²", "".
 std::string_view unit_of(LessonMeasure measure);
 
 }  // namespace septet::logging

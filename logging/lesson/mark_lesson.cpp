@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,21 +22,17 @@ namespace septet::logging {
 namespace {
 
 constexpr double driving_mps = 5.0, standing_mps = 0.1;
-constexpr double around_change_s = 4.0;  ///< A lane is left and entered within this on either side of the crossing.
-constexpr double blink_s = 0.8;          ///< UN R48 asks for 60 flashes a minute at least: dark for half a second.
+constexpr double braking_from_mps = 2.0;  ///< Below it a car nods as it comes to stand.
+constexpr double braking_s = 0.5 - 1e-6;  ///< Sums of 0.1 s steps fall short by rounding.
+constexpr double aside_mps = 0.2;         ///< Slower is keeping the lane.
+constexpr double around_change_s = 4.0;   ///< A lane is left and entered within this on either side of the crossing.
+constexpr double blink_s = 0.8;           ///< UN R48 asks for 60 flashes a minute at least: dark for half a second.
 
 /// One occasion: what was measured, and when.
 struct Moment {
   double time_s = 0.0, value = 0.0;
   std::string at = {};  ///< Where, in words.
 };
-
-/// Whether more is worse.
-bool is_most(LessonMeasure measure) {
-  constexpr std::array least{LessonMeasure::gap, LessonMeasure::indicator, LessonMeasure::stop, LessonMeasure::yielding,
-                             LessonMeasure::turn};
-  return std::ranges::find(least, measure) == least.end();
-}
 
 /// What all tasks look at.
 struct DriveSeen {
@@ -67,12 +64,27 @@ double blinked_s(const DriveSeen& drive, Lamp lamp, double time_s) {
   return time_s - first_lit_s;
 }
 
-/// For how long the lamp of the change's side had been blinking when the line was crossed.
+/// When the car began to move towards the line that it crossed then: since when it has gone there at `aside_mps` or more.
+double began_to_move_s(const DriveSeen& drive, const LaneChange& change) {
+  auto at = std::ranges::lower_bound(drive.samples, change.simulated_time_s, {}, &Sample::simulated_time_s);
+  if (at != drive.samples.begin()) --at;  // The last sample in the lane that is left.
+  const double to_left = change.lanes_to_left > 0 ? 1.0 : -1.0;
+  for (; at != drive.samples.begin(); --at) {
+    const Sample &now = *at, &before = *std::prev(at);
+    const double step_s = now.simulated_time_s - before.simulated_time_s;
+    if (now.lane != before.lane || is_gap(before, now)) break;
+    if (to_left * (now.lateral_position_m - before.lateral_position_m) < aside_mps * step_s) break;
+  }
+  return at == drive.samples.end() ? change.simulated_time_s : std::min(at->simulated_time_s, change.simulated_time_s);
+}
+
+/// For how long the lamp of the change's side had been blinking when the car began to move.
 std::vector<Moment> indicators(const DriveSeen& drive) {
   std::vector<Moment> moments;
   for (const LaneChange& change : drive.changes) {
     const Lamp lamp = change.lanes_to_left > 0 ? Lamp::indicator_left : Lamp::indicator_right;
-    moments.push_back({change.simulated_time_s, blinked_s(drive, lamp, change.simulated_time_s)});
+    const double began_s = began_to_move_s(drive, change);
+    moments.push_back({began_s, blinked_s(drive, lamp, began_s)});
   }
   return moments;
 }
@@ -138,6 +150,21 @@ std::vector<Moment> limits(const DriveSeen& drive) {
     if (limit_kmh > 0.0)
       moments.push_back({sample.simulated_time_s, std::max(0.0, 3.6 * std::abs(sample.speed_mps) - limit_kmh),
                          fmt::format("where {:.0f} km/h are allowed", limit_kmh)});
+  }
+  return moments;
+}
+
+/// By speeds: what a car's body does for an instant is no braking.
+std::vector<Moment> brakings(const DriveSeen& drive) {
+  std::vector<Moment> moments;
+  std::size_t from = 0;
+  for (std::size_t i = 0; i < drive.samples.size(); ++i) {
+    const Sample& now = drive.samples[i];
+    if (i > 0 && is_gap(drive.samples[i - 1], now)) from = i;
+    while (from < i && drive.samples[from + 1].simulated_time_s <= now.simulated_time_s - braking_s) ++from;
+    const double over_s = now.simulated_time_s - drive.samples[from].simulated_time_s;
+    if (over_s < braking_s || now.speed_mps < braking_from_mps) continue;
+    moments.push_back({now.simulated_time_s, std::max(0.0, (drive.samples[from].speed_mps - now.speed_mps) / over_s)});
   }
   return moments;
 }
@@ -235,6 +262,8 @@ std::vector<Moment> moments_of(LessonMeasure measure, const DriveSeen& drive) {
       return turns(drive);
     case LessonMeasure::limit:
       return limits(drive);
+    case LessonMeasure::braking:
+      return brakings(drive);
     case LessonMeasure::collision:
       break;
   }
@@ -250,7 +279,7 @@ TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
   double worst_excess = 0.0;
   for (const Moment& moment : moments_of(task.measure, drive)) {
     if (moment.time_s < task.from_s || moment.time_s > task.to_s) continue;
-    const double excess = is_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
+    const double excess = is_at_most(task.measure) ? moment.value - task.bound : task.bound - moment.value;
     result.faults += excess > 0.0;
     if (result.occasions++ > 0 && excess <= worst_excess) continue;
     worst_excess = excess;
@@ -268,6 +297,18 @@ TaskMark mark_task(const LessonTask& task, const DriveSeen& drive) {
 }
 
 }  // namespace
+
+bool is_at_most(LessonMeasure measure) {
+  constexpr std::array least{LessonMeasure::gap, LessonMeasure::indicator, LessonMeasure::stop, LessonMeasure::yielding,
+                             LessonMeasure::turn};
+  return std::ranges::find(least, measure) == least.end();
+}
+
+bool is_of_each_sample(LessonMeasure measure) {
+  constexpr std::array each{LessonMeasure::speed, LessonMeasure::gap, LessonMeasure::position, LessonMeasure::limit,
+                            LessonMeasure::braking};
+  return std::ranges::find(each, measure) != each.end();
+}
 
 std::string_view name_of(Severity severity) {
   switch (severity) {

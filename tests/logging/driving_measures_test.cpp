@@ -14,6 +14,7 @@
 #include "logging/measures/steering_reversals.hpp"
 #include "logging/measures/time_to_collision.hpp"
 #include "logging/measures/time_to_line_crossing.hpp"
+#include "logging/report/drive_measures.hpp"
 #include "tests/logging/sample_series.hpp"
 
 namespace septet::logging {
@@ -200,11 +201,64 @@ TEST_CASE("reversal rates of a recording equal those of SciPy's filter and the p
   CHECK(reversals_per_minute(degrees, 30.0, {2.0, 0.1}) == exactly(57.6));
 }
 
+TEST_CASE("25 s at 30 Hz with 5, 8, 27 and 55 reversals are the published 12.0, 19.2, 64.8 and 132.0 a minute") {
+  // The rates of Markkula and Engström's example recordings (baseline 12.0 and 64.8, visual task 19.2, cognitive task 132.0), which are not
+  // ours to ship. Here: slow swings that count for visual load, with ripples on top that count for cognitive load alone.
+  const auto recording = [](double slow_swings, double ripple_swings) {
+    std::vector<double> radians;
+    for (int i = 0; i < 751; ++i) {
+      const double half_wave =
+          std::numbers::pi * i / 750.0;  // By the published rule the first value is a stationary point, the last none.
+      const double slow_deg = 4.0 * std::sin(slow_swings * half_wave);
+      const double ripple_deg = 0.35 * std::sin(ripple_swings * half_wave);
+      radians.push_back((slow_deg + ripple_deg) * std::numbers::pi / 180.0);
+    }
+    return radians;
+  };
+  const auto visual = [&](const auto& radians) { return reversals_per_minute(radians, 30.0, visual_load_reversals); };
+  const auto cognitive = [&](const auto& radians) {
+    return reversals_per_minute(radians, 30.0, cognitive_load_reversals);
+  };
+  CHECK(visual(recording(5.0, 0.0)) == exactly(12.0));
+  CHECK(visual(recording(8.0, 0.0)) == exactly(19.2));
+  CHECK(cognitive(recording(0.0, 27.0)) == exactly(64.8));
+  CHECK(cognitive(recording(0.0, 55.0)) == exactly(132.0));
+  // Swings of less than 3 degrees are none for visual load, whatever lies on top of them.
+  CHECK(visual(recording(0.0, 27.0)) == 0.0);
+  CHECK(visual(recording(5.0, 55.0)) == exactly(12.0));
+}
+
 TEST_CASE("each full swing of a sine beyond the gap is two reversals") {
   std::vector<double> sine;
   for (int i = 0; i < 1000; ++i) sine.push_back(std::sin(2.0 * std::numbers::pi * i / 100.0 + 0.05));
   CHECK(count_reversals(sine, 1.9) == 19);  // Between its 20 tops and bottoms.
   CHECK(count_reversals(sine, 2.1) == 0);
+}
+
+TEST_CASE(
+    "a glance every ten seconds, as the paper has it, is told as 10.0 s, and passing glances and other areas do not "
+    "shorten it") {
+  // Lebram, Engström and Gustavsson 2006, section 4: mirrors every 10 s. A glance counts from 0.2 s at 10 Hz.
+  DriveRecords drive;
+  for (int i = 0; i <= 6000; ++i) {
+    Sample sample;
+    sample.tick = static_cast<Tick>(12 * i);
+    sample.simulated_time_s = 0.1 * i;
+    sample.speed_mps = 25.0;
+    sample.lane = -1;
+    sample.lane_width_m = 3.5;
+    const int of_ten_s = i % 100;
+    if (of_ten_s >= 40 && of_ten_s < 42) sample.gaze_heading_rad = 0.6;  // The left mirror for 0.2 s.
+    if (of_ten_s == 70) sample.gaze_heading_rad = -0.5;                  // Past the inside mirror.
+    if (of_ten_s == 85) sample.gaze_heading_rad = 0.2;                   // The road to the left.
+    drive.samples.push_back(sample);
+  }
+  const DriveMeasures measures = compute_drive_measures(drive);
+  CHECK(measures.glances.size() == 60);
+  CHECK(measures.between_glances_s.value() == exactly(10.0));
+  for (const Glance& glance : measures.glances) CHECK(glance.duration_s == exactly(0.2));
+  for (Sample& sample : drive.samples) sample.gaze_heading_rad = 0.0;
+  CHECK_FALSE(compute_drive_measures(drive).between_glances_s.has_value());
 }
 
 TEST_CASE("steering entropy is 0.542 of normal errors in their own baseline and 1 of even ones and 0 of none") {

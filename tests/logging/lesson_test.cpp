@@ -32,14 +32,15 @@ std::vector<Sample> good_drive() {
   return samples;
 }
 
-/// Into the lane to the left, over the line at the 300th sample, with the indicator on for so long before.
+/// Into the lane to the left from the 260th sample, over the line at the 300th, with the indicator on for so long before the car moves.
 void change_lanes(std::vector<Sample>& samples, double signal_s) {
   for (int i = 260; i < 340; ++i) {
     samples[static_cast<std::size_t>(i)].lateral_position_m = (i < 300 ? 0.0 : -3.5) + 3.5 * (i - 260) / 80.0;
     if (i >= 300) samples[static_cast<std::size_t>(i)].lane = -1;
   }
   for (std::size_t i = 340; i < samples.size(); ++i) samples[i].lane = -1;
-  for (int i = 300 - static_cast<int>(std::lround(10.0 * signal_s)); i < 300; ++i)
+  if (signal_s <= 0.0) return;
+  for (int i = 260 - static_cast<int>(std::lround(10.0 * signal_s)); i < 300; ++i)
     samples[static_cast<std::size_t>(i)].lamps.set(Lamp::indicator_left, i % 7 < 4);  // It blinks.
 }
 
@@ -93,7 +94,9 @@ TEST_CASE("a lane change is marked by indicator and mirror, and is no bad place 
   CHECK(*mark_of("position", 0.3, 0.5, samples).mark == doctest::Approx(10.0));
   auto late = good_drive();
   change_lanes(late, 1.5);
-  CHECK(*mark_of("indicator", 3.0, 3.0, late).mark == doctest::Approx(4.7).epsilon(0.1));
+  const TaskMark half_as_long = mark_of("indicator", 3.0, 3.0, late);
+  CHECK(*half_as_long.mark == doctest::Approx(5.0).epsilon(0.1));
+  CHECK(half_as_long.worst_s == doctest::Approx(26.0).epsilon(0.01));  // Where it began to move, 4 s before the line.
   auto unsignalled = good_drive();
   change_lanes(unsignalled, 0.0);
   CHECK(*mark_of("indicator", 3.0, 3.0, unsignalled).mark == doctest::Approx(0.0));
@@ -178,6 +181,26 @@ TEST_CASE("a halt is marked by its distance and the hazard lights that follow it
   CHECK_FALSE(mark_of("stop", 10.0, 8.0, good_drive()).mark.has_value());
 }
 
+TEST_CASE(
+    "braking is marked by what speed is lost in half a second, and neither a shake nor the nod of coming to stand "
+    "counts") {
+  auto samples = good_drive();
+  CHECK(*mark_of("braking", 3.4, 3.4, samples).mark == doctest::Approx(10.0));
+  samples[250].longitudinal_acceleration_mps2 = -9.0;
+  CHECK(*mark_of("braking", 3.4, 3.4, samples).mark == doctest::Approx(10.0));
+  for (std::size_t i = 200; i < samples.size(); ++i)
+    samples[i].speed_mps = std::max(1.9, 20.0 - 5.1 * std::min(samples[i].simulated_time_s - 20.0, 2.0));
+  const TaskMark hard = mark_of("braking", 3.4, 3.4, samples);
+  CHECK(*hard.mark == doctest::Approx(5.0));
+  CHECK(hard.worst_s == doctest::Approx(20.5));
+  for (std::size_t i = 400; i < samples.size(); ++i) samples[i].speed_mps = 0.0;
+  CHECK(*mark_of("braking", 3.4, 3.4, samples).mark == doctest::Approx(5.0));
+  // Who comes back from a gap in the log has not braked in it.
+  auto gap = good_drive();
+  for (std::size_t i = 300; i < gap.size(); ++i) gap[i].speed_mps = 10.0, gap[i].simulated_time_s += 60.0;
+  CHECK(*mark_of("braking", 3.4, 3.4, gap).mark == doctest::Approx(10.0));
+}
+
 TEST_CASE("a collision is dangerous, whatever the rest is worth") {
   Lesson lesson = lesson_of("collision", 0.0, 1.0);
   lesson.tasks.push_back(lesson_of("speed", 100.0, 10.0).tasks[0]);
@@ -211,6 +234,11 @@ TEST_CASE("the debrief shows where and why with the picture of the moment, and n
   CHECK(page.find("<script>") == std::string::npos);
   CHECK(page.find("<polyline") != std::string::npos);
   CHECK(marks_in_a_line(lesson, marks).find("not passed") != std::string::npos);
+  CHECK(page.find("asked: at most 72.0 km/h; not kept for 1 % of the time") != std::string::npos);
+  // The learner's own mark first: the lesson's is shown when asked for.
+  const std::size_t own = page.find("which mark would you give yourself"), shown = page.find("<details>");
+  CHECK(own < shown);
+  CHECK(shown < page.find("of 10</small>"));
 }
 
 TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
@@ -224,7 +252,7 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     REQUIRE_FALSE(lesson.has_value());
     CHECK_FALSE(lesson.error().remedy.empty());
   }
-  for (const std::string name : {"winter-lorry", "tunnel-fire", "behind-ambulance"}) {
+  for (const std::string name : {"first-lesson", "winter-lorry", "tunnel-fire", "behind-ambulance"}) {
     const std::string path = std::string(SEPTET_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".lesson.toml";
     const auto text = read_regular_file(path);
     REQUIRE(text.has_value());
