@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,8 +25,6 @@ namespace septet::logging {
 namespace {
 
 using document::escaped;
-
-constexpr double picture_every_s = 1.0;  ///< As a screen keeps them.
 
 std::string mark_text(const std::optional<double>& mark) { return mark ? fmt::format("{:.1f}", *mark) : "not seen"; }
 
@@ -82,13 +84,14 @@ std::string route(const LessonMarks& marks, std::span<const Sample> samples) {
          "worst.</figcaption></figure>\n";
 }
 
-/// What the screen ahead showed last before that moment.
+/// What the screen ahead showed last before that moment, of the pictures that it has kept; before the first of them, that one.
 std::string picture(double time_s, const DebriefPlace& place) {
-  if (place.picture_folder.empty() || !(time_s >= 0.0 && time_s < 1e7)) return "";
-  const double second = std::max(picture_every_s, std::floor(time_s / picture_every_s) * picture_every_s);
-  const auto tick = static_cast<std::int64_t>(std::llround(second * place.ticks_per_second));
+  if (place.picture_ticks.empty() || !(time_s >= 0.0 && time_s < 1e7)) return "";
+  const auto moment = static_cast<std::int64_t>(std::llround(time_s * place.ticks_per_second));
+  const auto after = std::ranges::upper_bound(place.picture_ticks, moment);
+  const std::int64_t tick = after == place.picture_ticks.begin() ? *after : *std::prev(after);
   return fmt::format("<img src=\"{}/{}.png\" alt=\"The screen ahead {:.0f} s after the start\" style=\"width:100%\"/>",
-                     escaped(place.picture_folder), tick, second);
+                     escaped(place.picture_folder), tick, static_cast<double>(tick) / place.ticks_per_second);
 }
 
 /// How often, or for how long: what each sample is measured of is no occasion.
@@ -112,6 +115,21 @@ std::string why(const LessonTask& task, const TaskMark& mark) {
 
 }  // namespace
 
+std::vector<std::int64_t> picture_ticks_in(const std::filesystem::path& folder) {
+  std::vector<std::int64_t> ticks;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::filesystem::path name = entry->path().filename();
+    const std::string stem = name.stem().string();
+    std::int64_t tick = -1;
+    const auto [rest, mistake] = std::from_chars(stem.data(), stem.data() + stem.size(), tick);
+    if (name.extension() == ".png" && mistake == std::errc() && rest == stem.data() + stem.size() && tick >= 0)
+      ticks.push_back(tick);
+  }
+  std::ranges::sort(ticks);
+  return ticks;
+}
+
 Expected<std::optional<std::string>> write_debrief(const SessionReader& session, const std::filesystem::path& folder,
                                                    const std::string& picture_folder) {
   const auto& files = session.info().files;
@@ -124,7 +142,10 @@ Expected<std::optional<std::string>> write_debrief(const SessionReader& session,
   const auto events = session.events();
   if (!events) return tl::unexpected(events.error());
   const LessonMarks marks = mark_lesson(*lesson, *samples, *events);
-  const auto page = debrief_page(*lesson, marks, *samples, {picture_folder, session.info().ticks_per_second});
+  const auto page = debrief_page(
+      *lesson, marks, *samples,
+      {picture_folder, picture_folder.empty() ? std::vector<std::int64_t>() : picture_ticks_in(folder / picture_folder),
+       session.info().ticks_per_second});
   if (auto written = document::write_text_file(folder / "debrief.html", page); !written)
     return tl::unexpected(written.error());
   return std::optional(marks_in_a_line(*lesson, marks));

@@ -1,10 +1,12 @@
 #pragma once
 /// debrief.html: a lesson's marks, where on the route and when each went worst, and what the driver saw at that moment.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "logging/lesson/lesson.hpp"
 #include "logging/session_reader.hpp"
@@ -13,10 +15,13 @@ namespace septet::logging {
 
 /// What the page shows beside the marks. Who drove it does not tell: it may be printed and left lying.
 struct DebriefPlace {
-  std::string
-      picture_folder;  ///< Of the screen ahead, seen from the page, with TICK.png once a second; empty: there are no pictures.
+  std::string picture_folder;               ///< Of the screen ahead, seen from the page, with pictures TICK.png.
+  std::vector<std::int64_t> picture_ticks;  ///< Of those that are there, ascending: about one a second.
   double ticks_per_second = 120.0;
 };
+
+/// The ticks of the pictures TICK.png in a folder, ascending; none where there is no such folder.
+std::vector<std::int64_t> picture_ticks_in(const std::filesystem::path& folder);
 
 std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::span<const Sample> samples,
                          const DebriefPlace& place);

@@ -1,6 +1,8 @@
 // Lessons: what is marked, how, and what the learner reads of it.
 
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "engine/core/regular_file.hpp"
 #include "logging/lesson/debrief.hpp"
 #include "logging/lesson/lesson.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace septet::logging {
 namespace {
@@ -227,9 +230,9 @@ TEST_CASE("the debrief shows where and why with the picture of the moment, and n
   Lesson lesson = lesson_of("speed", 72.0, 10.0);
   lesson.title = "<script>alert(1)</script>";
   const LessonMarks marks = mark_lesson(lesson, samples, {});
-  const std::string page = debrief_page(lesson, marks, samples, {"screens/ahead", 120.0});
+  const std::string page = debrief_page(lesson, marks, samples, {"screens/ahead", {0, 121, 1443, 1561}, 120.0});
   CHECK(page.find("108.0 km/h at 12.3 s") != std::string::npos);
-  CHECK(page.find("screens/ahead/1440.png") != std::string::npos);
+  CHECK(page.find("screens/ahead/1443.png\" alt=\"The screen ahead 12 s") != std::string::npos);
   CHECK(page.find("--from 9") != std::string::npos);
   CHECK(page.find("<script>") == std::string::npos);
   CHECK(page.find("<polyline") != std::string::npos);
@@ -239,6 +242,26 @@ TEST_CASE("the debrief shows where and why with the picture of the moment, and n
   const std::size_t own = page.find("which mark would you give yourself"), shown = page.find("<details>");
   CHECK(own < shown);
   CHECK(shown < page.find("of 10</small>"));
+}
+
+TEST_CASE(
+    "the debrief names only pictures that are there, whatever ticks a screen has shown and whatever else lies beside "
+    "them") {
+  auto samples = good_drive();
+  samples[123].speed_mps = 30.0;
+  const Lesson lesson = lesson_of("speed", 72.0, 10.0);
+  const LessonMarks marks = mark_lesson(lesson, samples, {});
+  TemporaryFolder folder;
+  for (const char* name : {"1590.png", "1477.png", "119.png", "server-lost.png", "-3.png", "1475.txt",
+                           "99999999999999999999.png", "x.png", "7x.png"})
+    std::ofstream(folder / name) << "x";
+  const auto ticks = picture_ticks_in(folder.path());
+  CHECK(ticks == std::vector<std::int64_t>{119, 1477, 1590});
+  CHECK(picture_ticks_in(folder / "nowhere").empty());
+  // 12.3 s are tick 1476.
+  CHECK(debrief_page(lesson, marks, samples, {"here", ticks, 120.0}).find("here/119.png") != std::string::npos);
+  CHECK(debrief_page(lesson, marks, samples, {"here", {1477, 1590}, 120.0}).find("here/1477.png") != std::string::npos);
+  CHECK(debrief_page(lesson, marks, samples, {"here", {}, 120.0}).find("<img") == std::string::npos);
 }
 
 TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
