@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include "engine/core/regular_file.hpp"
 #include "engine/document/text_file.hpp"
@@ -22,6 +27,8 @@
 #include "program/temporary_folder.hpp"
 #include "sim-server/command/drive_folder.hpp"
 #include "sim-server/command/panorama_file.hpp"
+#include "sim-server/page/listening_socket.hpp"
+#include "sim-server/page/request_checks.hpp"
 
 namespace septet::server {
 namespace fs = std::filesystem;
@@ -165,6 +172,30 @@ program::ChildOptions screen_options(const DriveOptions& options, const rig::Scr
   return running;
 }
 
+/// The operator's page of a drive: at the same address however often the drive begins again.
+struct PagePlace {
+  page::ListeningSocket listening;
+  std::string token;
+};
+
+/// None where the drive has no page, or whoever started this program has handed one over.
+Expected<std::optional<PagePlace>> page_place(const DriveOptions& options) {
+  if (!options.page_port || std::getenv(page::handover_variable)) return std::nullopt;
+  auto listening = page::ListeningSocket::open(static_cast<std::uint16_t>(*options.page_port));
+  if (!listening) return tl::unexpected(listening.error());
+  return PagePlace{std::move(*listening), page::random_token()};
+}
+
+Expected<program::ChildProcess> start_server(program::ChildOptions server, const std::optional<PagePlace>& page) {
+  if (!page) return program::ChildProcess::start(server);
+  const auto handed = page->listening.copy(true);
+  if (!handed) return tl::unexpected(handed.error());
+  server.environment[page::handover_variable] = page::text_of({*handed, page->token});
+  auto process = program::ChildProcess::start(server);
+  ::close(*handed);
+  return process;
+}
+
 /// How server and screens have ended.
 struct Ending {
   bool driven = false;  ///< There is something to look at.
@@ -197,13 +228,14 @@ Ending ending_of(const program::ChildExit& exit, const std::optional<std::string
 }
 
 /// Server and screens from start to end.
-Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig) {
+Expected<Ending> run_processes(const DriveOptions& options, const fs::path& rig_file, const rig::Rig& rig,
+                               const std::optional<PagePlace>& page) {
   program::catch_stop_signals();
   std::vector<std::string> clients;
   for (const auto& screen : rig.screens) clients.push_back(screen.name);
   const auto keys = make_keys(clients);
   if (!keys) return tl::unexpected(keys.error());
-  auto server = program::ChildProcess::start(server_options(options, rig_file, keys->path()));
+  auto server = start_server(server_options(options, rig_file, keys->path()), page);
   if (!server) return tl::unexpected(server.error());
 
   // The server says on its standard output which port it got, once it has read and built everything, and why the drive has ended.
@@ -291,11 +323,12 @@ Expected<void> show_results(const DriveOptions& options, const rig::Rig& rig, in
 }
 
 /// One drive and what there is to look at after it, in a folder of its own.
-Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, const rig::Rig& rig) {
+Expected<Ending> drive_once(DriveOptions options, const fs::path& rig_file, const rig::Rig& rig,
+                            const std::optional<PagePlace>& page) {
   const auto folder = DriveFolder::prepare(options.out);
   if (!folder) return tl::unexpected(folder.error());
   options.out = folder->path();
-  auto ending = run_processes(options, rig_file, rig);
+  auto ending = run_processes(options, rig_file, rig, page);
   if (!ending || !ending->driven) folder->undo();
   if (!ending) return tl::unexpected(ending.error());
   int& status = ending->status;
@@ -334,9 +367,11 @@ Expected<int> run_drive(DriveOptions options) {
   const auto out = folder_of(options);
   if (!out) return tl::unexpected(out.error());
   options.out = *out;
+  const auto page = page_place(options);
+  if (!page) return tl::unexpected(page.error());
   for (const fs::path chosen = options.out;; program::say("\nThe drive begins again.")) {
     options.out = chosen;
-    const auto ended = drive_once(options, *rig_file, *rig);
+    const auto ended = drive_once(options, *rig_file, *rig, *page);
     if (!ended || !ended->again) return ended.map([](const Ending& ending) { return ending.status; });
   }
 }
