@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
       ->default_str("")
       ->allow_extra_args(false);
   app.add_option("--vehicle", options.vehicle, "Vehicle file, or a name below vehicles/")->default_str("the rig's");
+  app.add_option("--models", options.models, "Folder of your own glTF models: NAME.glb replaces NAME")
+      ->default_str("none");
   app.add_option("--participant", options.participant, "The driver's code, for log, summary and report")
       ->default_str("none");
   app.add_option("--about", options.about,

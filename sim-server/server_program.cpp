@@ -29,6 +29,7 @@
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
 #include "sim-server/drive/operator_desk.hpp"
+#include "sim-server/drive/own_models_folder.hpp"
 #include "sim-server/drive/traffic_choice.hpp"
 #include "sim-server/host/remote_car.hpp"
 #include "sim-server/host/replay_source.hpp"
@@ -188,11 +189,18 @@ Expected<void> prepare_drive(const ServerOptions& options, Drive& drive, program
   for (const auto& warning : drive.loaded.warnings) progress.message("not used: " + warning);
   // Also where nobody looks on: a whole log keeps the scene, so that the drive can be shown later.
   if (!options.no_screens || !options.log_samples_only) {
+    OwnModelsFolder own;
+    if (!options.models.empty()) {
+      auto read = read_own_models(options.models);
+      if (!read) return tl::unexpected(read.error());
+      own = std::move(*read);
+      for (const auto& message : own.messages) progress.message(message);
+    }
     scene::SceneBuilder builder(drive.store);
-    scenery::build_vehicles(builder);
+    scenery::build_vehicles(builder, &own.models);
     scenery::build_debris_looks(builder);
     scenery::build_road_world(builder, drive.loaded.model->roads, options.seed,
-                              {.raised = drive.loaded.model->raised.get()});
+                              {.own = &own.models, .raised = drive.loaded.model->raised.get()});
   }
   auto can = open_can_seat(drive.loaded.rig, options.rig);
   if (!can) return tl::unexpected(can.error());

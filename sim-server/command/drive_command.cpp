@@ -144,6 +144,7 @@ program::ChildOptions server_options(const DriveOptions& options, const fs::path
   };
   add_chosen("--driver", options.driver);
   add_chosen("--vehicle", options.vehicle);
+  add_chosen("--models", options.models.string());
   add_chosen("--participant", options.participant);
   for (const auto& about : options.about) add_chosen("--about", about);
   if (options.log == "samples") add({"--log-samples-only"});

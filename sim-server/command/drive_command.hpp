@@ -20,6 +20,7 @@ struct DriveOptions {
   bool virtual_screens = false;
   std::string driver;                   ///< Which simulated driver; empty: the rig's.
   std::string vehicle;                  ///< A file, or a name below vehicles/; empty: the rig's.
+  std::filesystem::path models;         ///< Folder of a person's own models; empty: none.
   std::string participant;              ///< The driver's code, for log, summary and report.
   std::vector<std::string> about;       ///< Of whoever drives, each "KEY=VALUE" (logging/subject.hpp).
   std::string log = "whole";            ///< Or samples: no snapshots.

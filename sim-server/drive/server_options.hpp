@@ -23,6 +23,7 @@ struct ServerOptions {
   std::uint64_t seed = 1;
   std::string driver;              ///< A simulated driver, who then drives whatever the rig says; empty: the rig's.
   std::string vehicle;             ///< A file or a name; empty: the rig's.
+  std::filesystem::path models;    ///< Folder of a person's own models; empty: none.
   std::string participant;         ///< The driver's code.
   std::vector<std::string> about;  ///< Of whoever drives, each "KEY=VALUE" (logging/subject.hpp).
   bool log_samples_only = false;   ///< The log keeps no snapshots: it can be measured, and not be shown again.

@@ -43,6 +43,8 @@ void add_drive_commands(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
   drive_command->add_option("--vehicle", options.drive.vehicle, "Vehicle file, or a name of septet list vehicles")
       ->default_str("the rig's");
+  drive_command->add_option("--models", options.drive.models, "Folder of your own glTF models: NAME.glb replaces NAME")
+      ->default_str("none");
   drive_command
       ->add_option("--participant", options.drive.participant, "The driver's code, for log, summary and report")
       ->default_str("none");

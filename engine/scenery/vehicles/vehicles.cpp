@@ -51,11 +51,19 @@ void add_prototype(scene::SceneBuilder& builder, const Palette& palette, KnownSh
 
 }  // namespace
 
-void build_vehicles(scene::SceneBuilder& builder) {
+void build_vehicles(scene::SceneBuilder& builder, const OwnModels* own_models) {
   const Palette palette = add_finishes(builder);
   KnownShapes known;
+  OwnShapes own(builder, own_models);
   for (const VehicleModel& model : vehicle_models())
-    add_prototype(builder, palette, known, model.name, vehicle_parts(model));
+    if (const gltf::Model* replacement = own.find(model.name)) {
+      Placement placement;
+      placement.parent_from_object.position_m = vehicle_from_own_model_m(*replacement, model);
+      placement.visible_to_m = vehicles_until_m;
+      own.place(model.name, placement, builder.add_prototype(model.name));
+    } else {
+      add_prototype(builder, palette, known, model.name, vehicle_parts(model));
+    }
   const Palette inside = add_cockpit_finishes(builder);
   KnownShapes known_inside;
   add_prototype(builder, inside, known_inside, "interior/volvo-s80", interior_parts());

@@ -1,5 +1,7 @@
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
@@ -56,7 +58,9 @@ void build_buildings(const WorldContext& world) {
     Placement placement;
     placement.parent_from_object = building.world_from_building;
     placement.visible_to_m = 3500.0f;
-    place(world.builder, "building", shapes[static_cast<std::size_t>(building.kind)], placement);
+    constexpr std::array<std::string_view, roadside::building_kind_count> names{"red-farm", "white-farm", "church"};
+    const auto kind = static_cast<std::size_t>(building.kind);
+    if (!world.own.place(names[kind], placement)) place(world.builder, "building", shapes[kind], placement);
   }
 }
 

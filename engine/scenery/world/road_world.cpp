@@ -28,7 +28,8 @@ void build_road_world(scene::SceneBuilder& builder, const road::RoadNetwork& net
   const RoadShape roads(network, options.overrun_m);
   const Terrain terrain(roads, seed);
   const Palette palette = add_world_finishes(builder, seed, has_towns(network));
-  const WorldContext world{builder, roads, terrain, palette, seed};
+  OwnShapes own(builder, options.own);
+  const WorldContext world{builder, roads, terrain, palette, own, seed};
   std::optional<roadside::RaisedAreas> own_raised;
   build_pavement(world);
   build_verges(world);

@@ -12,12 +12,15 @@
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/road_shape.hpp"
 #include "engine/scene/builder.hpp"
+#include "engine/scenery/own_models.hpp"
 
 namespace septet::scenery {
 
 struct RoadWorldOptions {
   bool vegetation = true;
   bool buildings = true;
+  const OwnModels* own =
+      nullptr;  ///< Of trees, houses, lamps and posts, drawn in the place of those that are made here.
   double overrun_m = roadside::usual_overrun_m;  ///< How far loose ends of roads run on.
   const roadside::RaisedAreas* raised =
       nullptr;  ///< Of this network, where the caller has them; else they are worked out.

@@ -197,11 +197,19 @@ class SignalWorks {
   }
 
   void add_post(const StandingSignal& standing) {
+    const double top = standing.bottom_m + standing.height_m;
+    if (const gltf::Model* own = world_.own.find("sign-post")) {
+      Placement placement;
+      placement.parent_from_object = standing.world_from_signal;
+      placement.scale.z = static_cast<float>(top) / std::max(own->most_m.z, 0.1f);
+      placement.visible_to_m = 500.0f;
+      world_.own.place("sign-post", placement);
+      return;
+    }
     auto [found, fresh] = posts_.try_emplace(standing.road);
     Posts& posts = found->second;
     if (fresh) posts.world_from_posts.position_m = standing.world_from_signal.position_m;
     const glm::vec3 foot(standing.world_from_signal.position_m - posts.world_from_posts.position_m);
-    const double top = standing.bottom_m + standing.height_m;
     posts.mesh.material = index_of(Ground::metal);
     glm::mat4 to(1.0f);
     to[3] = glm::vec4(foot, 1.0f);

@@ -1,5 +1,6 @@
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
@@ -60,22 +61,26 @@ geometry::PolygonMesh lamp() {
 void build_streets(const WorldContext& world) {
   std::array<std::array<Shape, roadside::town_house_colour_count>, roadside::town_house_kind_count> shapes;
   for (const roadside::TownHouse& house : roadside::town_houses(world.roads, world.seed)) {
+    Placement placement;
+    placement.parent_from_object = house.world_from_house;
+    placement.visible_to_m = 2500.0f;
+    constexpr std::array<std::string_view, roadside::town_house_kind_count> names{"cottage", "town-house",
+                                                                                  "town-block"};
+    if (world.own.place(names[static_cast<std::size_t>(house.kind)], placement)) continue;
     const auto colour = static_cast<std::size_t>(house.colour);
     Shape& shape = shapes[static_cast<std::size_t>(house.kind)][colour];
     if (shape.geometry == scene::no_node)
       shape = add_shape(world.builder, "town house", town_house(house.kind, colour), world.palette);
-    Placement placement;
-    placement.parent_from_object = house.world_from_house;
-    placement.visible_to_m = 2500.0f;
     place(world.builder, "town house", shape, placement);
   }
   Shape lamp_shape;
   for (const roadside::StreetLamp& street_lamp : roadside::street_lamps(world.roads)) {
-    if (lamp_shape.geometry == scene::no_node)
-      lamp_shape = add_shape(world.builder, "street lamp", lamp(), world.palette);
     Placement placement;
     placement.parent_from_object = street_lamp.world_from_lamp;
     placement.visible_to_m = 450.0f;
+    if (world.own.place("street-lamp", placement)) continue;
+    if (lamp_shape.geometry == scene::no_node)
+      lamp_shape = add_shape(world.builder, "street lamp", lamp(), world.palette);
     place(world.builder, "street lamp", lamp_shape, placement);
   }
 }

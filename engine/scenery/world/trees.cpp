@@ -1,5 +1,7 @@
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,6 +24,13 @@ using Kind = roadside::TreeKind;
 using roadside::trunk_radius_m;
 constexpr int kind_count = roadside::tree_kind_count;
 constexpr float tree_near_m = 100.0f;
+/// A person's own tree is seen up to here, then the picture of its kind.
+constexpr float own_tree_m = 250.0f;
+
+std::string_view own_name(Kind kind) {
+  constexpr std::array<std::string_view, kind_count> names{"oak", "birch", "spruce", "bush"};
+  return names[static_cast<std::size_t>(kind)];
+}
 
 void add_trunk(MeshBuilder& builder, Ground bark, float radius, float height) {
   builder.material = index_of(bark);
@@ -140,8 +149,11 @@ class TreePen {
     placement.parent_from_object = {tree.foot_m, glm::angleAxis(tree.turn_rad, Vec3(0, 0, 1))};
     placement.scale = glm::vec3(static_cast<float>(tree.size));
     const int k = static_cast<int>(tree.kind);
-    placement.visible_to_m = tree.kind == Kind::bush ? 70.0f : tree_near_m;
-    place(world_.builder, "tree", near_[k][tree.variant], placement);
+    placement.visible_to_m = own_tree_m;
+    if (!world_.own.place(own_name(tree.kind), placement)) {
+      placement.visible_to_m = tree.kind == Kind::bush ? 70.0f : tree_near_m;
+      place(world_.builder, "tree", near_[k][tree.variant], placement);
+    }
     placement.visible_from_m = placement.visible_to_m;
     placement.visible_to_m = tree.kind == Kind::bush ? 420.0f : 1900.0f;
     placement.casts_shadow = false;

@@ -7,6 +7,7 @@
 #include "engine/roadside/raised_areas.hpp"
 #include "engine/roadside/road_shape.hpp"
 #include "engine/roadside/terrain.hpp"
+#include "engine/scenery/own_models.hpp"
 #include "engine/scenery/palette.hpp"
 
 namespace septet::scenery {
@@ -23,6 +24,7 @@ struct WorldContext {
   const RoadShape& roads;
   const Terrain& terrain;
   const Palette& palette;  ///< By Ground.
+  OwnShapes& own;          ///< What a person has replaced.
   std::uint64_t seed;
 };
 

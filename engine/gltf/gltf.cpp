@@ -1,0 +1,345 @@
+#include "engine/gltf/gltf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/printable.hpp"
+#include "engine/gltf/accessors.hpp"
+#include "engine/gltf/container.hpp"
+#include "engine/gltf/looks.hpp"
+
+namespace septet::gltf {
+namespace {
+
+constexpr std::size_t deepest_node = 256;
+
+/// glTF's x is left, y up, z forward; ours x forward, y left, z up.
+glm::vec3 our_axes(const glm::vec3& p) { return {p.z, p.x, p.y}; }
+
+/// Joins what has the same place and normal.
+struct Corner {
+  std::array<float, 6> numbers;
+  bool operator==(const Corner&) const = default;
+};
+struct CornerHash {
+  std::size_t operator()(const Corner& corner) const {
+    std::size_t hash = 0;
+    for (const float number : corner.numbers) hash = hash * 1000003u ^ std::hash<float>{}(number);
+    return hash;
+  }
+};
+
+/// A part while it is put together.
+struct Growing {
+  Part part;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> known;
+  bool has_uvs = false;
+};
+
+/// Triangles of a primitive as its own vertices (glTF 2.0, 3.7.2.1), in the winding of each mode.
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const std::vector<std::uint32_t>& indices, std::int64_t mode) {
+  constexpr std::int64_t list = 4, strip = 5, fan = 6;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const std::size_t count = indices.size();
+  if (mode == list)
+    for (std::size_t i = 0; i + 2 < count; i += 3) triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+  for (std::size_t i = 0; i + 2 < count; ++i) {
+    if (mode == strip) triangles.push_back({indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]});
+    if (mode == fan) triangles.push_back({indices[i + 1], indices[i + 2], indices[0]});
+  }
+  return triangles;
+}
+
+class Reader {
+ public:
+  Reader(const Container& container, const std::function<bool(std::string_view)>& begins_part)
+      : container_(container), begins_part_(begins_part), nodes_(list_of(*container.json, "nodes")) {}
+
+  Expected<Model> read() {
+    if (auto known = check_extensions(); !known) return tl::unexpected(known.error());
+    if (auto looks = read_looks(container_, model_); !looks) return tl::unexpected(looks.error());
+    growing_.emplace_back();
+    visited_.assign(nodes_.size(), false);
+    const auto roots = root_nodes();
+    if (!roots) return tl::unexpected(roots.error());
+    for (const std::int64_t root : *roots)
+      if (auto added = add_node(root, glm::mat4(1.0f), 0, 0); !added) return tl::unexpected(added.error());
+    finish();
+    if (model_.parts.empty())
+      return failure("it has no triangle in its scene", container_.where, "export what is to be seen");
+    return std::move(model_);
+  }
+
+ private:
+  Expected<void> check_extensions() const {
+    for (const Json& extension : list_of(*container_.json, "extensionsRequired")) {
+      const std::string name = extension.is_string() ? extension.get<std::string>() : std::string("?");
+      if (!name.starts_with("KHR_materials_") && name != "KHR_mesh_quantization" && name != "KHR_texture_transform")
+        return failure(fmt::format("it cannot be read without {}", printable(name, 60)), container_.where,
+                       "export it without compression and extensions");
+    }
+    return {};
+  }
+
+  /// Of the default scene; without scenes those that are nobody's child.
+  Expected<std::vector<std::int64_t>> root_nodes() const {
+    std::vector<std::int64_t> roots;
+    const Json& scenes = list_of(*container_.json, "scenes");
+    if (!scenes.empty()) {
+      const std::int64_t scene = index_in(*container_.json, "scene", 0);
+      if (scene < 0 || static_cast<std::uint64_t>(scene) >= scenes.size())
+        return failure(fmt::format("its scene is none of its {}", scenes.size()), container_.where, export_anew);
+      for (const Json& node : list_of(scenes[static_cast<std::size_t>(scene)], "nodes"))
+        roots.push_back(node_index(node));
+      return roots;
+    }
+    std::vector<bool> is_child(nodes_.size(), false);
+    for (const Json& node : nodes_)
+      for (const Json& child : list_of(node, "children"))
+        if (const std::int64_t index = node_index(child); index >= 0) is_child[static_cast<std::size_t>(index)] = true;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (!is_child[i]) roots.push_back(static_cast<std::int64_t>(i));
+    return roots;
+  }
+
+  /// −1 where there is no such node.
+  std::int64_t node_index(const Json& number) const {
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= nodes_.size()) return -1;
+    return number.get<std::int64_t>();
+  }
+
+  std::string node_place(std::int64_t index) const { return fmt::format("{}, node {}", container_.where, index); }
+
+  /// Nothing where there are no such `numbers` of them.
+  template <std::size_t count>
+  static std::optional<std::array<float, count>> numbers_of(const Json& object, const char* name) {
+    const Json& list = list_of(object, name);
+    if (list.size() != count) return std::nullopt;
+    std::array<float, count> numbers{};
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!list[i].is_number()) return std::nullopt;
+      numbers[i] = static_cast<float>(std::clamp(list[i].get<double>(), -1e9, 1e9));
+    }
+    return numbers;
+  }
+
+  static glm::mat4 transform_of(const Json& node) {
+    glm::mat4 transform(1.0f);
+    if (const auto matrix = numbers_of<16>(node, "matrix")) {
+      for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = (*matrix)[static_cast<std::size_t>(i)];
+      return transform;
+    }
+    const auto turn = numbers_of<4>(node, "rotation");
+    glm::quat rotation(1.0f, 0.0f, 0.0f, 0.0f);
+    if (turn) rotation = glm::quat((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
+    const float length = glm::length(rotation);
+    transform = glm::mat4(length > 1e-6f ? glm::mat3_cast(rotation / length) : glm::mat3(1.0f));
+    if (const auto scale = numbers_of<3>(node, "scale"))
+      for (int i = 0; i < 3; ++i) transform[i] *= (*scale)[static_cast<std::size_t>(i)];
+    if (const auto shift = numbers_of<3>(node, "translation"))
+      transform[3] = glm::vec4((*shift)[0], (*shift)[1], (*shift)[2], 1.0f);
+    return transform;
+  }
+
+  Expected<void> add_node(std::int64_t index, const glm::mat4& parent, std::size_t part, std::size_t depth) {
+    if (index < 0 || static_cast<std::uint64_t>(index) >= nodes_.size())
+      return failure(fmt::format("a node that is named is none of its {}", nodes_.size()), container_.where,
+                     export_anew);
+    if (visited_[static_cast<std::size_t>(index)])
+      return failure("it hangs below two nodes, or below itself", node_place(index), export_anew);
+    if (depth > deepest_node)
+      return failure(fmt::format("it hangs more than {} nodes deep", deepest_node), node_place(index), export_anew);
+    visited_[static_cast<std::size_t>(index)] = true;
+    const Json& node = nodes_[static_cast<std::size_t>(index)];
+    const glm::mat4 model_from_node = parent * transform_of(node);
+    if (const std::string name = text_in(node, "name"); !name.empty() && begins_part_(name)) {
+      if (growing_.size() >= most_parts)
+        return failure(fmt::format("more than {} parts begin", most_parts), node_place(index), "join some");
+      part = growing_.size();
+      growing_.emplace_back();
+      growing_.back().part.name = name;
+      const glm::vec3 origin = our_axes(glm::vec3(model_from_node[3]));
+      if (!is_near(origin)) return far_away(index);
+      growing_.back().part.origin_m = origin;
+    }
+    if (node.is_object() && node.contains("mesh"))
+      if (auto added = add_mesh(index_in(node, "mesh"), index, model_from_node, growing_[part]); !added) return added;
+    for (const Json& child : list_of(node, "children"))
+      if (auto added = add_node(node_index(child), model_from_node, part, depth + 1); !added) return added;
+    return {};
+  }
+
+  static bool is_near(const glm::vec3& p) {
+    return std::abs(p.x) <= furthest_m && std::abs(p.y) <= furthest_m && std::abs(p.z) <= furthest_m;
+  }
+  tl::unexpected<Error> far_away(std::int64_t node) const {
+    return failure(fmt::format("it lies further than {:.0f} m from the origin", furthest_m), node_place(node),
+                   "give the model's lengths in metres and its place around the origin");
+  }
+
+  Expected<void> add_mesh(std::int64_t mesh, std::int64_t node, const glm::mat4& model_from_node, Growing& growing) {
+    const Json& meshes = list_of(*container_.json, "meshes");
+    if (mesh < 0 || static_cast<std::uint64_t>(mesh) >= meshes.size())
+      return failure(fmt::format("its mesh is none of the file's {}", meshes.size()), node_place(node), export_anew);
+    for (const Json& primitive : list_of(meshes[static_cast<std::size_t>(mesh)], "primitives"))
+      if (auto added = add_primitive(primitive, node, model_from_node, growing); !added) return added;
+    return {};
+  }
+
+  Expected<void> add_primitive(const Json& primitive, std::int64_t node, const glm::mat4& model_from_node,
+                               Growing& growing) {
+    constexpr std::int64_t triangle_list = 4, triangle_fan = 6;
+    const std::int64_t mode = index_in(primitive, "mode", triangle_list);
+    if (mode < triangle_list || mode > triangle_fan) return {};  // Points and lines are nothing to be seen.
+    static const Json none = Json::object();
+    const Json& attributes = primitive.contains("attributes") ? primitive["attributes"] : none;
+    const auto positions = read_rows(container_, index_in(attributes, "POSITION"), 3, 3, most_vertices);
+    if (!positions) return tl::unexpected(positions.error());
+    const auto optional_rows = [&](const char* name, std::size_t least, std::size_t most) -> Expected<Rows> {
+      if (!attributes.contains(name)) return Rows{};
+      auto rows = read_rows(container_, index_in(attributes, name), least, most, most_vertices);
+      if (rows && rows->count != positions->count)
+        return failure(fmt::format("{} has {} rows and POSITION {}", name, rows->count, positions->count),
+                       node_place(node), export_anew);
+      return rows;
+    };
+    const auto normals = optional_rows("NORMAL", 3, 3);
+    if (!normals) return tl::unexpected(normals.error());
+    const auto uvs = optional_rows("TEXCOORD_0", 2, 2);
+    if (!uvs) return tl::unexpected(uvs.error());
+    const auto colours = optional_rows("COLOR_0", 3, 4);
+    if (!colours) return tl::unexpected(colours.error());
+    std::vector<std::uint32_t> indices;
+    if (primitive.contains("indices")) {
+      auto read = read_indices(container_, index_in(primitive, "indices"), 3 * most_triangles, positions->count);
+      if (!read) return tl::unexpected(read.error());
+      indices = std::move(*read);
+    } else {
+      for (std::uint32_t i = 0; i < positions->count; ++i) indices.push_back(i);
+    }
+    const auto triangles = triangles_of(indices, mode);
+    triangles_ += triangles.size();
+    vertices_ += positions->count + indices.size();
+    if (triangles_ > most_triangles || vertices_ > 6 * most_vertices)
+      return failure(fmt::format("it draws more than {} triangles", most_triangles), container_.where,
+                     "make the model of fewer triangles");
+    const std::int64_t material = index_in(primitive, "material", static_cast<std::int64_t>(model_.looks.size()) - 1);
+    if (material < 0 || static_cast<std::uint64_t>(material) >= model_.looks.size())
+      return failure("its material is none of the file's", node_place(node), export_anew);
+    return add_triangles(triangles, *positions, *normals, *uvs, look_of(static_cast<std::size_t>(material), *colours),
+                         node, model_from_node, growing);
+  }
+
+  /// The material in the mean of a primitive's vertex colours, where it has some.
+  std::uint32_t look_of(std::size_t material, const Rows& colours) {
+    if (colours.count == 0) return static_cast<std::uint32_t>(material);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < colours.count; ++i)
+      for (int c = 0; c < 3; ++c) sum[c] += colours.numbers[i * colours.width + static_cast<std::size_t>(c)];
+    const glm::dvec3 mean = glm::clamp(sum / static_cast<double>(colours.count), 0.0, 1.0);
+    // In steps of a hundredth: parts of one colour share one look.
+    const std::array<int, 4> key{static_cast<int>(material), static_cast<int>(mean.x * 100.0 + 0.5),
+                                 static_cast<int>(mean.y * 100.0 + 0.5), static_cast<int>(mean.z * 100.0 + 0.5)};
+    const auto [known, is_new] = coloured_.try_emplace(key, static_cast<std::uint32_t>(model_.looks.size()));
+    if (is_new) {
+      if (coloured_.size() > most_materials) return static_cast<std::uint32_t>(material);
+      Look look = model_.looks[material];
+      look.base_color *= glm::vec3(mean);
+      model_.looks.push_back(std::move(look));
+    }
+    return std::min(known->second, static_cast<std::uint32_t>(model_.looks.size() - 1));
+  }
+
+  Expected<void> add_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles, const Rows& positions,
+                               const Rows& normals, const Rows& uvs, std::uint32_t look, std::int64_t node,
+                               const glm::mat4& model_from_node, Growing& growing) {
+    const glm::mat3 turn(model_from_node);
+    const bool mirrors = glm::determinant(turn) < 0.0f;
+    geometry::PolygonMesh& mesh = growing.part.mesh;
+    std::vector<std::uint32_t> placed(positions.count, geometry::no_vertex);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      geometry::PolygonCorners corners{0, 0, 0, geometry::no_vertex};
+      std::array<glm::vec2, 4> corner_uvs{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = triangles[t][mirrors ? 2 - k : k];
+        if (uvs.count > 0) corner_uvs[k] = {wrapped(uvs.numbers[vertex * 2]), wrapped(uvs.numbers[vertex * 2 + 1])};
+        if (placed[vertex] == geometry::no_vertex || normals.count == 0) {
+          const float* p = &positions.numbers[std::size_t{vertex} * 3];
+          const glm::vec3 at = our_axes(glm::vec3(model_from_node * glm::vec4(p[0], p[1], p[2], 1.0f)));
+          if (!is_near(at)) return far_away(node);
+          // Without normals every triangle is flat (3.7.2.1): its number stands for the normal, and joins nothing.
+          glm::vec3 normal(static_cast<float>(t), static_cast<float>(mesh.polygons.size()), -2.0f);
+          if (normals.count > 0) {
+            const float* n = &normals.numbers[std::size_t{vertex} * 3];
+            normal = {n[0], n[1], n[2]};
+          }
+          const glm::vec3 here = at - growing.part.origin_m;
+          const Corner corner{{here.x, here.y, here.z, normal.x, normal.y, normal.z}};
+          const auto [known, is_new] =
+              growing.known.try_emplace(corner, static_cast<std::uint32_t>(mesh.vertices_m.size()));
+          if (is_new) mesh.vertices_m.push_back(here);
+          placed[vertex] = known->second;
+        }
+        corners[k] = placed[vertex];
+      }
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+      mesh.polygons.push_back(corners);
+      mesh.polygon_materials.push_back(look);
+      mesh.corner_uvs.push_back(corner_uvs);
+      growing.has_uvs |= uvs.count > 0;
+    }
+    return {};
+  }
+
+  /// Texture coordinates repeat; far ones would lose their digits.
+  static float wrapped(float uv) { return std::abs(uv) < 64.0f ? uv : uv - std::floor(uv); }
+
+  void finish() {
+    for (Growing& growing : growing_) {
+      Part& part = growing.part;
+      if (part.mesh.polygons.empty()) continue;
+      if (!growing.has_uvs) part.mesh.corner_uvs.clear();
+      for (const glm::vec3& p : part.mesh.vertices_m) {
+        const glm::vec3 at = part.origin_m + p;
+        model_.least_m = bounded_ ? glm::min(model_.least_m, at) : at;
+        model_.most_m = bounded_ ? glm::max(model_.most_m, at) : at;
+        bounded_ = true;
+      }
+      model_.parts.push_back(std::move(part));
+    }
+  }
+
+  const Container& container_;
+  const std::function<bool(std::string_view)>& begins_part_;
+  const Json& nodes_;
+  Model model_;
+  std::vector<Growing> growing_;
+  std::vector<bool> visited_;
+  std::map<std::array<int, 4>, std::uint32_t> coloured_;
+  std::size_t triangles_ = 0, vertices_ = 0;
+  bool bounded_ = false;
+};
+
+}  // namespace
+
+Expected<Model> read_gltf(std::string_view bytes, std::string_view where,
+                          const std::function<bool(std::string_view)>& begins_part) {
+  auto container = open_container(bytes, where);
+  if (!container) return tl::unexpected(container.error());
+  return Reader(*container, begins_part).read();
+}
+
+}  // namespace septet::gltf

@@ -1,0 +1,65 @@
+#pragma once
+/// A person's own glTF 2.0 file as what the scenery draws: meshes by the node that they hang at, and the numbers of their materials.
+///
+/// Read of a file: the default scene's nodes with their transforms; triangles, strips and fans with positions, normals, the first texture
+/// coordinates and the mean of the first vertex colours; of materials base colour (factor and PNG texture), metallic, roughness, emissive (with
+/// KHR_materials_emissive_strength), alpha, and transmission as transparency. Skins and shapes to morph into stay as they were modelled; cameras,
+/// lights, animations and other textures are passed over.
+/// A file is whole in itself: a .glb, or a .gltf whose buffers are data: URIs. What it names outside of itself is never opened.
+///
+/// Axes: glTF has y up, z forward and x left (its specification, 3.4); here x is forward, y left, z up, metres. Vertices are joined where
+/// position and normal agree, so that edges which the file keeps sharp stay sharp.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/core/expected.hpp"
+#include "engine/geometry/polygon_mesh.hpp"
+#include "engine/image/image.hpp"
+
+namespace septet::gltf {
+
+/// What a file may hold. A thing is drawn many times a picture, on every screen.
+inline constexpr std::size_t largest_file_bytes = 64u << 20, most_triangles = 200'000, most_vertices = 600'000,
+                             most_materials = 64, most_parts = 64;
+/// Pictures are drawn in half until they are no larger than the second.
+inline constexpr std::uint32_t largest_picture_px = 4096, drawn_picture_px = 1024;
+/// Further from its origin nothing lies; a file that says so is not in metres.
+inline constexpr float furthest_m = 2000.0f;
+
+/// A material. Colours are linear Rec. 709.
+struct Look {
+  std::string name;
+  glm::vec3 base_color{1.0f};
+  std::int32_t picture = -1;  ///< Indexes Model::pictures; multiplies base_color.
+  float roughness = 1.0f, metallic = 1.0f, opacity = 1.0f;
+  glm::vec3 emission{0.0f};
+};
+
+/// What moves or shines as one, or everything else.
+struct Part {
+  std::string name;            ///< Of the node that begins it; empty: everything that belongs to none.
+  glm::vec3 origin_m{0.0};     ///< The node's place in the model; the mesh is relative to it, axes as the model's.
+  geometry::PolygonMesh mesh;  ///< Materials are indices of Model::looks.
+};
+
+struct Model {
+  std::vector<Part> parts;  ///< None without a triangle.
+  std::vector<Look> looks;
+  std::vector<image::Image> pictures;
+  glm::vec3 least_m{0.0f}, most_m{0.0f};  ///< Bounds of all parts.
+  std::vector<std::string> left_out;      ///< What was read past and may be missed, each a sentence.
+};
+
+/// `where` names the file in errors. A node whose name `begins_part` accepts starts a part, with everything below it.
+/// Error, whatever the bytes: what is wrong with which accessor, node or chunk, and what to do.
+Expected<Model> read_gltf(std::string_view bytes, std::string_view where,
+                          const std::function<bool(std::string_view)>& begins_part);
+
+}  // namespace septet::gltf

@@ -1,0 +1,101 @@
+#include "engine/scenery/own_models.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "engine/scene/part_role.hpp"
+
+namespace septet::scenery {
+namespace {
+
+constexpr std::array<std::string_view, 12> things{"oak",        "birch",      "spruce",      "bush",
+                                                  "red-farm",   "white-farm", "church",      "cottage",
+                                                  "town-house", "town-block", "street-lamp", "sign-post"};
+
+/// "wheel_front_left.001" is a wheel: modelling programs number what has the same name.
+std::string_view without_number(std::string_view name) { return name.substr(0, name.find('.')); }
+
+Palette add_looks(scene::SceneBuilder& builder, std::string_view name, const gltf::Model& model) {
+  std::vector<scene::NodeId> pictures;
+  for (const image::Image& picture : model.pictures)
+    pictures.push_back(
+        builder.add_bitmap(fmt::format("{} picture", name), picture.width, picture.height, picture.rgba));
+  Palette palette;
+  for (const gltf::Look& look : model.looks) {
+    scene::MaterialParameters material;
+    material.base_color = look.base_color;
+    if (look.picture >= 0) material.base_color_bitmap = pictures[static_cast<std::size_t>(look.picture)];
+    material.roughness = std::max(look.roughness, 0.05f);
+    material.metallic = look.metallic;
+    material.opacity = look.opacity;
+    material.emission = look.emission;
+    material.takes_paint = without_number(look.name) == "paint";
+    palette.push_back(builder.add_material(fmt::format("{}/{}", name, look.name), material));
+  }
+  return palette;
+}
+
+}  // namespace
+
+std::span<const std::string_view> replaceable_things() { return things; }
+
+bool is_replaceable(std::string_view name) {
+  return find_vehicle_model(name).has_value() || std::ranges::find(things, name) != things.end();
+}
+
+bool begins_own_part(std::string_view node_name) {
+  return scene::part_role(without_number(node_name)) != scene::PartRole::fixed;
+}
+
+glm::dvec3 vehicle_from_own_model_m(const gltf::Model& own, const VehicleModel& vehicle) {
+  const glm::dvec3 middle = 0.5 * (glm::dvec3(own.least_m) + glm::dvec3(own.most_m));
+  return {vehicle.centre_x_m() - middle.x, -middle.y, 0.0};
+}
+
+std::optional<std::string> size_differs(const gltf::Model& own, const VehicleModel& vehicle) {
+  const glm::dvec3 size = glm::dvec3(own.most_m - own.least_m);
+  const glm::dvec3 wanted(vehicle.length_m, vehicle.width_m, vehicle.height_m);
+  const auto differs = [](double a, double b) { return std::abs(a - b) > 0.1 * b + 0.05; };
+  if (!differs(size.x, wanted.x) && !differs(size.y, wanted.y) && !differs(own.most_m.z, wanted.z)) return std::nullopt;
+  return fmt::format(
+      "it is {:.2f} m long, {:.2f} m wide and {:.2f} m high, and {} is {:.2f}, {:.2f} and {:.2f}: traffic keeps clear "
+      "of that box, "
+      "and what is drawn is another",
+      size.x, size.y, own.most_m.z, vehicle.name, wanted.x, wanted.y, wanted.z);
+}
+
+const gltf::Model* OwnShapes::find(std::string_view name) const {
+  if (!models_) return nullptr;
+  const auto found = models_->find(name);
+  return found == models_->end() ? nullptr : &found->second;
+}
+
+const std::vector<Shape>& OwnShapes::shapes_of(std::string_view name, const gltf::Model& model) {
+  if (const auto known = shapes_.find(name); known != shapes_.end()) return known->second;
+  const Palette palette = add_looks(builder_, name, model);
+  std::vector<Shape> shapes;
+  for (const gltf::Part& part : model.parts)
+    shapes.push_back(add_shape(builder_, fmt::format("own {}", name), part.mesh, palette));
+  return shapes_.emplace(name, std::move(shapes)).first->second;
+}
+
+bool OwnShapes::place(std::string_view name, const Placement& placement, scene::NodeId parent) {
+  const gltf::Model* model = find(name);
+  if (!model) return false;
+  const std::vector<Shape>& shapes = shapes_of(name, *model);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const gltf::Part& part = model->parts[i];
+    Placement placed = placement;
+    placed.parent_from_object.position_m = placement.parent_from_object * Vec3(part.origin_m * placement.scale);
+    placed.role = part.name.empty() ? scene::PartRole::fixed : scene::part_role(without_number(part.name));
+    scenery::place(builder_, name, shapes[i], placed, parent);
+  }
+  return true;
+}
+
+}  // namespace septet::scenery

@@ -1,0 +1,55 @@
+#pragma once
+/// A person's own models in the place of generated ones: by name, as read of glTF files (engine/gltf), and as shapes of the scene.
+///
+/// docs/own-models.md says what each name stands for and where its origin is. A part that a node's name begins with a PartRole (`wheel_front_left`,
+/// `lamp_brake`, …) moves or shines as such; a material named `paint` takes the participant's colour.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gltf/gltf.hpp"
+#include "engine/scenery/palette.hpp"
+#include "engine/world/vehicle_model.hpp"
+
+namespace septet::scenery {
+
+using OwnModels = std::map<std::string, gltf::Model, std::less<>>;
+
+/// What of the land beside roads can be replaced; the vehicles of the catalogue can be, too.
+std::span<const std::string_view> replaceable_things();
+bool is_replaceable(std::string_view name);
+
+/// Whether a node of that name moves or shines on its own.
+bool begins_own_part(std::string_view node_name);
+
+/// Where a vehicle's model stands in the vehicle frame: the middle of its box, seen from above, is the middle of the vehicle's.
+glm::dvec3 vehicle_from_own_model_m(const gltf::Model& own, const VehicleModel& vehicle);
+
+/// What somebody should know of a model whose box is not that of the vehicle, within a tenth and 5 cm; nothing where it is.
+std::optional<std::string> size_differs(const gltf::Model& own, const VehicleModel& vehicle);
+
+/// The models as shapes: each is added to the scene when it is first placed.
+class OwnShapes {
+ public:
+  /// `models`, which may be none, outlives this.
+  OwnShapes(scene::SceneBuilder& builder, const OwnModels* models) : builder_(builder), models_(models) {}
+
+  const gltf::Model* find(std::string_view name) const;
+
+  /// Places all parts of the model `name`, each moved and scaled with the whole, and with its own role. False: there is no such model.
+  bool place(std::string_view name, const Placement& placement, scene::NodeId parent = scene::no_node);
+
+ private:
+  const std::vector<Shape>& shapes_of(std::string_view name, const gltf::Model& model);
+
+  scene::SceneBuilder& builder_;
+  const OwnModels* models_;
+  std::map<std::string, std::vector<Shape>, std::less<>> shapes_;  ///< One for each part.
+};
+
+}  // namespace septet::scenery

@@ -1,0 +1,246 @@
+#include "engine/gltf/gltf.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sodium.h>
+#include <glm/geometric.hpp>
+
+#include "engine/image/png.hpp"
+
+namespace septet::gltf {
+namespace {
+
+std::string base64(std::string_view bytes) {
+  std::string code(sodium_base64_encoded_len(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(code.data(), code.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                    sodium_base64_VARIANT_ORIGINAL);
+  code.pop_back();
+  return code;
+}
+
+template <class T>
+std::string bytes_of(const std::vector<T>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)};
+}
+
+/// Says what a file is; each text is JSON, and what is not said is that of one triangle.
+struct File {
+  std::string positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  std::string nodes = R"([{"mesh":0}])";
+  std::string scene_nodes = "[0]";
+  std::string primitives = R"([{"attributes":{"POSITION":0}}])";
+  std::string accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}])";
+  std::string more;
+  std::string views;
+
+  std::string text() const {
+    const std::string view_list =
+        views.empty() ? fmt::format(R"([{{"buffer":0,"byteLength":{}}}])", positions.size()) : views;
+    return fmt::format(
+        R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":{}}}],"nodes":{},"meshes":[{{"primitives":{}}}],)"
+        R"("accessors":{},"bufferViews":{},{}"buffers":[{{"byteLength":{},"uri":"data:;base64,{}"}}]}})",
+        scene_nodes, nodes, primitives, accessors, view_list, more, positions.size(), base64(positions));
+  }
+};
+
+Expected<Model> read(const std::string& bytes) {
+  return read_gltf(bytes, "own.glb", [](std::string_view name) { return name.starts_with("wheel"); });
+}
+Expected<Model> read(const File& file) { return read(file.text()); }
+
+/// What the error says, or nothing.
+std::string refused(const std::string& bytes) {
+  const auto model = read(bytes);
+  if (model) return "";
+  CHECK(model.error().where.starts_with("own.glb"));
+  CHECK_FALSE(model.error().remedy.empty());
+  return model.error().what;
+}
+std::string refused(const File& file) { return refused(file.text()); }
+
+bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+std::string glb(const std::string& json, const std::string& binary) {
+  const auto word = [](std::uint32_t value) { return bytes_of<std::uint32_t>({value}); };
+  const auto size = [](const std::string& text) { return static_cast<std::uint32_t>(text.size()); };
+  const std::string chunks =
+      word(size(json)) + word(0x4E4F534A) + json + word(size(binary)) + word(0x004E4942) + binary;
+  return "glTF" + word(2) + word(12 + size(chunks)) + chunks;
+}
+
+}  // namespace
+
+TEST_CASE("glTF's left, up and forward are y, z and x here, and its front faces stay fronts") {
+  const auto model = read(File{.positions = bytes_of<float>({2, 3, 4, 3, 3, 4, 2, 4, 4})});
+  REQUIRE(model.has_value());
+  REQUIRE(model->parts.size() == 1);
+  const geometry::PolygonMesh& mesh = model->parts[0].mesh;
+  REQUIRE(mesh.polygons.size() == 1);
+  const auto at = [&](std::size_t k) { return mesh.vertices_m[mesh.polygons[0][k]]; };
+  CHECK(at(0) == glm::vec3(4, 2, 3));
+  CHECK(at(1) == glm::vec3(4, 3, 3));
+  CHECK(at(2) == glm::vec3(4, 2, 4));
+  CHECK(model->least_m == glm::vec3(4, 2, 3));
+  CHECK(model->most_m == glm::vec3(4, 3, 4));
+}
+
+TEST_CASE("a node that mirrors turns its triangles round") {
+  const auto model = read(File{.nodes = R"([{"mesh":0,"scale":[-1,1,1]}])"});
+  REQUIRE(model.has_value());
+  const geometry::PolygonMesh& mesh = model->parts[0].mesh;
+  const auto at = [&](std::size_t k) { return mesh.vertices_m[mesh.polygons[0][k]]; };
+  CHECK(glm::cross(at(1) - at(0), at(2) - at(0)).x > 0.0f);  // glTF's +z, as before the mirror.
+}
+
+TEST_CASE("what hangs below a wheel's node is a part about the wheel's centre") {
+  const auto model = read(File{
+      .nodes = R"([{"mesh":0,"children":[1]},{"name":"wheel_left","translation":[1,2,3],"children":[2]},{"mesh":0}])"});
+  REQUIRE(model.has_value());
+  REQUIRE(model->parts.size() == 2);
+  CHECK(model->parts[1].name == "wheel_left");
+  CHECK(model->parts[1].origin_m == glm::vec3(3, 1, 2));
+  CHECK(model->parts[1].mesh.vertices_m.front() == glm::vec3(0));
+  CHECK(model->most_m == glm::vec3(3, 2, 3));
+}
+
+TEST_CASE("vertices are joined where place and normal agree, and nowhere else") {
+  // Two triangles of a square that share two places; the second has other normals.
+  const std::vector<float> places{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  for (const float other : {1.0f, -1.0f}) {
+    std::vector<float> rows = places;
+    for (int i = 0; i < 6; ++i) rows.insert(rows.end(), {0, 0, i < 3 ? 1.0f : other});
+    const auto model =
+        read(File{.positions = bytes_of(rows),
+                  .primitives = R"([{"attributes":{"POSITION":0,"NORMAL":1}}])",
+                  .accessors = R"([{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"},)"
+                               R"({"bufferView":0,"byteOffset":72,"componentType":5126,"count":6,"type":"VEC3"}])"});
+    REQUIRE(model.has_value());
+    CHECK(model->parts[0].mesh.polygons.size() == 2);
+    CHECK(model->parts[0].mesh.vertices_m.size() == (other > 0.0f ? 4 : 6));
+  }
+}
+
+TEST_CASE("strips and fans turn the way that glTF says") {
+  const std::vector<float> square{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  for (const int mode : {5, 6}) {
+    const auto model = read(File{.positions = bytes_of(square),
+                                 .primitives = fmt::format(R"([{{"attributes":{{"POSITION":0}},"mode":{}}}])", mode),
+                                 .accessors = R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}])"});
+    REQUIRE(model.has_value());
+    const geometry::PolygonMesh& mesh = model->parts[0].mesh;
+    REQUIRE(mesh.polygons.size() == 2);
+    const auto turn = [&](std::size_t i) {
+      const auto at = [&](std::size_t k) { return mesh.vertices_m[mesh.polygons[i][k]]; };
+      return glm::cross(at(1) - at(0), at(2) - at(0)).x;
+    };
+    CHECK(turn(0) == doctest::Approx(1.0));
+    CHECK(turn(1) == doctest::Approx(mode == 5 ? 1.0 : -1.0));
+  }
+}
+
+TEST_CASE("a material's factors, its picture and the mean of vertex colours arrive") {
+  image::Image picture(4, 2, {10, 20, 30, 40});
+  const Bytes png = image::encode_png(picture);
+  const std::string png_bytes(reinterpret_cast<const char*>(png.data()), png.size());
+  const auto model = read(File{
+      .positions = bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5f, 0, 0, 0.5f, 1, 0, 0.5f, 0.5f, 0}),
+      .primitives = R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}])",
+      .accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                   R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}])",
+      .more = fmt::format(
+          R"("materials":[{{"name":"glass","alphaMode":"BLEND","emissiveFactor":[0.5,0,0],)"
+          R"("extensions":{{"KHR_materials_emissive_strength":{{"emissiveStrength":4}}}},)"
+          R"("pbrMetallicRoughness":{{"baseColorFactor":[1,1,0.5,0.25],"metallicFactor":0.2,"roughnessFactor":0.4,"baseColorTexture":{{"index":0}}}}}}],)"
+          R"("textures":[{{"source":0}}],"images":[{{"uri":"data:image/png;base64,{}"}}],)",
+          base64(png_bytes))});
+  REQUIRE(model.has_value());
+  const Look& look = model->looks[model->parts[0].mesh.polygon_materials[0]];
+  CHECK(look.name == "glass");
+  CHECK(look.opacity == doctest::Approx(0.25));
+  CHECK(look.metallic == doctest::Approx(0.2));
+  CHECK(look.roughness == doctest::Approx(0.4));
+  CHECK(look.emission.r == doctest::Approx(2.0));
+  CHECK(look.base_color.r == doctest::Approx(0.5));
+  CHECK(look.base_color.g == doctest::Approx(0.5));
+  CHECK(look.base_color.b == doctest::Approx(0.0));
+  REQUIRE(look.picture == 0);
+  CHECK(model->pictures[0].width == 4);
+  CHECK(model->pictures[0].at(3, 1) == image::Color{10, 20, 30, 40});
+}
+
+TEST_CASE(
+    "a file that is cut off anywhere is refused with a message, and so is one with any byte changed or still whole") {
+  const File file;
+  std::string json = file.text();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string whole = glb(json, std::string(36, '\0'));
+  REQUIRE(read(whole).has_value());
+  for (std::size_t size = 0; size < whole.size(); ++size) CHECK_FALSE(refused(whole.substr(0, size)).empty());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ 0x15);
+    (void)refused(changed);
+  }
+}
+
+TEST_CASE("hostile files are refused, each by what is wrong with it") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  CHECK(has(refused("no file"), "no glTF"));
+  CHECK(has(refused(R"({"asset":{"version":"1.0"}})"), "glTF 1.0"));
+  CHECK(has(refused("{" + std::string(2'000'000, '[')), "values"));
+  CHECK(has(refused(File{.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])"}), "below itself"));
+  CHECK(has(refused(File{.nodes = R"([{"mesh":0,"children":[7]}])"}), "none of its 1"));
+  CHECK(has(refused(File{.nodes = R"([{"mesh":4294967295}])"}), "mesh is none"));
+  CHECK(has(refused(File{.nodes = R"([{"mesh":0,"translation":[1e300,0,0]}])"}), "further than"));
+  CHECK(has(refused(File{.positions = bytes_of<float>({0, 0, 0, 1, nan, 0, 0, 1, 0})}), "number 1 of row 1"));
+  const auto accessor = [](const char* text) { return File{.accessors = text}; };
+  CHECK(has(refused(accessor(R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}])")), "reach beyond"));
+  CHECK(
+      has(refused(accessor(R"([{"bufferView":0,"componentType":5126,"count":4000000000,"type":"VEC3"}])")), "counts"));
+  CHECK(has(
+      refused(accessor(R"([{"bufferView":0,"byteOffset":4294967295,"componentType":5126,"count":1,"type":"VEC3"}])")),
+      "reach beyond"));
+  CHECK(has(refused(accessor(R"([{"bufferView":9,"componentType":5126,"count":3,"type":"VEC3"}])")), "no buffer view"));
+  CHECK(has(refused(accessor(R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}])")), "numbers a row"));
+  CHECK(has(refused(accessor(R"([{"bufferView":0,"componentType":1,"count":3,"type":"VEC3"}])")), "its type"));
+  CHECK(has(refused(File{.views = R"([{"buffer":0,"byteOffset":30,"byteLength":36}])"}), "reaches beyond buffer"));
+  CHECK(has(refused(File{.views = R"([{"buffer":3,"byteLength":36}])"}), "no buffer"));
+  CHECK(has(refused(File{.primitives = R"([{"attributes":{"POSITION":0},"indices":1}])",
+                         .accessors =
+                             R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                             R"({"bufferView":0,"byteOffset":12,"componentType":5121,"count":12,"type":"SCALAR"}])"}),
+            "of 3"));
+  CHECK(has(refused(File{.more = R"("extensionsRequired":["KHR_draco_mesh_compression"],)"}), "draco"));
+  // A small file that draws one triangle more often than anybody may.
+  const std::vector<std::string> many(90'000, R"({"attributes":{"POSITION":0}})");
+  CHECK(has(refused(File{.nodes = R"([{"mesh":0,"children":[1,2]},{"mesh":0},{"mesh":0}])",
+                         .primitives = fmt::format("[{}]", fmt::join(many, ","))}),
+            "more than 200000 triangles"));
+}
+
+TEST_CASE("what lies in another file is never opened") {
+  for (const char* uri :
+       {"../../../etc/passwd", "/etc/passwd", "file:///etc/passwd", "http://localhost/x", "scene.bin"}) {
+    const std::string json =
+        fmt::format(R"({{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":1,"uri":"{}"}}]}})", uri);
+    CHECK(has(refused(json), "never opened"));
+    CHECK(has(refused(File{.primitives = R"([{"attributes":{"POSITION":0},"material":0}])",
+                           .more = fmt::format(
+                               R"("materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],)"
+                               R"("textures":[{{"source":0}}],"images":[{{"uri":"{}"}}],)",
+                               uri)}),
+              "never opened"));
+  }
+}
+
+}  // namespace septet::gltf

@@ -1,0 +1,38 @@
+// glTF files of any bytes: a model that is whole, or an error that says what, where and what to do.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "engine/gltf/gltf.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace septet;
+  const auto model = gltf::read_gltf(std::string_view(reinterpret_cast<const char*>(bytes), size), "fuzz.glb",
+                                     [](std::string_view name) { return name.starts_with("wheel"); });
+  if (!model) {
+    const Error& error = model.error();
+    if (error.what.empty() || error.remedy.empty() || !error.where.starts_with("fuzz.glb")) std::abort();
+    return 0;
+  }
+  for (const gltf::Part& part : model->parts) {
+    const geometry::PolygonMesh& mesh = part.mesh;
+    if (mesh.polygons.empty() || mesh.polygons.size() > gltf::most_triangles) std::abort();
+    if (mesh.polygon_materials.size() != mesh.polygons.size()) std::abort();
+    if (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != mesh.polygons.size()) std::abort();
+    for (const auto& corners : mesh.polygons)
+      for (int k = 0; k < 3; ++k)
+        if (corners[static_cast<std::size_t>(k)] >= mesh.vertices_m.size()) std::abort();
+    for (const std::uint32_t material : mesh.polygon_materials)
+      if (material >= model->looks.size()) std::abort();
+    for (const glm::vec3& p : mesh.vertices_m)
+      if (!(std::abs(p.x) + std::abs(p.y) + std::abs(p.z) < 1e5f)) std::abort();
+    for (const auto& uvs : mesh.corner_uvs)
+      for (const glm::vec2& uv : uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) std::abort();
+  }
+  for (const gltf::Look& look : model->looks)
+    if (look.picture >= static_cast<std::int32_t>(model->pictures.size())) std::abort();
+  return 0;
+}
