@@ -75,6 +75,8 @@ class BucketSchedule {
   std::optional<std::size_t> likely_first_frame(std::size_t worker) const;
 
   bool is_free(std::size_t worker) const { return !workers_[worker].run && !workers_[worker].gone; }
+  /// What is dealt from now on is parts of frames, if there are so many workers.
+  bool shares_frames(std::size_t workers) const { return options_.dealing != Dealing::split || unbegun_ < workers; }
   bool has_frame(std::size_t frame) const { return done_frames_.contains(frame); }
   bool has_all() const { return done_frames_.size() == frames_; }
   /// What is done of the frames that are begun and not whole, by cost: 1 is one frame.

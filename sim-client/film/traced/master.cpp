@@ -16,6 +16,7 @@
 #include "program/clock.hpp"
 #include "sim-client/film/traced/frame_writer.hpp"
 #include "sim-client/film/traced/kept_tiles.hpp"
+#include "sim-client/film/traced/photon_exchange.hpp"
 #include "sim-client/film/traced/statistics.hpp"
 #include "sim-client/film/traced/worker.hpp"
 
@@ -101,6 +102,14 @@ class Master {
     else
       statistics_.sent_bytes += bytes.size(), others_->send(to, std::move(bytes));
   }
+  void post(std::vector<PhotonExchange::Post> posts) {
+    for (PhotonExchange::Post& each : posts) send(each.to, std::move(each.bytes));
+  }
+  /// Several trace this frame, or are about to.
+  bool is_shared(std::uint64_t frame) const {
+    return others_ && frame < numbers_.size() && !schedule_.has_frame(frame) &&
+           schedule_.shares_frames(static_cast<std::size_t>(others_->count()));
+  }
   Expected<KeptTiles*> kept(std::size_t frame);
   fs::path kept_file(std::size_t frame) const { return folder_.path() / fmt::format("{:06}.tiles", numbers_[frame]); }
   Worker* worker(int number) {
@@ -116,6 +125,7 @@ class Master {
   std::vector<instant::PixelRectangle> tiles_;
   raytrace::BucketSchedule schedule_;
   FrameWriter writer_;
+  PhotonExchange photons_;
   std::vector<std::uint64_t> numbers_;  ///< Of frames, as their pictures are called.
   std::vector<Worker> workers_;
   std::map<std::size_t, KeptTiles> kept_;
@@ -188,6 +198,7 @@ Expected<void> Master::take_tile(const Worker& from, ByteReader& reader) {
   if (!finished()) return {};
   ++came_;
   if (schedule_.has_frame(frame)) {
+    photons_.forget(frame);
     auto queued = writer_.finish(numbers_[frame], std::move(**tiles), kept_file(frame));
     kept_.erase(frame);
     ++made_.frames;
@@ -271,6 +282,12 @@ Expected<void> Master::obey(const Mail& mail) {
     send_part(mail.from, reader);
   } else if (word == Word::tile && from && from->traces) {
     return take_tile(*from, reader);
+  } else if (word == Word::photons_wanted && from) {
+    if (const auto question = read_photon_question(reader))
+      post(photons_.ask(mail.from, *question, is_shared(question->frame)));
+  } else if (word == Word::photons && from) {
+    post(photons_.take(mail.from, reader));
+    statistics_.photon_buckets = photons_.gathered();
   } else if (word == Word::ready && from && from->traces) {
     const auto frame = reader.get<std::uint64_t>();
     const double duration_s = reader.get_double();

@@ -3,7 +3,7 @@
 /// the first message makes sure of; bytes from another program are checked all the same.
 ///
 /// A worker says hello and is told the film; it asks for the session's file, part by part; once it has all that it needs it gets
-/// runs of tiles, and each tile goes back as soon as it is traced. Every second each says that it is still there.
+/// runs of tiles, and each tile goes back as soon as it is traced; before that, photons go around (photon_exchange.hpp). Every second each says that it is still there.
 
 #include <optional>
 #include <span>
@@ -21,19 +21,22 @@ namespace septet::film {
 inline constexpr double still_there_every_s = 1.0, longest_silence_s = 60.0;
 
 enum class Word : std::uint8_t {
-  hello,        ///< Worker: which Septet it is; threads; its process.
-  film,         ///< Master: what is filmed, how long the session's file is, its process.
-  part_wanted,  ///< Worker: from which byte of that file on.
-  part,         ///< Master: from which byte on, and bytes.
-  prepared,     ///< Worker: it can trace.
-  soon,         ///< Master: a frame of which it is likely to get tiles first, to be made ready meanwhile.
-  run,          ///< Master: frame, first tile, end; in the stead of the run before.
-  shorter_run,  ///< Master: frame, end. Of the run that it has.
-  ready,        ///< Worker: a frame, and how many seconds it took to begin it.
-  tile,         ///< Worker: frame, tile, seconds of a processor that it took, and the tile (encode_tile).
-  failed,       ///< Worker: why it gives up.
-  still_there,  ///< Both: nothing new.
-  end,          ///< Master: no more is to be done; 1 where some are lost.
+  hello,           ///< Worker: which Septet it is; threads; its process.
+  film,            ///< Master: what is filmed, how long the session's file is, its process.
+  part_wanted,     ///< Worker: from which byte of that file on.
+  part,            ///< Master: from which byte on, and bytes.
+  prepared,        ///< Worker: it can trace.
+  soon,            ///< Master: a frame of which it is likely to get tiles first, to be made ready meanwhile.
+  run,             ///< Master: frame, first tile, end; in the stead of the run before.
+  shorter_run,     ///< Master: frame, end. Of the run that it has.
+  photons_wanted,  ///< Worker: a frame that it makes ready (PhotonQuestion).
+  shoot,           ///< Master: which buckets of photons (PhotonRun).
+  photons,         ///< Worker, and master on to others: frame, bucket, photons.
+  ready,           ///< Worker: a frame, and how many seconds it took to begin it.
+  tile,            ///< Worker: frame, tile, seconds of a processor that it took, and the tile (encode_tile).
+  failed,          ///< Worker: why it gives up.
+  still_there,     ///< Both: nothing new.
+  end,             ///< Master: no more is to be done; 1 where some are lost.
 };
 
 /// The tiles of a film's frames: squares of this many pixels, rows from the top.

@@ -22,6 +22,7 @@ Expected<void> write_statistics(const std::filesystem::path& file, const FilmSta
   json["sent_bytes"] = statistics.sent_bytes;
   json["received_bytes"] = statistics.received_bytes;
   json["splits"] = statistics.splits;
+  json["photon_buckets"] = statistics.photon_buckets;
   json["columns"] = {"frame", "left_px", "top_px", "width_px", "height_px", "program", "cpu_s", "came_s", "counts"};
   json["tiles"] = std::move(traced);
   return document::write_text_file(file, document::text_of(json));

@@ -24,6 +24,7 @@ struct FilmStatistics {
   double master_cpu_s = 0.0;                         ///< Of the thread that deals and keeps.
   std::uint64_t sent_bytes = 0, received_bytes = 0;  ///< Between programs, without what Open MPI adds.
   std::uint64_t splits = 0;
+  std::uint64_t photon_buckets = 0;  ///< Shot by several together; each counts once.
 };
 
 Expected<void> write_statistics(const std::filesystem::path& file, const FilmStatistics& statistics,

@@ -19,6 +19,7 @@
 #include "program/clock.hpp"
 #include "program/temporary_folder.hpp"
 #include "sim-client/film/traced/messages.hpp"
+#include "sim-client/film/traced/photon_exchange.hpp"
 #include "sim-client/film/traced/statistics.hpp"
 
 namespace septet::film {
@@ -64,10 +65,10 @@ class TracingThreads {
     const std::lock_guard lock(mutex_);
     end_ = std::min(end_, end);
   }
-  /// Messages about tiles that are done; waits a moment for one.
-  std::deque<Bytes> done() {
+  /// Messages about tiles that are done; waits a moment for one, if told to.
+  std::deque<Bytes> done(bool waits) {
     std::unique_lock lock(mutex_);
-    if (done_.empty()) came_.wait_for(lock, pause);
+    if (waits && done_.empty()) came_.wait_for(lock, pause);
     return std::exchange(done_, {});
   }
 
@@ -267,10 +268,15 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
   TracingThreads tracing(*tracer, tiles, options, threads, pace_of_test());
   std::optional<raytrace::TileRun> wanted;
   std::optional<std::size_t> frame, soon;
+  std::optional<PhotonGathering> photons;  ///< Of a frame that is being made ready.
+  double begun_s = 0.0;
   machines.send(master, message(Word::prepared));
   Listening listening(machines, master_process);
   while (true) {
     const auto goes_on = listening.listen([&](Word word, ByteReader& reader) {
+      if (photons && word == Word::photons) photons->came(reader);
+      if (photons && word == Word::shoot)
+        if (const auto run = read_photon_run(reader)) photons->told(*run);
       const bool is_run = word == Word::soon || word == Word::run || word == Word::shorter_run;
       const auto run = is_run ? read_run(reader) : std::nullopt;
       if (!run || run->frame >= frames.plan().frames.size()) return;
@@ -286,22 +292,32 @@ Expected<void> trace_for_master(Machines& machines, FilmFrames& frames, const Fi
     if (!goes_on) return tl::unexpected(goes_on.error());
     if (!*goes_on) return {};
     const auto target = wanted ? std::optional(wanted->frame) : std::exchange(soon, std::nullopt);
-    if (target && frame != target && tracing.is_idle()) {
-      const double begun_s = program::monotonic_s();
-      if (auto begun = begin_frame(frames, *target, options, summary, *tracer); !begun) return begun;
-      send_photons(*tracer, threads);
-      frame = target;
-      tracing.begin_frame(*frame, facts_of(tracer->instant()));
-      Bytes bytes = message(Word::ready);
-      ByteWriter writer(bytes);
-      writer.put(std::uint64_t{*frame}), writer.put(program::monotonic_s() - begun_s);
-      machines.send(master, std::move(bytes));
+    const auto begun = photons ? std::optional<std::size_t>(photons->frame()) : frame;
+    if (target && begun != target && tracing.is_idle()) {
+      begun_s = program::monotonic_s();
+      photons.reset();
+      frame.reset();
+      if (auto done = begin_frame(frames, *target, options, summary, *tracer); !done) return done;
+      photons.emplace(*tracer, *target, threads);
+    }
+    if (photons) {
+      if (auto question = photons->question()) machines.send(master, std::move(*question));
+      for (Bytes& bytes : photons->shoot()) machines.send(master, std::move(bytes));
+      if (photons->is_whole()) {
+        frame = photons->frame();
+        photons.reset();
+        tracing.begin_frame(*frame, facts_of(tracer->instant()));
+        Bytes bytes = message(Word::ready);
+        ByteWriter writer(bytes);
+        writer.put(std::uint64_t{*frame}), writer.put(program::monotonic_s() - begun_s);
+        machines.send(master, std::move(bytes));
+      }
     }
     if (wanted && frame == wanted->frame) {
       tracing.set_run(wanted->first, wanted->end);
       wanted.reset();
     }
-    for (Bytes& bytes : tracing.done()) machines.send(master, std::move(bytes));
+    for (Bytes& bytes : tracing.done(!photons || !photons->has_work())) machines.send(master, std::move(bytes));
   }
 }
 

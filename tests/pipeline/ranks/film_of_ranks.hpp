@@ -5,8 +5,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/effects/ice/ice_keyframe.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/scene/builder.hpp"
+#include "engine/scene/command_codec.hpp"
 #include "tests/logging/session_fixture.hpp"
 #include "tests/pipeline/process_rig.hpp"
 
@@ -16,13 +21,37 @@ namespace septet::pipeline {
 inline const std::map<std::string, std::string> for_mpirun{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}};
 
+/// Matt ground where the driver's car is at first, and icicles above it, which throw light on it.
+inline void record_ground(logging::SessionWriter& writer) {
+  scene::Store store;
+  scene::SceneBuilder builder(store, [&](const scene::Command& command) {
+    Bytes bytes;
+    scene::encode(command, bytes);
+    writer.record(logging::SceneEdit{0, std::move(bytes)});
+  });
+  scene::ObjectParameters ground;
+  ground.geometry = builder.add_mesh("ground", geometry::box({80.0f, -20.0f, -0.5f}, {120.0f, 20.0f, 0.0f}));
+  ground.materials.push_back(builder.add_material("earth", {.roughness = 1.0f}));
+  builder.add_object("ground", ground);
+}
+inline EffectKeyframe icicles() {
+  ice::StillIce still;
+  for (const double y_m : {-1.5, 0.0, 1.5}) still.rows.push_back({{98.0, y_m, 1.2}, {102.0, y_m, 1.2}, 0.8, 3});
+  return {ice::effect_id, ice::keyframe_kind, ice::encode(still), 0};
+}
+
 struct SmallFilm {
   const TemporaryFolder folder;
   std::string samples = "6", size = "152x104";
 
-  SmallFilm() {
+  explicit SmallFilm(bool with_ice = false) {
     auto writer = logging::must_create(folder / "session.sqlite");
-    for (Tick tick = 0; tick <= 60; ++tick) writer.record(logging::taken(logging::drive_snapshot(tick)));
+    if (with_ice) record_ground(writer);
+    for (Tick tick = 0; tick <= 60; ++tick) {
+      Snapshot snapshot = logging::drive_snapshot(tick);
+      if (with_ice) snapshot.effects.push_back(icicles());
+      writer.record(logging::taken(snapshot));
+    }
     REQUIRE(writer.finish().has_value());
     write_text(folder / "shots.toml", "[[shot]]\nfrom_s = 0\nto_s = 0.08\ndistance_m = 6\npitch_deg = -20\n");
   }

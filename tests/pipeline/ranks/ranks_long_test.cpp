@@ -3,7 +3,7 @@
 namespace septet::pipeline {
 
 TEST_CASE("a film is the same bytes by 1 and 2 and 8 and 15 programs") {
-  SmallFilm film;
+  SmallFilm film(true);  // With photons.
   film.samples = "4";
   REQUIRE(film.make(film.folder / "1").code == 0);
   const auto pictures = pictures_in(film.folder / "1");

@@ -89,6 +89,28 @@ TEST_CASE("how tiles are dealt changes no picture and every tile counts once") {
   }
 }
 
+TEST_CASE("programs shoot the photons of one picture together and it is the same bytes as by one") {
+  SmallFilm film(true);
+  film.size = "96x64";
+  write_text(film.folder / "shots.toml", "[[shot]]\nfrom_s = 0\nto_s = 0.04\ndistance_m = 6\npitch_deg = -20\n");
+  const std::vector<std::string> photons{"--caustic-photons", "60000"};
+  REQUIRE(film.make(film.folder / "alone", photons).code == 0);
+  REQUIRE(film.make(film.folder / "without", {"--caustic-photons", "0"}).code == 0);
+  const auto pictures = pictures_in(film.folder / "alone");
+  CHECK(pictures.size() == 1);
+  CHECK(pictures != pictures_in(film.folder / "without"));
+  const fs::path statistics = film.folder / "statistics.json";
+  std::vector<std::string> together{"--ranks", "3", "--statistics", statistics};
+  together.insert(together.end(), photons.begin(), photons.end());
+  const Ended ended = film.make(film.folder / "together", together);
+  INFO(ended.error);
+  CHECK(ended.code == 0);
+  CHECK(pictures_in(film.folder / "together") == pictures);
+  const auto json = nlohmann::json::parse(text_of(statistics), nullptr, false);
+  REQUIRE(json.is_object());
+  CHECK(json.at("photon_buckets").get<int>() == 15);  // Of 4096 photons, each gathered once.
+}
+
 TEST_CASE("a film whose starter is killed ends with its programs and goes on") {
   const SmallFilm film;
   const fs::path out = film.folder / "film";

@@ -26,6 +26,12 @@
 #include "tests/logging/session_fixture.hpp"
 #include "tests/temporary_folder.hpp"
 
+#if defined(__has_feature)
+#define SEPTET_WITH_ASAN __has_feature(address_sanitizer)
+#else
+#define SEPTET_WITH_ASAN 0
+#endif
+
 namespace septet::film {
 namespace {
 namespace fs = std::filesystem;
@@ -84,6 +90,15 @@ std::vector<Value> channel(Imf::InputFile& file, const char* name, Imf::PixelTyp
   return values;
 }
 
+double resident_mib() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kib = 0.0;
+  while (status >> word)
+    if (word == "VmRSS:") status >> kib;
+  return kib / 1024.0;
+}
+
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
@@ -120,6 +135,33 @@ TEST_CASE("a film begun in the middle shows frame by frame what the whole film s
       CHECK(bytes_of(picture.path()) == bytes_of(folder / (name + "-whole") / file));
     }
   }
+}
+
+TEST_CASE("a traced film of hundreds of frames takes no more memory at its end than after the first hundred") {
+  const TemporaryFolder folder;
+  write_session_and_shots(folder);
+  const FilmOptions options{.session = folder / "session.sqlite",
+                            .shots = folder / "shots.toml",
+                            .out = folder / "film",
+                            .frames_per_second = 1000.0,
+                            .width_px = 8,
+                            .height_px = 8,
+                            .renderer = FilmRenderer::traced,
+                            .samples = 1,
+                            .to_s = 0.5};
+  double early_mib = 0.0, late_mib = 0.0;
+  const auto made = make_film(options, [&](const FilmMade& so_far) {
+    if (early_mib == 0.0 && so_far.frames >= 100) early_mib = resident_mib();
+    if (so_far.frames >= 490) late_mib = resident_mib();
+    return true;
+  });
+  REQUIRE_MESSAGE(made.has_value(), (made ? "" : describe(made.error())));
+  CHECK(made->frames >= 500);
+  MESSAGE("after 100 frames ", early_mib, " MiB, after 490 ", late_mib);
+  REQUIRE(early_mib > 0.0);
+#if !defined(__SANITIZE_ADDRESS__) && !SEPTET_WITH_ASAN  // Which keeps what was freed, and finds leaks itself.
+  CHECK(late_mib < early_mib + 4.0);                     // 5 KiB a frame.
+#endif
 }
 
 TEST_CASE("OpenEXR pictures hold the light of the pictures and stay those of a film that was not stopped") {

@@ -1,0 +1,104 @@
+#pragma once
+/// Photons of a frame in buckets, shot by all who trace that frame and gathered by each: the third kind of bucket of Johansson et al.,
+/// "Distributed Ray Tracing in an Open Source Environment".
+///
+/// A worker that has begun a frame asks the master for photons to shoot. It sends back what it has shot and asks again; the master hands
+/// each bucket on to the others that want the frame. When no bucket is left, those are dealt again that have not come: nobody waits
+/// for a slow worker longer than it takes to shoot its buckets, and one that is lost costs nothing else. A frame that one worker traces
+/// alone is not shared: photons on the wire are 48 bytes each, often more than shooting them costs.
+///
+/// Photons are a function of the frame and their number (engine/raytrace/photons.hpp), so it changes no bit who has shot which, nor how often.
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "engine/core/bytes.hpp"
+#include "engine/raytrace/ray_tracer.hpp"
+
+namespace septet::film {
+
+/// What a worker asks for.
+struct PhotonQuestion {
+  std::uint64_t frame = 0;
+  std::uint32_t buckets = 0;  ///< That the frame has.
+  std::uint32_t threads = 1;
+  bool fresh = true;  ///< The first for this frame: all that is there is to be sent.
+};
+Bytes question_message(const PhotonQuestion& question);
+std::optional<PhotonQuestion> read_photon_question(ByteReader& reader);
+
+/// Buckets first, first + 1, … below end, to be shot.
+struct PhotonRun {
+  std::uint64_t frame = 0;
+  std::uint32_t first = 0, end = 0;
+  bool alone = false;  ///< Nobody else wants them.
+};
+Bytes shoot_message(const PhotonRun& run);
+std::optional<PhotonRun> read_photon_run(ByteReader& reader);
+
+/// One bucket's photons.
+Bytes photons_message(std::uint64_t frame, std::uint32_t bucket, std::span<const raytrace::Photon> photons);
+
+/// The master's part. One thread.
+class PhotonExchange {
+ public:
+  struct Post {
+    int to = 0;
+    Bytes bytes;
+  };
+  /// `shared`: others will trace this frame, too.
+  std::vector<Post> ask(int worker, const PhotonQuestion& question, bool shared);
+  /// A worker has shot some (the rest of its message).
+  std::vector<Post> take(int worker, ByteReader& reader);
+  /// The frame is whole.
+  void forget(std::uint64_t frame) { frames_.erase(frame); }
+  std::size_t frames() const { return frames_.size(); }
+  /// Buckets that have come, of all frames.
+  std::uint64_t gathered() const { return gathered_; }
+
+ private:
+  struct Frame {
+    std::vector<Bytes> messages;          ///< By bucket, as it came; empty: not there.
+    std::vector<std::uint32_t> dealings;  ///< How often each was dealt.
+    std::set<int> wanted_by;
+  };
+  std::map<std::uint64_t, Frame> frames_;
+  std::uint64_t gathered_ = 0;
+};
+
+/// A worker's part: the photons of the frame that it makes ready. One thread, beside those that shoot.
+class PhotonGathering {
+ public:
+  /// The tracer has begun this frame and outlives this.
+  PhotonGathering(raytrace::RayTracer& tracer, std::uint64_t frame, std::uint32_t threads);
+
+  std::uint64_t frame() const { return frame_; }
+  void told(const PhotonRun& run);
+  /// What others have shot (the rest of a message).
+  void came(ByteReader& reader);
+  /// What is to be asked of the master now, before the next call of `shoot`.
+  std::optional<Bytes> question();
+  /// Shoots as many buckets at once as there are threads, of what was told. Messages for the master.
+  std::vector<Bytes> shoot();
+  bool has_work() const { return !runs_.empty() && missing_ > 0; }
+  /// All are there, and the tracer has them.
+  bool is_whole();
+
+ private:
+  raytrace::RayTracer& tracer_;
+  std::uint64_t frame_;
+  std::uint32_t threads_;
+  std::vector<raytrace::PhotonBucket> buckets_;
+  std::vector<std::optional<std::vector<raytrace::Photon>>> photons_;
+  std::size_t missing_;
+  /// What is shot now, and what then: the next is asked for before this is done, so that no thread waits for the answer.
+  std::deque<PhotonRun> runs_;
+  bool is_first_ = true, waits_for_answer_ = false, is_alone_ = false;
+};
+
+}  // namespace septet::film
