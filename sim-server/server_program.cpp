@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "car-io/driving_keys.hpp"
+#include "engine/core/printable.hpp"
 #include "engine/core/regular_file.hpp"
 #include "engine/net/allowed_clients_watch.hpp"
 #include "engine/net/multicast_probe.hpp"
@@ -397,6 +398,7 @@ Expected<logging::DriveEnd> run_server(ServerOptions options) {
     if (drive.by_person && !options.start_now)
       serve_options.wait_for_driver =
           by_keyboard ? "Press any key to start" : "Press a pedal or turn the wheel to start";
+    if (drive.live) serve_options.about = printable(drive.loaded.model->scenario.header.description, 200);
     const double wait_s =
         options.wait_for_screens_s < 0.0 ? std::numeric_limits<double>::infinity() : options.wait_for_screens_s;
     serve_options.wait_for_screens_s = wait_s;

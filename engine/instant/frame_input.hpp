@@ -84,6 +84,7 @@ struct OverlayText {
   float height_px = 18.0f;         ///< Of one line.
   glm::vec4 color{1.0f};           ///< sRGB and opacity.
   glm::vec4 background{0.0f};      ///< sRGB and opacity of the box behind the text.
+  float least_box_px = 0.0f;       ///< The box is no narrower.
   bool centered = false;
 };
 

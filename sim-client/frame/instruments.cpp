@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,31 @@ instant::OverlayText line(std::string text, double x_px, double y_px, double hei
           .y_px = static_cast<float>(y_px),
           .height_px = static_cast<float>(height_px),
           .color = color};
+}
+
+/// A text's lines, those after the first broken between words where they would be wider than the screen; nothing where there is no text.
+std::vector<std::string> lines_of(const std::string& text, const rig::Screen& screen, double height_px) {
+  constexpr double letter = 0.45;  // Its width over a line's height, in the mean.
+  const auto most = static_cast<std::size_t>(std::max(20.0, 0.9 * screen.width_px / (letter * height_px)));
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::size_t until = end;
+    if (!lines.empty() && end - at > most) {
+      const std::size_t space = text.rfind(' ', at + most);
+      if (space != std::string::npos && space > at) until = space;
+    }
+    lines.push_back(text.substr(at, until - at));
+    at = until + 1;
+  }
+  return lines;
+}
+
+instant::OverlayText in_the_middle(const std::string& text, const rig::Screen& screen, double y_px, double height_px) {
+  auto result = line(text, 0.5 * screen.width_px, y_px, height_px, white);
+  result.centered = true;
+  result.background = dark_panel;
+  return result;
 }
 
 }  // namespace
@@ -90,26 +117,44 @@ std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig
   return texts;
 }
 
+std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen) {
+  std::vector<instant::OverlayText> texts;
+  const double large_px = std::max(12.0, screen.height_px / 22.0), small_px = std::max(9.0, screen.height_px / 32.0);
+  double y_px = 0.5 * screen.height_px;
+  for (const std::string& words : lines_of(text, screen, small_px)) {
+    const double height_px = texts.empty() ? large_px : small_px;
+    if (!texts.empty()) y_px += 0.5 * (texts.back().height_px + height_px) + 4.0;
+    texts.push_back(in_the_middle(words, screen, y_px, height_px));
+  }
+  return texts;
+}
+
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen) {
   std::vector<instant::OverlayText> texts;
-  const double rows = static_cast<double>(car_io::driving_keys().size()) + (headline.empty() ? 0.0 : 1.5);
+  const std::vector<std::string> above = lines_of(headline, screen, std::max(8.0, screen.height_px / 32.0));
+  const double rows = static_cast<double>(car_io::driving_keys().size() + above.size()) + (above.empty() ? 0.0 : 0.5);
   constexpr double box_px = 4.0;  // A box is that much higher than its line.
   const double fits_px = 0.72 * screen.height_px / rows - box_px;
   const double row_px = std::clamp(std::floor(std::min(screen.height_px / 32.0, fits_px)), 8.0, 30.0),
                step_px = row_px + box_px;
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
-  const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 11.0 * row_px));
-  if (!headline.empty()) {
-    texts.push_back(line(headline, 0.5 * screen.width_px, y_px + 0.5 * row_px, 1.5 * row_px, white));
-    texts.back().centered = true;
-    texts.back().background = dark_panel;
-    y_px += std::round(1.5 * step_px);
+  // Two columns, whose boxes touch: one panel.
+  const double names_rows = 7.5, does_rows = row_px < 12.0 ? 26.0 : 19.5;  // Small letters are wide for their height.
+  const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 0.5 * (names_rows + does_rows) * row_px)),
+               names_px = std::round(names_rows * row_px), does_px = std::round(does_rows * row_px);
+  for (const std::string& words : above) {
+    const bool is_first = texts.empty();
+    texts.push_back(in_the_middle(words, screen, y_px + 0.5 * row_px, (is_first ? 1.5 : 1.0) * row_px));
+    y_px += std::round((is_first ? 1.5 : 1.0) * step_px);
   }
+  const auto add = [&](std::string text, double x_px, double width_px) {
+    texts.push_back(line(std::move(text), x_px, y_px, row_px, white));
+    texts.back().background = dark_panel;
+    texts.back().least_box_px = static_cast<float>(width_px);
+  };
   for (const car_io::DrivingKey& key : car_io::driving_keys()) {
-    texts.push_back(line(car_io::names_of_keys(key), left_px, y_px, row_px, white));
-    texts.back().background = dark_panel;
-    texts.push_back(line(key.does, left_px + 7.5 * row_px, y_px, row_px, white));
-    texts.back().background = dark_panel;
+    add(car_io::names_of_keys(key), left_px, names_px);
+    add(key.does, left_px + names_px, does_px);
     y_px += step_px;
   }
   return texts;

@@ -20,7 +20,10 @@ std::vector<instant::OverlayText> instruments(const Snapshot& shown, const rig::
 /// scenario is no game.
 std::vector<instant::OverlayText> game_standing(const Snapshot& shown, const rig::Rig& rig, const rig::Screen& screen);
 
-/// The table of keys in the middle of the screen, under a headline ("Press any key to start"; empty: none).
+/// What the driver is to read, in the middle of the screen: its first line large, the others below it, broken where they are too long.
+std::vector<instant::OverlayText> notice(const std::string& text, const rig::Screen& screen);
+
+/// The table of keys in the middle of the screen, under such a notice ("Press any key to start"; empty: none).
 std::vector<instant::OverlayText> key_table(const std::string& headline, const rig::Screen& screen);
 
 /// A modest line at the upper edge of the screen.

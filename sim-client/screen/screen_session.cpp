@@ -178,17 +178,18 @@ void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snaps
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe")))
       input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));
-  if (screen_ != &rig::screen_ahead(rig_)) return;
+  const bool is_ahead = screen_ == &rig::screen_ahead(rig_);
   const control::Notice& notice = link_.notice();
-  const bool unasked = notice.keys && snapshot.simulated_time_s < keys_shown_for_s;
+  const bool unasked = is_ahead && notice.keys && snapshot.simulated_time_s < keys_shown_for_s;
   if (display_->take_keys_request())
     keys_shown_ = !keys_shown_.value_or(unasked);
   else if (display_->is_touched() && !std::exchange(was_touched_, true))
     keys_shown_ = false;
+  // Any window may have the keyboard: the table is on the one whose F1 was pressed.
   if (keys_shown_.value_or(unasked))
-    add(frame::key_table(notice.text, *screen_));
-  else if (!notice.text.empty())
-    input.overlay.push_back(frame::banner(notice.text, *screen_));
+    add(frame::key_table(is_ahead ? notice.text : "", *screen_));
+  else if (is_ahead)
+    add(frame::notice(notice.text, *screen_));
 }
 
 Expected<void> Session::keep_picture(Tick tick) {

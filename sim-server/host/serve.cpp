@@ -207,7 +207,8 @@ void run_lockstep(ScreenLoop& loop) {
 void wait_for_driver(ScreenLoop& loop) {
   const auto first = loop.source.first();
   if (!first || loop.options.wait_for_driver.empty()) return;
-  loop.host.give_notice({loop.options.wait_for_driver, loop.host.notice().keys});
+  const std::string about = loop.options.about.empty() ? "" : '\n' + loop.options.about;
+  loop.host.give_notice({loop.options.wait_for_driver + about, loop.host.notice().keys});
   loop.environment.message(
       fmt::format("the world waits for the driver: {} (--start-now does without)", loop.options.wait_for_driver));
   const double begun_s = loop.environment.now_s();
@@ -221,7 +222,8 @@ void wait_for_driver(ScreenLoop& loop) {
                         loop.host.repeat_newest();
                         loop.report("waiting for the driver");
                       });
-  loop.host.give_notice({"", loop.host.notice().keys});
+  // Who has taken the controls has read the keys, in whichever window the first one was pressed.
+  loop.host.give_notice({"", !is_ready && loop.host.notice().keys});
   loop.host.restart_shown_time();
   loop.started_s = loop.environment.now_s();
   if (is_ready) loop.environment.message(fmt::format("the driver took the controls after {:.1f} s", waited_s()));

@@ -26,6 +26,7 @@ struct ServeOptions {
       60.0;  ///< In lockstep for the screens to be ready at the start (then the drive fails if not one came), and for a screen's first frame.
   std::string
       wait_for_driver;  ///< In real time: what to tell a driver for whom the world waits; empty: it begins at once.
+  std::string about;    ///< What he reads below that: what he is about to drive; empty: nothing.
   double wait_for_screens_s = 0.0;  ///< The same in real time; then it drives without those that are missing.
   double lockstep_patience_s =
       10.0;  ///< For one frame that is not a screen's first; then whoever has not answered is left behind.

@@ -88,25 +88,29 @@ TEST_CASE("a screen that was silent for too long while the world waits shows it 
   rig.run_for(0.5);
   DrivenCircles circles;
   double ready_s = 0.0;
-  const server::ServeEnvironment environment{[&] { return rig.server_clock_s(); },
-                                             [&](double) {
-                                               rig.advance_1ms();
-                                               auto& screen = rig.screen(0);
-                                               // It compiles its shaders for longer than the server waits for an answer.
-                                               screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
-                                               if (screen.link->finished()) screen.link->report({});
-                                               if (rig.now_s() < 12.0 || ready_s > 0.0) return;
-                                               REQUIRE(screen.link->welcomes() == 2);
-                                               REQUIRE(rig.shown(0));
-                                               CHECK(rig.shown(0)->tick == 0);
-                                               ready_s = rig.now_s();
-                                               screen.link->send(control::Controls{}, net::Reliability::unreliable);
-                                             },
-                                             [] { return std::optional<logging::DriveEnd>(); },
-                                             [](const server::Progress&) {}, [](const std::string&) {}};
-  const auto served =
-      server::serve(circles, rig.host(), {.ticks = 120, .wait_for_driver = "Press any key to start"}, environment);
+  const server::ServeEnvironment environment{
+      [&] { return rig.server_clock_s(); },
+      [&](double) {
+        rig.advance_1ms();
+        auto& screen = rig.screen(0);
+        // It compiles its shaders for longer than the server waits for an answer.
+        screen.hung = rig.now_s() > 1.0 && rig.now_s() < 9.0;
+        if (screen.link->finished()) screen.link->report({});
+        if (rig.now_s() < 12.0 || ready_s > 0.0) return;
+        REQUIRE(screen.link->welcomes() == 2);
+        REQUIRE(rig.shown(0));
+        CHECK(rig.shown(0)->tick == 0);
+        CHECK(screen.link->notice().text == "Press any key to start\nA first lesson");
+        ready_s = rig.now_s();
+        screen.link->send(control::Controls{}, net::Reliability::unreliable);
+      },
+      [] { return std::optional<logging::DriveEnd>(); }, [](const server::Progress&) {}, [](const std::string&) {}};
+  rig.host().give_notice({"", true});
+  const auto served = server::serve(
+      circles, rig.host(), {.ticks = 120, .wait_for_driver = "Press any key to start", .about = "A first lesson"},
+      environment);
   CHECK(served.end == logging::DriveEnd::time_over);
+  CHECK_FALSE(rig.screen(0).link->notice().keys);  // Which keys drive is known to who has pressed one.
   CHECK(ready_s > 0.0);
   CHECK(rig.shown(0)->tick >= 116);
 }

@@ -151,7 +151,8 @@ void draw_overlay(const OverlayPass& pass, PassContext& context, const std::vect
     const float y = std::round(text.y_px - (text.centered ? 0.5f * h : 0.0f));
     const float margin = std::round(0.35f * text.height_px);
     if (text.background.a > 0.0f)
-      draw_quad(x - margin, y - 2.0f, w + 2.0f * margin, h + 4.0f, glm::vec4(0.0f), text.background, 0.0f);
+      draw_quad(x - margin, y - 2.0f, std::max(w + 2.0f * margin, text.least_box_px), h + 4.0f, glm::vec4(0.0f),
+                text.background, 0.0f);
     const float left = static_cast<float>(line.x) / atlas_width, top = static_cast<float>(line.y) / atlas_height;
     draw_quad(x, y, w, h, {left, top, left + w / atlas_width, top + h / atlas_height}, text.color, 1.0f);
   }

@@ -1,6 +1,9 @@
 #include "sim-client/frame/instruments.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -80,6 +83,47 @@ TEST_CASE("the table of keys has every key and stays on the screen") {
     CHECK(texts.front().text == "Press any key to start");
     CHECK(texts.back().y_px + texts.back().height_px < 0.85f * static_cast<float>(height_px));
   }
+}
+
+TEST_CASE("the table of keys is one panel: its boxes touch, and no text is wider than its own") {
+  rig::Screen screen;
+  screen.width_px = 1280;
+  screen.height_px = 747;
+  const auto texts = key_table("", screen);
+  REQUIRE(texts.size() == 2 * car_io::driving_keys().size());
+  for (std::size_t i = 0; i < texts.size(); i += 2) {
+    CHECK(texts[i].x_px + texts[i].least_box_px == texts[i + 1].x_px);
+    if (i > 0) CHECK(texts[i].y_px == texts[i - 2].y_px + texts[i].height_px + 4.0f);  // As boxes are drawn.
+    for (const auto& text : {texts[i], texts[i + 1]})
+      CHECK(text.text.size() * 0.36f * text.height_px < text.least_box_px);
+  }
+}
+
+TEST_CASE(
+    "a notice's first line is the largest, and a long second one is broken between its words and stays on the screen") {
+  rig::Screen screen;
+  for (const std::uint32_t width_px : {320u, 1280u, 3840u}) {
+    screen.width_px = width_px;
+    screen.height_px = width_px * 7 / 12;
+    const std::string about =
+        "A first lesson: country road, village with a crossing, straight on at the lights, out of the roundabout by "
+        "the second way";
+    const auto lines = notice("Press any key to start\n" + about, screen);
+    REQUIRE(lines.size() >= 3);
+    CHECK(lines[0].text == "Press any key to start");
+    std::string joined;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      joined += (i == 1 ? "" : " ") + lines[i].text;
+      CHECK(lines[i].height_px < lines[0].height_px);
+      CHECK(lines[i].y_px - 0.5f * lines[i].height_px >= lines[i - 1].y_px + 0.5f * lines[i - 1].height_px);
+      CHECK(lines[i].text.size() * 0.4f * lines[i].height_px < static_cast<float>(width_px));
+    }
+    CHECK(joined == about);
+    CHECK(key_table("Press any key to start\n" + about, screen).size() ==
+          key_table("", screen).size() + notice("Press any key to start\n" + about, screen).size());
+  }
+  CHECK(notice("", screen).empty());
+  CHECK(notice("a\n" + std::string(300, 'b'), screen).size() == 2);
 }
 
 TEST_CASE("an engine that idles is not called stalled and one that stands is") {
