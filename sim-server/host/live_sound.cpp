@@ -20,7 +20,8 @@ constexpr std::size_t blocks_kept_ahead = 3;
 constexpr std::size_t most_waiting = 6;
 constexpr double silent_after_s = 0.1;
 constexpr double stalled_after_s = 0.25;
-constexpr double retry_s = 2.0, check_every_s = 1.0;
+constexpr double retry_s = 2.0, check_every_s = 0.1;
+constexpr std::chrono::seconds closing_takes_at_most{3};
 
 class StageOutput final : public SoundOutput {
  public:
@@ -115,7 +116,7 @@ void SoundFeeder::lose(double now_s, const std::string& why) {
   counts_.starved += output_->starved();
   ++counts_.lost;
   tell(fmt::format("no sound: {} {}; it is opened again by itself", output_->name(), why));
-  output_.reset();
+  closing_ = std::move(output_);
   next_try_s_ = now_s + retry_s;
 }
 
@@ -144,6 +145,7 @@ void SoundFeeder::feed(double now_s) {
 }
 
 void SoundFeeder::pump(double now_s) {
+  closing_.reset();
   if (!is_open(now_s)) return waiting_.clear();
   if (now_s - checked_s_ > check_every_s) {
     checked_s_ = now_s;
@@ -169,38 +171,44 @@ struct LiveSound::State {
       taken.swap(arrived);
       // Opening a device may take seconds: nobody who adds a tick waits for it.
       lock.unlock();
-      for (auto& tick : taken) feeder.add(std::move(tick), now_s());
+      for (auto& tick : taken) feeder->add(std::move(tick), now_s());
       taken.clear();
-      feeder.pump(now_s());
-      auto message = feeder.take_message();
+      feeder->pump(now_s());
+      auto message = feeder->take_message();
       lock.lock();
-      counts = feeder.counts();
+      counts = feeder->counts();
+      playing_at_s = feeder->has_output() ? std::optional(now_s()) : std::nullopt;
       if (message) messages.push_back(std::move(*message));
       changed.wait_for(lock, std::chrono::milliseconds(4), [&] { return stopping; });
     }
+    playing_at_s.reset();
+    lock.unlock();
+    feeder.reset();
+    lock.lock();
+    has_ended = true;
+    changed.notify_all();
   }
 
-  SoundFeeder feeder;  ///< Of the thread alone.
+  std::optional<SoundFeeder> feeder;  ///< Of the thread alone.
   mutable std::mutex mutex;
   std::condition_variable changed;
-  bool stopping = false;
+  bool stopping = false, has_ended = false;
   std::deque<std::shared_ptr<const TakenSnapshot>> arrived;
   std::deque<std::string> messages;
   SoundFeeder::Counts counts;
-  std::thread thread;
+  std::optional<double> playing_at_s;  ///< When the thread last came by while it had a device.
 };
 
-LiveSound::LiveSound(SoundFeeder feeder) : state_(std::make_unique<State>(std::move(feeder))) {
-  state_->thread = std::thread([state = state_.get()] { state->run(); });
+LiveSound::LiveSound(SoundFeeder feeder) : state_(std::make_shared<State>(std::move(feeder))) {
+  // It keeps what it works on: where the device hangs it outlives this.
+  std::thread([state = state_] { state->run(); }).detach();
 }
 
 LiveSound::~LiveSound() {
-  {
-    const std::lock_guard lock(state_->mutex);
-    state_->stopping = true;
-  }
+  std::unique_lock lock(state_->mutex);
+  state_->stopping = true;
   state_->changed.notify_all();
-  state_->thread.join();
+  state_->changed.wait_for(lock, closing_takes_at_most, [&] { return state_->has_ended; });
 }
 
 void LiveSound::add(std::shared_ptr<const TakenSnapshot> tick) {
@@ -219,7 +227,9 @@ std::optional<std::string> LiveSound::take_message() {
 
 SoundFeeder::Counts LiveSound::counts() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->counts;
+  SoundFeeder::Counts counts = state_->counts;
+  if (state_->playing_at_s && State::now_s() - *state_->playing_at_s > stalled_after_s) ++counts.lost;
+  return counts;
 }
 
 }  // namespace septet::server

@@ -4,7 +4,8 @@
 /// A tick that is late is heard as the one before; where none has come for 100 ms (a pause, a server that hangs) the sound fades. Ticks that
 /// come faster than the device plays are left out, which is not heard: what goes on from block to block is the synthesis' own. A device that
 /// is not there, is lost, or plays nothing any more although it says that it is there is told once and opened again every two seconds;
-/// the drive goes on without sound.
+/// the drive goes on without sound. A library or a driver that hangs, so that not even closing comes back, holds up nobody else: neither who
+/// is told that the sound is lost, nor the end of the drive.
 ///
 /// `SoundFeeder` has no thread and no clock; `LiveSound` runs one in a thread of its own. OpenAL has one current context a process.
 
@@ -54,6 +55,7 @@ class SoundFeeder {
     std::uint64_t blocks = 0, repeated = 0, left_out = 0, starved = 0, lost = 0;
   };
   Counts counts() const;
+  bool has_output() const { return output_ != nullptr; }
 
  private:
   bool is_open(double now_s);
@@ -67,6 +69,8 @@ class SoundFeeder {
   std::shared_ptr<const road::RoadNetwork> roads_;
   std::optional<road::RoadPosition> place_;
   std::unique_ptr<SoundOutput> output_;
+  std::unique_ptr<SoundOutput>
+      closing_;  ///< Lost; closed by the next pump, so that a close that hangs keeps nobody from hearing of the loss.
   std::optional<double> next_try_s_, came_s_;
   double played_s_ = 0.0;  ///< When the device last took a block from its queue.
   std::size_t ahead_ = 0;  ///< Blocks in its queue when it was last looked at.
@@ -88,14 +92,18 @@ class SoundFeeder {
 class LiveSound {
  public:
   explicit LiveSound(SoundFeeder feeder);
+  /// Waits for the device to be closed, and where that hangs no longer than three seconds.
   ~LiveSound();
+  LiveSound(const LiveSound&) = delete;
+  LiveSound& operator=(const LiveSound&) = delete;
   void add(std::shared_ptr<const TakenSnapshot> tick);
   std::optional<std::string> take_message();
+  /// A device that plays and has let nobody go on for 250 ms counts as lost, too.
   SoundFeeder::Counts counts() const;
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<State> state_;
 };
 
 }  // namespace septet::server

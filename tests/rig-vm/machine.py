@@ -21,10 +21,14 @@ import sys
 HERE = pathlib.Path(__file__).parent
 PATH = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
 # What is asked for; modprobe knows what each of them needs.
-MODULES = ("virtio_pci 9pnet_virtio 9p configfs vcan can_raw uhid hid_generic usbhid dummy_hcd usb_f_fs evdev uinput veth sch_netem kvaser_pci").split()
+MODULES = ("virtio_pci 9pnet_virtio 9p configfs vcan can_raw uhid hid_generic usbhid dummy_hcd usb_f_fs evdev uinput veth sch_netem kvaser_pci "
+           "snd_aloop snd_dummy").split()
 UNPACKED = ("boot/vmlinuz*", "lib/modules/*/modules.*", "lib/modules/*/kernel/crypto/*", "lib/modules/*/kernel/fs/*", "lib/modules/*/kernel/lib/*",
             "lib/modules/*/kernel/net/*", "lib/modules/*/kernel/drivers/hid/*", "lib/modules/*/kernel/drivers/input/*",
-            "lib/modules/*/kernel/drivers/net/*", "lib/modules/*/kernel/drivers/usb/*", "lib/modules/*/kernel/drivers/virtio/*")
+            "lib/modules/*/kernel/drivers/net/*", "lib/modules/*/kernel/drivers/usb/*", "lib/modules/*/kernel/drivers/virtio/*",
+            "lib/modules/*/kernel/sound/soundcore.ko", "lib/modules/*/kernel/sound/core/*", "lib/modules/*/kernel/sound/drivers/*")
+# What ALSA's library reads before it knows a card.
+ALSA_SETTINGS = pathlib.Path("/usr/share/alsa")
 COMMAND_LINE = "console=ttyS0 quiet panic=-1 tsc=reliable no_timer_check mitigations=off random.trust_cpu=1"
 ALL_SUITES_RAN = 33  # QEMU's exit status for the 16 that init writes to its debug port.
 LIMIT_S = 900
@@ -63,7 +67,8 @@ def kernel(work):
     """The folder with Debian's kernel (vmlinux) and its modules (root/lib/modules), fetched and unpacked where it is not there yet."""
     package = kernel_package()
     folder = work / "kernel" / package
-    if (folder / "vmlinux").exists():
+    kept = folder / "unpacked.txt"  # Of which of its parts there are.
+    if kept.exists() and kept.read_text() == "\n".join(UNPACKED):
         return folder
     shutil.rmtree(folder, ignore_errors=True)
     root = folder / "root"
@@ -84,6 +89,7 @@ def kernel(work):
     unpacked = lzma.LZMADecompressor(format=lzma.FORMAT_XZ).decompress(packed[packed.index(bytes.fromhex("fd377a585a00")):])
     (folder / "part").write_bytes(unpacked)
     (folder / "part").rename(folder / "vmlinux")
+    kept.write_text("\n".join(UNPACKED))
     return folder
 
 
@@ -124,6 +130,8 @@ def make_initramfs(image, files, suites, programs):
         target = root / (file if file not in tools else f"tools/{pathlib.Path(file).name}").lstrip("/")
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(file, target)
+    if ALSA_SETTINGS.exists():
+        shutil.copytree(ALSA_SETTINGS, root / str(ALSA_SETTINGS).lstrip("/"), ignore=shutil.ignore_patterns("ucm*", "topology"))
     names = "\n".join(str(path.relative_to(root)) for path in sorted(root.rglob("*")))
     with open(image, "wb") as made:
         subprocess.run([tool("busybox"), "cpio", "-o", "-H", "newc"], cwd=root, input=names.encode(), stdout=made, stderr=subprocess.DEVNULL, check=True)

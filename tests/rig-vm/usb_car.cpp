@@ -111,8 +111,9 @@ void UsbCar::unplug() {
   if (std::exchange(is_plugged_, false)) last_command("echo '' >" + gadget + "/UDC");
 }
 
-void UsbCar::set(const DriverInput& input) {
+void UsbCar::set(const DriverInput& input, const CarSwitches& switches) {
   const std::lock_guard lock(mutex_);
+  switches_ = switches;
   input_ = input;
 }
 
@@ -201,7 +202,7 @@ void UsbCar::send_inputs() {
   for (std::uint8_t sequence = 0; !is_ending_; sleep_s(0.008)) {
     std::unique_lock lock(mutex_);
     input_.sequence = ++sequence;
-    const auto report = encode_controls(input_);
+    const auto report = encode_controls(input_, default_steering_lock_rad, switches_);
     lock.unlock();
     // Waits until the host has asked for it.
     [[maybe_unused]] const ssize_t sent = write(in_, report.data(), report.size());

@@ -28,7 +28,7 @@ class UsbCar {
 
   void plug();
   void unplug();
-  void set(const DriverInput& input);
+  void set(const DriverInput& input, const car_io::CarSwitches& switches = {});
   /// A firmware that hangs: takes no output report any more.
   void hang(bool is_hanging) { is_hanging_ = is_hanging; }
 
@@ -52,6 +52,7 @@ class UsbCar {
 
   std::mutex mutex_;  ///< Of what follows.
   DriverInput input_;
+  car_io::CarSwitches switches_;
   car_io::DeviceStatus status_{.firmware = 0x0102, .watchdog_ms = 1000};
   car_io::Actuators actuators_;
   double output_at_s_ = 0.0;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -20,7 +24,7 @@ struct Loudspeaker {
   std::uint64_t starved = 0;
   double loudest_pa = 0.0;  ///< Of the last block.
   bool is_there = true, is_connected = true, is_playing = true;
-  int opened = 0;
+  int opened = 0, closed = 0;
 
   OpenSoundOutput opener() {
     return [this]() -> Expected<std::unique_ptr<SoundOutput>> {
@@ -41,6 +45,7 @@ struct Loudspeaker {
  private:
   struct Output final : SoundOutput {
     explicit Output(Loudspeaker& of) : speaker(of) {}
+    ~Output() override { ++speaker.closed; }
     void put(std::span<const audio::Voice> voices, double) override {
       ++speaker.queued;
       speaker.loudest_pa = 0.0;
@@ -141,7 +146,7 @@ TEST_CASE("a device that is pulled out is told and opened again within two secon
   drive.run(1.0);
   drive.feeder.take_message();
   speaker.is_connected = false;
-  drive.run(1.1);
+  drive.run(0.15);
   CHECK(drive.feeder.take_message() == "no sound: test speaker was disconnected; it is opened again by itself");
   speaker.is_connected = true;
   drive.run(2.1);
@@ -163,6 +168,52 @@ TEST_CASE("a device whose callback has stopped is noticed within 300 ms although
   speaker.is_playing = true;
   drive.run(2.2);
   CHECK(speaker.opened == 2);
+}
+
+TEST_CASE("that a device is lost is known before it is closed, which may hang") {
+  Loudspeaker speaker;
+  Drive drive(speaker);
+  drive.run(1.0);
+  speaker.is_playing = false;
+  while (drive.feeder.counts().lost == 0) drive.run(tick_s);
+  CHECK(drive.now_s < 1.3);
+  CHECK(speaker.closed == 0);
+  drive.run(tick_s);
+  CHECK(speaker.closed == 1);
+}
+
+TEST_CASE("a device that lets nobody go on counts as lost while it hangs") {
+  struct Gate {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool is_open = false;
+  };
+  struct HangingOutput final : SoundOutput {
+    explicit HangingOutput(std::shared_ptr<Gate> before) : gate(std::move(before)) {}
+    void put(std::span<const audio::Voice>, double) override {
+      if (++puts <= 3) return;
+      std::unique_lock lock(gate->mutex);
+      gate->changed.wait(lock, [&] { return gate->is_open; });
+    }
+    std::size_t blocks_ahead() override { return 0; }
+    bool is_connected() override { return true; }
+    std::uint64_t starved() const override { return 0; }
+    const std::string& name() const override { return label; }
+    std::shared_ptr<Gate> gate;
+    int puts = 0;
+    std::string label = "hanging speaker";
+  };
+  const auto gate = std::make_shared<Gate>();
+  LiveSound live(SoundFeeder(
+      [gate]() -> Expected<std::unique_ptr<SoundOutput>> { return std::make_unique<HangingOutput>(gate); }, {}, {}));
+  // As long as it takes: the device hangs at its second feeding.
+  while (live.counts().lost == 0) std::this_thread::yield();
+  {
+    const std::lock_guard lock(gate->mutex);
+    gate->is_open = true;
+  }
+  gate->changed.notify_all();
+  while (live.counts().lost != 0) std::this_thread::yield();
 }
 
 }  // namespace septet::server
