@@ -38,11 +38,16 @@ struct SkyLight {
   glm::vec3 ground_irradiance{0.0f};  ///< On one that looks down.
   SkyIrradiance irradiance{};         ///< On one that looks anywhere.
   float fog_per_m = 0.0f;             ///< Extinction.
+  float fall_per_m = 0.0f;            ///< Extinction by rain or snow, where they fall.
   float overcast = 0.0f;              ///< 0 broken clouds to 1 a closed cover.
   float night = 0.0f;                 ///< 0 day to 1 night.
   float exposure = 1.0f;              ///< Scene radiance to the tone curve's input, in the open.
   SkyTable table;
 };
+
+/// Extinction of light by what falls, 1/m, for a rate R in mm of water an hour. Rain: 0.312 R^0.67 per km (Weber et al. 2015, who sum over
+/// Marshall and Palmer's drops). Snow, from what optical links lose in it (ITU-R P.1814): wet 3.79 R^0.72, below -1 degrees Celsius dry 5.50 R^1.38 dB per km.
+double fall_extinction_per_m(const Environment& environment);
 
 SkyLight sky_light(const Environment& environment);
 

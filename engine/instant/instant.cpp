@@ -78,6 +78,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   const float scale = adapted_scale(scene, *instant.light, input.views.front().world_from_car);
   instant.exposure = exposure_of_scale(scale);
   instant.share_of_sky = share_of_sky(scene, world_eye(input.views.front()));
+  instant.extinction_per_m = instant.light->fog_per_m + instant.share_of_sky * instant.light->fall_per_m;
   instant.road = road_below(input.participants, scene.prototypes, world_eye(input.views.front()));
   instant.emission_share = 1.0f / std::max(1.0f, 0.35f * scale);
 

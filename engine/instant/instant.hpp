@@ -12,7 +12,9 @@
 ///
 /// A renderer adds, for what it sees: the scene's instances while the eye's distance is in their range; `parts`, `loose`, `ice`; the
 /// sky (`sky_radiance`), the sun's or moon's disc toward light->light_direction; `smoke` by Beer and Lambert; `soot` on
-/// surfaces; water on wet roads (wet_road.hpp); what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; fog of light->fog_per_m that is as bright as the sky behind it, and below the horizon as the sky just above it.
+/// surfaces; water on wet roads (wet_road.hpp); what falls (environment.rain_mm_per_h) before an eye in the open; headlights by their beam; air
+/// that takes `extinction_per_m` of light and is as bright as the sky behind it, below the horizon as the sky just above it, and under a roof as
+/// the lamps there light it (`roofed_haze`).
 
 #include <memory>
 #include <optional>
@@ -34,6 +36,14 @@ struct LooseMesh {
   float share_of_sky = 1.0f;
 };
 
+/// Radiance of haze between an eye and a surface that are both under a roof: what the lamps there light it with from all sides.
+inline const glm::vec3 roofed_haze = 0.35f / 3.14159265f * glm::vec3(1.5f, 1.3f, 1.0f);
+
+/// How far such haze stands for all that lies between two places, by their shares of the sky.
+inline float roofed_between(float one_share_of_sky, float other_share_of_sky) {
+  return (1.0f - one_share_of_sky) * (1.0f - other_share_of_sky);
+}
+
 struct Instant {
   double simulated_time_s = 0.0;
   Environment environment;                ///< Weather: wetness, snow, rain, cloud cover, wind.
@@ -41,6 +51,7 @@ struct Instant {
   Exposure exposure;
   /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
   float emission_share = 1.0f;
+  float extinction_per_m = 0.0f;  ///< Of the air: fog and, where the first view's eye sees the sky, what falls.
   float share_of_sky = 1.0f;      ///< Where the first view's eye is: no rain falls under a roof.
   std::optional<RoadPlane> road;  ///< Near the first view's eye: what a wet road mirrors in.
   std::vector<FrameView> views;   ///< At least one.

@@ -278,6 +278,7 @@ void Path::note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point,
 glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
   time_ = ray.time;
   SurfacePoint point;
+  float from_share_of_sky = world_.eye_share_of_sky();
   for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
     Hit hit;
     bool met = false;
@@ -298,13 +299,15 @@ glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
     }
     if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
       const float clear = std::exp(-fog * edge_m);
-      light_ += throughput_ * (1.0f - clear) * world_.fog_radiance(ray.direction);
+      light_ +=
+          throughput_ * (1.0f - clear) * world_.fog_radiance(ray.direction, from_share_of_sky, point.share_of_sky);
       throughput_ *= clear;
     }
     if (!met) {
       meet_sky(ray.direction);
       break;
     }
+    from_share_of_sky = point.share_of_sky;
     if (point.dielectric && !point.from_front) throughput_ *= glm::exp(-point.absorption_per_m * edge_m);
     meet_lamp(ray, point);
     if (edge == settings_.longest) break;

@@ -289,7 +289,12 @@ glm::vec2 World::ripple(const glm::vec3& position_m) const {
   return ripples_[texel(tiles.y) * instant::ripple_side + texel(tiles.x)];
 }
 
-glm::vec3 World::fog_radiance(const glm::vec3& direction) const {
+glm::vec3 World::fog_radiance(const glm::vec3& direction, float from_share_of_sky, float to_share_of_sky) const {
+  const float roofed = instant::roofed_between(from_share_of_sky, to_share_of_sky);
+  return glm::mix(open_fog_radiance(direction), instant::roofed_haze, roofed);
+}
+
+glm::vec3 World::open_fog_radiance(const glm::vec3& direction) const {
   const float level = std::sqrt(direction.x * direction.x + direction.y * direction.y);
   const float up = std::max(direction.z, 0.02f), across = std::sqrt(std::max(0.0f, 1.0f - up * up));
   if (level < 1e-4f) return sky_.radiance({across, 0.0f, up});

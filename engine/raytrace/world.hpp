@@ -108,14 +108,17 @@ class World : public Openings {
   /// What the ray met; all of `point` is set.
   void point(const Ray& ray, const Hit& hit, SurfacePoint& point) const;
   /// What fog gives off in this direction: as bright as the sky behind it, below the horizon as the sky just above.
-  glm::vec3 fog_radiance(const glm::vec3& direction) const;
-  float fog_per_m() const { return instant_.light->fog_per_m; }
+  /// Between places with these shares of the sky.
+  glm::vec3 fog_radiance(const glm::vec3& direction, float from_share_of_sky, float to_share_of_sky) const;
+  float eye_share_of_sky() const { return instant_.share_of_sky; }
+  float fog_per_m() const { return instant_.extinction_per_m; }
 
   bool is_hole(std::uint32_t place, std::uint32_t triangle, float u, float v) const override;
   float share_let_through(std::uint32_t place, std::uint32_t triangle, float u, float v,
                           const glm::vec3& direction) const override;
 
  private:
+  glm::vec3 open_fog_radiance(const glm::vec3& direction) const;
   struct PlacedSurface {
     std::span<const scene::SurfaceVertex> vertices;
     std::span<const std::uint32_t> indices;

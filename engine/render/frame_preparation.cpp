@@ -44,7 +44,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());
   const std::vector<GlowRecord> glows =
-      glow_records(instant.lamps, eye_m, instant.exposure.scale(), static_cast<float>(pixel_slope),
+      glow_records(instant.lamps, eye_m, instant.exposure.scale(),
                    [&](const Vec3& lamp_m) { return transmittance(smoke, eye_m, lamp_m); });
   prepared.glows = store(context, std::span<const GlowRecord>(glows));
   prepared.glow_count = static_cast<std::uint32_t>(glows.size());
@@ -52,8 +52,9 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
       contact_records(instant.contacts, eye_m, volume, static_cast<float>(pixel_slope));
   prepared.contacts = store(context, std::span<const ContactRecord>(contacts));
   prepared.contact_count = static_cast<std::uint32_t>(contacts.size());
-  const std::vector<WetLampRecord> wet_lamps = wet_lamp_records(
-      instant.lamps, eye_m, static_cast<float>(instant.environment.road_wetness), instant.emission_share);
+  const std::vector<WetLampRecord> wet_lamps =
+      wet_lamp_records(instant.lamps, eye_m, static_cast<float>(instant.environment.road_wetness),
+                       instant.exposure.scale(), instant.emission_share, mirror.present);
   prepared.wet_lamps = store(context, std::span<const WetLampRecord>(wet_lamps));
   prepared.wet_lamp_count = static_cast<std::uint32_t>(wet_lamps.size());
   const std::vector<StreakRecord> streaks = streak_records(instant, view, eye_m);

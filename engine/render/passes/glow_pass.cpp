@@ -1,9 +1,12 @@
 #include "engine/render/passes/glow_pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/instant/wet_road.hpp"
 #include "engine/render/passes/billboards.hpp"
 #include "engine/render/passes/shaders.hpp"
 
@@ -24,45 +27,65 @@ void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device) {
 }
 
 namespace {
-constexpr float lens_radius_m = 0.09f;
-}
 
-std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
-                                     float pixel_rad, const std::function<float(const Vec3&)>& share) {
+constexpr float lens_radius_m = 0.09f;
+/// Nearer than this the lens itself is seen, and the glow around it gives the eye no more light than it gave from there.
+constexpr float lens_seen_m = 50.0f;
+/// The integral of what shaders/glow.frag makes of a glow of radius 1 and radiance 1 in its middle.
+constexpr float glow_integral = 0.133f;
+
+/// The glow of a lamp, whatever lies between it and the eye; black where it faces away.
+struct Shine {
+  glm::vec3 radiance{0.0f};
+  float radius_m = 0.0f;
+};
+
+Shine shine(const LampGlow& glow, const glm::vec3& toward_eye, float exposure, float distance_m) {
   // 0 at noon, 1 at night.
   const float dark = std::clamp((exposure - 0.5f) / 3.0f, 0.0f, 1.0f);
+  const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
+  const float cosine = around ? 1.0f : glm::dot(glow.facing, toward_eye);
+  float turned = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
+  // Off the beam's axis a headlamp has less to glare with.
+  if (glow.beam) turned *= 0.4f + 0.6f * std::exp(-12.0f * (1.0f - cosine * cosine));
+  const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
+  // By night the core is whiter than the halo: an eye (and a camera) saturates there.
+  const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f * dark);
+  // By day a lamp is hardly more than its lens, a tail lamp the least of all; a beacon is made to be seen.
+  const float by_day = glow.beam ? 0.7f : std::min(1.3f, std::sqrt(brightest / 3.5f));
+  const float strength = around ? 3.2f + 0.4f * dark : glm::mix(by_day, glow.beam ? 4.0f : 3.0f, dark);
+  const glm::vec3 brightness = hue * (turned * strength * std::min(1.0f, distance_m / lens_seen_m));
+  // As it looks: about the root of light, 1 white.
+  return {brightness * brightness / exposure, glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark)};
+}
+
+}  // namespace
+
+std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
+                                     const std::function<float(const Vec3&)>& share) {
   std::vector<GlowRecord> records;
   for (const LampGlow& glow : glows) {
     const glm::vec3 relative(glow.position_m - eye_m);
     const float distance_m = glm::length(relative);
     if (distance_m < 0.3f || distance_m > 3000.0f) continue;
-    const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
-    const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / distance_m);
-    float turned = std::clamp(cosine * 1.6f - 0.1f, 0.0f, 1.0f);
-    // Off the beam's axis a headlamp has less to glare with.
-    if (glow.beam) turned *= 0.4f + 0.6f * std::exp(-12.0f * (1.0f - cosine * cosine));
-    if (turned <= 1e-3f) continue;
+    const Shine shines = shine(glow, -relative / distance_m, exposure, distance_m);
+    if (!(shines.radiance.r + shines.radiance.g + shines.radiance.b > 1e-6f)) continue;
     const float arriving = share(glow.position_m);
     if (arriving <= 1e-3f) continue;
-    const float brightest = std::max({glow.color.r, glow.color.g, glow.color.b, 1e-6f});
-    // The core is whiter than the halo: an eye (and a camera) saturates there.
-    const glm::vec3 hue = glm::mix(glow.color / brightest, glm::vec3(1.0f), 0.08f);
-    // By day a lamp is hardly more than its lens; a beacon is made to be seen.
-    const float radius_m = glow.radius_m * (around ? 1.0f + 0.9f * dark : 0.7f + 1.2f * dark);
-    // A lens that is seen as many pixels is bright itself: what is left is a weak halo around it.
-    const float lens_px = lens_radius_m / (distance_m * pixel_rad);
-    const float strength = (around ? 3.2f + 0.4f * dark : 0.7f + 2.5f * dark) / (1.0f + 0.33f * lens_px);
-    const glm::vec3 brightness = hue * (turned * strength);  // As it looks: about the root of light, 1 white.
-    records.push_back(
-        {glm::vec4(relative, radius_m), glm::vec4(brightness * brightness * (arriving / exposure), 0.0f)});
+    records.push_back({glm::vec4(relative, shines.radius_m), glm::vec4(shines.radiance * arriving, 0.0f)});
   }
   return records;
 }
 
 std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, const Vec3& eye_m, float wetness,
-                                            float emission_share) {
+                                            float exposure, float emission_share, bool lenses_mirrored) {
+  constexpr float pi = 3.14159265f;
   std::vector<WetLampRecord> records;
   if (wetness <= 0.0f) return records;
+  // The mirror image of what stands over the road holds the lens already, as sharply as film and puddles show it.
+  const float sharp = !lenses_mirrored ? 0.0f
+                                       : glm::mix(instant::film_share * wetness, 0.95f,
+                                                  0.25f * std::clamp(2.0f * wetness - 1.0f, 0.0f, 1.0f));
   for (const LampGlow& glow : glows) {
     const glm::vec3 relative(glow.position_m - eye_m);
     const float distance_m = glm::length(glm::vec2(relative));
@@ -71,8 +94,12 @@ std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, con
     const bool around = glm::dot(glow.facing, glow.facing) < 0.5f;
     const float cosine = around ? 1.0f : glm::dot(glow.facing, -relative / glm::length(relative));
     if (cosine <= 0.0f) continue;
-    records.push_back({glm::vec4(relative, lens_radius_m),
-                       glm::vec4(glow.color * (wetness * emission_share * std::min(1.0f, 2.0f * cosine)), road)});
+    const glm::vec3 lens =
+        glow.color * (emission_share * std::min(1.0f, 2.0f * cosine) * pi * lens_radius_m * lens_radius_m);
+    const Shine shines = shine(glow, -relative / glm::length(relative), exposure, glm::length(relative));
+    const glm::vec3 around_it = shines.radiance * (glow_integral * shines.radius_m * shines.radius_m);
+    records.push_back(
+        {glm::vec4(relative, lens_radius_m), glm::vec4(wetness * (lens + around_it) - sharp * lens, road)});
   }
   return records;
 }

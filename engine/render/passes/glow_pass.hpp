@@ -20,7 +20,7 @@ struct GlowRecord {
 /// The twin of shaders/wet_lamp.vert.
 struct WetLampRecord {
   glm::vec4 position_size{0.0f};  ///< Relative to the eye; radius of the lens, m.
-  glm::vec4 color_road{0.0f};     ///< Radiance; height of the road below the lamp, relative to the eye, m.
+  glm::vec4 energy_road{0.0f};    ///< Radiance times area; height of the road below the lamp, relative to the eye, m.
 };
 
 struct GlowPass {
@@ -32,14 +32,16 @@ void create_glow_pass(GlowPass& pass, const vulkan::Device& device, const vulkan
 void destroy_glow_pass(GlowPass& pass, const vulkan::Device& device);
 
 /// Those of the lamps that face the eye; larger and brighter in the dark. Light scattered in the eye, as bright as it looks beside
-/// what the eye has adapted to (`exposure`), and the less the more pixels (each `pixel_rad` wide) the lens itself covers.
+/// what the eye has adapted to (`exposure`). From 50 m on, where a lens is hardly seen itself, it falls with the square of
+/// the distance; nearer it stays as it is there.
 /// `share`: of each lamp's light that reaches the eye, through smoke.
 std::vector<GlowRecord> glow_records(std::span<const LampGlow> glows, const Vec3& eye_m, float exposure,
-                                     float pixel_rad, const std::function<float(const Vec3& lamp_m)>& share);
+                                     const std::function<float(const Vec3& lamp_m)>& share);
 
-/// Lamps that a road of this wetness mirrors, as bright as those are seen; none on a dry one.
+/// Lamps that a road of this wetness mirrors: of the light with which lens and glow are seen what water sends on, less what the mirror image
+/// of the road (road_mirror_pass.hpp) shows of the lens, if there is one; none on a dry one.
 std::vector<WetLampRecord> wet_lamp_records(std::span<const LampGlow> glows, const Vec3& eye_m, float wetness,
-                                            float emission_share);
+                                            float exposure, float emission_share, bool lenses_mirrored);
 
 void draw_wet_lamps(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);
 void draw_glows(const GlowPass& pass, PassContext& context, const FrameData& records, std::uint32_t count);

@@ -73,7 +73,7 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
 
   uniforms.light_direction = glm::vec4(light.light_direction, shadows.cascades[0].texel_m);
   uniforms.light_irradiance = glm::vec4(light.light_irradiance, instant.emission_share);
-  uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, light.fog_per_m * std::numbers::log2e_v<float>);
+  uniforms.sky_irradiance = glm::vec4(light.sky_irradiance, instant.extinction_per_m * std::numbers::log2e_v<float>);
   uniforms.ground_irradiance = glm::vec4(light.ground_irradiance, light.night);
   uniforms.sun_direction = glm::vec4(light.sun_direction, shadows.cascades[1].texel_m);
   const glm::vec2 sun(light.sun_direction);
@@ -99,7 +99,7 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   const Environment& environment = instant.environment;
   uniforms.weather = glm::vec4(environment.road_wetness, environment.snow_cover,
                                std::fmod(instant.simulated_time_s, 3600.0), environment.rain_mm_per_h);
-  uniforms.wind = glm::vec4(instant::cloud_drift_m(environment, instant.simulated_time_s), 0.0f, 0.0f);
+  uniforms.wind = glm::vec4(instant::cloud_drift_m(environment, instant.simulated_time_s), 0.0f, instant.share_of_sky);
   set_headlights(uniforms, eye_m, instant.headlights);
   if (!instant.soot.cover.empty()) set_soot(uniforms, eye_m, instant.soot);
   constexpr double extent_m = LampField::side * LampField::texel_m;

@@ -18,11 +18,12 @@ void main() {
   vec2 at = corners[gl_VertexIndex];
   vec3 middle = glow.position_size.xyz;
   float distance_m = length(middle);
-  // Never smaller than a few pixels, so that a far lamp is still seen; pulled out of its own housing.
-  float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 2.5);
+  // Never smaller than a few pixels, so that a far lamp is seen, wherever between pixels it lies; dimmed as it is enlarged, for its light falls
+  // with the square of the distance. Pulled out of its own housing.
+  float radius = max(glow.position_size.w, distance_m * view.billboard_right.w * 3.2);
   middle *= 1.0 - min(0.5, (0.25 + 0.2 * radius) / distance_m);
   out_at = at;
-  out_color = glow.color.rgb * (exp2(-distance_m * view.sky_irradiance.w) * pow(glow.position_size.w / radius, 1.4));
+  out_color = glow.color.rgb * (exp2(-distance_m * view.sky_irradiance.w) * (glow.position_size.w * glow.position_size.w / (radius * radius)));
   gl_Position = view.clip_from_relative *
                 vec4(middle + (view.billboard_right.xyz * at.x + view.billboard_up.xyz * at.y) * radius, 1.0);
 }

@@ -139,7 +139,8 @@ void main() {
   float between_pools = 0.35 * (1.0 - share_of_sky);
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
-    between_pools *= 1.0 - 0.8 * thrown.w;
+    // Lamps below a ceiling leave it to what the road sends back.
+    between_pools *= (1.0 - 0.8 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
     ambient += thrown.rgb;
   }
   ambient += vec3(1.5, 1.3, 1.0) * between_pools;

@@ -8,7 +8,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 far_from_near;         // Texture coordinates of the far cascade: xy·near + zw.
   vec4 light_direction;    // xyz: to the sun or moon. w: side of a near cascade's texel, m.
   vec4 light_irradiance;   // rgb. w: share of their radiance with which lamps glare.
-  vec4 sky_irradiance;     // rgb. w: halvings by fog per metre.
+  vec4 sky_irradiance;     // rgb. w: halvings by the air per metre.
   vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
   vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
   vec4 sun_level;          // xy: the sun's direction on the level, unit. z: overcast, w: cloud cover.
@@ -16,7 +16,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 ray_middle, ray_right, ray_down;  // Direction to a pixel: middle + right·x + down·y in NDC.
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.
-  vec4 wind;               // xy: drift of the clouds, m. z: number of headlights.
+  vec4 wind;               // xy: drift of the clouds, m. z: number of headlights. w: share of the sky where the eye is.
   vec4 headlight_position[8];   // xyz relative. w: intensity.
   vec4 headlight_direction[8];  // xyz unit.
   vec4 soot_x, soot_y, soot_z;  // Rows from relative places to cells of the soot.
@@ -56,6 +56,11 @@ vec3 irradiance_on(vec3 n) {
 
 // What fog between the eye and a place in that direction scatters: as bright as the sky behind it, and below the horizon as the sky just above.
 vec3 fog_radiance(vec3 direction) { return sky_radiance(vec3(direction.xy, max(direction.z, 0.02))); }
+
+// Haze under a roof is lit by the lamps there: `roofed_haze` of engine/instant/instant.hpp. `share_of_sky`: of the place, beside the eye's own.
+vec3 fog_radiance(vec3 direction, float share_of_sky) {
+  return mix(fog_radiance(direction), vec3(1.5, 1.3, 1.0) * (0.35 / pi), (1.0 - view.wind.w) * (1.0 - share_of_sky));
+}
 
 // Images hold the square root of linear light: a square decodes them.
 vec4 decoded(vec4 texel) { return vec4(texel.rgb * texel.rgb, texel.a); }

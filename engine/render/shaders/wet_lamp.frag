@@ -11,9 +11,7 @@ void main() {
   float grazing = heights.x / at.y;
   // A facet of the water sends the lamp to the eye if it is tilted by half of what the two angles to the road differ.
   float tilt = 0.5 * (grazing - heights.y / (heights.z - at.y)) / 0.06;
-  float width = heights.w * at.y / heights.z + 0.012 * at.y, side = at.x / width;
+  float side = at.x * heights.z / (heights.w * at.y);
   float mirrored = 0.02 + 0.98 * fifth_power(1.0 - grazing);
-  // The light of the lens is spread over all tilts of the water.
-  float spread = heights.w / (heights.w + 0.06 * heights.z);
-  result = vec4(color * (mirrored * spread * exp2(-1.44 * (tilt * tilt + side * side))), 0.0);
+  result = vec4(color * (mirrored * exp2(-1.44 * (tilt * tilt + side * side))), 0.0);
 }

@@ -5,26 +5,29 @@
 // A lamp that a wet road mirrors: a strip of the road between the lamp's foot and the eye's. The host's twin is WetLampRecord in passes/glow_pass.hpp.
 struct WetLamp {
   vec4 position_size;  // Relative to the eye; radius of the lens, m.
-  vec4 color_road;     // Radiance of the lens; height of the road relative to the eye, m.
+  vec4 energy_road;    // Radiance times area of what is mirrored; height of the road relative to the eye, m.
 };
 layout(set = 0, binding = 1, std430) readonly buffer WetLamps { WetLamp lamps[]; };
 
 layout(location = 0) out vec2 out_at;  // Metres to the side of its middle and on the way to the lamp.
-layout(location = 1) flat out vec3 out_color;
-layout(location = 2) flat out vec4 out_heights;  // Eye over the road, lamp over the road, way to the lamp, radius; m.
+layout(location = 1) flat out vec3 out_color;  // Radiance in the middle of a perfect mirror.
+layout(location = 2) flat out vec4 out_heights;  // Eye over the road, lamp over the road, way to the lamp, breadth of its light; m.
 
 void main() {
   WetLamp lamp = lamps[gl_InstanceIndex];
   const vec2 corners[6] = vec2[](vec2(-1, 0), vec2(1, 0), vec2(1, 1), vec2(-1, 0), vec2(1, 1), vec2(-1, 1));
   vec2 at = corners[gl_VertexIndex];
-  float road = lamp.color_road.w, distance_m = length(lamp.position_size.xy);
+  float road = lamp.energy_road.w, distance_m = length(lamp.position_size.xy);
   vec2 ahead = lamp.position_size.xy / distance_m, aside = vec2(-ahead.y, ahead.x);
   float along = mix(0.12 * distance_m, 0.98 * distance_m, at.y);
-  // As wide as the lens looks there, and what the road's tilt to the sides adds.
-  float half_width = 2.5 * (lamp.position_size.w * along / distance_m + 0.012 * along);
+  // Of the light, spread by the water's tilt: to the sides by the lamp's height as often as it tilts, on the way to the lamp as often as both ends turn.
+  float lamp_height = lamp.position_size.z - road, lens = 0.5 * lamp.position_size.w * lamp.position_size.w;
+  float turns = 0.12 * lamp_height, ways = turns * distance_m / (lamp_height - road);
+  float breadth = sqrt(lens + turns * turns);
+  float half_width = 2.5 * breadth * along / distance_m;
   out_at = vec2(at.x * half_width, along);
-  out_color = lamp.color_road.rgb * exp2(-distance_m * view.sky_irradiance.w);
-  out_heights = vec4(-road, lamp.position_size.z - road, distance_m, lamp.position_size.w);
+  out_color = lamp.energy_road.rgb * (exp2(-distance_m * view.sky_irradiance.w) / (pi * breadth * sqrt(lens + ways * ways)));
+  out_heights = vec4(-road, lamp_height, distance_m, breadth);
   vec3 place = vec3(ahead * along + aside * out_at.x, road);
   gl_Position = view.clip_from_relative * vec4(place * (1.0 - 0.02), 1.0);
 }

@@ -74,9 +74,7 @@ PeerScene motorway(std::string_view name) {
   input.participants.pop_back();  // The driver's own car is not seen.
   peer.instant = instant::describe(std::move(input), instant::summarise(peer.scene));
   peer.instant.headlights.clear();
-  auto light = *peer.instant.light;
-  light.fog_per_m = 0.0f;
-  peer.instant.light = std::make_shared<const instant::SkyLight>(light);
+  peer.instant.extinction_per_m = 0.0f;
   for (instant::PlacedMesh& part : peer.instant.parts) part.share_of_sky = 1.0f;
   peer.settings.paths = {.longest = 8, .roulette_from = 100};
   return peer;
