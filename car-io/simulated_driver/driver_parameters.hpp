@@ -2,7 +2,7 @@
 /// Who the simulated driver is: a few named parameters, and the sets that stand for kinds of
 /// drivers.
 ///
-/// None is fitted to a histogram, a participant or a lesson's marks; what tells novices and experienced drivers apart has its findings in
+/// None is fitted to a histogram or a participant; what tells novices and experienced drivers apart has its findings in
 /// README.md. The steering gains follow from the driver's
 /// knowledge of the car and the natural frequency and damping with which they keep the lane; noise
 /// and delays are of the size that the literature names (README.md beside this file).
