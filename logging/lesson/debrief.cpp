@@ -152,9 +152,8 @@ Expected<std::optional<std::string>> write_debrief(const SessionReader& session,
 }
 
 std::string marks_in_a_line(const Lesson& lesson, const LessonMarks& marks) {
-  std::string text = marks.mark
-                         ? fmt::format("mark {:.1f} of 10, {}", *marks.mark, marks.passed ? "passed" : "not passed")
-                         : std::string("nothing that the lesson marks was seen");
+  std::string text = marks.mark ? fmt::format("mark {:.1f} of 10, {}", *marks.mark, outcome_of(marks))
+                                : std::string("nothing that the lesson marks was seen");
   if (const auto worst = worst_tasks(lesson, marks); !worst.empty())
     text += fmt::format("; worst: {} ({})", lesson.tasks[worst[0]].says,
                         why(lesson.tasks[worst[0]], marks.tasks[worst[0]]));
@@ -176,7 +175,7 @@ std::string debrief_page(const Lesson& lesson, const LessonMarks& marks, std::sp
   html +=
       fmt::format("<div class=\"tile\"><b>{} <small>of 10</small></b><span>mark</span></div>\n", mark_text(marks.mark));
   html += fmt::format("<div class=\"tile\"><b>{}</b><span>{:.1f} is needed, and nothing dangerous</span></div>\n",
-                      marks.passed ? "passed" : "not passed", lesson.pass_mark);
+                      outcome_of(marks), lesson.pass_mark);
   html += "</div>\n<h2>To take home</h2>\n";
   const auto worst = worst_tasks(lesson, marks);
   if (worst.empty()) html += "<p>Nothing was beyond its bound.</p>\n";

@@ -42,7 +42,8 @@ struct LessonTask {
 
 struct Lesson {
   std::string title, aim;
-  double pass_mark = 6.0;  ///< Of the weighted mean, where nothing was dangerous.
+  double pass_mark = 6.0;   ///< Of the weighted mean, where nothing was dangerous.
+  double shortest_s = 0.0;  ///< Whoever drove for less has not taken it: marks are told, but none is a pass.
   std::vector<LessonTask> tasks;
 };
 
@@ -67,8 +68,12 @@ struct TaskMark {
 struct LessonMarks {
   std::vector<TaskMark> tasks;  ///< As Lesson::tasks.
   std::optional<double> mark;   ///< Weighted mean of what was seen.
+  bool taken = false;           ///< It was driven for long enough.
   bool passed = false;
 };
+
+/// "passed", "not passed", or "ended too early to be passed".
+std::string_view outcome_of(const LessonMarks& marks);
 
 /// Whether the head's direction was measured is told by whether it ever moved: where it did not, glances are not marked.
 LessonMarks mark_lesson(const Lesson& lesson, std::span<const Sample> samples, std::span<const Event> events);

@@ -72,6 +72,7 @@ Expected<Lesson> read_lesson(std::string_view text, std::string_view name) {
   lesson.title = reader.get_string("title", "");
   lesson.aim = reader.get_string("aim", "");
   lesson.pass_mark = reader.get_double("pass_mark", 6.0, 0.0, 10.0);
+  lesson.shortest_s = reader.get_double("shortest_s", 0.0, 0.0, 1e6);
   std::set<std::string> taken;
   const auto tasks = reader.get_tables("task");
   if (tasks.empty() || tasks.size() > most_tasks)

@@ -139,7 +139,7 @@ std::vector<instant::OverlayText> key_table(const std::string& headline, const r
                step_px = row_px + box_px;
   double y_px = std::max(0.0, std::round(0.45 * screen.height_px - 0.5 * rows * step_px));
   // Two columns, whose boxes touch: one panel.
-  const double names_rows = 7.5, does_rows = row_px < 12.0 ? 26.0 : 19.5;  // Small letters are wide for their height.
+  const double names_rows = 7.5, does_rows = row_px < 12.0 ? 26.0 : 24.5;  // Small letters are wide for their height.
   const double left_px = std::max(0.0, std::round(0.5 * screen.width_px - 0.5 * (names_rows + does_rows) * row_px)),
                names_px = std::round(names_rows * row_px), does_px = std::round(does_rows * row_px);
   for (const std::string& words : above) {

@@ -217,6 +217,19 @@ TEST_CASE("a collision is dangerous, whatever the rest is worth") {
   CHECK_FALSE(marks.passed);
 }
 
+TEST_CASE("a drive that ends too early is marked and not passed, and the debrief says so") {
+  Lesson lesson = lesson_of("speed", 100.0, 10.0);
+  const auto samples = good_drive();
+  lesson.shortest_s = samples.back().simulated_time_s - samples.front().simulated_time_s;
+  CHECK(mark_lesson(lesson, samples, {}).passed);
+  lesson.shortest_s += 0.1;
+  const LessonMarks marks = mark_lesson(lesson, samples, {});
+  CHECK(marks.mark == doctest::Approx(10.0));
+  CHECK_FALSE(marks.passed);
+  CHECK(marks_in_a_line(lesson, marks).find("ended too early to be passed") != std::string::npos);
+  CHECK(debrief_page(lesson, marks, samples, {}).find("ended too early") != std::string::npos);
+}
+
 TEST_CASE("an empty drive is not seen, and not passed") {
   const LessonMarks marks = mark_lesson(lesson_of("speed", 72.0, 10.0), {}, {});
   CHECK_FALSE(marks.mark.has_value());

@@ -95,7 +95,7 @@ TEST_CASE("the table of keys is one panel: its boxes touch, and no text is wider
     CHECK(texts[i].x_px + texts[i].least_box_px == texts[i + 1].x_px);
     if (i > 0) CHECK(texts[i].y_px == texts[i - 2].y_px + texts[i].height_px + 4.0f);  // As boxes are drawn.
     for (const auto& text : {texts[i], texts[i + 1]})
-      CHECK(text.text.size() * 0.36f * text.height_px < text.least_box_px);
+      CHECK(text.text.size() * 0.45f * text.height_px < text.least_box_px);
   }
 }
 
