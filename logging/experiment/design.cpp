@@ -170,12 +170,13 @@ std::vector<PlannedSubject> plan_of(const Experiment& experiment) {
           PlannedDrive drive{part, condition, experiment.parts[part].seconds, false};
           if (experiment.parts[part].is_free()) {
             drive.seconds = experiment.parts[part].up_to_s;
-            const double enough_s = kind.stops_mean_min
-                                        ? 60.0 * (*kind.stops_mean_min + kind.stops_sd_min * random.normal())
-                                        : drive.seconds;
-            // To a tenth of a second, and everybody tries it for a minute.
-            drive.stops = enough_s < drive.seconds;
-            if (drive.stops) drive.seconds = std::max(60.0, std::round(enough_s * 10.0) / 10.0);
+            if (kind.stops_mean_min) {
+              // To a tenth of a second, and everybody tries it for a minute.
+              const double drawn_s = 60.0 * (*kind.stops_mean_min + kind.stops_sd_min * random.normal());
+              const double enough_s = std::max(60.0, std::round(drawn_s * 10.0) / 10.0);
+              drive.stops = enough_s < drive.seconds;
+              drive.seconds = std::min(drive.seconds, enough_s);
+            }
           }
           subject.drives.push_back(drive);
         }

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
 
 #include <doctest/doctest.h>
 
@@ -75,6 +77,27 @@ TEST_CASE("the same experiment gives the same plan and every drive a seed of its
   CHECK(plan[0].drives[0].condition != plan[1].drives[0].condition);
   experiment->seed = 2;
   CHECK(drive_seed(*experiment, 1, plan[0].drives[0], 0) != *seeds.begin());
+}
+
+TEST_CASE("whoever has not had enough when the offered time is over has not stopped of his own will") {
+  const auto plan_with = [](const std::string& mean_min) {
+    return plan_of(*read_experiment("[[group]]\nname = \"g\"\nsubjects = 2\nstops_mean_min = " + mean_min +
+                                        "\n[[part]]\nname = \"p\"\nscenario = \"s\"\nup_to_min = 2\n",
+                                    "e"));
+  };
+  for (const auto& [mean_min, seconds, stops] :
+       {std::tuple{"0.5", 60.0, true}, {"1.5", 90.0, true}, {"2.0", 120.0, false}, {"9.0", 120.0, false}})
+    for (const auto& subject : plan_with(mean_min)) {
+      CHECK(subject.drives[0].seconds == doctest::Approx(seconds));
+      CHECK(subject.drives[0].stops == stops);
+    }
+  // What is offered is shorter than the minute that everybody tries it for.
+  const auto plan = plan_of(*read_experiment(
+      "[[group]]\nname = \"g\"\nsubjects = 1\nstops_mean_min = 0.2\n[[part]]\nname = \"p\"\nscenario = "
+      "\"s\"\nup_to_min = 1\n",
+      "e"));
+  CHECK(plan[0].drives[0].seconds == doctest::Approx(60.0));
+  CHECK_FALSE(plan[0].drives[0].stops);
 }
 
 TEST_CASE("an experiment that makes no sense is refused") {
