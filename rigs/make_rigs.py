@@ -55,15 +55,16 @@ def mirror(name, place, behind_deg, width_m, height_m, zone_deg, radius_m=0.0):
             f"lower_left_m = {corner(-1, -1)}\nlower_right_m = {corner(1, -1)}\nupper_left_m = {corner(-1, 1)}\n\n")
 
 
-# Sizes of glass: the door mirrors' are convex (UN R46 class III: at least 1.2 m), the inside one is flat. Heads turn less than eyes, so that
+# Sizes of glass: the door mirrors' are convex (UN R46 class III: at least 1.2 m), the inside one is flat (class I: at least 0.15 m by 0.04 m)
+# and hangs behind the windscreen's head. Heads turn less than eyes, so that
 # the zones reach well towards the front, and meet between the two right ones.
 LEFT, INSIDE, RIGHT = "left mirror", "inside mirror", "right mirror"
-ASPECT = {LEFT: 0.19 / 0.112, INSIDE: 0.25 / 0.085, RIGHT: 0.19 / 0.112}
+ASPECT = {LEFT: 0.19 / 0.112, INSIDE: 0.24 / 0.06, RIGHT: 0.19 / 0.112}
 
 
 def mirrors(right_deg):
     return (mirror(LEFT, (1.95, 0.95, 1.0), 171, 0.19, 0.112, (25, 75), 1.4)
-            + mirror(INSIDE, (1.80, 0.0, 1.30), 180, 0.25, 0.085, (-45, -20))
+            + mirror(INSIDE, (1.82, 0.0, 1.26), 180, 0.24, 0.06, (-45, -20))
             + mirror(RIGHT, (1.95, -0.95, 1.0), right_deg, 0.19, 0.112, (-80, -45), 1.4))
 
 
@@ -91,15 +92,14 @@ write("seven-screens", "# Seven projection screens around a complete car: 220 x 
       "# (Lebram, Engstrom and Gustavsson 2006, section 3.2.) The mirrors are the car's own. Made by make_rigs.py.", seven)
 
 MONITOR = (1920, 1080)
-desk = [("left", inset(LEFT, 0.80, 0.60, 0.18, MONITOR)), ("middle", "instruments = true\n" + inset(INSIDE, 0.40, 0.02, 0.22, MONITOR)),
-        ("right", inset(RIGHT, 0.02, 0.60, 0.18, MONITOR))]
+desk = [("left", ""), ("middle", "instruments = true\n"), ("right", "")]  # They see the mirrors where they are.
 three = "[car]\nsource = \"automatic\"\n\n" + MIRRORS + "".join(
     screen(name, 90 - 60 * i, 30 - 60 * i, 34, MONITOR[0], 0.8, rise_m=-0.1, height_px=MONITOR[1], extra=f"monitor = {i}\nshow_interior = true\n{more}")
     for i, (name, more) in enumerate(desk))
 write("three-monitors", "# Three monitors on a desk, each 60 degrees wide. Measure your own and change the corners. Made by make_rigs.py.", three)
 
 WINDOW = (1280, 747)
-insets = inset(INSIDE, 0.40, 0.02, 0.22, WINDOW) + inset(LEFT, 0.01, 0.58, 0.17, WINDOW) + inset(RIGHT, 0.82, 0.58, 0.17, WINDOW)
-write("desktop", "# One window on a desktop, with the three mirrors as insets. Made by make_rigs.py.",
+insets = inset(INSIDE, 0.40, 0.02, 0.24, WINDOW) + inset(LEFT, 0.01, 0.58, 0.17, WINDOW) + inset(RIGHT, 0.82, 0.58, 0.17, WINDOW)
+write("desktop", "# One window on a desktop, with the three mirrors as insets while it does not see them in their places. Made by make_rigs.py.",
       "[car]\nsource = \"keyboard\"\n\n" + MIRRORS
       + screen("desktop", 37, -37, 38.7, WINDOW[0], 0.7, rise_m=-0.15, extra="show_interior = true\ninstruments = true\n" + insets))

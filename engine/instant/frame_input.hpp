@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "engine/effects/ice/ice_body.hpp"
+#include "engine/instant/mirror_glass.hpp"
 #include "engine/instant/view.hpp"
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/resolved_scene.hpp"
@@ -92,6 +93,7 @@ struct FrameInput {
   double simulated_time_s = 0.0;  ///< Moves clouds and flashes beacons.
   Environment environment;
   std::vector<FrameView> views;
+  std::vector<MirrorGlass> mirrors;  ///< Seen in the first view; their pictures lie beside each other.
   std::vector<DrawnParticipant> participants;
   std::vector<DynamicMesh> meshes;
   std::vector<ice::IceBody> ice;           ///< To see through; a mesh of its shape that is not `seen` casts its shadow.

@@ -107,6 +107,7 @@ Instant describe(FrameInput input, const SceneSummary& scene, std::shared_ptr<co
   instant.ice_surroundings_px = input.ice_surroundings_px;
   instant.ice_surroundings_kept = input.ice_surroundings_kept;
   instant.views = std::move(input.views);
+  instant.mirrors = std::move(input.mirrors);
   instant.smoke = std::move(input.smoke);
   for (const DrawnParticipant& participant : input.participants) {
     constexpr double furthest_m = 250.0;

@@ -51,11 +51,12 @@ struct Instant {
   Exposure exposure;
   /// Of their emission with which materials are seen: an eye that has adapted to the dark glares less than it says.
   float emission_share = 1.0f;
-  float extinction_per_m = 0.0f;  ///< Of the air: fog and, where the first view's eye sees the sky, what falls.
-  float share_of_sky = 1.0f;      ///< Where the first view's eye is: no rain falls under a roof.
-  std::optional<RoadPlane> road;  ///< Near the first view's eye: what a wet road mirrors in.
-  std::vector<FrameView> views;   ///< At least one.
-  std::vector<PlacedMesh> parts;  ///< Of participants, ordered by mesh.
+  float extinction_per_m = 0.0f;     ///< Of the air: fog and, where the first view's eye sees the sky, what falls.
+  float share_of_sky = 1.0f;         ///< Where the first view's eye is: no rain falls under a roof.
+  std::optional<RoadPlane> road;     ///< Near the first view's eye: what a wet road mirrors in.
+  std::vector<FrameView> views;      ///< At least one.
+  std::vector<MirrorGlass> mirrors;  ///< Seen in the first view.
+  std::vector<PlacedMesh> parts;     ///< Of participants, ordered by mesh.
   std::vector<LooseMesh> loose;
   std::vector<ice::IceBody> ice;    ///< None without vertices.
   std::vector<ice::IceBody> glass;  ///< Likewise.

@@ -82,8 +82,11 @@ SurfaceDraws prepare_casters(PassContext& context, const DeviceScene& scene, con
   // A shadow falls away from the light, no further than a high thing's at a low sun.
   const glm::vec3 reach = instant.light->light_direction * -120.0f;
   std::vector<std::pair<ViewVolume, glm::vec3>> volumes;
-  for (const FrameView& view : instant.views)
+  const auto add_volume = [&](const FrameView& view) {
     volumes.emplace_back(view_volume(view), glm::vec3(shadows.eye_m - world_eye(view)));
+  };
+  for (const FrameView& view : instant.views) add_volume(view);
+  for (const MirrorGlass& mirror : instant.mirrors) add_volume(mirror.picture);
   const auto casts = [&](const PlacedMesh& mesh, const glm::vec3& centre_m) {
     if (!mesh.casts_shadow || mesh.radius_m < least_radius_m || !covers(cascade, centre_m, mesh.radius_m)) return false;
     // Seen along the light, a shadow lies where its caster does: what a finer cascade holds wholly is drawn there alone.
@@ -121,6 +124,10 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
   for (const FrameView& view : instant.views)
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps, {},
                                        {frame.road_mirror && frame.views.empty(), width, height}));
+  for (const MirrorGlass& mirror : instant.mirrors)
+    frame.mirror_views.push_back(
+        prepare_view(context, scene, instant, mirror.picture, frame.shadows, dynamic, smoke, lamps));
+  frame.mirrors = prepare_mirror_glass(context, instant.mirrors, eye_m);
   frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {
     frame.ice_upload = upload_ice(context, instant.ice);

@@ -8,6 +8,7 @@
 #include "engine/instant/instant.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/lamp_field.hpp"
+#include "engine/render/passes/mirror_pass.hpp"
 #include "engine/render/passes/road_mirror_pass.hpp"
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
@@ -34,6 +35,8 @@ struct PreparedView {
 
 struct PreparedFrame {
   std::vector<PreparedView> views;
+  std::vector<PreparedView> mirror_views;  ///< What is seen in Instant::mirrors.
+  PreparedGlass mirrors;                   ///< In the first view.
   ShadowCascades shadows;
   std::optional<PreparedRoadMirror> road_mirror;  ///< Of the first view.
   std::array<SurfaceDraws, cascade_count> casters;

@@ -23,6 +23,7 @@
 #include "engine/render/passes/glow_pass.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 #include "engine/render/passes/lamp_field.hpp"
+#include "engine/render/passes/mirror_pass.hpp"
 #include "engine/render/passes/overlay_pass.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/road_mirror_pass.hpp"
@@ -70,6 +71,7 @@ struct Renderer::State {
   PrecipitationPass precipitation_pass;
   SmokePass smoke_pass;
   RoadMirrorPass road_mirror_pass;
+  MirrorPass mirror_pass;
   IcePass ice_pass;
   BloomPass bloom_pass;
   ToneMappingPass tone_mapping_pass;
@@ -91,12 +93,13 @@ struct Renderer::State {
   bool renew_lamps(const Vec3& eye_m);
   std::optional<std::uint32_t> next_window_image(const vulkan::FrameSlot& slot);
   void draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant, const FrameData& soot,
-                 const std::function<void()>& draw_seen_through);
+                 const std::function<void()>& draw_seen_through, const PreparedGlass& mirrors = {});
   ViewBindings view_bindings() const {
     return {{}, sky_table.view, targets.shadow_map.view, noise.view, lamp_image.view};
   }
   void draw_views(PassContext& context, const PreparedFrame& frame, const Instant& instant);
   void draw_surroundings(PassContext& context, std::span<const PreparedView> views, const Instant& instant);
+  void draw_mirrors(PassContext& context, const PreparedFrame& frame, const Instant& instant);
 };
 
 void Renderer::State::create(const RendererOptions& wanted) {
@@ -137,6 +140,7 @@ void Renderer::State::create(const RendererOptions& wanted) {
   create_shadow_pass(shadow_pass, device, layout, formats.depth);
   create_contact_pass(contact_pass, device, layout, formats);
   create_glow_pass(glow_pass, device, layout, formats);
+  create_mirror_pass(mirror_pass, device, layout, formats);
   create_precipitation_pass(precipitation_pass, device, layout, formats);
   create_smoke_pass(smoke_pass, device, layout, formats);
   if (wanted.bloom == Bloom::present || (wanted.bloom == Bloom::automatic && !software)) {
@@ -163,6 +167,7 @@ void Renderer::State::destroy() {
   destroy_bloom_pass(bloom_pass, device, memory);
   destroy_ice_pass(ice_pass, device, memory);
   destroy_road_mirror(road_mirror_pass, device, memory);
+  destroy_mirror_pass(mirror_pass, device, memory);
   destroy_smoke_pass(smoke_pass, device);
   destroy_precipitation_pass(precipitation_pass, device);
   destroy_contact_pass(contact_pass, device);
@@ -191,7 +196,8 @@ SurfaceLight surface_light_of(const Instant& instant, bool lit_by_headlights, bo
 }  // namespace
 
 void Renderer::State::draw_view(PassContext& context, const PreparedView& prepared, const Instant& instant,
-                                const FrameData& soot, const std::function<void()>& draw_seen_through) {
+                                const FrameData& soot, const std::function<void()>& draw_seen_through,
+                                const PreparedGlass& mirrors) {
   const Environment& environment = instant.environment;
   set_viewport(context, prepared.view->viewport);
   vkCmdSetFrontFace(context.slot.commands,
@@ -207,6 +213,10 @@ void Renderer::State::draw_view(PassContext& context, const PreparedView& prepar
   const SurfaceLight surface_light = surface_light_of(instant, prepared.lit_by_headlights, prepared.lit_by_lamps);
   push_records(context, soot);
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::opaque, surface_light);
+  if (mirrors.count > 0) {
+    draw_mirror_glass(mirror_pass, context, mirrors);
+    push_records(context, soot);
+  }
   mark_pass(context, "opaque");
   draw_surfaces(surface_pass, context, scene, prepared.draws, SurfaceKind::cut, surface_light);
   mark_pass(context, "cut-outs");
@@ -240,13 +250,16 @@ void Renderer::State::draw_views(PassContext& context, const PreparedFrame& fram
     const PreparedView& prepared = frame.views[i];
     if (i > 0) clear_inset(context, targets, prepared.view->viewport);
     const Vec3 eye_m = world_eye(*prepared.view);
-    draw_view(context, prepared, instant, soot, [&] {
-      if (frame.ice.list.empty() && instant.glass.empty()) return;
-      if (!frame.ice.list.empty()) draw_ice(ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
-      draw_glass(ice_pass, context, instant.glass, frame.glass, eye_m, false);
-      // Ice has no instances and its own constants; what follows has both.
-      bind_instances(context, prepared.draws.records);
-    });
+    draw_view(
+        context, prepared, instant, soot,
+        [&] {
+          if (frame.ice.list.empty() && instant.glass.empty()) return;
+          if (!frame.ice.list.empty()) draw_ice(ice_pass, context, frame.ice, i, instant.ice, frame.ice_upload);
+          draw_glass(ice_pass, context, instant.glass, frame.glass, eye_m, false);
+          // Ice has no instances and its own constants; what follows has both.
+          bind_instances(context, prepared.draws.records);
+        },
+        i == 0 ? frame.mirrors : PreparedGlass{});
     draw_glass(ice_pass, context, instant.glass, frame.glass, eye_m, true);
   }
   vkCmdEndRendering(context.slot.commands);
@@ -257,6 +270,13 @@ void Renderer::State::draw_surroundings(PassContext& context, std::span<const Pr
   const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
   begin_view_rendering(context, ice_pass.targets[IceImage::around], ice_pass.targets[IceImage::around_depth]);
   for (const PreparedView& prepared : views) draw_view(context, prepared, instant, soot, [] {});
+  vkCmdEndRendering(context.slot.commands);
+}
+
+void Renderer::State::draw_mirrors(PassContext& context, const PreparedFrame& frame, const Instant& instant) {
+  const FrameData soot = store(context, std::span<const std::uint8_t>(instant.soot.cover));
+  begin_mirror_rendering(mirror_pass, context, instant.mirrors);
+  for (const PreparedView& prepared : frame.mirror_views) draw_view(context, prepared, instant, soot, [] {});
   vkCmdEndRendering(context.slot.commands);
 }
 
@@ -305,6 +325,11 @@ void Renderer::State::draw(const Instant& instant) {
   if (frame.road_mirror && !road_mirror_fits(road_mirror_pass, targets.width, targets.height)) {
     wait_for_frames(ring, device);
     prepare_road_mirror_targets(road_mirror_pass, memory, formats, targets.width, targets.height);
+  }
+
+  if (!instant.mirrors.empty() && !mirrors_fit(mirror_pass, instant.mirrors)) {
+    wait_for_frames(ring, device);
+    prepare_mirror_targets(mirror_pass, memory, formats, instant.mirrors);
   }
 
   RenderGraph graph;
@@ -359,6 +384,19 @@ void Renderer::State::draw(const Instant& instant) {
         });
     view_reads.push_back({mirror[0], Access::sampled});
     view_reads.push_back({mirror[2], Access::sampled});
+  }
+  std::array<ResourceId, 3> mirrors{};  // Picture, samples, depth.
+  if (!frame.mirror_views.empty()) {
+    mirrors = {add_image("mirrors", mirror_pass.picture, mirror_pass.picture_access),
+               add_image("samples of mirrors", mirror_pass.samples, mirror_pass.samples_access),
+               add_image("depth of mirrors", mirror_pass.depth, mirror_pass.depth_access)};
+    std::vector<ResourceUse> writes{{mirrors[0], Access::color_attachment}, {mirrors[2], Access::depth_attachment}};
+    if (mirror_pass.multisampled()) writes.push_back({mirrors[1], Access::color_attachment});
+    graph.add_pass("mirrors", {view_reads, writes}, [&] {
+      draw_mirrors(context, frame, instant);
+      mark_pass(context, "mirrors");
+    });
+    view_reads.push_back({mirrors[0], Access::sampled});
   }
   std::optional<IceResources> ice;
   if (icy) {
@@ -437,6 +475,11 @@ void Renderer::State::draw(const Instant& instant) {
     road_mirror_pass.depth_access = left[mirror[1]];
     road_mirror_pass.ripples_access = left[mirror[2]];
   }
+  if (!frame.mirror_views.empty()) {
+    mirror_pass.picture_access = left[mirrors[0]];
+    mirror_pass.samples_access = left[mirrors[1]];
+    mirror_pass.depth_access = left[mirrors[2]];
+  }
   if (window_image) {
     submit(ring, context.slot, device, {context.slot.image_acquired, swapchain.finished[*window_image]});
     present(swapchain, device, *window_image);
@@ -498,6 +541,9 @@ Expected<void> Renderer::resize(std::uint32_t width, std::uint32_t height) {
 }
 
 Expected<void> Renderer::draw(const Instant& instant) {
+  for (const MirrorGlass& mirror : instant.mirrors)
+    SEPTET_CHECK(mirror.picture.viewport.x >= 0 && mirror.picture.viewport.y >= 0, "a mirror's picture at ({}, {})",
+                 mirror.picture.viewport.x, mirror.picture.viewport.y);
   for (const FrameView& view : instant.views) {
     const auto& [x, y, w, h] = view.viewport;
     SEPTET_CHECK(

@@ -91,7 +91,7 @@ frame::ScreenViews views_at(const Shot& shot, const Pivot& pivot, const Look& lo
       instant::symmetric_view(pivot.in_views_m - shot.distance_m * look.direction(), look.heading_rad(),
                               look.pitch_rad(), shot.field_of_view_rad, 2.0 * std::atan(slope * height_px / width_px));
   view.viewport = {0, 0, width_px, height_px};
-  return {{view}, shot.interior};
+  return {{view}, {}, shot.interior};
 }
 
 }  // namespace septet::film

@@ -88,9 +88,14 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
   };
   ScreenViews result;
   result.show_interior = screen.show_interior;
+  const auto is_in_place = [&](const rig::Mirror& mirror) {
+    return std::ranges::find(result.mirrors, mirror.name, [](const SeenMirror& seen) { return seen.mirror.name; }) !=
+           result.mirrors.end();
+  };
   for (const rig::View& view : screen.views) {
     const instant::ScreenCorners corners{view.window.lower_left_m, view.window.lower_right_m, view.window.upper_left_m};
     const bool is_whole = &view == &screen.views.front();
+    if (view.mirror && is_in_place(rig.mirrors[*view.mirror])) continue;
     const auto projection = view.mirror ? instant::mirror_view(corners, eye_m, rig.mirrors[*view.mirror].radius_m)
                                         : instant::off_axis_view(is_whole ? turned(view.window) : corners, eye_m);
     if (!projection) {
@@ -103,6 +108,8 @@ Expected<ScreenViews> screen_views(const rig::Rig& rig, const rig::Screen& scree
     frame_view.viewport = viewport(view, screen);
     frame_view.mirrored = view.mirrored;
     result.views.push_back(frame_view);
+    if (is_whole && screen.show_interior)
+      result.mirrors = seen_mirrors(rig, screen, frame_view.projection, frame_view.viewport);
   }
   return result;
 }
@@ -137,6 +144,7 @@ instant::FrameInput client_frame(const Snapshot& shown, const ScreenViews& views
         add_hands(frame, interior.steering_wheel_rad, participant, scene);
         add_instruments(frame, readings_of(shown, participant), participant, scene);
         add_windscreen(frame, shown, participant, scene);
+        add_mirrors(frame, views.mirrors, scene);
       }
     }
     frame.participants.push_back(drawn);

@@ -45,6 +45,12 @@ constexpr std::uint32_t contact_vert_code[] = {
 constexpr std::uint32_t contact_frag_code[] = {
 #include "engine/render/shaders/contact.frag.inc"
 };
+constexpr std::uint32_t mirror_glass_vert_code[] = {
+#include "engine/render/shaders/mirror_glass.vert.inc"
+};
+constexpr std::uint32_t mirror_glass_frag_code[] = {
+#include "engine/render/shaders/mirror_glass.frag.inc"
+};
 constexpr std::uint32_t wet_lamp_vert_code[] = {
 #include "engine/render/shaders/wet_lamp.vert.inc"
 };
@@ -119,6 +125,8 @@ std::span<const std::uint32_t> precipitation_vert() { return precipitation_vert_
 std::span<const std::uint32_t> precipitation_frag() { return precipitation_frag_code; }
 std::span<const std::uint32_t> contact_vert() { return contact_vert_code; }
 std::span<const std::uint32_t> contact_frag() { return contact_frag_code; }
+std::span<const std::uint32_t> mirror_glass_vert() { return mirror_glass_vert_code; }
+std::span<const std::uint32_t> mirror_glass_frag() { return mirror_glass_frag_code; }
 std::span<const std::uint32_t> wet_lamp_vert() { return wet_lamp_vert_code; }
 std::span<const std::uint32_t> wet_lamp_frag() { return wet_lamp_frag_code; }
 std::span<const std::uint32_t> whole_target_vert() { return whole_target_vert_code; }

@@ -20,6 +20,8 @@ std::span<const std::uint32_t> precipitation_vert();
 std::span<const std::uint32_t> precipitation_frag();
 std::span<const std::uint32_t> contact_vert();
 std::span<const std::uint32_t> contact_frag();
+std::span<const std::uint32_t> mirror_glass_vert();
+std::span<const std::uint32_t> mirror_glass_frag();
 std::span<const std::uint32_t> wet_lamp_vert();
 std::span<const std::uint32_t> wet_lamp_frag();
 std::span<const std::uint32_t> whole_target_vert();

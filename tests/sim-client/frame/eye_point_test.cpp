@@ -2,6 +2,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -63,10 +64,17 @@ TEST_CASE("whoever looks aside sees in the middle of the screen what lies aside 
   const Vec3 far_aside_m = rig.eye_point_m + 100.0 * Vec3(std::cos(turn_rad), std::sin(turn_rad), 0.0);
   CHECK(glm::distance(drawn_at(ahead->views[0], far_ahead_m), drawn_at(aside->views[0], far_aside_m)) < 1e-9);
   CHECK(drawn_at(aside->views[0], far_ahead_m).x > 1.0);  // It has gone out to the right.
-  for (std::size_t i = 1; i < ahead->views.size(); ++i) {
-    CHECK(ahead->views[i].mirrored);
-    CHECK(ahead->views[i].projection.eye_m == aside->views[i].projection.eye_m);
-    CHECK(ahead->views[i].projection.clip_from_eye_relative == aside->views[i].projection.clip_from_eye_relative);
+  // Whoever looks there sees the left one in its place, and no second time.
+  CHECK(ahead->mirrors.empty());
+  REQUIRE(aside->mirrors.size() == 1);
+  CHECK(aside->mirrors[0].mirror.name == "left mirror");
+  REQUIRE(ahead->views.size() == 4);
+  REQUIRE(aside->views.size() == 3);
+  for (const auto& [before, after] : {std::pair{1, 1}, {3, 2}}) {
+    CHECK(ahead->views[before].mirrored);
+    CHECK(ahead->views[before].projection.eye_m == aside->views[after].projection.eye_m);
+    CHECK(ahead->views[before].projection.clip_from_eye_relative ==
+          aside->views[after].projection.clip_from_eye_relative);
   }
 }
 
