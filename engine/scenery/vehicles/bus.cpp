@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/lens.hpp"
+#include "engine/scenery/vehicles/person.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/scenery/vehicles/wheel.hpp"
@@ -47,18 +49,69 @@ geometry::PolygonMesh hull(const BusShape& s, DetailLevel level) {
   return hull;
 }
 
+/// Near by one sees in: what is behind the panes of `body`, which are cut out of what is drawn of it.
+struct Saloon {
+  MeshBuilder& builder;
+  const geometry::PolygonMesh& body;
+  geometry::PolygonMesh open = body;
+
+  void add_pane(Face face, glm::vec2 low, glm::vec2 high) {
+    const PatchOptions options{0.012f, 0.0f, 0.2f};
+    open = cut_out(open, face, rectangle(face, low, high), options);
+    builder.material = index_of(Finish::clear_glass);
+    draw_patch(builder, body, face, rectangle(face, low, high), options);
+  }
+
+  /// Draws what is left of the body, lined, and a floor with low walls.
+  void close(const BusShape& s) {
+    builder.material = index_of(Finish::paint);
+    builder.append(open, glm::mat4(1.0f), true);
+    builder.material = index_of(Finish::cabin);
+    add_lining(builder, open, s.window_low + 0.02f, s.rear - 1.0f, s.front + 1.0f);
+    const float rear = s.rear + 0.12f, front = s.front - 0.25f, y = s.half - 0.08f, low = s.window_low - 0.5f,
+                top = s.window_low + 0.01f;
+    builder.patch({rear, y, low}, {rear, -y, low}, {front, -y, low}, {front, y, low});
+    builder.patch({rear, y, low}, {front, y, low}, {front, y, top}, {rear, y, top});
+    builder.patch({front, -y, low}, {rear, -y, low}, {rear, -y, top}, {front, -y, top});
+    builder.patch({front, y, low}, {front, -y, low}, {front, -y, top}, {front, y, top});
+    builder.patch({rear, -y, low}, {rear, y, low}, {rear, y, top}, {rear, -y, top});
+  }
+};
+
+/// The driver, and rows of two and two with whoever rides.
+VehicleParts passengers(const BusShape& s) {
+  const float head = s.window_low + 0.36f, first = s.front - 2.6f, last = s.rear + 1.0f;
+  std::vector<SeatPlace> places{{{s.front - 1.15f - 0.6f * s.lean, 0.62f, head}}};
+  int number = 0;
+  for (float x = first; x > last; x -= 0.86f)
+    for (const float y : {0.95f, 0.45f, -0.45f, -0.95f}) {
+      ++number;
+      places.push_back({{x, y * s.half / 1.275f, head}, number * 7 % 5 < 2});
+    }
+  return seated_people(places);
+}
+
 void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& model, DetailLevel level) {
   const bool far = level == DetailLevel::far, fine = level == DetailLevel::near;
   const geometry::PolygonMesh body = hull(s, level);
-  builder.material = index_of(Finish::paint);
-  builder.append(body, glm::mat4(1.0f), true);
+  Saloon saloon{builder, body};
+  if (!fine) {
+    builder.material = index_of(Finish::paint);
+    builder.append(body, glm::mat4(1.0f), true);
+  }
   const auto patch = [&](Finish finish, Face face, glm::vec2 low, glm::vec2 high, float lift = 0.012f) {
     builder.material = index_of(finish);
     draw_patch(builder, body, face, rectangle(face, low, high), {lift, 0.0f, 0.2f});
   };
+  const auto pane = [&](Face face, glm::vec2 low, glm::vec2 high) {
+    if (fine)
+      saloon.add_pane(face, low, high);
+    else
+      patch(Finish::glass, face, low, high);
+  };
   const float inner = s.half - 0.14f;
-  patch(Finish::glass, Face::front, {-inner, s.lockers ? 1.35f : 1.0f}, {inner, s.height - 0.42f});
-  patch(Finish::glass, Face::rear, {-inner, s.window_low + 0.2f}, {inner, s.window_high});
+  pane(Face::front, {-inner, s.lockers ? 1.35f : 1.0f}, {inner, s.height - 0.42f});
+  pane(Face::rear, {-inner, s.window_low + 0.2f}, {inner, s.window_high});
   if (!far) {
     patch(Finish::trim, Face::front, {-inner, 0.45f}, {inner, 0.62f});
     patch(Finish::plate, Face::front, {-0.26f, 0.64f}, {0.26f, 0.75f}, 0.02f);
@@ -76,7 +129,7 @@ void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& mode
       const float a = std::lerp(from, to, static_cast<float>(k) / static_cast<float>(panes)),
                   b = std::lerp(from, to, static_cast<float>(k + 1) / static_cast<float>(panes)) -
                       (fine ? 0.06f : 0.0f);
-      patch(Finish::glass, face, {a, s.window_low}, {b, s.window_high});
+      pane(face, {a, s.window_low}, {b, s.window_high});
     }
     for (const float x : {0.0f, static_cast<float>(model.wheelbase_m)})  // Dark arches.
       patch(Finish::underbody, face, {x - 0.62f, s.ground}, {x + 0.62f, 1.12f}, 0.006f);
@@ -85,9 +138,12 @@ void add_faces(MeshBuilder& builder, const BusShape& s, const VehicleModel& mode
   }
   if (far) return;
   const float front_door = s.front - 1.25f;
-  patch(Finish::glass, Face::right, {front_door, 0.5f}, {front_door + 0.95f, s.window_high});
-  if (s.doors > 1) patch(Finish::glass, Face::right, {2.2f, 0.5f}, {3.4f, s.window_high});
-  if (s.doors > 2) patch(Finish::glass, Face::right, {-2.6f, 0.5f}, {-1.4f, s.window_high});
+  // Doors are of glass; what is beside the windows has been drawn with them.
+  const float door_top = fine ? s.window_low - 0.02f : s.window_high;
+  patch(Finish::glass, Face::right, {front_door, 0.5f}, {front_door + 0.95f, door_top});
+  if (s.doors > 1) patch(Finish::glass, Face::right, {2.2f, 0.5f}, {3.4f, door_top});
+  if (s.doors > 2) patch(Finish::glass, Face::right, {-2.6f, 0.5f}, {-1.4f, door_top});
+  if (fine) saloon.close(s);
   builder.material = index_of(Finish::trim);
   for (const float side : {1.0f, -1.0f}) {  // Mirrors like ears.
     const float a = side * (s.half - 0.1f), b = side * (s.half + 0.18f);
@@ -116,6 +172,8 @@ VehicleParts bus_parts(const VehicleModel& model) {
         }
     }
     VehicleParts of_level{{"body", builder.take(), 0, {Placement{}}}};
+    if (level == DetailLevel::near)
+      for (VehiclePart& inside : passengers(s)) of_level.push_back(std::move(inside));
     LampPlaces lamps;
     lamps.nose_x = s.front + 0.02f;
     lamps.tail_x = s.rear - 0.02f;

@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <vector>
-
-#include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/scenery/vehicles/car_details.hpp"
-#include "engine/scenery/vehicles/limb.hpp"
+#include "engine/scenery/vehicles/person.hpp"
 
 namespace septet::scenery {
 namespace {
@@ -28,26 +25,6 @@ Cabin cabin_of(const CarSurface& car) {
           belt - 0.30f, belt,           std::min(belt + 0.32f, car.height_m() - 0.20f)};
 }
 
-/// From the hips up, belted in; the head's middle is in the origin, and looks ahead.
-PolygonMesh sitting(std::uint32_t splits) {
-  MeshBuilder b;
-  b.material = index_of(Finish::skin);
-  add_blob(b, {0.0f, 0, 0.0f}, {0.095f, 0.076f, 0.115f}, splits);
-  add_limb(b, {-0.02f, 0, -0.20f}, {-0.01f, 0, -0.09f}, 0.055f, 0.05f, 6);
-  b.material = index_of(Finish::leather);
-  add_blob(b, {-0.025f, 0, 0.035f}, {0.096f, 0.086f, 0.092f}, 0);
-  b.material = index_of(Finish::cloth_bright);
-  add_blob(b, {-0.05f, 0, -0.42f}, {0.14f, 0.225f, 0.25f}, 0);
-  return b.take();
-}
-
-PolygonMesh seat() {
-  MeshBuilder b;
-  add_box(b, Finish::trim, {-0.20f, -0.25f, -0.75f}, {-0.11f, 0.25f, -0.13f});
-  add_box(b, Finish::trim, {-0.19f, -0.12f, -0.12f}, {-0.12f, 0.12f, 0.08f});
-  return b.take();
-}
-
 }  // namespace
 
 bool carries_goods(const VehicleModel& model) {
@@ -66,32 +43,7 @@ PolygonMesh open_body(const CarSurface& car) {
   // The inside of roof, pillars and doors: what encloses the cabin, from behind and a little further in.
   MeshBuilder lining;
   lining.material = index_of(Finish::cabin);
-  std::vector<glm::vec3> normals(open.vertices_m.size(), glm::vec3(0.0f));
-  for (const auto& corners : open.polygons) {
-    const std::uint32_t last = corners[geometry::corner_count(corners) - 1];
-    const glm::vec3 normal = glm::cross(open.vertices_m[corners[2]] - open.vertices_m[corners[0]],
-                                        open.vertices_m[last] - open.vertices_m[corners[1]]);
-    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) normals[corners[k]] += normal;
-  }
-  std::vector<std::uint32_t> inner(open.vertices_m.size(), geometry::no_vertex);
-  const auto behind = [&](std::uint32_t v) {
-    if (inner[v] != geometry::no_vertex) return inner[v];
-    const float length = glm::length(normals[v]);
-    const glm::vec3 in = length > 0.0f ? normals[v] / length : glm::vec3(0, 0, 1);
-    return inner[v] = lining.vertex(open.vertices_m[v] - 0.02f * in);
-  };
-  for (const auto& c : open.polygons) {
-    float highest = -1e9f, x = 0.0f;
-    for (std::uint32_t k = 0; k < geometry::corner_count(c); ++k) {
-      highest = std::max(highest, open.vertices_m[c[k]].z);
-      x += open.vertices_m[c[k]].x / static_cast<float>(geometry::corner_count(c));
-    }
-    if (highest < cabin.belt - 0.02f || x < cabin.rear - 0.1f || x > cabin.front + 0.1f) continue;
-    if (geometry::is_triangle(c))
-      lining.triangle(behind(c[2]), behind(c[1]), behind(c[0]));
-    else
-      lining.quad(behind(c[3]), behind(c[2]), behind(c[1]), behind(c[0]));
-  }
+  add_lining(lining, open, cabin.belt - 0.02f, cabin.rear - 0.1f, cabin.front + 0.1f);
   // A tub under the windows, as narrow behind as the tail is.
   const float y = 0.88f * cabin.half, rear_y = std::min(y, 0.86f * car.half_width_m() * car.shape.tail_half_width);
   const bool goods = carries_goods(car.model);
@@ -114,7 +66,7 @@ PolygonMesh open_body(const CarSurface& car) {
 VehicleParts occupants(const CarSurface& car) {
   const Cabin cabin = cabin_of(car);
   const Glasshouse g = glasshouse_of(car);
-  VehiclePart people{"occupant", sitting(1), 0, {}}, seats{"seat", seat(), 0, {}};
+  VehiclePart people{"occupant", sitting_person(1), 0, {}}, seats{"seat", seat_back(), 0, {}};
   const float aside = 0.44f * cabin.half;
   const auto row = [&](float x, bool left, bool right) {
     for (const float side : {1.0f, -1.0f}) {

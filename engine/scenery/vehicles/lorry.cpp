@@ -8,6 +8,7 @@
 #include "engine/scenery/vehicles/lens.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/lorry_load.hpp"
+#include "engine/scenery/vehicles/person.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
 #include "engine/scenery/vehicles/wheel.hpp"
@@ -92,21 +93,37 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
   const bool fine = level == DetailLevel::near;
   const Finish paint = s.fire ? Finish::fire_red : Finish::paint;
   const geometry::PolygonMesh cab = cab_box(s, fine);
-  builder.material = index_of(paint);
-  builder.append(cab, glm::mat4(1.0f), true);
+  geometry::PolygonMesh open = cab;
   const auto patch = [&](Finish finish, Face face, const PatchOutline& outline, float lift = 0.012f) {
     builder.material = index_of(finish);
     draw_patch(builder, cab, face, outline, {lift, fine ? 0.08f : 0.0f, 0.2f});
   };
+  const auto pane = [&](Face face, const PatchOutline& outline) {
+    // Near by one sees in.
+    if (fine) open = cut_out(open, face, outline, {0.012f, 0.08f, 0.2f});
+    patch(fine ? Finish::clear_glass : Finish::glass, face, outline);
+  };
   const float half = s.bay.half - 0.04f, window_top = s.cab_top - 0.37f;
-  patch(Finish::glass, Face::front, rectangle(Face::front, {-half + 0.16f, 1.72f}, {half - 0.16f, window_top}));
+  pane(Face::front, rectangle(Face::front, {-half + 0.16f, 1.72f}, {half - 0.16f, window_top}));
   patch(Finish::trim, Face::front, rectangle(Face::front, {-half + 0.25f, 0.98f}, {half - 0.25f, 1.52f}));
   if (level != DetailLevel::far)
     patch(Finish::trim, Face::front, rectangle(Face::front, {-half + 0.14f, 0.76f}, {half - 0.14f, 0.93f}));
   for (const Face face : {Face::left, Face::right}) {
-    patch(Finish::glass, face, rectangle(face, {s.front - 1.25f, 1.75f}, {s.front - 0.32f, window_top - 0.1f}));
+    pane(face, rectangle(face, {s.front - 1.25f, 1.75f}, {s.front - 0.32f, window_top - 0.1f}));
     if (s.fire)  // The crew sits behind the driver.
-      patch(Finish::glass, face, rectangle(face, {s.front - 2.45f, 1.75f}, {s.front - 1.45f, window_top - 0.1f}));
+      pane(face, rectangle(face, {s.front - 2.45f, 1.75f}, {s.front - 1.45f, window_top - 0.1f}));
+  }
+  builder.material = index_of(paint);
+  builder.append(open, glm::mat4(1.0f), true);
+  if (fine) {  // Roof, pillars and rear wall from within, over a floor below the windows.
+    constexpr float floor = 1.35f;
+    builder.material = index_of(Finish::cabin);
+    add_lining(builder, open, 1.74f, s.cab_rear - 1.0f, s.front + 1.0f);
+    const float front = s.front - 0.2f, rear = s.cab_rear + 0.05f, y = half - 0.05f, top = 1.74f;
+    builder.patch({rear, y, floor}, {rear, -y, floor}, {front, -y, floor}, {front, y, floor});
+    builder.patch({rear, y, floor}, {front, y, floor}, {front, y, top}, {rear, y, top});
+    builder.patch({front, -y, floor}, {rear, -y, floor}, {rear, -y, top}, {front, -y, top});
+    builder.patch({front, y, floor}, {front, -y, floor}, {front, -y, top}, {front, y, top});
   }
   if (level == DetailLevel::far) return;
   for (const float z : {1.12f, 1.25f, 1.38f})
@@ -122,6 +139,15 @@ void add_cab(MeshBuilder& builder, const LorryShape& s, DetailLevel level) {
   if (s.deflector)
     add_box(builder, Finish::paint, {s.cab_rear + 0.05f, -s.bay.half + 0.22f, s.cab_top - 0.02f},
             {s.front - 0.85f, s.bay.half - 0.22f, std::min(s.bay.height, 3.85f) - 0.18f}, fine ? 0.25f : 0.0f);
+}
+
+/// The driver with an empty seat beside him; of a fire engine the crew, too.
+VehicleParts crew(const LorryShape& s) {
+  const float head = s.cab_top - 0.78f, x = s.front - 0.85f, y = 0.62f;
+  std::vector<SeatPlace> places{{{x, y, head}, true}, {{x, -y, head}, s.fire}};
+  if (s.fire)
+    for (const float side : {y, 0.0f, -y}) places.push_back({{s.front - 2.0f, side, head}, side != 0.0f});
+  return seated_people(places);
 }
 
 /// The frame, and what hangs on it between and behind the wheels.
@@ -187,6 +213,8 @@ VehicleParts lorry_parts(const VehicleModel& model) {
     add_chassis(chassis, s, front_axle, level);
     add_load(load, s.bay, level);
     if (s.has_cab) of_level.push_back({"cab", cab.take(), 0, {Placement{}}});
+    if (s.has_cab && level == DetailLevel::near)
+      for (VehiclePart& inside : crew(s)) of_level.push_back(std::move(inside));
     of_level.push_back({"chassis", chassis.take(), 0, {Placement{}}});
     of_level.push_back({"load", load.take(), 0, {Placement{}}});
     LampPlaces lamps;

@@ -38,10 +38,27 @@ void add_cargo_box(MeshBuilder& builder, const LoadBay& b, DetailLevel level) {
           level == DetailLevel::near ? 0.04f : 0.0f);
   if (level == DetailLevel::far) return;
   builder.material = index_of(Finish::trim);
-  const float x = b.rear - 0.008f;
-  for (const float y : {-0.012f, 0.012f})
-    builder.patch({x, y + 0.008f, b.floor + 0.1f}, {x, y - 0.008f, b.floor + 0.1f}, {x, y - 0.008f, b.height - 0.1f},
-                  {x, y + 0.008f, b.height - 0.1f});
+  // Two doors in a frame: the line between them, theirs around, bars that lock them and hinges.
+  const float low = b.floor + 0.12f, high = b.height - 0.1f, edge = b.half - 0.07f;
+  const auto on_rear = [&](Finish finish, float left, float right, float from, float to, float lift = 0.008f) {
+    const float x = b.rear - lift;
+    builder.material = index_of(finish);
+    builder.patch({x, left, from}, {x, right, from}, {x, right, to}, {x, left, to});
+  };
+  on_rear(Finish::trim, 0.014f, -0.014f, low, high);
+  for (const float side : {1.0f, -1.0f}) on_rear(Finish::trim, side * edge + 0.012f, side * edge - 0.012f, low, high);
+  for (const float z : {low, high}) on_rear(Finish::trim, edge, -edge, z - 0.012f, z + 0.012f);
+  if (level == DetailLevel::near)
+    for (const float side : {1.0f, -1.0f}) {
+      for (const float y : {0.22f, 0.62f}) {
+        on_rear(Finish::chrome, side * y + 0.017f, side * y - 0.017f, low + 0.03f, high - 0.03f, 0.016f);
+        on_rear(Finish::trim, side * y + 0.06f, side * y - 0.06f, low + 0.55f, low + 0.68f, 0.02f);
+      }
+      for (int k = 0; k < 4; ++k) {
+        const float z = std::lerp(low + 0.2f, high - 0.2f, static_cast<float>(k) / 3.0f);
+        on_rear(Finish::trim, side * (edge - 0.07f) + 0.1f, side * (edge - 0.07f) - 0.1f, z - 0.03f, z + 0.03f, 0.012f);
+      }
+    }
   builder.material = index_of(Finish::livery_blue);
   for (const float side : {1.0f, -1.0f}) {
     const float y = side * (b.half + 0.006f), a = side > 0 ? b.front - 0.3f : b.rear + 0.4f,

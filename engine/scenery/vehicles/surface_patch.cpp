@@ -208,6 +208,35 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
   }
 }
 
+void add_lining(geometry::MeshBuilder& builder, const geometry::PolygonMesh& open, float low, float rear, float front) {
+  std::vector<glm::vec3> normals(open.vertices_m.size(), glm::vec3(0.0f));
+  for (const auto& corners : open.polygons) {
+    const std::uint32_t last = corners[geometry::corner_count(corners) - 1];
+    const glm::vec3 normal = glm::cross(open.vertices_m[corners[2]] - open.vertices_m[corners[0]],
+                                        open.vertices_m[last] - open.vertices_m[corners[1]]);
+    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) normals[corners[k]] += normal;
+  }
+  std::vector<std::uint32_t> inner(open.vertices_m.size(), geometry::no_vertex);
+  const auto behind = [&](std::uint32_t v) {
+    if (inner[v] != geometry::no_vertex) return inner[v];
+    const float length = glm::length(normals[v]);
+    const glm::vec3 in = length > 0.0f ? normals[v] / length : glm::vec3(0, 0, 1);
+    return inner[v] = builder.vertex(open.vertices_m[v] - 0.02f * in);
+  };
+  for (const auto& c : open.polygons) {
+    float highest = -1e9f, x = 0.0f;
+    for (std::uint32_t k = 0; k < geometry::corner_count(c); ++k) {
+      highest = std::max(highest, open.vertices_m[c[k]].z);
+      x += open.vertices_m[c[k]].x / static_cast<float>(geometry::corner_count(c));
+    }
+    if (highest < low || x < rear || x > front) continue;
+    if (geometry::is_triangle(c))
+      builder.triangle(behind(c[2]), behind(c[1]), behind(c[0]));
+    else
+      builder.quad(behind(c[3]), behind(c[2]), behind(c[1]), behind(c[0]));
+  }
+}
+
 PatchOutline mirrored(const PatchOutline& outline) {
   const auto& c = outline.corners;
   return {{c[1], c[0], c[3], c[2]}};

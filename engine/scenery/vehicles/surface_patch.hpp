@@ -43,6 +43,10 @@ void draw_patch(geometry::MeshBuilder& builder, const geometry::PolygonMesh& bod
 geometry::PolygonMesh cut_out(const geometry::PolygonMesh& body, Face face, const PatchOutline& outline,
                               const PatchOptions& options = {});
 
+/// The inside of what is left: its polygons from behind, 2 cm further in, of those that reach above `low` and whose middle lies between `rear` and
+/// `front`; with the builder's material.
+void add_lining(geometry::MeshBuilder& builder, const geometry::PolygonMesh& open, float low, float rear, float front);
+
 /// The outline of the left side as seen from the right.
 PatchOutline mirrored(const PatchOutline& outline);
 

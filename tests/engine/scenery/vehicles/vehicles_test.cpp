@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 #include "engine/scene/resolve.hpp"
 #include "engine/scenery/vehicles/cage.hpp"
 #include "engine/scenery/vehicles/car_body.hpp"
+#include "engine/scenery/vehicles/finish.hpp"
 #include "engine/scenery/vehicles/limb.hpp"
 #include "engine/scenery/vehicles/surface_patch.hpp"
 #include "engine/scenery/vehicles/vehicle_parts.hpp"
@@ -33,6 +35,18 @@ bool has_car_lines(const VehicleModel& model) {
   return (model.kind == ParticipantKind::car || model.kind == ParticipantKind::van ||
           model.kind == ParticipantKind::ambulance) &&
          model.name != "caravan";
+}
+
+/// What of the part's polygons nobody sees through.
+geometry::PolygonMesh opaque_part(const VehicleParts& parts, std::string_view name) {
+  const auto part = std::ranges::find(parts, name, &VehiclePart::name);
+  REQUIRE(part != parts.end());
+  geometry::PolygonMesh opaque;
+  opaque.vertices_m = part->mesh.vertices_m;
+  for (std::size_t i = 0; i < part->mesh.polygons.size(); ++i)
+    if (part->mesh.polygon_materials[i] != index_of(Finish::clear_glass))
+      opaque.polygons.push_back(part->mesh.polygons[i]);
+  return opaque;
 }
 
 }  // namespace
@@ -192,6 +206,38 @@ TEST_CASE("a ray through a side window of a near car meets the driver's head bef
         open += !outermost || outermost->y < head.y;
       }
     CHECK(open >= 5);
+  }
+}
+
+TEST_CASE("through the side windows of a near bus or coach one sees out on the other side, past the people between") {
+  for (const char* name : {"coach", "city-bus"}) {
+    CAPTURE(name);
+    const VehicleModel& model = vehicle_models()[*find_vehicle_model(name)];
+    const VehicleParts parts = vehicle_parts(model);
+    const geometry::PolygonMesh opaque = opaque_part(parts, "body near");
+    const geometry::Bounds people = geometry::bounds(opaque_part(parts, "people near"));
+    // Over the heads, along the middle of the windows.
+    int open = 0, tried = 0;
+    for (double x = -model.rear_overhang_m + 1.0; x < model.front_m() - 1.5; x += 0.03, ++tried)
+      open += !surface_point(opaque, Face::left, {x, people.max_m.z + 0.15}).has_value();
+    CHECK(open > 0.8 * tried);
+    CHECK(open < tried);
+    CHECK(people.max_m.z < model.height_m);
+    CHECK(people.max_m.y < 0.5 * model.width_m);
+  }
+}
+
+TEST_CASE("a lorry's driver sits behind glass that one sees through, and no wall hides him") {
+  for (const char* name : {"lorry", "fire-engine", "tractor-unit"}) {
+    CAPTURE(name);
+    const VehicleParts parts = vehicle_parts(vehicle_models()[*find_vehicle_model(name)]);
+    const geometry::PolygonMesh opaque = opaque_part(parts, "cab near");
+    const geometry::Bounds people = geometry::bounds(opaque_part(parts, "people near"));
+    const glm::vec2 head(people.max_m.x - 0.1f, people.max_m.z - 0.12f);
+    const auto outermost = surface_point(opaque, Face::left, head);
+    CHECK((!outermost || outermost->y < people.max_m.y));
+    const auto foremost = surface_point(opaque, Face::front, {0.62f, people.max_m.z - 0.12f});
+    CHECK((!foremost || foremost->x < people.max_m.x));
   }
 }
 
