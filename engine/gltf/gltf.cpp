@@ -251,8 +251,9 @@ class Reader {
       for (int c = 0; c < 3; ++c) sum[c] += colours.numbers[i * colours.width + static_cast<std::size_t>(c)];
     const glm::dvec3 mean = glm::clamp(sum / static_cast<double>(colours.count), 0.0, 1.0);
     // In steps of a hundredth: parts of one colour share one look.
-    const std::array<int, 4> key{static_cast<int>(material), static_cast<int>(mean.x * 100.0 + 0.5),
-                                 static_cast<int>(mean.y * 100.0 + 0.5), static_cast<int>(mean.z * 100.0 + 0.5)};
+    const auto hundredths = [](double share) { return static_cast<int>(std::lround(share * 100.0)); };
+    const std::array<int, 4> key{static_cast<int>(material), hundredths(mean.x), hundredths(mean.y),
+                                 hundredths(mean.z)};
     const auto [known, is_new] = coloured_.try_emplace(key, static_cast<std::uint32_t>(model_.looks.size()));
     if (is_new) {
       if (coloured_.size() > most_materials) return static_cast<std::uint32_t>(material);

@@ -163,7 +163,8 @@ class Looks {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)
       sum += glm::dvec3(picture.rgba[i], picture.rgba[i + 1], picture.rgba[i + 2]);
-    return glm::vec3(sum / (255.0 * std::max<double>(static_cast<double>(picture.rgba.size() / 4), 1.0)));
+    const std::size_t pixels = std::max<std::size_t>(picture.rgba.size() / 4, 1);
+    return glm::vec3(sum / (255.0 * static_cast<double>(pixels)));
   }
 
   /// The picture's index among the model's; alpha cuts out only where the material says so.
