@@ -19,7 +19,7 @@ void add_text(instant::FrameInput& input, const IceOptions& options) {
   constexpr float line_px = 16.0f;
   float y_px = 6.0f;
   for (const std::string& line : switches(options)) {
-    input.overlay.push_back({line, 8.0f, y_px, line_px, {1.0f, 1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f, 0.55f}, false});
+    input.overlay.push_back({line, 8.0f, y_px, line_px, {1.0f, 1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f, 0.55f}});
     y_px += 1.25f * line_px;
   }
 }

@@ -332,7 +332,12 @@ TEST_CASE("an inset lies over the first view and leaves the rest of the picture 
 TEST_CASE("a line of text stands in its box and is gone with the next frame") {
   Studio studio;
   const image::Image plain = studio.draw();
-  studio.input.overlay = {{"server lost", 160, 100, 24, {1, 1, 1, 1}, {0.6f, 0, 0, 1}, true}};
+  studio.input.overlay = {{.text = "server lost",
+                           .x_px = 160,
+                           .y_px = 100,
+                           .height_px = 24,
+                           .background = {0.6f, 0, 0, 1},
+                           .centered = true}};
   const image::Image with = studio.draw();
   const glm::dvec3 box = mean(with, 110, 92, 100, 16);
   CHECK(box.r > box.g + 40.0);

@@ -52,7 +52,7 @@ TEST_CASE(
   Lamps beams;
   beams.set(Lamp::low_beam, true);
   FrameInput input = traffic(reference, {});
-  input.overlay.push_back({"Septet  104 km/h", 12, 10, 22, {1, 1, 1, 1}, {0, 0, 0, 0.45f}, false});
+  input.overlay.push_back({"Septet  104 km/h", 12, 10, 22, {1, 1, 1, 1}, {0, 0, 0, 0.45f}});
   REQUIRE(renderer->draw(input).has_value());
   save(*renderer->read_back(), "day");
   MESSAGE("triangles ", renderer->statistics().triangles, " shadows ", renderer->statistics().shadow_triangles,
