@@ -17,6 +17,8 @@ namespace {
 constexpr int rings = 8, sides = 64;
 /// So far along its ray lies what is looked up in the picture.
 constexpr double sight_m = 9.0;
+/// Of the frame before the glass's rim, which would be seen in it as a line.
+constexpr double lip_m = 0.02;
 
 struct GlassPoint {
   Vec3 position_m, ray;
@@ -132,7 +134,7 @@ std::optional<MirrorGlass> mirror_glass(const ScreenCorners& glass, double radiu
   const auto corner = [&](double x, double y) { return image_m + ahead + x * right + y * up; };
   const auto projection = off_axis_view(
       {corner(slopes.low.x, slopes.low.y), corner(slopes.high.x, slopes.low.y), corner(slopes.low.x, slopes.high.y)},
-      image_m, near_m);
+      image_m, near_m + lip_m);
   if (!projection) return std::nullopt;
   result.picture.projection = *projection;
   for (const auto& corners : triangles)

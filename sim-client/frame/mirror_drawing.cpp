@@ -47,7 +47,10 @@ class HousingPen {
     const Vec3 normal = glm::cross(corners[2] - corners[0], corners[3] - corners[1]);
     const double length = glm::length(normal);
     if (!(length > 1e-12)) return;
-    const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // A dull black.
+    using namespace instrument_panel;
+    constexpr auto hub = static_cast<std::uint32_t>(Sign::hub);  // A dull black.
+    const glm::vec2 uv((static_cast<float>(hub % columns) + 0.5f) / columns,
+                       (static_cast<float>(hub / columns) + 0.5f) / rows);
     for (const std::size_t i : {0, 1, 2, 0, 2, 3})
       vertices_.push_back({glm::vec3(corners[i]), glm::vec3(normal / length), uv});
   }
@@ -113,9 +116,11 @@ std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror) {
           {at(sections[i], side), at(sections[i + 1], side), at(sections[i + 1], side + 1), at(sections[i], side + 1)});
   const Vec3 behind = -0.7 * deep_m * glass.back;
   if (inside) {
-    const Vec3 head(std::max(windscreen::head_left_m.x, glass.middle_m.x) + 0.05, 0.0,
-                    windscreen::head_left_m.z - 0.03);
-    pen.bar(behind, head - glass.middle_m, 0.011);
+    // To its foot on the glass of the windscreen, above it.
+    const Vec3 &foot = windscreen::foot_left_m, &head = windscreen::head_left_m;
+    const double z_m = glass.middle_m.z + glass.half_m.y + 0.035;
+    const double x_m = foot.x + (head.x - foot.x) * (z_m - foot.z) / (head.z - foot.z);
+    pen.bar(behind, Vec3(x_m - 0.004, 0.0, z_m) - glass.middle_m, 0.009);
   } else {
     const double side = glass.middle_m.y > 0.0 ? 1.0 : -1.0;
     const Vec3 door(glass.middle_m.x + 0.10, side * 0.79, glass.middle_m.z - glass.half_m.y - 0.005);
