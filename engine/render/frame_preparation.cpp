@@ -70,6 +70,15 @@ DetailOf surroundings_detail(std::uint32_t side_px) {
   return {{0.0f, times}, {10.0f * times, times}};
 }
 
+/// Of what is seen in a mirror, whose pixels are wider the more it bulges.
+DetailOf mirror_detail(const FrameView& picture) {
+  constexpr double usual_slope = 0.0015;  // Of a pixel of that screen.
+  const OffAxisView& projection = picture.projection;
+  const double slope = (projection.right_slope - projection.left_slope) / std::max(1u, picture.viewport.width);
+  const auto times = static_cast<float>(std::clamp(1.3 * slope / usual_slope, 1.0, 6.0));
+  return {{0.0f, times}, {10.0f * times, times}};
+}
+
 /// Vehicles cast the shadow of the form that they show at this distance: a texel of the far cascade is no finer. Near by it is the form that
 /// is seen, or the two would shade each other wherever they part.
 constexpr std::array<float, cascade_count> caster_ranges_m{0.0f, 200.0f};
@@ -125,8 +134,8 @@ PreparedFrame prepare_frame(PassContext& context, const DeviceScene& scene, cons
     frame.views.push_back(prepare_view(context, scene, instant, view, frame.shadows, dynamic, smoke, lamps, {},
                                        {frame.road_mirror && frame.views.empty(), width, height}));
   for (const MirrorGlass& mirror : instant.mirrors)
-    frame.mirror_views.push_back(
-        prepare_view(context, scene, instant, mirror.picture, frame.shadows, dynamic, smoke, lamps));
+    frame.mirror_views.push_back(prepare_view(context, scene, instant, mirror.picture, frame.shadows, dynamic, smoke,
+                                              lamps, mirror_detail(mirror.picture)));
   frame.mirrors = prepare_mirror_glass(context, instant.mirrors, eye_m);
   frame.ice = ice_tiles(instant.ice, instant.views, layer_px(width), layer_px(height));
   if (!frame.ice.list.empty()) {

@@ -118,9 +118,9 @@ std::vector<scene::SurfaceVertex> mirror_housing(const rig::Mirror& mirror) {
   if (inside) {
     // To its foot on the glass of the windscreen, above it.
     const Vec3 &foot = windscreen::foot_left_m, &head = windscreen::head_left_m;
-    const double z_m = glass.middle_m.z + glass.half_m.y + 0.035;
+    const double z_m = glass.middle_m.z + glass.half_m.y + 0.045;
     const double x_m = foot.x + (head.x - foot.x) * (z_m - foot.z) / (head.z - foot.z);
-    pen.bar(behind, Vec3(x_m - 0.004, 0.0, z_m) - glass.middle_m, 0.009);
+    pen.bar(behind + 0.9 * glass.half_m.y * glass.up, Vec3(x_m - 0.004, 0.0, z_m) - glass.middle_m, 0.009);
   } else {
     const double side = glass.middle_m.y > 0.0 ? 1.0 : -1.0;
     const Vec3 door(glass.middle_m.x + 0.10, side * 0.79, glass.middle_m.z - glass.half_m.y - 0.005);
