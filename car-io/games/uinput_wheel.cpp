@@ -169,7 +169,7 @@ struct UinputWheel::State {
     setup.id.product = product_id;
     setup.id.version = 1;
     setup.ff_effects_max = 16;
-    std::strncpy(setup.name, "Septet car", sizeof setup.name - 1);
+    std::strncpy(setup.name, "Septet game wheel", sizeof setup.name - 1);
     done = done && ioctl(file, UI_DEV_SETUP, &setup) >= 0 && ioctl(file, UI_DEV_CREATE) >= 0;
     if (!done) return failed("making a wheel");
     return {};

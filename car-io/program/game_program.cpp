@@ -114,7 +114,7 @@ Expected<void> run_serve(const ServeOptions& options) {
   auto wheel = UinputWheel::create();
   if (!wheel) return tl::unexpected(wheel.error());
   program::catch_stop_signals();
-  tell_person("games find the wheel \"Septet car\"; Ctrl-C ends it");
+  tell_person("games find the wheel \"Septet game wheel\"; Ctrl-C ends it");
 
   const double lock_rad = rig->car.calibration.steering_lock_rad;
   const auto calibration = is_joystick ? rig::CarCalibration{.steering_lock_rad = lock_rad} : rig->car.calibration;

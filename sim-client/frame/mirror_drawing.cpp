@@ -47,10 +47,7 @@ class HousingPen {
     const Vec3 normal = glm::cross(corners[2] - corners[0], corners[3] - corners[1]);
     const double length = glm::length(normal);
     if (!(length > 1e-12)) return;
-    using namespace instrument_panel;
-    constexpr auto hub = static_cast<std::uint32_t>(Sign::hub);  // A dull black.
-    const glm::vec2 uv((static_cast<float>(hub % columns) + 0.5f) / columns,
-                       (static_cast<float>(hub / columns) + 0.5f) / rows);
+    const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::hub);  // A dull black.
     for (const std::size_t i : {0, 1, 2, 0, 2, 3})
       vertices_.push_back({glm::vec3(corners[i]), glm::vec3(normal / length), uv});
   }
