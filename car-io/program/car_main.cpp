@@ -23,9 +23,16 @@ int main(int argc, char** argv) {
   app.add_option("--server", drive.server, "Server's address and port");
   app.add_option("--keys", drive.keys, "Folder with server.public, and car.key, made if missing");
 
-  CLI::App* calibration = app.add_subcommand("calibrate", "Record the axes and print the rig's [car.calibration]");
-  calibration->add_option("--rig", calibrate.rig, "Rig file")->required();
-  calibration->add_option("--seconds", calibrate.seconds, "How long")->check(number_between(0.1, 600.0));
+  std::string device;
+  CLI::App* calibration = app.add_subcommand(
+      "calibrate",
+      "Record the axes of a rig's car and print its [car.calibration]; of a joystick that no rig knows: learn");
+  auto* of_rig = calibration->add_option("--rig", calibrate.rig, "Rig file");
+  calibration->add_option("device", device, "VENDOR:PRODUCT of a joystick to learn, as septet devices shows it")
+      ->excludes(of_rig);
+  calibration->require_option(1, 2);
+  calibration->add_option("--seconds", calibrate.seconds, "How long; of a joystick for each control")
+      ->check(number_between(0.1, 600.0));
 
   CLI::App* trial = app.add_subcommand("try", "Set fan, vibration and steering force for a while");
   trial->add_option("--rig", actuate.rig, "Rig file")->required();
@@ -36,7 +43,6 @@ int main(int argc, char** argv) {
   trial->add_option("--steering", actuate.actuators.steering, "-1 (right) to 1 (left)")
       ->check(number_between(-1.0, 1.0));
   CLI::App* lesson = app.add_subcommand("learn", "Find out a joystick's axes and buttons and print [car.joystick]");
-  std::string device;
   lesson->add_option("device", device, "VENDOR:PRODUCT as septet devices shows it, such as 046d:c24f")->required();
   lesson->add_option("--serial", learn.serial, "Where there are several");
   lesson->add_option("--seconds", learn.seconds, "For each control")->check(number_between(0.1, 60.0));
@@ -59,12 +65,13 @@ int main(int argc, char** argv) {
     return "septet-car: " + std::string(error.what()) + "; --help lists the options\n";
   });
   return program::run("septet-car", app, argc, argv, [&] {
-    const auto done = calibration->parsed() ? car_io::run_calibration(calibrate)
-                      : trial->parsed()     ? car_io::run_actuators(actuate)
-                      : test->parsed()      ? car_io::run_trial(all)
-                      : lesson->parsed()    ? car_io::run_lesson(device, learn)
-                      : games->parsed()     ? car_io::run_serve(serve)
-                                            : car_io::run_car(drive);
+    if (calibration->count("--seconds") > 0) learn.seconds = calibrate.seconds;
+    const auto done = calibration->parsed() && device.empty()     ? car_io::run_calibration(calibrate)
+                      : trial->parsed()                           ? car_io::run_actuators(actuate)
+                      : test->parsed()                            ? car_io::run_trial(all)
+                      : lesson->parsed() || calibration->parsed() ? car_io::run_lesson(device, learn)
+                      : games->parsed()                           ? car_io::run_serve(serve)
+                                                                  : car_io::run_car(drive);
     return done.map([] { return 0; });
   });
 }

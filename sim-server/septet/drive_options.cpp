@@ -129,7 +129,7 @@ void add_drive_commands(CLI::App& app, Options& options) {
     };
   });
 
-  // The options of these three are those of the programs that they start, which explain them too.
+  // The options of these four are those of the programs that they start, which explain them too.
   auto* film_command = app.add_subcommand(
       "film", "Make the pictures of a film from a session: through anybody's eyes, or from around them");
   film_command->prefix_command();
@@ -146,6 +146,12 @@ void add_drive_commands(CLI::App& app, Options& options) {
   ice_command->prefix_command();
   ice_command->set_help_flag();
   ice_command->callback([&] { options.work = [&] { return become("septet-ice", options.passed_on); }; });
+
+  auto* car_command = app.add_subcommand(
+      "car", "Calibrate the car or learn a joystick, try actuators, serve a game: what the car's own program does");
+  car_command->prefix_command();
+  car_command->set_help_flag();
+  car_command->callback([&] { options.work = [&] { return become("septet-car", options.passed_on); }; });
 
   auto* report_command = app.add_subcommand(
       "report", "Write report.html for a session, or pool many: a page for the group, subjects.csv and subjects.json");

@@ -128,7 +128,12 @@ fs::path rig_with_motor(const fs::path& folder) {
 /// Plugged in, and known to the kernel.
 void plug(UsbCar& device) {
   device.plug();
-  REQUIRE(becomes_true([] { return fs::exists("/dev/hidraw0"); }));
+  REQUIRE(becomes_true([] {
+    for (const auto& entry : fs::directory_iterator("/sys/class/hidraw"))
+      if (text_of(entry.path() / "device/uevent").find("HID_UNIQ=VM-1") != std::string::npos)
+        return fs::exists("/dev" / entry.path().filename());
+    return false;
+  }));
 }
 
 double time_until(const std::function<bool()>& condition) {
