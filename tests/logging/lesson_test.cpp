@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "engine/core/regular_file.hpp"
 #include "logging/lesson/debrief.hpp"
@@ -289,7 +290,7 @@ TEST_CASE("mistakes in a lesson are named, and the shipped ones have none") {
     CHECK_FALSE(lesson.error().remedy.empty());
   }
   for (const std::string name : {"first-lesson", "winter-lorry", "tunnel-fire", "behind-ambulance"}) {
-    const std::string path = std::string(SEPTET_SOURCE_DIR) + "/scenarios/" + name + "/" + name + ".lesson.toml";
+    const std::string path = fmt::format("{}/scenarios/{}/{}.lesson.toml", SEPTET_SOURCE_DIR, name, name);
     const auto text = read_regular_file(path);
     REQUIRE(text.has_value());
     const auto lesson = read_lesson(*text, path);
