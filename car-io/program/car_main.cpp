@@ -27,10 +27,10 @@ int main(int argc, char** argv) {
   CLI::App* calibration = app.add_subcommand(
       "calibrate",
       "Record the axes of a rig's car and print its [car.calibration]; of a joystick that no rig knows: learn");
-  auto* of_rig = calibration->add_option("--rig", calibrate.rig, "Rig file");
-  calibration->add_option("device", device, "VENDOR:PRODUCT of a joystick to learn, as septet devices shows it")
-      ->excludes(of_rig);
-  calibration->require_option(1, 2);
+  CLI::Option_group* which = calibration->add_option_group("Which", "One of these");
+  which->add_option("--rig", calibrate.rig, "Rig file");
+  which->add_option("device", device, "VENDOR:PRODUCT of a joystick to learn, as septet devices shows it");
+  which->require_option(1);
   calibration->add_option("--seconds", calibrate.seconds, "How long; of a joystick for each control")
       ->check(number_between(0.1, 600.0));
 
