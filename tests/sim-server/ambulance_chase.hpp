@@ -10,7 +10,7 @@
 #include "engine/simulation/effects/crashes.hpp"
 #include "engine/simulation/effects/effect_surroundings.hpp"
 #include "sim-server/drive/driver_seat.hpp"
-#include "tests/sim-server/shipped_drive.hpp"
+#include "tests/sim-server/simulated_drive.hpp"
 
 namespace septet::server {
 
@@ -29,16 +29,13 @@ inline AmbulanceChase chase_ambulance(const std::string& scenario, const std::st
                                       double seconds) {
   constexpr double settled_s = 15.0;
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
-  REQUIRE(seat.has_value());
-  auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
-  REQUIRE(drive.has_value());
+  const auto drive = simulated_drive(loaded, driver, seed);
   AmbulanceChase chase;
   double samples = 0.0, others = 0.0;
   while (chase.time_s < seconds) {
-    const auto ended = (*drive)->next(std::nullopt);
+    const auto ended = drive->next(std::nullopt);
     if (!ended || !*ended) break;  // The end of the road.
-    const Snapshot& now = (*drive)->newest();
+    const Snapshot& now = drive->newest();
     chase.time_s = now.simulated_time_s;
     chase.driver_collisions = static_cast<int>(now.diagnostics.collisions);
     if (now.tick % 12 != 0) continue;

@@ -24,7 +24,7 @@
 #include "logging/records.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/session_log.hpp"
-#include "tests/sim-server/shipped_drive.hpp"
+#include "tests/sim-server/simulated_drive.hpp"
 
 namespace septet::server {
 
@@ -252,15 +252,12 @@ class DriveWatch {
 inline DriveWatch watch_drive(const std::string& scenario, const std::string& driver, std::uint64_t seed,
                               double seconds) {
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
-  REQUIRE(seat.has_value());
-  auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
-  REQUIRE(drive.has_value());
+  const auto drive = simulated_drive(loaded, driver, seed);
   DriveWatch watch(fmt::format("{} {} seed {}", scenario, driver, seed), loaded.model);
   while (watch.record.time_s < seconds - 1e-6 && !watch.has_collided()) {
-    const auto tick = (*drive)->next(std::nullopt);
+    const auto tick = drive->next(std::nullopt);
     if (!tick || !*tick) break;  // The end of the road.
-    watch.see((*drive)->newest());
+    watch.see(drive->newest());
   }
   return watch;
 }

@@ -12,7 +12,7 @@
 #include "logging/lesson/lesson.hpp"
 #include "sim-server/drive/driver_seat.hpp"
 #include "sim-server/drive/live_drive.hpp"
-#include "tests/sim-server/shipped_drive.hpp"
+#include "tests/sim-server/simulated_drive.hpp"
 
 namespace septet::server {
 
@@ -24,19 +24,16 @@ struct TakenLesson {
 inline TakenLesson take_lesson(const std::string& scenario, const std::string& driver, std::uint64_t seed,
                                double seconds) {
   const LoadedDrive loaded = shipped_drive(scenario, "seven-screens", seed);
-  auto seat = open_driver_seat(rig::Car{.driver = driver}, seed, loaded.model);
-  REQUIRE(seat.has_value());
-  auto drive = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, seed), std::move(*seat));
-  REQUIRE(drive.has_value());
+  const auto drive = simulated_drive(loaded, driver, seed);
   std::vector<logging::Sample> samples;
   std::vector<logging::Event> events;
-  (*drive)->watch_events([&](const simulation::Event& event, double now_s) {
+  drive->watch_events([&](const simulation::Event& event, double now_s) {
     events.push_back({0, now_s, event.kind, event.participant, event.detail});
   });
-  while ((*drive)->newest().simulated_time_s < seconds) {
-    const auto next = (*drive)->next(std::nullopt);
+  while (drive->newest().simulated_time_s < seconds) {
+    const auto next = drive->next(std::nullopt);
     if (!next || !*next) break;
-    const Snapshot& now = (*drive)->newest();
+    const Snapshot& now = drive->newest();
     if (logging::is_sample_due(now.tick, simulation::tick_rate_hz))
       samples.push_back(logging::take_sample(now, find_leader(now, loaded.model->roads)));
   }

@@ -44,7 +44,7 @@ struct SurfaceVertex {
   glm::vec3 position_m, normal;
 };
 
-/// Sums of the area vectors around each vertex.
+/// Directions of the sums of the area vectors around each vertex.
 std::vector<glm::vec3> vertex_normals(const PolygonMesh& mesh) {
   std::vector<glm::vec3> normals(mesh.vertices_m.size(), glm::vec3(0.0f));
   for (const auto& corners : mesh.polygons) {
@@ -209,19 +209,11 @@ void draw_patch(geometry::MeshBuilder& builder, const PolygonMesh& body, Face fa
 }
 
 void add_lining(geometry::MeshBuilder& builder, const geometry::PolygonMesh& open, float low, float rear, float front) {
-  std::vector<glm::vec3> normals(open.vertices_m.size(), glm::vec3(0.0f));
-  for (const auto& corners : open.polygons) {
-    const std::uint32_t last = corners[geometry::corner_count(corners) - 1];
-    const glm::vec3 normal = glm::cross(open.vertices_m[corners[2]] - open.vertices_m[corners[0]],
-                                        open.vertices_m[last] - open.vertices_m[corners[1]]);
-    for (std::uint32_t k = 0; k < geometry::corner_count(corners); ++k) normals[corners[k]] += normal;
-  }
+  const std::vector<glm::vec3> normals = vertex_normals(open);
   std::vector<std::uint32_t> inner(open.vertices_m.size(), geometry::no_vertex);
   const auto behind = [&](std::uint32_t v) {
-    if (inner[v] != geometry::no_vertex) return inner[v];
-    const float length = glm::length(normals[v]);
-    const glm::vec3 in = length > 0.0f ? normals[v] / length : glm::vec3(0, 0, 1);
-    return inner[v] = builder.vertex(open.vertices_m[v] - 0.02f * in);
+    if (inner[v] == geometry::no_vertex) inner[v] = builder.vertex(open.vertices_m[v] - 0.02f * normals[v]);
+    return inner[v];
   };
   for (const auto& c : open.polygons) {
     float highest = -1e9f, x = 0.0f;

@@ -51,10 +51,7 @@ instant::DynamicMesh beacon(const RigidTransform& world_from_car, const Vec3& pl
   mesh.origin_m = world_from_car * place_m;
   mesh.radius_m = static_cast<float>(2.0 * half_m);
   // Of the colour of the needles.
-  using namespace instrument_panel;
-  constexpr auto index = static_cast<std::uint32_t>(Sign::needle);
-  const glm::vec2 uv((static_cast<float>(index % columns) + 0.5f) / columns,
-                     (static_cast<float>(index / columns) + 0.5f) / rows);
+  const glm::vec2 uv = instrument_panel::uv_of_middle(instrument_panel::Sign::needle);
   for (const int axis : {0, 1, 2})
     for (const double side : {1.0, -1.0}) {
       Vec3 normal(0.0), a(0.0), b(0.0);

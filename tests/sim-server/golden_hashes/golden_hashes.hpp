@@ -16,7 +16,7 @@
 #include <fmt/core.h>
 
 #include "sim-server/drive/driver_seat.hpp"
-#include "tests/sim-server/shipped_drive.hpp"
+#include "tests/sim-server/simulated_drive.hpp"
 
 namespace septet::server {
 
@@ -63,15 +63,12 @@ inline GoldenFile read_golden() {
 /// Drives as the product does, without screens or log, to the last of these ticks.
 inline HashAtTick drive(const DriveKey& key, const HashAtTick& expected) {
   const LoadedDrive loaded = shipped_drive(key.scenario, "seven-screens", key.seed);
-  auto seat = open_driver_seat(rig::Car{.driver = key.driver}, key.seed, loaded.model);
-  REQUIRE(seat.has_value());
-  auto live = LiveDrive::start(loaded.model, traffic::own_traffic(loaded.model->roads, key.seed), std::move(*seat));
-  REQUIRE(live.has_value());
+  const auto live = simulated_drive(loaded, key.driver, key.seed);
   HashAtTick reached;
-  while ((*live)->newest().tick < expected.rbegin()->first) {
-    const auto tick = (*live)->next(std::nullopt);
+  while (live->newest().tick < expected.rbegin()->first) {
+    const auto tick = live->next(std::nullopt);
     REQUIRE((tick.has_value() && *tick));
-    const Snapshot& snapshot = (*live)->newest();
+    const Snapshot& snapshot = live->newest();
     if (expected.contains(snapshot.tick)) reached[snapshot.tick] = fmt::format("{:016x}", snapshot.state_hash);
   }
   return reached;
