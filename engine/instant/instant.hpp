@@ -17,6 +17,7 @@
 /// the lamps there light it (`roofed_haze`).
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -36,8 +37,11 @@ struct LooseMesh {
   float share_of_sky = 1.0f;
 };
 
-/// Radiance of haze between an eye and a surface that are both under a roof: what the lamps there light it with from all sides.
-inline const glm::vec3 roofed_haze = 0.35f / 3.14159265f * glm::vec3(1.5f, 1.3f, 1.0f);
+/// What lamps under a roof light with from all sides, irradiance. The shaders' twins: surface.frag and view.glsl.
+inline constexpr glm::vec3 roofed_irradiance(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
+
+/// Radiance of haze between an eye and a surface that are both under a roof.
+inline const glm::vec3 roofed_haze = roofed_irradiance / std::numbers::pi_v<float>;
 
 /// How far such haze stands for all that lies between two places, by their shares of the sky.
 inline float roofed_between(float one_share_of_sky, float other_share_of_sky) {

@@ -55,9 +55,8 @@ class Coverage {
 };
 
 glm::vec3 scattered(const SmokePuff& puff, float share_of_sky, const SkyLight& light) {
-  constexpr glm::vec3 tunnel_lamps(1.5f * 0.35f, 1.3f * 0.35f, 1.0f * 0.35f);
   const glm::vec3 around = 0.5f * (light.sky_irradiance + light.ground_irradiance) + 0.35f * light.light_irradiance;
-  const glm::vec3 irradiance = around * share_of_sky + tunnel_lamps * (1.0f - share_of_sky);
+  const glm::vec3 irradiance = around * share_of_sky + instant::roofed_irradiance * (1.0f - share_of_sky);
   return puff.albedo * irradiance / std::numbers::pi_v<float> + instant::flame_radiance * (puff.glow * puff.glow);
 }
 
