@@ -52,8 +52,9 @@ void add_spray(const DrawnParticipant& vehicle, const Environment& environment, 
   const Vec3 from_m = place * Vec3(vehicle.tail_x_m, 0.0, 0.0);
   const Vec3 wind = environment.wind_speed_mps *
                     Vec3(std::cos(environment.wind_direction_rad), std::sin(environment.wind_direction_rad), 0.0);
-  // Thinning e^−a adds up over the puffs to thins_s / interval_s of one.
-  const auto share = static_cast<float>(wake.interval_s / wake.thins_s);
+  // Thinning e^−a adds up over the puffs to thins_s / interval_s of one, less what the end of the old ones takes off.
+  constexpr double whole = 0.935;
+  const auto share = static_cast<float>(wake.interval_s / (whole * wake.thins_s));
   const double newest = std::floor(simulated_time_s / wake.interval_s);
   const int count = static_cast<int>(life * wake.thins_s / wake.interval_s);
   for (int n = 0; n < count; ++n) {

@@ -1,5 +1,7 @@
 #include "car-io/actuator_guard.hpp"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "car-io/vibration_dose.hpp"
@@ -46,7 +48,7 @@ TEST_CASE("frequencies weigh as ISO 2631-1 says") {
   // Table 3, Wk.
   const double table[][2] = {{1.0, 0.482}, {4.0, 0.967},  {5.0, 1.039},  {6.3, 1.054},
                              {8.0, 1.036}, {16.0, 0.768}, {31.5, 0.405}, {80.0, 0.132}};
-  for (const auto& row : table) CHECK(vertical_weight(row[0]) == doctest::Approx(row[1]).epsilon(0.002));
+  for (const auto& row : table) CHECK(std::abs(vertical_weight(row[0]) - row[1]) <= 0.001);
   CHECK(vertical_weight(0.0) == 0.0);
   CHECK(vertical_weight(-1.0) == 0.0);
 }

@@ -52,7 +52,7 @@ TEST_CASE("each of many headlights is drawn as often as it is a share of their l
       REQUIRE(one.strength > 0.0f);
     }
     for (std::size_t n = 0; n < count; ++n)
-      CHECK(static_cast<float>(drawn[n]) / draws == doctest::Approx(strength(headlights[n]) / expected).epsilon(2e-4));
+      CHECK(std::abs(static_cast<float>(drawn[n]) - draws * strength(headlights[n]) / expected) < 2.0f);
     CHECK(row.drawn(place_m, half_open, 1.0f, sum).strength > 0.0f);  // Where rounding leads past the end.
   }
 }

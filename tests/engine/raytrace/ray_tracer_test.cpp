@@ -143,8 +143,8 @@ TEST_CASE("a point that is out of focus is a disc as wide as its circle of confu
   bright.emission = glm::vec3(1.0f);
   bright.base_color = glm::vec3(0.0f);
   scene::ResolvedScene scene = ball_scene(bright, 3);
-  const double distance_m = 8.0, angle_rad = 0.2, lens_radius_m = 0.1;
-  scene.instances.front().scale = glm::vec3(0.03f);
+  const double distance_m = 8.0, angle_rad = 0.2, lens_radius_m = 0.1, ball_m = 0.06;
+  scene.instances.front().scale = glm::vec3(static_cast<float>(ball_m));
   const std::uint32_t side_px = 64;
   const instant::Instant instant = instant_from({-distance_m, 0.0, 0.0}, angle_rad, side_px, even_sky(0.0f));
   for (const double focus_m : {4.0, 16.0, 6.0, distance_m}) {
@@ -163,7 +163,7 @@ TEST_CASE("a point that is out of focus is a disc as wide as its circle of confu
       }
     const double px_of_slope = side_px / (2.0 * std::tan(0.5 * angle_rad));
     const double confusion_px = lens_radius_m * std::abs(1.0 / focus_m - 1.0 / distance_m) * px_of_slope;
-    const double ball_px = 0.03 / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
+    const double ball_px = ball_m / distance_m * px_of_slope, pixel_moment = 1.0 / 6.0;
     const double expected = 0.5 * (confusion_px * confusion_px + ball_px * ball_px) + pixel_moment;
     CHECK(moment / light == doctest::Approx(expected).epsilon(0.06));
     // Whatever the focus, as much light comes.
