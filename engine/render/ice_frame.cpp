@@ -7,7 +7,7 @@
 namespace septet::render {
 namespace {
 
-void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, const IceResources& resources,
+void add_surroundings(FrameGraph& graph, IcePass& pass, PassContext& context, const IceResources& resources,
                       std::uint32_t around, const IceFrame& frame) {
   const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
   graph.add_pass("surroundings",
@@ -23,14 +23,14 @@ void add_surroundings(RenderGraph& graph, IcePass& pass, PassContext& context, c
 
 }  // namespace
 
-IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
+IceResources add_ice_passes(FrameGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
                             const Instant& instant, const IceFrame& frame) {
   constexpr std::array<const char*, ice_image_count> names{
       "ice front", "ice back",     "ice beyond",         "ice beyond back",   "ice inside",
       "ice depth", "surroundings", "surroundings depth", "surroundings cube", "second cube"};
   IceResources resources{};
   for (std::size_t i = 0; i < ice_image_count; ++i)
-    resources[i] = frame.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);
+    resources[i] = graph.add_image(names[i], pass.targets.images[i], pass.targets.accesses[i]);
   const auto resource = [&](IceImage which) { return resources[std::size_t(which)]; };
   const std::uint32_t surroundings = prepared.surroundings();
   for (std::uint32_t around = 0; around < surroundings; ++around)

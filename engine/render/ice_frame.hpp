@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/render/frame_preparation.hpp"
-#include "engine/render/graph/render_graph.hpp"
+#include "engine/render/passes/frame_graph.hpp"
 #include "engine/render/passes/ice_pass.hpp"
 
 namespace septet::render {
@@ -16,14 +16,13 @@ using IceResources = std::array<ResourceId, ice_image_count>;
 
 /// What the frame knows and ice does not.
 struct IceFrame {
-  std::function<ResourceId(const char*, const vulkan::DeviceImage&, Access)> add_image;
   std::vector<ResourceUse> view_reads;  ///< What a view reads but for ice.
   ViewBindings bindings;                ///< Of any view.
   std::function<void(std::uint32_t around)> draw_surroundings;
 };
 
 /// Adds the passes; what they record refers to all but `frame`, until the graph has been executed.
-IceResources add_ice_passes(RenderGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
+IceResources add_ice_passes(FrameGraph& graph, IcePass& pass, PassContext& context, const PreparedFrame& prepared,
                             const Instant& instant, const IceFrame& frame);
 
 /// What a view that has ice reads of it.

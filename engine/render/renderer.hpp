@@ -21,6 +21,7 @@
 namespace septet::render {
 
 class Window;
+struct RendererState;
 
 enum class DevicePreference : std::uint8_t {
   any,       ///< The most capable device: discrete, integrated, then software.
@@ -99,9 +100,8 @@ class Renderer {
   std::string_view device_name() const;
 
  private:
-  struct State;
-  explicit Renderer(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Renderer(std::unique_ptr<RendererState> state);
+  std::unique_ptr<RendererState> state_;
 };
 
 }  // namespace septet::render

@@ -66,19 +66,19 @@ void destroy_bloom_pass(BloomPass& pass, const vulkan::Device& device, vulkan::M
   pass = {};
 }
 
-std::array<ResourceId, bloom_levels> add_bloom_passes(RenderGraph& graph, const BloomPass& pass, PassContext& context,
-                                                      const AddImage& add_image, ResourceId radiance,
-                                                      const vulkan::DeviceImage& target) {
+void add_bloom_passes(FrameGraph& graph, BloomPass& pass, PassContext& context, ResourceId radiance,
+                      const vulkan::DeviceImage& target) {
   std::array<ResourceId, bloom_levels> levels{};
   for (std::size_t i = 0; i < bloom_levels; ++i)
-    levels[i] = add_image(level_names[i], pass.images[i], pass.accesses[i]);
+    levels[i] = graph.add_image(level_names[i], pass.images[i], pass.accesses[i]);
   for (std::size_t i = 0; i < bloom_levels; ++i) {
     const ResourceId from = i == 0 ? radiance : levels[i - 1];
-    graph.add_pass("bloom, down", {{{from, Access::sampled}}, {{levels[i], Access::color_attachment}}}, [&, i] {
-      const vulkan::DeviceImage &source = i == 0 ? target : pass.images[i - 1], &level = pass.images[i];
-      draw_whole_target(i == 0 ? pass.first : pass.down, context, source.view, level.view, level.description.width,
-                        level.description.height, texels(source, level));
-    });
+    graph.add_pass("bloom, down", {{{from, Access::sampled}}, {{levels[i], Access::color_attachment}}},
+                   [&pass, &context, &target, i] {
+                     const vulkan::DeviceImage &source = i == 0 ? target : pass.images[i - 1], &level = pass.images[i];
+                     draw_whole_target(i == 0 ? pass.first : pass.down, context, source.view, level.view,
+                                       level.description.width, level.description.height, texels(source, level));
+                   });
   }
   const auto mix_up = [&](ResourceId from, ResourceId to, VkPipeline pipeline, const vulkan::DeviceImage& source,
                           const vulkan::DeviceImage& larger, float share) {
@@ -94,7 +94,6 @@ std::array<ResourceId, bloom_levels> add_bloom_passes(RenderGraph& graph, const 
   for (std::size_t i = bloom_levels - 1; i > 0; --i)
     mix_up(levels[i], levels[i - 1], pass.up, pass.images[i], pass.images[i - 1], share_of_wider);
   mix_up(levels[0], radiance, pass.last, pass.images[0], target, share_of_radiance);
-  return levels;
 }
 
 }  // namespace septet::render

@@ -6,10 +6,8 @@
 /// without bloom (glow_pass.hpp): nothing that the driver acts on depends on this pass.
 
 #include <array>
-#include <functional>
 
-#include "engine/render/graph/render_graph.hpp"
-#include "engine/render/passes/pass_context.hpp"
+#include "engine/render/passes/frame_graph.hpp"
 
 namespace septet::render {
 
@@ -32,11 +30,8 @@ void create_bloom_targets(BloomPass& pass, vulkan::MemoryPool& memory, const Tar
 void destroy_bloom_targets(BloomPass& pass, vulkan::MemoryPool& memory);
 void destroy_bloom_pass(BloomPass& pass, const vulkan::Device& device, vulkan::MemoryPool& memory);
 
-using AddImage = std::function<ResourceId(const char* name, const vulkan::DeviceImage& image, Access held)>;
-
-/// Everything from the finished radiance to the radiance with its bloom. Its images' resources.
-std::array<ResourceId, bloom_levels> add_bloom_passes(RenderGraph& graph, const BloomPass& pass, PassContext& context,
-                                                      const AddImage& add_image, ResourceId radiance,
-                                                      const vulkan::DeviceImage& target);
+/// Everything from the finished radiance, which is `target`, to the radiance with its bloom.
+void add_bloom_passes(FrameGraph& graph, BloomPass& pass, PassContext& context, ResourceId radiance,
+                      const vulkan::DeviceImage& target);
 
 }  // namespace septet::render
