@@ -12,11 +12,10 @@
 #include "program/clock.hpp"
 #include "program/console.hpp"
 #include "program/stop_signal.hpp"
-#include "sim-client/frame/client_frame.hpp"
-#include "sim-client/frame/effects_drawing.hpp"
 #include "sim-client/frame/instruments.hpp"
 #include "sim-client/frame/picture_writer.hpp"
 #include "sim-client/frame/playout.hpp"
+#include "sim-client/frame/screen_frames.hpp"
 #include "sim-client/screen/departure.hpp"
 #include "sim-client/screen/frame_times.hpp"
 #include "sim-client/screen/pause_request.hpp"
@@ -53,13 +52,13 @@ class Session {
   Expected<void> draw_lockstep();
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
-  Expected<void> draw(const Snapshot& snapshot, std::optional<std::string> message);
+  Expected<void> draw(const Snapshot& snapshot, const std::optional<std::string>& message);
   void count_frame();
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
   Expected<void> keep_picture(Tick tick);
   void say_goodbye();
-  /// Instruments, and on the screen ahead what the driver is to read.
+  /// That pictures come slowly, and on the screen ahead what the driver is to read.
   void add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot);
   void wait(double seconds);
 
@@ -72,8 +71,6 @@ class Session {
   std::uint32_t welcomes_ = 0;
   rig::Rig rig_;
   const rig::Screen* screen_ = nullptr;
-  frame::ScreenViews views_;
-  Head head_;  ///< For which the views are.
   std::unique_ptr<Display> display_;
   frame::PictureWriter pictures_;
   ThumbnailMaker thumbnails_;
@@ -83,7 +80,7 @@ class Session {
   std::uint64_t frames_ = 0, frames_off_tick_ = 0;
   std::optional<Tick> drawn_tick_;
   std::optional<Snapshot> last_shown_;
-  frame::EffectsDrawing effects_;
+  frame::ScreenFrames screen_frames_;
   double lost_drawn_s_ = 0.0;
   static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
   std::optional<bool> keys_shown_;                  ///< By the driver's keys; nothing: none has been pressed.
@@ -101,10 +98,7 @@ Expected<void> Session::take_welcome() {
   for (const auto& screen : rig_.screens)
     if (screen.name == options_.name) screen_ = &screen;
   if (!screen_) return failure("the rig has no such screen", options_.name, "start one of the rig's screens");
-  auto views = frame::screen_views(rig_, *screen_);
-  if (!views) return tl::unexpected(views.error());
-  views_ = std::move(*views);
-  head_ = {};
+  if (auto seen = screen_frames_.look_through(rig_, *screen_); !seen) return seen;
   drawn_tick_.reset();
   resolver_.forget();
   uploaded_revision_ = 0;
@@ -140,17 +134,10 @@ Expected<void> Session::bring_scene_up() {
   return display_->renderer().upload(scene);
 }
 
-Expected<void> Session::draw(const Snapshot& snapshot, std::optional<std::string> message) {
+Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::string>& message) {
   const double begun_s = program::monotonic_s();
-  // A snapshot from outside may name a place behind a screen: then the eyes stay where they were.
-  if (const Head& head = snapshot.driver_car.head; head != head_)
-    if (auto views = frame::screen_views(rig_, *screen_, head_ = head)) views_ = std::move(*views);
-  auto input = frame::client_frame(snapshot, views_, frame::driver_viewpoint(snapshot), resolver_.scene());
-  if (!views_.only_instruments) effects_.add_to(input);
-  if (message)
-    input.overlay.push_back(frame::banner(std::move(*message), *screen_));
-  else
-    add_driver_texts(input, snapshot);
+  auto input = screen_frames_.frame(snapshot, resolver_.scene(), message);
+  if (!message) add_driver_texts(input, snapshot);
   if (auto drawn = display_->renderer().draw(std::move(input)); !drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
@@ -166,15 +153,13 @@ void Session::count_frame() {
 }
 
 void Session::take_effects(const Snapshot& snapshot) {
-  effects_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
+  screen_frames_.show(snapshot, link_.history(), 1.0 / link_.welcome()->tick_rate_hz, resolver_.scene());
 }
 
 void Session::add_driver_texts(instant::FrameInput& input, const Snapshot& snapshot) {
   const auto add = [&](const std::vector<instant::OverlayText>& texts) {
     input.overlay.insert(input.overlay.end(), texts.begin(), texts.end());
   };
-  add(frame::instruments(snapshot, rig_, *screen_));
-  add(frame::game_standing(snapshot, rig_, *screen_));
   if (!options_.is_virtual)
     if (auto slow = slowness(picture_rate_, display_->renderer().device_name().starts_with("llvmpipe")))
       input.overlay.push_back(frame::top_line(std::move(*slow), *screen_));

@@ -1,4 +1,5 @@
-/// What fixed instants on the scenario's motorway look like, compared with the pictures in golden/ (see the README there).
+/// What screens show of fixed instants on the scenario's motorway, compared with the pictures in golden/ (see the README there). They are
+/// drawn as septet-screen draws them: a snapshot, through a screen of a shipped rig.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,13 +13,14 @@
 
 #include "engine/image/png.hpp"
 #include "engine/render/renderer.hpp"
+#include "engine/rig/rig.hpp"
+#include "sim-client/frame/screen_frames.hpp"
 #include "tests/images/flip.hpp"
 #include "tests/images/motorway_view.hpp"
+#include "tests/shipped_files.hpp"
 
 namespace septet {
 namespace {
-
-constexpr std::uint32_t width = motorway_width_px, height = motorway_height_px;
 
 /// Mean FLIP that the whole and a tile may have. A tile in which an edge fell on the next pixel stays below it, one from which a car is missing does not.
 constexpr double accepted_mean = 0.01, accepted_tile = 0.12;
@@ -63,53 +65,84 @@ image::Image difference_picture(const image::Image& a, const image::Image& b) {
   return picture;
 }
 
-/// Draws the motorway.
-class Studio {
+/// A screen of a shipped rig, of fewer pixels.
+struct SmallScreen {
+  std::string rig, name;
+  std::uint32_t width_px, height_px;
+  std::uint32_t most_triangles = 100'000;
+};
+
+const SmallScreen in_the_cockpit{"desktop", "desktop", 384, 224, 200'000};
+const SmallScreen left_of_it{"three-monitors", "left", 384, 216, 200'000};
+const SmallScreen ahead{"seven-screens", "ahead-3", 320, 229};
+const SmallScreen behind{"seven-screens", "behind-right", 224, 232};
+
+/// One screen of the rig, as its client draws it.
+class Client {
  public:
-  Studio()
-      : renderer_(*render::Renderer::create(
-            {width, height, render::DevicePreference::software, false, render::Antialiasing::automatic, nullptr})) {
+  Client(const Motorway& motorway, const SmallScreen& screen)
+      : motorway_(motorway),
+        most_triangles_(screen.most_triangles),
+        rig_(*rig::read_rig(shipped_text("rigs/" + screen.rig + ".toml"), screen.rig)),
+        renderer_(
+            *render::Renderer::create({screen.width_px, screen.height_px, render::DevicePreference::software, false})) {
+    const auto found = std::ranges::find(rig_.screens, screen.name, &rig::Screen::name);
+    REQUIRE(found != rig_.screens.end());
+    found->width_px = screen.width_px;
+    found->height_px = screen.height_px;
+    REQUIRE(frames_.look_through(rig_, *found).has_value());
     REQUIRE(renderer_.upload(motorway_.scene()).has_value());
   }
-  const Motorway& motorway() const { return motorway_; }
-  image::Image draw(const instant::FrameInput& input) {
-    REQUIRE(renderer_.draw(input).has_value());
-    CHECK(renderer_.statistics().triangles < 100'000);
+  image::Image draw(const Snapshot& shown) {
+    frames_.show(shown, {}, 1.0 / 120.0, motorway_.scene());
+    REQUIRE(renderer_.draw(frames_.frame(shown, motorway_.scene())).has_value());
+    CHECK(renderer_.statistics().triangles < most_triangles_);
     const auto picture = renderer_.read_back();
     REQUIRE(picture.has_value());
     return *picture;
   }
 
  private:
-  Motorway motorway_;
+  const Motorway& motorway_;
+  std::uint32_t most_triangles_;
+  rig::Rig rig_;
+  frame::ScreenFrames frames_;
   render::Renderer renderer_;
 };
 
-constexpr MotorwayInstant day_ahead{"day-ahead", 800.0, 0.0, false, false};
+constexpr double driven_mps = 25.0;
+constexpr MotorwayInstant by_day{"day-ahead", 800.0, 0.0, false, false};
 
 }  // namespace
 
 TEST_CASE(
-    "the motorway looks as its golden pictures by day and in the tunnel at noon and at night and behind and on a rainy "
-    "night") {
+    "a client's screens show the motorway as on its golden pictures, from the cockpit by day, left of it in the tunnel "
+    "at "
+    "noon, ahead at night, behind, and from the cockpit on a rainy night") {
   namespace fs = std::filesystem;
   const fs::path golden = fs::path(SEPTET_SOURCE_DIR) / "tests/images/golden",
                  made = fs::path(SEPTET_BINARY_DIR) / "images";
   fs::create_directories(made);
   const bool renew = std::getenv("SEPTET_RENEW_IMAGES") != nullptr;
-  Studio studio;
-  for (const MotorwayInstant& instant :
-       {day_ahead, MotorwayInstant{"tunnel", 3350.0, 0.0, false, false},
-        MotorwayInstant{"tunnel-night", 3350.0, 0.0, true, false}, MotorwayInstant{"rear", 800.0, 165.0, false, false},
-        MotorwayInstant{"night-rain", 2400.0, 0.0, true, true}}) {
-    CAPTURE(instant.name);
-    const image::Image picture = studio.draw(studio.motorway().frame(instant));
-    const std::string file = std::string(instant.name) + ".png";
+  const Motorway motorway;
+  struct Golden {
+    MotorwayInstant instant;
+    const SmallScreen& screen;
+  };
+  for (const Golden& each : {Golden{by_day, in_the_cockpit},
+                             {{"tunnel", 3350.0, 0.0, false, false}, left_of_it},
+                             {{"tunnel-night", 3350.0, 0.0, true, false}, ahead},
+                             {{"rear", 800.0, 0.0, false, false}, behind},
+                             {{"night-rain", 2400.0, 0.0, true, true}, in_the_cockpit}}) {
+    CAPTURE(each.instant.name);
+    Client client(motorway, each.screen);
+    const image::Image picture = client.draw(motorway.snapshot(each.instant, driven_mps));
+    const std::string file = std::string(each.instant.name) + ".png";
     if (renew) REQUIRE(image::write_png(golden / file, picture).has_value());
     const auto expected = image::read_png(golden / file);
     REQUIRE(expected.has_value());
-    REQUIRE(expected->width == width);
-    REQUIRE(expected->height == height);
+    REQUIRE(expected->width == picture.width);
+    REQUIRE(expected->height == picture.height);
     const Difference differs = difference(flip_features(*expected), flip_features(picture));
     INFO("mean FLIP " << differs.mean << ", " << differs.worst << " in the tile at " << differs.x << ", " << differs.y
                       << "; see " << made.string());
@@ -139,19 +172,20 @@ TEST_CASE("pictures alike differ by nothing, white and black by nearly all, and 
 
 TEST_CASE("a picture from which one vehicle is missing is not the golden one") {
   constexpr long least_px = 100;  // What can be seen as a vehicle.
-  Studio studio;
-  const instant::FrameInput all = studio.motorway().frame(day_ahead);
-  const image::Image whole = studio.draw(all);
+  const Motorway motorway;
+  Client client(motorway, ahead);
+  const Snapshot all = motorway.snapshot(by_day, driven_mps);
+  const image::Image whole = client.draw(all);
   const FlipFeatures of_whole = flip_features(whole);
   int seen = 0;
   for (std::size_t i = 0; i + 1 < all.participants.size(); ++i) {  // The last one is the driver's car.
     CAPTURE(i);
-    instant::FrameInput others = all;
+    Snapshot others = all;
     others.participants.erase(others.participants.begin() + static_cast<std::ptrdiff_t>(i));
-    const image::Image picture = studio.draw(others);
+    const image::Image picture = client.draw(others);
     long changed_px = 0;
-    for (std::uint32_t y = 0; y < height; ++y)
-      for (std::uint32_t x = 0; x < width; ++x) changed_px += !(picture.at(x, y) == whole.at(x, y));
+    for (std::uint32_t y = 0; y < whole.height; ++y)
+      for (std::uint32_t x = 0; x < whole.width; ++x) changed_px += !(picture.at(x, y) == whole.at(x, y));
     if (changed_px < least_px) continue;
     ++seen;
     const Difference differs = difference(of_whole, flip_features(picture));
