@@ -198,9 +198,9 @@ void add_present(Frame& frame, ResourceId picture, std::uint32_t window_image) {
 void draw_frame(RendererState& state, const Instant& instant) {
   RenderStatistics& statistics = state.statistics;
   statistics.triangles = statistics.shadow_triangles = statistics.draws = statistics.instances = 0;
-  PassContext context{state.device,   state.memory,  state.layout,
-                      state.samplers, state.formats, begin_frame(state.ring, state.device),
-                      statistics};
+  PassContext context{state.device,   state.memory,     state.layout,
+                      state.samplers, state.formats,    begin_frame(state.ring, state.device),
+                      statistics,     state.refinements};
   statistics.pass_times = begin_pass_marks(context.slot.marks, state.device, context.slot.commands);
 
   const bool new_sky = state.table_light != instant.light;

@@ -39,6 +39,9 @@ enum class Antialiasing : std::uint8_t {
 /// Light that the eye scatters around what is bright (passes/bloom_pass.hpp).
 enum class Bloom : std::uint8_t { automatic, none, present };  ///< Automatic: on a graphics card.
 
+/// How wide the edges of shadows are (shaders/sunlit.glsl): a texel or two, or as wide as the sun makes them. Automatic: soft on a graphics card.
+enum class ShadowEdges : std::uint8_t { automatic, narrow, soft };
+
 struct RendererOptions {
   std::uint32_t width = 0, height = 0;  ///< Of the target, pixels.
   DevicePreference device = DevicePreference::any;
@@ -47,6 +50,7 @@ struct RendererOptions {
   Window* window = nullptr;  ///< Where to present; null draws off-screen. Outlives the renderer.
   bool timed = false;        ///< The device's clock times each pass, for the statistics.
   Bloom bloom = Bloom::automatic;
+  ShadowEdges shadow_edges = ShadowEdges::automatic;
 };
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.

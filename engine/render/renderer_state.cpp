@@ -29,6 +29,8 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
   const bool multisampled = antialiasing == Antialiasing::multisampled && (samples & VK_SAMPLE_COUNT_4_BIT);
   state.formats.samples = multisampled ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
   state.smoothed = antialiasing == Antialiasing::smoothing;
+  state.refinements.soft_shadows =
+      wanted.shadow_edges == ShadowEdges::soft || (wanted.shadow_edges == ShadowEdges::automatic && !software);
   create_frame_ring(state.ring, state.device, wanted.timed);
   create_pipeline_layout(state.layout, state.device);
   create_samplers(state.samplers, state.device);
@@ -49,7 +51,7 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
   state.noise = create_texture(upload, texture_levels(side, side, texels, false));
   upload.finish();
   create_shadow_pass(state.shadow_pass, state.device, state.layout, state.formats.depth);
-  create_contact_pass(state.contact_pass, state.device, state.layout, state.formats);
+  create_contact_pass(state.contact_pass, state.device, state.layout, state.formats, state.refinements);
   create_glow_pass(state.glow_pass, state.device, state.layout, state.formats);
   create_mirror_pass(state.mirror_pass, state.device, state.layout, state.formats);
   create_precipitation_pass(state.precipitation_pass, state.device, state.layout, state.formats);

@@ -36,6 +36,7 @@ struct RendererState {
   vulkan::PipelineLayout layout;
   Samplers samplers;
   TargetFormats formats;
+  Refinements refinements;
   FrameTargets targets;
   vulkan::Swapchain swapchain;  ///< Only with a window.
   vulkan::DeviceImage sky_table, noise, lamp_image;

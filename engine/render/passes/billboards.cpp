@@ -1,10 +1,13 @@
 #include "engine/render/passes/billboards.hpp"
 
+#include "engine/render/passes/shaders.hpp"
+
 namespace septet::render {
 
 VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                                      const TargetFormats& formats, std::span<const std::uint32_t> vertex_code,
-                                     std::span<const std::uint32_t> fragment_code, vulkan::Blend blend) {
+                                     std::span<const std::uint32_t> fragment_code, vulkan::Blend blend,
+                                     const Refinements& refinements) {
   vulkan::PipelineDescription description;
   description.vertex_code = vertex_code;
   description.fragment_code = fragment_code;
@@ -14,6 +17,7 @@ VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan:
   description.samples = formats.samples;
   description.blend = blend;
   description.depth_write = false;
+  description.constants[shaders::soft_shadows_constant] = refinements.soft_shadows;
   return create_pipeline(device, layout, description);
 }
 

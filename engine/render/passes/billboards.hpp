@@ -8,7 +8,8 @@ namespace septet::render {
 
 VkPipeline create_billboard_pipeline(const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                                      const TargetFormats& formats, std::span<const std::uint32_t> vertex_code,
-                                     std::span<const std::uint32_t> fragment_code, vulkan::Blend blend);
+                                     std::span<const std::uint32_t> fragment_code, vulkan::Blend blend,
+                                     const Refinements& refinements = {});
 
 /// Draws `count` of them, in the order of their records.
 void draw_billboards(VkPipeline pipeline, PassContext& context, const FrameData& records, std::uint32_t count);

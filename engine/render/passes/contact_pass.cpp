@@ -12,9 +12,9 @@
 namespace septet::render {
 
 void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                         const TargetFormats& formats) {
+                         const TargetFormats& formats, const Refinements& refinements) {
   pass.pipeline = create_billboard_pipeline(device, layout, formats, shaders::contact_vert(), shaders::contact_frag(),
-                                            vulkan::Blend::over);
+                                            vulkan::Blend::over, refinements);
 }
 
 void destroy_contact_pass(ContactPass& pass, const vulkan::Device& device) {

@@ -23,7 +23,7 @@ struct ContactPass {
 };
 
 void create_contact_pass(ContactPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
-                         const TargetFormats& formats);
+                         const TargetFormats& formats, const Refinements& refinements);
 void destroy_contact_pass(ContactPass& pass, const vulkan::Device& device);
 
 /// Those that a view may see as more than a pixel (`pixel_rad` wide), the nearest `most_contacts`.

@@ -7,9 +7,9 @@ namespace septet::render {
 namespace {
 
 VkSampler create_sampler(const vulkan::Device& device, VkSamplerAddressMode address, VkSamplerMipmapMode mip_levels,
-                         float anisotropy, bool compare) {
+                         float anisotropy, bool compare, VkFilter filter = VK_FILTER_LINEAR) {
   VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-  info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+  info.magFilter = info.minFilter = filter;
   info.mipmapMode = mip_levels;
   info.addressModeU = info.addressModeV = info.addressModeW = address;
   info.maxLod = VK_LOD_CLAMP_NONE;
@@ -46,10 +46,11 @@ void create_samplers(Samplers& samplers, const vulkan::Device& device) {
                                  samplers.anisotropic ? 16.0f : 1.0f, false);
   samplers.table = create_sampler(device, clamp, nearest, 1.0f, false);
   samplers.shadow = create_sampler(device, clamp, nearest, 1.0f, true);
+  samplers.texel = create_sampler(device, clamp, nearest, 1.0f, false, VK_FILTER_NEAREST);
 }
 
 void destroy_samplers(Samplers& samplers, const vulkan::Device& device) {
-  for (const VkSampler sampler : {samplers.surface, samplers.road, samplers.table, samplers.shadow})
+  for (const VkSampler sampler : {samplers.surface, samplers.road, samplers.table, samplers.shadow, samplers.texel})
     if (sampler) vkDestroySampler(device.device, sampler, nullptr);
   samplers = {};
 }
@@ -65,24 +66,26 @@ void push_view(PassContext& context, const ViewBindings& bindings) {
   const VkDescriptorBufferInfo uniforms{bindings.uniforms.buffer, bindings.uniforms.offset, bindings.uniforms.size};
   // Without an image of its own a material still needs something bound: the noise.
   const auto or_noise = [&](VkImageView view) { return view ? view : bindings.noise; };
-  const VkDescriptorImageInfo images[7] = {
+  const VkDescriptorImageInfo images[8] = {
       {context.samplers.table, bindings.sky_table, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.shadow, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.surface, bindings.noise, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.table, bindings.lamp_field, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
       {context.samplers.table, or_noise(bindings.road_mirror), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-      {context.samplers.surface, or_noise(bindings.ripples), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
-  VkWriteDescriptorSet writes[8] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
+      {context.samplers.surface, or_noise(bindings.ripples), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+      {context.samplers.texel, bindings.shadow_map, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}};
+  VkWriteDescriptorSet writes[9] = {write(vulkan::binding_view, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER),
                                     write(vulkan::binding_sky, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_shadow, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_noise, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_image, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_lamps, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
                                     write(vulkan::binding_road_mirror, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
-                                    write(vulkan::binding_ripples, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
+                                    write(vulkan::binding_ripples, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER),
+                                    write(vulkan::binding_shadow_depths, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)};
   writes[0].pBufferInfo = &uniforms;
-  for (int i = 0; i < 7; ++i) writes[1 + i].pImageInfo = &images[i];
+  for (int i = 0; i < 8; ++i) writes[1 + i].pImageInfo = &images[i];
   push(context, writes);
 }
 

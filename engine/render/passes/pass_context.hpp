@@ -20,6 +20,7 @@ struct Samplers {
   bool anisotropic = false;            ///< False on a software device, where shaders do it at a tenth of the cost.
   VkSampler table = VK_NULL_HANDLE;    ///< Clamps, bilinear.
   VkSampler shadow = VK_NULL_HANDLE;   ///< Compares: 1 where nothing is nearer to the light.
+  VkSampler texel = VK_NULL_HANDLE;    ///< Clamps, one texel: of depths no device has to blend.
 };
 
 void create_samplers(Samplers& samplers, const vulkan::Device& device);
@@ -34,6 +35,11 @@ struct TargetFormats {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 };
 
+/// What a graphics card draws beyond the software device, and that one where it is asked to; nothing of it differs in what a driver acts on.
+struct Refinements {
+  bool soft_shadows = false;
+};
+
 struct PassContext {
   const vulkan::Device& device;
   vulkan::MemoryPool& memory;
@@ -42,6 +48,7 @@ struct PassContext {
   const TargetFormats& formats;
   vulkan::FrameSlot& slot;
   RenderStatistics& statistics;
+  Refinements refinements;
 };
 
 /// What was recorded since the last mark was this pass (a literal): its time is told where frames are timed.

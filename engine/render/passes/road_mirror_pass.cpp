@@ -107,8 +107,8 @@ void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceSc
                       const FrameData& soot, const SurfaceLight& light) {
   TargetFormats formats = context.formats;
   formats.samples = VK_SAMPLE_COUNT_1_BIT;
-  PassContext mirror{context.device, context.memory, context.layout,    context.samplers,
-                     formats,        context.slot,   context.statistics};
+  PassContext mirror{context.device, context.memory, context.layout,     context.samplers,
+                     formats,        context.slot,   context.statistics, context.refinements};
   begin_view_rendering(mirror, pass.image, pass.depth, 0.0f);
   set_viewport(mirror, halved(view.viewport));
   // Upside down, front faces run the other way round.

@@ -1,10 +1,14 @@
 #pragma once
 /// SPIR-V of engine/render/shaders, compiled by glslc at build time and embedded.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace septet::render::shaders {
+
+/// Of those that include shaders/sunlit.glsl.
+inline constexpr std::size_t soft_shadows_constant = 15;
 
 std::span<const std::uint32_t> surface_vert();
 std::span<const std::uint32_t> surface_frag();

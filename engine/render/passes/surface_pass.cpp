@@ -45,6 +45,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
                            variant.lamps,    variant.snowy,
                            variant.sooty,    stripe,
                            variant.road,     variant.mirror};
+  description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
 }

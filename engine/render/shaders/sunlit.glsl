@@ -1,5 +1,43 @@
 // Share of the sun's light that arrives at a place: one of two cascades, four texels compared and blended by the sampler; where light grazes the surface,
 // a shadow's edge would show each texel many times as long, so that sixteen are. `n`: away from the surface.
+layout(constant_id = 15) const uint soft_shadows = 0;  // Edges are as wide as the sun makes them: for graphics cards.
+layout(set = 0, binding = 15) uniform sampler2DArray shadow_depths;  // The same texels, not compared.
+
+// The i-th of n points that lie evenly in a disc (Vogel, "A better way to construct the sunflower head", 1979).
+vec2 in_disc(int i, int n) {
+  float angle = 2.39996323 * float(i);
+  return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
+}
+
+// Percentage-closer soft shadows (Fernando, 2005) of a disc as wide as the sun: how far above the place is what shades it decides how wide its edge is.
+// Deviation: what is too thin for the search is still compared as a narrow shadow is. `a`: the surface's normal in the near cascade's texture space.
+float softly_lit(vec4 at, vec3 a, float texel_m) {
+  const float sun_rad = 0.00465, farthest_m = 80.0;
+  const int searched = 16, compared = 32;
+  mat3 texture_from = mat3(view.shadow_from_relative);
+  vec3 across = vec3(texture_from[0].x, texture_from[1].x, texture_from[2].x), along = vec3(texture_from[0].z, texture_from[1].z, texture_from[2].z);
+  float texels = float(textureSize(shadow_map, 0).x), depth_per_m = length(along);
+  // The surface's own plane beside the place: its depth per texture coordinate, not steeper than 1 in 6 of the light's way.
+  float near_over_far = at.z > 0.5 ? view.far_from_near.x : 1.0;
+  float steepest = 6.0 * depth_per_m / (length(across) * near_over_far);
+  vec2 plane = clamp(-a.xy / (sign(a.z) * max(abs(a.z), 1e-6)) * dot(along, along) / (dot(across, across) * near_over_far), vec2(-steepest), vec2(steepest));
+  float widest = sun_rad * farthest_m / (texel_m * texels), above_m = 0.0, shading = 0.0;
+  for (int i = 0; i < searched; ++i) {
+    vec2 aside = widest * in_disc(i, searched);
+    float above = textureLod(shadow_depths, vec3(at.xy + aside, at.z), 0.0).r - at.w - dot(plane, aside);
+    if (above > 0.0) {
+      above_m += above / depth_per_m;
+      shading += 1.0;
+    }
+  }
+  float radius = clamp(sun_rad * above_m / max(shading, 1.0) / (texel_m * texels), 1.2 / texels, max(widest, 1.2 / texels)), lit = 0.0;
+  for (int i = 0; i < compared; ++i) {
+    vec2 aside = radius * in_disc(i, compared);
+    lit += texture(shadow_map, at + vec4(aside, 0.0, dot(plane, aside)));
+  }
+  return lit / float(compared);
+}
+
 float sunlit(vec3 relative, vec3 n, float facing) {
   // The receiver is moved off its surface by about two texels of the cascade that it lies in.
   vec3 near = (view.shadow_from_relative * vec4(relative, 1.0)).xyz;
@@ -13,7 +51,9 @@ float sunlit(vec3 relative, vec3 n, float facing) {
   vec4 at = is_near ? vec4(near.xy, 0.0, near.z) : vec4(far, 1.0, near.z);
   // A loop, not branches: a device of software leaves it early. Under a closed cover nothing is looked up.
   bool grazed = facing < 0.4;
-  int samples = view.light_irradiance.g < 0.002 * view.sky_irradiance.g ? 0 : grazed ? 4 : 1;
+  bool covered = view.light_irradiance.g < 0.002 * view.sky_irradiance.g;
+  if (soft_shadows != 0) return covered ? 1.0 : 1.0 - fade + fade * softly_lit(at, mat3(view.shadow_from_relative) * n, texel_m);
+  int samples = covered ? 0 : grazed ? 4 : 1;
   float spacing = grazed ? 1.5 / float(textureSize(shadow_map, 0).x) : 0.0;
   float lit = samples == 0 ? 1.0 : 0.0;
   for (int i = 0; i < samples; ++i)

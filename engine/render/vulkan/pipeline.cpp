@@ -76,7 +76,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
     }
   } modules{device.device, {}};
 
-  std::array<VkSpecializationMapEntry, 10> entries;
+  std::array<VkSpecializationMapEntry, 16> entries;
   for (std::uint32_t i = 0; i < entries.size(); ++i) entries[i] = {i, i * 4, 4};
   const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof description.constants,
                                        description.constants.data()};

@@ -27,7 +27,8 @@ enum Binding : std::uint32_t {
   binding_lamps = 12,            ///< What standing lamps throw (passes/lamp_field.hpp).
   binding_road_mirror = 13,      ///< What a wet road mirrors (passes/road_mirror_pass.hpp),
   binding_ripples = 14,          ///< and the slopes of the water on it.
-  binding_count = 15,
+  binding_shadow_depths = 15,    ///< The shadow map, not compared.
+  binding_count = 16,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
@@ -60,7 +61,7 @@ struct PipelineDescription {
   bool alpha_to_coverage = false;
   float depth_bias = 0.0f, depth_bias_slope = 0.0f;
   bool clamp_depth = false;
-  std::array<std::uint32_t, 10> constants{};  ///< Specialization constants 0 to 9 of both stages.
+  std::array<std::uint32_t, 16> constants{};  ///< Specialization constants 0 to 15 of both stages.
 };
 
 /// Viewport, scissor, cull mode and front face are dynamic.
