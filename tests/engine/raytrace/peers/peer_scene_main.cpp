@@ -1,11 +1,9 @@
 /// Draws a scene by Septet and writes it for another path tracer, which draws the same (mitsuba_peer.py):
 ///
-///     septet-peer-scene noon|night|tunnel|smoke FOLDER SAMPLES
+///     septet-peer-scene noon|night|tunnel|smoke|gloss|ice FOLDER SAMPLES
 ///
-/// FOLDER/traced.pfm is Septet's picture, linear; scene.json names meshes (PLY), images, sky, camera and exposure. What every path
-/// tracer means by its words is kept: diffuse surfaces with images and holes, lamps, sky, sun or moon, smoke in cells. Gloss, sheets
-/// of glass, retroreflection, headlights and fog, whose formulas are Septet's own, are left out on both sides; closed forms hold
-/// them in the tests beside. A lamp lights as bright as it is seen.
+/// FOLDER/traced.pfm is Septet's picture, linear; scene.json names meshes (PLY), images, sky, camera and exposure; ice.pfm is white
+/// where ice is seen. peer_scenes.hpp says what the scenes have.
 
 #include <cmath>
 #include <cstdio>
@@ -25,68 +23,11 @@
 #include <fmt/format.h>
 
 #include "engine/image/png.hpp"
-#include "engine/instant/scene_summary.hpp"
-#include "engine/raytrace/ray_tracer.hpp"
 #include "engine/raytrace/smoke.hpp"
-#include "tests/engine/raytrace/cornell_box.hpp"
-#include "tests/images/motorway_view.hpp"
+#include "tests/engine/raytrace/peers/peer_scenes.hpp"
 
 namespace septet::raytrace {
 namespace {
-
-struct PeerScene {
-  scene::ResolvedScene scene;
-  instant::Instant instant;
-  TraceSettings settings;
-};
-
-/// What all path tracers have.
-void simplify(scene::ResolvedScene& scene) {
-  for (scene::SurfaceMaterial& material : scene.materials) {
-    material.roughness = 1.0f;
-    material.metallic = material.retroreflection = 0.0f;
-    material.wettable = false;
-    // As World says: what lights a roofed place is as many times as bright for what it lights.
-    material.emission *= 6.0f + (1.0f - 6.0f) * material.share_of_sky;
-    if (material.emission != glm::vec3(0.0f)) material.share_of_sky = 1.0f;
-  }
-  for (scene::SurfaceMesh& mesh : scene.meshes)
-    for (scene::MeshPart& part : mesh.parts)
-      if (scene.materials[part.material].opacity < 0.999f) part.index_count = 0;
-  // What no part names any more is no surface either.
-  for (scene::SurfaceMesh& mesh : scene.meshes) {
-    std::vector<std::uint32_t> kept;
-    for (scene::MeshPart& part : mesh.parts) {
-      const auto from = mesh.indices.begin() + part.first_index;
-      part.first_index = static_cast<std::uint32_t>(kept.size());
-      kept.insert(kept.end(), from, from + part.index_count);
-    }
-    mesh.indices = std::move(kept);
-  }
-}
-
-PeerScene motorway(std::string_view name) {
-  const Motorway world;
-  PeerScene peer{world.scene(), {}, {.filter = Filter::box}};
-  simplify(peer.scene);
-  instant::FrameInput input = world.frame({"", name == "tunnel" ? 3350.0 : 800.0, 0.0, name == "night", false});
-  input.environment.cloud_cover = 0.0;
-  input.participants.pop_back();  // The driver's own car is not seen.
-  peer.instant = instant::describe(std::move(input), instant::summarise(peer.scene));
-  peer.instant.headlights.clear();
-  peer.instant.extinction_per_m = 0.0f;
-  for (instant::PlacedMesh& part : peer.instant.parts) part.share_of_sky = 1.0f;
-  peer.settings.paths = {.longest = 8, .roulette_from = 100};
-  return peer;
-}
-
-/// A puff in the middle of the Cornell box.
-PeerScene smoke_box() {
-  PeerScene peer{cornell_box(), before_cornell_box(192), cornell_settings(0)};
-  peer.instant.smoke.push_back({{0.0, 0.0, 0.1}, 0.15f, 0.5f, glm::vec3(0.9f, 0.8f, 0.7f), 0.0f, 0});
-  peer.settings.paths.longest = 12;
-  return peer;
-}
 
 void write(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream file(path, std::ios::binary);
@@ -110,6 +51,8 @@ struct Group {
   std::vector<scene::SurfaceVertex> vertices;
   glm::vec3 color{0.0f}, emission{0.0f};
   std::int32_t image = -1;
+  Gloss gloss;
+  const ice::Look* ice = nullptr;  ///< It is a body of it.
 };
 
 std::string ply(const Group& group) {
@@ -143,7 +86,8 @@ std::vector<Group> groups_of(const PeerScene& peer) {
       const glm::vec3 paint = material.takes_paint ? glm::vec3(placed.tint) : glm::vec3(1.0f);
       const bool shines = placed.tint.w > 0.0f && material.emission != glm::vec3(0.0f);
       Group& group = groups[{part.material, paint.x, paint.y, paint.z, shines}];
-      group.color = material.base_color * paint;
+      group.gloss = gloss_of(material, peer.instant.environment);
+      group.color = material.base_color * paint * (1.0f - 0.55f * wetness(material, peer.instant.environment));
       group.image = material.base_color_image;
       if (shines) group.emission = material.emission * (placed.tint.w * peer.instant.emission_share);
       const std::uint32_t columns = material.picture_columns,
@@ -166,10 +110,32 @@ std::vector<Group> groups_of(const PeerScene& peer) {
   std::vector<Group> result;
   for (auto& [key, group] : groups)
     if (!group.vertices.empty()) result.push_back(std::move(group));
+  for (const ice::IceBody& body : peer.instant.ice) {
+    Group& group = result.emplace_back();
+    group.ice = &body.look;
+    for (const ice::IceVertex& vertex : body.vertices)
+      group.vertices.push_back({glm::vec3(body.origin_m - origin_m) + vertex.position_m, vertex.normal, {}});
+  }
   return result;
 }
 
 std::string numbers(const glm::vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+/// What scene.json says of a group.
+std::string told(const Group& group, const scene::ResolvedScene& scene) {
+  if (group.ice)
+    return fmt::format(
+        "{{\"color\": [0, 0, 0], \"emission\": [0, 0, 0], \"image\": -1, \"srgb\": true, \"inside_index\": {}, "
+        "\"outside_index\": {}, \"absorption_per_m\": {}}}",
+        ice::ice_index, ice::air_index, numbers(group.ice->absorption_per_m));
+  const bool srgb = group.image < 0 || scene.images[static_cast<std::size_t>(group.image)].srgb;
+  std::string gloss = "null";
+  if (group.gloss.share > 0.0f)
+    gloss = fmt::format("{{\"share\": {}, \"alpha\": {}, \"f0\": {}, \"metallic\": {}}}", group.gloss.share,
+                        group.gloss.alpha, group.gloss.f0, group.gloss.metallic);
+  return fmt::format("{{\"color\": {}, \"emission\": {}, \"image\": {}, \"srgb\": {}, \"gloss\": {}}}",
+                     numbers(group.color), numbers(group.emission), group.image, srgb, gloss);
+}
 
 /// Extinction and albedo in cells, as Septet's own cells have them: along each cell the light is weakened by its mean.
 std::string write_smoke(const PeerScene& peer, const std::filesystem::path& folder) {
@@ -199,7 +165,7 @@ std::string write_smoke(const PeerScene& peer, const std::filesystem::path& fold
 }
 
 void run(std::string_view name, const std::filesystem::path& folder, std::uint32_t samples) {
-  PeerScene peer = name == "smoke" ? smoke_box() : motorway(name);
+  PeerScene peer = peer_scene(name);
   peer.settings.samples = samples;
   const instant::FrameView& view = peer.instant.views.front();
   const std::uint32_t width = view.viewport.width, height = view.viewport.height;
@@ -211,6 +177,9 @@ void run(std::string_view name, const std::filesystem::path& folder, std::uint32
   const double processor_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
   write_pfm(folder / "traced.pfm", width, height,
             [&](std::uint32_t x, std::uint32_t y) { return picture.at(x, y).radiance; });
+  const std::size_t ice = peer.scene.instances.size() + peer.scene.meshes.size() + peer.scene.materials.size() + 1;
+  write_pfm(folder / "ice.pfm", width, height,
+            [&](std::uint32_t x, std::uint32_t y) { return glm::vec3(picture.at(x, y).object == ice ? 1.0f : 0.0f); });
   // Rows from the top, azimuth from +x towards +y.
   const instant::SkyLight& light = *peer.instant.light;
   write_pfm(folder / "sky.pfm", 2048, 1024, [&](std::uint32_t x, std::uint32_t y) {
@@ -230,28 +199,28 @@ void run(std::string_view name, const std::filesystem::path& folder, std::uint32
   const std::vector<Group> all = groups_of(peer);
   for (std::size_t n = 0; n < all.size(); ++n) {
     write(folder / fmt::format("mesh{}.ply", n), ply(all[n]));
-    const bool srgb = all[n].image < 0 || peer.scene.images[static_cast<std::size_t>(all[n].image)].srgb;
-    groups += fmt::format("{}{{\"color\": {}, \"emission\": {}, \"image\": {}, \"srgb\": {}}}", n ? ",\n  " : "",
-                          numbers(all[n].color), numbers(all[n].emission), all[n].image, srgb);
+    groups += (n ? ",\n  " : "") + told(all[n], peer.scene);
   }
   const Quat turn = view.world_from_car.orientation;
   const instant::OffAxisView& p = view.projection;
   write(folder / "scene.json",
         fmt::format(
             "{{\"width\": {}, \"height\": {}, \"processor_s\": {}, \"horizontal_deg\": {}, \"ahead\": {}, \"up\": {},\n"
-            " \"longest\": {}, \"exposure\": {}, \"sun_irradiance\": {}, \"to_sun\": {}, \"smoke\": {},\n"
+            " \"longest\": {}, \"exposure\": {}, \"share_of_sky\": {}, \"sun_irradiance\": {}, \"to_sun\": {}, "
+            "\"smoke\": {},\n"
             " \"groups\": [\n  {}]}}\n",
             width, height, processor_s, 2.0 * std::atan(p.right_slope) * 180.0 / std::numbers::pi,
             numbers(glm::vec3(turn * -p.back)), numbers(glm::vec3(turn * p.up)), peer.settings.paths.longest,
-            peer.instant.exposure.scale(), numbers(light.light_irradiance), numbers(light.light_direction),
-            write_smoke(peer, folder), groups));
+            peer.instant.exposure.scale(), peer.instant.share_of_sky, numbers(light.light_irradiance),
+            numbers(light.light_direction), write_smoke(peer, folder), groups));
 }
 
 }  // namespace
 }  // namespace septet::raytrace
 
 int main(int count, char** arguments) {
-  if (count != 4) return std::fputs("septet-peer-scene noon|night|tunnel|smoke FOLDER SAMPLES\n", stderr), 2;
-  septet::raytrace::run(arguments[1], arguments[2],
-                        static_cast<std::uint32_t>(std::strtoul(arguments[3], nullptr, 10)));
+  const unsigned long samples = count == 4 ? std::strtoul(arguments[3], nullptr, 10) : 0;
+  if (!septet::raytrace::is_peer_scene(count == 4 ? arguments[1] : "") || samples < 1 || samples > 1000000)
+    return std::fputs("septet-peer-scene noon|night|tunnel|smoke|gloss|ice FOLDER SAMPLES\n", stderr), 2;
+  septet::raytrace::run(arguments[1], arguments[2], static_cast<std::uint32_t>(samples));
 }
