@@ -15,6 +15,34 @@ double move_pedal(double pedal, bool pressed, const KeyboardSettings& settings, 
   return approach(pedal, pressed ? 1.0 : 0.0, dt_s / (pressed ? settings.press_time_s : settings.release_time_s));
 }
 
+/// The share of its rate that a key has in the middle of the next `dt_s`, and `held_for_s` after them.
+double grown(double& held_for_s, double growth_s, double first_share, double dt_s) {
+  const double share = std::clamp((held_for_s + dt_s / 2) / growth_s, first_share, 1.0);
+  held_for_s += dt_s;
+  return share;
+}
+
+double move_brake(KeyboardDriver& driver, bool pressed, double dt_s) {
+  const KeyboardSettings& settings = driver.settings;
+  if (!pressed) driver.braked_for_s = 0.0;
+  const double share = pressed ? grown(driver.braked_for_s, settings.brake_growth_s, settings.first_share, dt_s) : 1.0;
+  return move_pedal(driver.input.brake, pressed, settings, share * dt_s);
+}
+
+/// `side`: 1 to the left, -1 to the right, 0 neither.
+double turn_wheel(KeyboardDriver& driver, double side, double largest_rad, double dt_s) {
+  const KeyboardSettings& settings = driver.settings;
+  const double now_rad = driver.input.steering_wheel_rad, target_rad = largest_rad * side;
+  if (target_rad == 0.0 || target_rad * now_rad < 0.0) {
+    driver.steered_for_s = 0.0;
+    return approach(now_rad, target_rad,
+                    std::min(largest_rad / settings.return_time_s, settings.return_speed_radps) * dt_s);
+  }
+  const double share = grown(driver.steered_for_s, settings.steer_growth_s, settings.first_share, dt_s);
+  return approach(now_rad, target_rad,
+                  share * std::min(largest_rad / settings.steer_time_s, settings.hand_speed_radps) * dt_s);
+}
+
 bool is_new(bool now, bool before) { return now && !before; }
 
 /// Indicators, lamps and the other switches.
@@ -99,13 +127,9 @@ DriverInput advance(KeyboardDriver& driver, const KeyStates& keys, double speed_
   move_clutch_and_lever(driver, keys, dt_s);
   const bool reverse = input.selector == GearSelector::reverse;
   input.accelerator = move_pedal(input.accelerator, reverse ? keys.brake : keys.accelerate, settings, dt_s);
-  input.brake = move_pedal(input.brake, reverse ? keys.accelerate : keys.brake, settings, dt_s);
-
-  const double largest = largest_steering_rad(settings, speed_mps);
-  const double target = largest * ((keys.left ? 1.0 : 0.0) - (keys.right ? 1.0 : 0.0));
-  const bool returns = target == 0.0 || target * input.steering_wheel_rad < 0.0;
-  const double rate_radps = largest / (returns ? settings.return_time_s : settings.steer_time_s);
-  input.steering_wheel_rad = approach(input.steering_wheel_rad, target, rate_radps * dt_s);
+  input.brake = move_brake(driver, reverse ? keys.accelerate : keys.brake, dt_s);
+  input.steering_wheel_rad = turn_wheel(driver, (keys.left ? 1.0 : 0.0) - (keys.right ? 1.0 : 0.0),
+                                        largest_steering_rad(settings, speed_mps), dt_s);
   look(driver, settings.look_angle_rad * ((keys.look_left ? 1.0 : 0.0) - (keys.look_right ? 1.0 : 0.0)), dt_s);
   move_switches(driver, keys);
   return input;

@@ -2,8 +2,9 @@
 /// Keys and gamepad axes become a DriverInput: what a person needs who drives without a wheel.
 ///
 /// Keys are all or nothing, a hand wheel is not: the wheel moves towards its target at a limited
-/// rate, and the target shrinks with speed so that full steering asks for about the same lateral
-/// acceleration at any speed. Pedals rise and fall with their own rates. Pure functions over plain
+/// rate, slowly at first and no faster than hands turn it, and the target shrinks with speed so that
+/// full steering asks for about the same lateral acceleration at any speed. So a tap corrects, and a
+/// key that is held turns. Pedals rise and fall with their own rates. Pure functions over plain
 /// state; the caller owns the clock.
 
 #include <cstdint>
@@ -33,11 +34,16 @@ struct KeyStates {
 struct KeyboardSettings {
   double lateral_acceleration_mps2 = 5.0;  ///< Asked for by full steering, once the lock no longer limits.
   double wheelbase_m = 2.8;
-  double steering_ratio = 16.0;                       ///< Hand wheel over road wheel.
-  double largest_angle_rad = 7.0;                     ///< Of the hand wheel, at a standstill.
-  double steer_time_s = 0.45;                         ///< From straight to the target.
-  double return_time_s = 0.25;                        ///< From the target to straight.
-  double press_time_s = 0.35, release_time_s = 0.15;  ///< Of a pedal.
+  double steering_ratio = 16.0;     ///< Hand wheel over road wheel.
+  double largest_angle_rad = 7.0;   ///< Of the hand wheel, at a standstill.
+  double steer_time_s = 0.45;       ///< From straight to the target, at the rate of a key long held.
+  double return_time_s = 0.25;      ///< From the target to straight.
+  double hand_speed_radps = 4.5;    ///< At most, away from straight: the times above are of small targets.
+  double return_speed_radps = 9.0;  ///< At most, back to straight, and from one side to the other.
+  double press_time_s = 0.35, release_time_s = 0.15;  ///< Of a pedal; of the brake at the rate of a key long held.
+  /// A key just pressed turns the wheel, and presses the brake, at this share of the rate; at all of it once it has been held for so
+  /// long.
+  double first_share = 0.2, steer_growth_s = 0.4, brake_growth_s = 0.8;
   /// A foot is quick to the clutch's floor. It comes up slowly where the other one gives gas, and drops off it otherwise.
   double clutch_press_time_s = 0.12, clutch_bite_time_s = 1.6, clutch_drop_time_s = 0.15;
   std::int8_t gears = 6;  ///< A car with fewer takes its highest.
@@ -50,8 +56,9 @@ struct KeyboardDriver {
   KeyboardSettings settings;
   DriverInput input;
   KeyStates previous;
-  bool reverse_armed = false;  ///< The brake key was let go at a standstill, so that pressing it
-                               ///< again means reverse.
+  double steered_for_s = 0.0, braked_for_s = 0.0;  ///< For so long the same key has been held.
+  bool reverse_armed = false;                      ///< The brake key was let go at a standstill, so that pressing it
+                                                   ///< again means reverse.
   bool parking_brake_is_set = false;
 };
 

@@ -27,7 +27,9 @@ class Display {
   virtual ~Display() = default;
 
   virtual render::Renderer& renderer() = 0;
-  /// Handles what the window system has to say; whether the person wants to leave, or to pause, by what: a key once when it is pressed.
+  /// Takes what the window system has to say: often enough that keys are read while a picture is drawn in another thread.
+  virtual void attend() = 0;
+  /// The same; whether the person wants to leave, or to pause, by what: a key once when it is pressed.
   enum class Leaving : std::uint8_t { no, closed, escape, restart, enter };
   virtual Leaving poll_leaving() = 0;
   /// What keyboard or gamepad say, for a rig whose car is one; nothing before they are touched, and for an off-screen display.

@@ -1,5 +1,7 @@
 #include "sim-client/screen/screen_session.hpp"
 
+#include <chrono>
+#include <future>
 #include <stop_token>
 #include <thread>
 
@@ -53,6 +55,9 @@ class Session {
   Expected<void> draw_real_time(double now_s);
   Expected<void> draw_lost(double now_s);
   Expected<void> draw(const Snapshot& snapshot, const std::optional<std::string>& message);
+  /// In a thread of its own: keys are read meanwhile, however long a picture takes.
+  Expected<void> draw_beside_keys(instant::FrameInput input, double speed_mps);
+  void send_controls(double speed_mps);
   void count_frame();
   /// The effects that `snapshot`'s instant shows, by the keyframes around it.
   void take_effects(const Snapshot& snapshot);
@@ -82,6 +87,7 @@ class Session {
   std::optional<Snapshot> last_shown_;
   frame::ScreenFrames screen_frames_;
   double lost_drawn_s_ = 0.0;
+  static constexpr std::chrono::milliseconds keys_every{8};
   static constexpr double keys_shown_for_s = 30.0;  ///< From the start, until the first key is pressed.
   std::optional<bool> keys_shown_;                  ///< By the driver's keys; nothing: none has been pressed.
   bool was_touched_ = false;
@@ -138,9 +144,27 @@ Expected<void> Session::draw(const Snapshot& snapshot, const std::optional<std::
   const double begun_s = program::monotonic_s();
   auto input = screen_frames_.frame(snapshot, resolver_.scene(), message);
   if (!message) add_driver_texts(input, snapshot);
-  if (auto drawn = display_->renderer().draw(std::move(input)); !drawn) return drawn;
+  const double speed_mps = snapshot.driver_car.speed_mps;
+  const bool is_watched = display_->paces_itself() && !link_.server_is_gone() && !link_.welcome()->lockstep;
+  auto drawn = is_watched ? draw_beside_keys(std::move(input), speed_mps) : display_->renderer().draw(std::move(input));
+  if (!drawn) return drawn;
   last_submit_ms_ = static_cast<float>(1e3 * (program::monotonic_s() - begun_s));
   return {};
+}
+
+Expected<void> Session::draw_beside_keys(instant::FrameInput input, double speed_mps) {
+  auto drawing = std::async(std::launch::async, [&] { return display_->renderer().draw(std::move(input)); });
+  while (drawing.wait_for(keys_every) != std::future_status::ready) {
+    display_->attend();
+    send_controls(speed_mps);
+    link_.pump(program::monotonic_s());
+  }
+  return drawing.get();
+}
+
+void Session::send_controls(double speed_mps) {
+  if (auto controls = display_->controls(program::monotonic_s(), speed_mps))
+    link_.send(control::Controls{*controls}, net::Reliability::unreliable);
 }
 
 /// After each picture. Whoever started this program hears of the first.
@@ -228,8 +252,7 @@ Expected<void> Session::draw_real_time(double now_s) {
   if (every != 0 && (!drawn_tick_ || shown.tick / every != *drawn_tick_ / every))
     if (auto kept = keep_picture(shown.tick); !kept) return kept;
   drawn_tick_ = shown.tick;
-  if (auto controls = display_->controls(now_s, shown.snapshot.driver_car.speed_mps))
-    link_.send(control::Controls{*controls}, net::Reliability::unreliable);
+  send_controls(shown.snapshot.driver_car.speed_mps);
   if (!display_->paces_itself()) wait(1.0 / frame::frame_rate_hz - 1e-3 * last_submit_ms_);
   return {};
 }

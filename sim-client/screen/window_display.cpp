@@ -35,13 +35,16 @@ class WindowDisplay final : public Display {
       : window_(std::move(window)), renderer_(std::move(renderer)) {}
 
   render::Renderer& renderer() override { return renderer_; }
-  Leaving poll_leaving() override {
+  void attend() override {
     window_->poll();
     const bool keys_key = window_->is_down(Key::f1);
     keys_asked_for_ = keys_asked_for_ || (keys_key && !keys_key_was_down_);
     keys_key_was_down_ = keys_key;
     const auto pad = window_->gamepad();
     touched_ = touched_ || window_->was_touched() || (pad && is_held(*pad));
+  }
+  Leaving poll_leaving() override {
+    attend();
     if (window_->should_close()) return Leaving::closed;
     // Both are asked: a window forgets a short press only when it is asked for it.
     const bool escape = window_->is_down(Key::escape), restart = window_->is_down(Key::r),

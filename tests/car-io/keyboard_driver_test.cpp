@@ -1,7 +1,10 @@
 #include "car-io/keyboard_driver.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <initializer_list>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -16,7 +19,64 @@ DriverInput hold(KeyboardDriver& driver, const KeyStates& keys, double speed_mps
   return input;
 }
 
+/// Somebody who knows a keyboard and no wheel follows a straight line from 0.8 m beside it, sees where the car was a quarter of a second ago,
+/// and decides eight times a second: a key that would turn the car to where it should go, or none. Returns the farthest from the line
+/// in the last twenty of forty seconds, of a car that goes where its front wheels point.
+double wandering_m(double speed_mps) {
+  constexpr int seen_late_ticks = 30, decided_every_ticks = 15;
+  KeyboardDriver driver;
+  const KeyboardSettings& settings = driver.settings;
+  struct Car {
+    double aside_m = 0.8, heading_rad = 0.0, wheel_rad = 0.0;
+  } car;
+  std::deque<Car> seen(seen_late_ticks, car);
+  KeyStates keys;
+  double farthest_m = 0.0;
+  for (int tick = 0; tick < 40 * 120; ++tick) {
+    if (tick % decided_every_ticks == 0) {
+      const Car& was = seen.front();
+      const double ahead_m = std::max(6.0, 1.5 * speed_mps);
+      const double bearing_rad = std::atan2(-was.aside_m, ahead_m) - was.heading_rad;
+      const double wished_rad =
+          settings.steering_ratio * std::atan(2.0 * settings.wheelbase_m * std::sin(bearing_rad) / ahead_m);
+      const double wrong_by_rad = wished_rad - was.wheel_rad,
+                   clearly = 0.05 * largest_steering_rad(settings, speed_mps);
+      keys = {.left = wrong_by_rad > clearly, .right = wrong_by_rad < -clearly};
+    }
+    car.wheel_rad = advance(driver, keys, speed_mps, dt_s).steering_wheel_rad;
+    car.heading_rad += speed_mps * std::tan(car.wheel_rad / settings.steering_ratio) / settings.wheelbase_m * dt_s;
+    car.aside_m += speed_mps * std::sin(car.heading_rad) * dt_s;
+    seen.pop_front();
+    seen.push_back(car);
+    if (tick >= 20 * 120) farthest_m = std::max(farthest_m, std::abs(car.aside_m));
+  }
+  return farthest_m;
+}
+
 }  // namespace
+
+TEST_CASE("who taps keys keeps the car within its lane at a walk's pace as on a country road") {
+  for (const double speed_mps : {2.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
+    INFO("m/s: " << speed_mps);
+    CHECK(wandering_m(speed_mps) < 0.4);
+  }
+}
+
+TEST_CASE("a hand turns the wheel no faster at a walk's pace than hands do") {
+  for (const double speed_mps : {0.0, 1.0, 5.0, 8.0}) {
+    INFO("m/s: " << speed_mps);
+    KeyboardDriver driver;
+    double before_rad = 0.0;
+    const auto turned_rad = [&](const KeyStates& keys) {
+      const double now_rad = advance(driver, keys, speed_mps, dt_s).steering_wheel_rad;
+      return std::abs(now_rad - std::exchange(before_rad, now_rad));
+    };
+    for (int i = 0; i < 240; ++i) CHECK(turned_rad({.left = true}) <= driver.settings.hand_speed_radps * dt_s + 1e-12);
+    CHECK(before_rad == largest_steering_rad(driver.settings, speed_mps));
+    for (int i = 0; i < 120; ++i) CHECK(turned_rad({}) <= driver.settings.return_speed_radps * dt_s + 1e-12);
+    CHECK(before_rad == 0.0);
+  }
+}
 
 TEST_CASE(
     "full steering asks for the same lateral acceleration at any speed once the lock no longer "
@@ -31,12 +91,13 @@ TEST_CASE(
   CHECK(largest_steering_rad(settings, -3.0) <= settings.largest_angle_rad);
 }
 
-TEST_CASE("a steering key turns the wheel gradually and letting go straightens it") {
+TEST_CASE("a steering key turns the wheel slowly, then faster, and letting go straightens it") {
   KeyboardDriver driver;
   const KeyStates left{.left = true};
   const double full = largest_steering_rad(driver.settings, 25.0);
-  CHECK(hold(driver, left, 25.0, 0.225).steering_wheel_rad == doctest::Approx(full / 2).epsilon(0.02));
-  CHECK(hold(driver, left, 25.0, 0.5).steering_wheel_rad == doctest::Approx(full));
+  CHECK(hold(driver, left, 25.0, 0.1).steering_wheel_rad < 0.06 * full);
+  CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == doctest::Approx(0.46 * full).epsilon(0.02));
+  CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == full);
   CHECK(hold(driver, {}, 25.0, 0.3).steering_wheel_rad == 0.0);
   CHECK(hold(driver, {.right = true}, 25.0, 1.0).steering_wheel_rad == doctest::Approx(-full));
   CHECK(hold(driver, {.left = true, .right = true}, 25.0, 1.0).steering_wheel_rad == 0.0);
@@ -46,14 +107,32 @@ TEST_CASE("pedals rise and fall within their times") {
   KeyboardDriver driver;
   CHECK(hold(driver, {.accelerate = true}, 10.0, 0.175).accelerator == doctest::Approx(0.5).epsilon(0.03));
   CHECK(hold(driver, {.accelerate = true}, 10.0, 0.5).accelerator == 1.0);
-  const DriverInput braking = hold(driver, {.brake = true}, 10.0, 0.5);
+  const DriverInput braking = hold(driver, {.brake = true}, 10.0, 0.4);
   CHECK(braking.accelerator == 0.0);
-  CHECK(braking.brake == 1.0);
+  CHECK(braking.brake == doctest::Approx(0.3).epsilon(0.05));
+  CHECK(hold(driver, {.brake = true}, 10.0, 0.4).brake == 1.0);
+}
+
+TEST_CASE(
+    "a tap brakes gently, also where a picture takes long, and a brake let go is pressed anew from the beginning") {
+  for (const double step_s : {dt_s, 1.0 / 60.0, 0.15}) {
+    INFO("step, s: " << step_s);
+    KeyboardDriver driver;
+    const auto press = [&](bool brake, double time_s) {
+      for (int i = 0; i < static_cast<int>(std::lround(time_s / step_s)); ++i)
+        advance(driver, {.brake = brake}, 10.0, step_s);
+      return driver.input.brake;
+    };
+    for (int tap = 0; tap < 3; ++tap) {
+      CHECK(press(true, 0.15) < 0.15);
+      CHECK(press(false, 0.15) == 0.0);
+    }
+  }
 }
 
 TEST_CASE("braking to a stop does not reverse but pressing the brake anew does") {
   KeyboardDriver driver;
-  hold(driver, {.brake = true}, 5.0, 0.5);
+  hold(driver, {.brake = true}, 5.0, 1.0);
   CHECK(hold(driver, {.brake = true}, 0.0, 2.0).selector == GearSelector::drive);
   hold(driver, {}, 0.0, 0.2);
   const DriverInput back = hold(driver, {.brake = true}, 0.0, 0.5);
@@ -61,7 +140,7 @@ TEST_CASE("braking to a stop does not reverse but pressing the brake anew does")
   CHECK(back.accelerator == 1.0);
   CHECK(back.brake == 0.0);
   // Rolling backwards, the accelerator key brakes; at a standstill it drives on.
-  CHECK(hold(driver, {.accelerate = true}, -3.0, 0.5).brake == 1.0);
+  CHECK(hold(driver, {.accelerate = true}, -3.0, 0.8).brake == 1.0);
   hold(driver, {}, 0.0, 0.1);
   CHECK(hold(driver, {.accelerate = true}, 0.0, 0.1).selector == GearSelector::drive);
 }

@@ -48,6 +48,31 @@ TEST_CASE(
   CHECK_MESSAGE(verified.code == 0, verified.error);
 }
 
+TEST_CASE("keys are read while a picture is drawn: a slow picture holds up no hand") {
+  const TemporaryFolder folder;
+  const XDisplay display;
+  std::string rig = small_rig(1, "", "source = \"keyboard\"");
+  rig.replace(rig.find("width_px = 160"), 14, "width_px = 1600");
+  rig.replace(rig.find("height_px = 120"), 15, "height_px = 1200");
+  write_text(folder / "large.toml", rig);
+  const fs::path out = folder / "out", log = folder / "err";
+  auto drive =
+      start("septet", {"drive", "--seconds", "1.5", "--rig", (folder / "large.toml").string(), "--out", out.string()},
+            log, display.environment());
+  REQUIRE(becomes_true([&] { return drive.poll() || says(log, "screen a shows tick 0"); }));
+  display.tap_arrow_up("Septet a");
+  INFO(text_of(log));
+  REQUIRE(exit_code(drive) == 0);
+  const auto summary = nlohmann::json::parse(text_of(out / "summary.json"));
+  const auto read = logging::SessionReader::open(out / "session.sqlite");
+  REQUIRE(read.has_value());
+  // Each reading of the keys has a number of its own; the log has the newest one of each tick.
+  const auto inputs = read->inputs().value();
+  int readings = 0;
+  for (std::size_t i = 1; i < inputs.size(); ++i) readings += inputs[i].input.sequence != inputs[i - 1].input.sequence;
+  CHECK(readings > 1.5 * summary["screens"][0]["frames"].get<double>());
+}
+
 TEST_CASE("a world that waits for its driver can be left") {
   const TemporaryFolder folder;
   const XDisplay display;

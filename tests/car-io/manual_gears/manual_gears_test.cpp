@@ -79,7 +79,7 @@ TEST_CASE("with gears by hand the brake key brakes at a standstill and does not 
   KeyboardDriver driver;
   advance(driver, {.manual = true}, 0.0, tick_s);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 60; ++j) advance(driver, {.brake = true}, 0.0, tick_s);
+    for (int j = 0; j < 120; ++j) advance(driver, {.brake = true}, 0.0, tick_s);
     CHECK(driver.input.brake == 1.0);
     for (int j = 0; j < 60; ++j) advance(driver, {}, 0.0, tick_s);
   }
