@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/instant/headlight_beam.hpp"
+#include "engine/instant/level_fade.hpp"
 #include "engine/world/limbs.hpp"
 #include "engine/world/paint.hpp"
 
@@ -174,7 +175,7 @@ PlacedParticipants place_participants(std::span<const DrawnParticipant> particip
     Vec3 lamps_m(0.0);
     int head_lamps = 0;
     for (const scene::Instance& part : prototypes[participant.prototype].parts) {
-      if (part.mesh >= meshes.size() || distance_m - margin_m >= part.visible_to_m) continue;
+      if (part.mesh >= meshes.size() || distance_m - margin_m >= gone_from_m(part.visible_to_m)) continue;
       const MeshSummary& mesh = meshes[part.mesh];
       const RigidTransform in_vehicle = vehicle_from_part(part, participant);
       PlacedMesh placed = place(part, mesh.bounds, participant.world_from_vehicle * in_vehicle);

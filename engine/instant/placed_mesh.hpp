@@ -20,7 +20,7 @@ struct PlacedMesh {
   glm::vec3 centre_m{0.0f};           ///< Of the bounding sphere, from the origin along the world's axes.
   float radius_m = 0.0f;
   float visible_from_m = 0.0f,
-        visible_to_m = 1e9f;  ///< Seen while the eye's distance from the origin is in [from, to).
+        visible_to_m = 1e9f;  ///< Seen while the eye's distance from the origin is in [from, to); see level_fade.hpp.
   bool casts_shadow = true;
   bool seen = true;           ///< False: casts a shadow only.
   glm::vec4 tint{1.0f};       ///< Paint, for materials that take it; w: how much of the materials' emission shines.

@@ -1,6 +1,8 @@
 #include "engine/raytrace/geometry.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -26,19 +28,39 @@ struct Mesh {
   std::span<const std::uint32_t> indices;
   bool open = false;
   std::span<const scene::SurfaceVertex> later;  ///< Empty: its vertices stay.
-  Scene scene;                                  ///< Its hierarchy; null while nobody has placed it.
+  Scene scene, fading;                          ///< Its hierarchy; null while nobody has placed it, or where it fades.
 };
 
 /// One instruction set whatever the processor has more: hierarchies and rounding differ between them, and the machines of a film draw
 /// one picture. Septet is compiled for the same one (SEPTET_ARCHITECTURE); wider vectors were no faster (trace/cornell, trace/motorway).
 constexpr const char* device_options = "threads=1,isa=avx2";
 
+/// What a filter asks of a place.
+struct Standing {
+  instant::LevelFade fade;
+  bool open = false;  ///< Its mesh is.
+};
+
 /// What a query's filter needs to know; begins as Embree's own context does.
 struct Query {
   RTCIntersectContext context;
   const Openings* openings = nullptr;
+  const std::vector<Standing>* standing = nullptr;
+  float threshold = 0.0f;  ///< Of levels of detail, see instant::LevelFade.
   float let_through = 1.0f;
 };
+
+/// A number in [0, 1) that any change of a ray's direction makes another: rays beside each other see different levels, and one ray the same level of
+/// all that fades alike.
+float threshold_of(float x, float y, float z) {
+  std::uint32_t mixed = 0;
+  for (const float part : {x, y, z}) {
+    mixed = (mixed ^ std::bit_cast<std::uint32_t>(part)) * 0x9e3779b1u;
+    mixed ^= mixed >> 15;
+  }
+  mixed *= 0x85ebca77u;
+  return static_cast<float>((mixed ^ (mixed >> 13)) >> 8) * 0x1p-24f;
+}
 
 std::uint32_t place_of(const RTCFilterFunctionNArguments* args) {
   // A mesh that was moved lies in the scene itself, under the number of its place.
@@ -48,23 +70,29 @@ std::uint32_t place_of(const RTCFilterFunctionNArguments* args) {
 
 void pass_holes(const RTCFilterFunctionNArguments* args) {
   const auto* query = reinterpret_cast<const Query*>(args->context);
-  if (query->openings->is_hole(place_of(args), RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
-                               RTCHitN_v(args->hit, 1, 0)))
+  const std::uint32_t place = place_of(args);
+  const Standing& standing = (*query->standing)[place];
+  if (!standing.fade.shows(query->threshold) ||
+      (standing.open && query->openings->is_hole(place, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
+                                                 RTCHitN_v(args->hit, 1, 0))))
     args->valid[0] = 0;
 }
 
 void weaken_light(const RTCFilterFunctionNArguments* args) {
   auto* query = reinterpret_cast<Query*>(args->context);
+  const std::uint32_t place = place_of(args);
+  const Standing& standing = (*query->standing)[place];
+  if (!standing.fade.shows(query->threshold)) args->valid[0] = 0;
+  if (!standing.fade.shows(query->threshold) || !standing.open) return;
   const glm::vec3 direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
                             RTCRayN_dir_z(args->ray, 1, 0));
-  query->let_through *=
-      query->openings->share_let_through(place_of(args), RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
-                                         RTCHitN_v(args->hit, 1, 0), direction);
+  query->let_through *= query->openings->share_let_through(
+      place, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0), direction);
   if (query->let_through > 1e-3f) args->valid[0] = 0;
 }
 
 /// `moved`: its vertices' positions, if not where the mesh has them. Both outlive the geometry.
-RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, std::span<const glm::vec3> moved = {}) {
+RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, bool fades, std::span<const glm::vec3> moved = {}) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!mesh.later.empty()) {
     rtcSetGeometryTimeStepCount(geometry, 2);
@@ -81,7 +109,7 @@ RTCGeometry triangles_of(RTCDevice device, const Mesh& mesh, std::span<const glm
                                sizeof(glm::vec3), mesh.vertices.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              3 * sizeof(std::uint32_t), mesh.indices.size() / 3);
-  if (mesh.open) {
+  if (mesh.open || fades) {
     rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
     rtcSetGeometryOccludedFilterFunction(geometry, weaken_light);
   }
@@ -134,15 +162,20 @@ struct Geometry::Parts {
   std::vector<Mesh> meshes;
   Scene seen, shadows;                          ///< Shadows are thrown by more than is seen.
   std::vector<std::vector<glm::vec3>> moved{};  ///< By place: its vertices, if they were moved.
+  std::vector<Standing> standing{};             ///< By place.
   const Openings* openings = nullptr;
   bool has_masks = false;
 
-  void build(Mesh& mesh) {
-    mesh.scene.reset(rtcNewScene(device.get()));
-    RTCGeometry geometry = triangles_of(device.get(), mesh);
-    rtcAttachGeometry(mesh.scene.get(), geometry);
+  /// The mesh's own hierarchy, for instances.
+  RTCScene hierarchy(Mesh& mesh, bool fades) {
+    Scene& scene = fades ? mesh.fading : mesh.scene;
+    if (scene) return scene.get();
+    scene.reset(rtcNewScene(device.get()));
+    RTCGeometry geometry = triangles_of(device.get(), mesh, fades);
+    rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(mesh.scene.get());
+    rtcCommitScene(scene.get());
+    return scene.get();
   }
 
   void move(std::span<const Place> places) {
@@ -170,11 +203,10 @@ struct Geometry::Parts {
       if (mesh.indices.empty()) continue;
       RTCGeometry geometry = nullptr;
       if (!moved[n].empty()) {
-        geometry = triangles_of(device.get(), mesh, moved[n]);
+        geometry = triangles_of(device.get(), mesh, !places[n].fade.all(), moved[n]);
       } else {
-        if (!mesh.scene) build(mesh);
         geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, mesh.scene.get());
+        rtcSetGeometryInstancedScene(geometry, hierarchy(mesh, !places[n].fade.all()));
         set_place(geometry, places[n]);
       }
       rtcSetGeometryMask(geometry, places[n].seen ? for_seeing | for_shadows : for_shadows);
@@ -206,7 +238,7 @@ void Geometry::add_mesh(std::span<const scene::SurfaceVertex> vertices, std::spa
                         bool open, std::span<const scene::SurfaceVertex> later) {
   SEPTET_CHECK(later.empty() || later.size() == vertices.size(), "{} vertices, then {}", vertices.size(), later.size());
   SEPTET_CHECK(indices.size() % 3 == 0, "{} indices", indices.size());
-  parts_->meshes.push_back({vertices, indices, open, later, nullptr});
+  parts_->meshes.push_back({vertices, indices, open, later, nullptr, nullptr});
 }
 
 void Geometry::keep(std::size_t count) {
@@ -219,6 +251,8 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   for (const Place& place : places)
     SEPTET_CHECK(place.mesh < parts_->meshes.size(), "mesh {} of {}", place.mesh, parts_->meshes.size());
   parts_->openings = openings;
+  parts_->standing.clear();
+  for (const Place& place : places) parts_->standing.push_back({place.fade, parts_->meshes[place.mesh].open});
   parts_->seen.reset();
   parts_->shadows.reset();
   parts_->move(places);
@@ -235,6 +269,8 @@ bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
   Query query;
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
+  query.standing = &parts_->standing;
+  query.threshold = threshold_of(way[0], way[1], way[2]);
   RTCRayHit found;
   set_ray(found.ray, begin, way, to_m, for_seeing);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -250,6 +286,8 @@ float Geometry::unshadowed(Four begin, Four way, float to_m) const {
   Query query;
   rtcInitIntersectContext(&query.context);
   query.openings = parts_->openings;
+  query.standing = &parts_->standing;
+  query.threshold = threshold_of(way[0], way[1], way[2]);
   RTCRay found;
   set_ray(found, begin, way, to_m, for_shadows);
   rtcOccluded1(parts_->shadows.get(), &query.context, &found);

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/expected.hpp"
+#include "engine/instant/level_fade.hpp"
 #include "engine/raytrace/motion.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
@@ -42,6 +43,7 @@ struct Place {
   glm::mat3 turn{1.0f};
   bool seen = true;                ///< False: it only throws a shadow.
   std::optional<Motion> motion{};  ///< From there at time 0.
+  instant::LevelFade fade{};       ///< Rays whose threshold lies without it pass.
 };
 
 /// What a surface lets through where it is not all there: asked for meshes with holes or glass.

@@ -60,7 +60,9 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
                 const instant::PlacedMesh* later) {
   if (placed.mesh >= scene_.meshes.size()) return;
   const double distance_m = glm::length(placed.origin_m - origin_m_);
-  if (distance_m < placed.visible_from_m || distance_m >= placed.visible_to_m) return;
+  const instant::LevelFade fade =
+      instant::fade_at(static_cast<float>(distance_m), placed.visible_from_m, placed.visible_to_m);
+  if (fade.none()) return;
   const scene::SurfaceMesh& mesh = scene_.meshes[placed.mesh];
   const glm::vec3 origin(placed.origin_m - origin_m_);
   std::optional<Motion> motion;
@@ -69,7 +71,7 @@ void World::add(std::vector<Place>& places, const instant::PlacedMesh& placed, b
         to{glm::vec3(later->origin_m - origin_m_), later->world_from_object};
     if (!(from == to)) motion.emplace(from, to);
   }
-  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen, motion});
+  places.push_back({placed.mesh, origin, placed.world_from_object, placed.seen, motion, fade});
   placed_.push_back({mesh.vertices,
                      mesh.indices,
                      mesh.parts,
@@ -209,7 +211,8 @@ void World::add_lamps(std::uint32_t place, const scene::MeshPart& part) {
 
 void World::add_lamps(const std::vector<Place>& places) {
   for (std::uint32_t n = 0; n < placed_.size(); ++n)
-    if (placed_[n].tint.w > 0.0f && places[n].seen)
+    if (placed_[n].tint.w > 0.0f && places[n].seen &&
+        places[n].fade.share() >= 0.5f)  // One of two levels lights for both.
       for (const scene::MeshPart& part : placed_[n].parts) add_lamps(n, part);
   // The others are met by chance alone; where there are so many they are far or weak.
   const auto weight = [](const Lamp& lamp) { return lamp.power / (1.0f + glm::dot(lamp.middle_m, lamp.middle_m)); };

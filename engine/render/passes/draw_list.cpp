@@ -1,18 +1,24 @@
 #include "engine/render/passes/draw_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 namespace septet::render {
 
-InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m) {
+InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m, const instant::LevelFade& fade) {
   const glm::mat3& m = placed.world_from_object;
-  return {glm::vec4(m[0].x, m[1].x, m[2].x, origin_m.x), glm::vec4(m[0].y, m[1].y, m[2].y, origin_m.y),
-          glm::vec4(m[0].z, m[1].z, m[2].z, origin_m.z), placed.tint,
-          glm::vec4(placed.share_of_sky, placed.snowed_on, placed.number, placed.over_road_m)};
+  return {glm::vec4(m[0].x, m[1].x, m[2].x, origin_m.x),
+          glm::vec4(m[0].y, m[1].y, m[2].y, origin_m.y),
+          glm::vec4(m[0].z, m[1].z, m[2].z, origin_m.z),
+          placed.tint,
+          glm::vec4(placed.share_of_sky, placed.snowed_on, placed.number, placed.over_road_m),
+          glm::vec2(fade.from, fade.to)};
 }
 
 ViewVolume view_volume(const FrameView& view) {
@@ -38,23 +44,35 @@ float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const 
 
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
                     const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep, const Detail& detail) {
-  Batch batch;
+  struct Run {
+    std::vector<InstanceRecord> records;
+    float nearest_m = 1e30f;
+  };
+  std::array<Run, 2> runs;  // Of one mesh: those that are shown whole, and those that fade.
+  std::uint32_t run_mesh = 0;
   const auto close = [&] {
-    if (batch.count > 0) list.batches.push_back(batch);
+    for (std::size_t fading = 0; fading < runs.size(); ++fading) {
+      Run& run = runs[fading];
+      if (run.records.empty()) continue;
+      list.batches.push_back({run_mesh, static_cast<std::uint32_t>(list.records.size()),
+                              static_cast<std::uint32_t>(run.records.size()), run.nearest_m, fading != 0});
+      list.records.insert(list.records.end(), run.records.begin(), run.records.end());
+      run.records.clear();
+      run.nearest_m = 1e30f;
+    }
   };
   for (const PlacedMesh& mesh : placed) {
     const glm::vec3 origin(mesh.origin_m - eye_m);
-    const float range_m = detail_range_m(mesh, origin, detail);
-    if (range_m < mesh.visible_from_m || range_m >= mesh.visible_to_m) continue;
+    const instant::LevelFade fade =
+        instant::fade_at(detail_range_m(mesh, origin, detail), mesh.visible_from_m, mesh.visible_to_m);
+    if (fade.none()) continue;
     const glm::vec3 centre = origin + mesh.centre_m;
     if (!keep(mesh, centre)) continue;
-    if (batch.count == 0 || batch.mesh != mesh.mesh) {
-      close();
-      batch = {mesh.mesh, static_cast<std::uint32_t>(list.records.size()), 0, 1e30f};
-    }
-    list.records.push_back(record_of(mesh, origin));
-    ++batch.count;
-    batch.nearest_m = std::min(batch.nearest_m, glm::length(centre));
+    if (run_mesh != mesh.mesh) close();
+    run_mesh = mesh.mesh;
+    Run& run = runs[fade.all() ? 0 : 1];
+    run.records.push_back(record_of(mesh, origin, fade));
+    run.nearest_m = std::min(run.nearest_m, glm::length(centre));
   }
   close();
 }

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/instant/level_fade.hpp"
 #include "engine/instant/placed_mesh.hpp"
 #include "engine/instant/view.hpp"
 #include "engine/render/words.hpp"
@@ -25,17 +27,19 @@ struct InstanceRecord {
   glm::vec4 tint{1.0f};  ///< Paint; how much of the material's emission shines.
   glm::vec4 light{
       1.0f};  ///< x: share of the sky. y: snow lies on it. z: number of its participant. w: its height over the road.
+  glm::vec2 shown{0.0f, 1.0f};  ///< Thresholds of the pixels that show it: instant::LevelFade.
 };
-static_assert(sizeof(InstanceRecord) == 80);
+static_assert(sizeof(InstanceRecord) == 88);
 
 /// What the vertex shader takes for a mesh whose origin lies at `origin_m` from the eye.
-InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m);
+InstanceRecord record_of(const PlacedMesh& placed, const glm::vec3& origin_m, const instant::LevelFade& fade = {});
 
 /// Records of one mesh that lie together.
 struct Batch {
   std::uint32_t mesh = 0;
   std::uint32_t first = 0, count = 0;
   float nearest_m = 0.0f;  ///< From the eye to the nearest bounding sphere's middle, so that wide ground comes late.
+  bool fading = false;     ///< Its records show only some pixels of what they place.
 };
 
 struct DrawList {
@@ -56,7 +60,8 @@ struct Detail {
 float detail_range_m(const PlacedMesh& placed, const glm::vec3& origin_m, const Detail& detail);
 
 /// The meshes of `placed` (ordered by mesh) that are within their range of the eye and that `keep` wants, given the centre
-/// relative to the eye and the radius. Batches come in the order of their meshes.
+/// relative to the eye and the radius. Batches come in the order of their meshes; those that give way to another level of detail, or come
+/// in its place, lie in a batch of their own.
 void append_visible(DrawList& list, std::span<const PlacedMesh> placed, const Vec3& eye_m,
                     const std::function<bool(const PlacedMesh&, const glm::vec3& centre_m)>& keep,
                     const Detail& detail = {});

@@ -15,6 +15,9 @@ constexpr std::uint32_t shadow_vert_code[] = {
 constexpr std::uint32_t shadow_cut_frag_code[] = {
 #include "engine/render/shaders/shadow_cut.frag.inc"
 };
+constexpr std::uint32_t shadow_fade_frag_code[] = {
+#include "engine/render/shaders/shadow_fade.frag.inc"
+};
 constexpr std::uint32_t sky_vert_code[] = {
 #include "engine/render/shaders/sky.vert.inc"
 };
@@ -115,6 +118,7 @@ std::span<const std::uint32_t> surface_vert() { return surface_vert_code; }
 std::span<const std::uint32_t> surface_frag() { return surface_frag_code; }
 std::span<const std::uint32_t> shadow_vert() { return shadow_vert_code; }
 std::span<const std::uint32_t> shadow_cut_frag() { return shadow_cut_frag_code; }
+std::span<const std::uint32_t> shadow_fade_frag() { return shadow_fade_frag_code; }
 std::span<const std::uint32_t> sky_vert() { return sky_vert_code; }
 std::span<const std::uint32_t> sky_frag() { return sky_frag_code; }
 std::span<const std::uint32_t> glow_vert() { return glow_vert_code; }

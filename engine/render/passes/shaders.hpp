@@ -14,6 +14,7 @@ std::span<const std::uint32_t> surface_vert();
 std::span<const std::uint32_t> surface_frag();
 std::span<const std::uint32_t> shadow_vert();
 std::span<const std::uint32_t> shadow_cut_frag();
+std::span<const std::uint32_t> shadow_fade_frag();
 std::span<const std::uint32_t> sky_vert();
 std::span<const std::uint32_t> sky_frag();
 std::span<const std::uint32_t> glow_vert();

@@ -29,7 +29,12 @@ ShadowCascades shadow_cascades(const Vec3& eye_m, const glm::vec3& to_light) {
     cascade.texel_m = 2.0f * half_sides_m[i] / cascade_texels;
     // The middle is a whole number of texels from the world's origin.
     const double texel_m = cascade.texel_m, u = glm::dot(eye_m, x), v = glm::dot(eye_m, y);
-    cascade.middle_m = glm::vec2(std::floor(u / texel_m) * texel_m - u, std::floor(v / texel_m) * texel_m - v);
+    const double whole_u = std::floor(u / texel_m), whole_v = std::floor(v / texel_m);
+    cascade.middle_m = glm::vec2(whole_u * texel_m - u, whole_v * texel_m - v);
+    const auto in_tile = [](double texel) {
+      return static_cast<float>(texel - std::floor(texel / cascade_texels) * cascade_texels);
+    };
+    cascade.first_texel = {in_tile(whole_u - cascade_texels / 2), in_tile(whole_v - cascade_texels / 2)};
   }
   return shadows;
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/math/rigid_transform.hpp"
@@ -23,6 +24,7 @@ struct Cascade {
   float half_side_m = 1.0f;
   float half_depth_m = 1.0f;
   float texel_m = 1.0f;
+  glm::vec2 first_texel{0.0f};  ///< Number over the world of its corner's texel, modulo cascade_texels.
 };
 
 struct ShadowCascades {

@@ -1,8 +1,26 @@
 #include "engine/render/passes/shadow_pass.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
 #include "engine/render/passes/shaders.hpp"
 
 namespace septet::render {
+namespace {
+
+constexpr std::uint32_t cut_bit = 1, fading_bit = 2;
+
+/// The twin of Cascade in shaders/shadow.vert and shadow.frag.
+struct CascadeConstants {
+  glm::mat4 clip_from_relative;
+  glm::vec2 first_texel;
+};
+
+}  // namespace
 
 void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,
                         VkFormat format) {
@@ -14,14 +32,21 @@ void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vu
   // Away from the light, which is where depth is less.
   description.depth_bias = -2.0f;
   description.depth_bias_slope = -1.6f;
-  pass.solid = create_pipeline(device, layout, description);
-  description.fragment_code = shaders::shadow_cut_frag();
-  pass.cut = create_pipeline(device, layout, description);
+  for (std::uint32_t bits = 0; bits < pass.pipelines.size(); ++bits) {
+    if (bits & cut_bit)
+      description.fragment_code = shaders::shadow_cut_frag();
+    else if (bits & fading_bit)
+      description.fragment_code = shaders::shadow_fade_frag();
+    else
+      description.fragment_code = {};
+    description.constants[10] = bits & fading_bit;
+    pass.pipelines[bits] = create_pipeline(device, layout, description);
+  }
 }
 
 void destroy_shadow_pass(ShadowPass& pass, const vulkan::Device& device) {
-  if (pass.solid) vkDestroyPipeline(device.device, pass.solid, nullptr);
-  if (pass.cut) vkDestroyPipeline(device.device, pass.cut, nullptr);
+  for (const VkPipeline pipeline : pass.pipelines)
+    if (pipeline) vkDestroyPipeline(device.device, pipeline, nullptr);
   pass = {};
 }
 
@@ -42,14 +67,14 @@ void draw_shadows(const ShadowPass& pass, PassContext& context, const DeviceScen
   vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
   vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
   bind_instances(context, draws.records);
-  const glm::mat4 clip = clip_from_relative(cascade);
-  push_constants(context, std::as_bytes(std::span(&clip, 1)));
+  const CascadeConstants constants{clip_from_relative(cascade), cascade.first_texel};
+  push_constants(context, std::as_bytes(std::span(&constants, 1)));
   VkPipeline bound_pipeline = VK_NULL_HANDLE;
   SurfaceDraw bound;
   const std::uint32_t triangles_before = context.statistics.triangles;
   for (const SurfaceDraw& draw : draws.list) {
     const DeviceMaterial& material = scene.materials[draw.material];
-    const VkPipeline pipeline = material.cut ? pass.cut : pass.solid;
+    const VkPipeline pipeline = pass.pipelines[(material.cut ? cut_bit : 0u) | (draw.fading ? fading_bit : 0u)];
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (material.cut)

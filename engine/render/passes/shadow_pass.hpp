@@ -1,13 +1,15 @@
 #pragma once
 /// Draws what stands between the light and the ground into one cascade of the shadow map.
 
+#include <array>
+
 #include "engine/render/passes/shadow_cascades.hpp"
 #include "engine/render/passes/surface_draws.hpp"
 
 namespace septet::render {
 
 struct ShadowPass {
-  VkPipeline solid = VK_NULL_HANDLE, cut = VK_NULL_HANDLE;
+  std::array<VkPipeline, 4> pipelines{};  ///< Bits: with holes, fading.
 };
 
 void create_shadow_pass(ShadowPass& pass, const vulkan::Device& device, const vulkan::PipelineLayout& layout,

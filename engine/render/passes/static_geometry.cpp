@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -147,30 +148,39 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
                 const std::function<bool(const PlacedMesh&, const glm::vec3&)>& keep,
                 const std::function<std::uint32_t(std::uint32_t)>& group_of, const Detail& detail,
                 const ViewVolume* volume) {
-  std::vector<std::pair<float, std::uint32_t>> seen;
+  struct Seen {
+    float square_m2;
+    std::uint32_t piece;
+    instant::LevelFade fade;
+  };
+  std::vector<Seen> seen;
   for (std::uint32_t i = 0; i < geometry.pieces.size(); ++i) {
     const PlacedMesh& placed = geometry.pieces[i].placed;
     const glm::vec3 origin(placed.origin_m - eye_m);
-    const float range_m = detail_range_m(placed, origin, detail);
-    if (range_m < placed.visible_from_m || range_m >= placed.visible_to_m) continue;
+    const instant::LevelFade fade =
+        instant::fade_at(detail_range_m(placed, origin, detail), placed.visible_from_m, placed.visible_to_m);
+    if (fade.none()) continue;
     const glm::vec3 centre = origin + placed.centre_m;
-    if (keep(placed, centre)) seen.emplace_back(glm::dot(centre, centre), i);
+    if (keep(placed, centre)) seen.push_back({glm::dot(centre, centre), i, fade});
   }
-  std::sort(seen.begin(), seen.end());
+  std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
+    return std::pair(a.square_m2, a.piece) < std::pair(b.square_m2, b.piece);
+  });
 
   // Lists of parts by block and group; draws in the order in which their first part is met.
   Gathered result;
   result.pieces = static_cast<std::uint32_t>(seen.size());
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> draw_of;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, float, float>, std::size_t> draw_of;
   std::vector<std::vector<std::uint32_t>> parts;
-  for (const auto& [square, index] : seen) {
-    const StaticPiece& piece = geometry.pieces[index];
+  for (const Seen& each : seen) {
+    const StaticPiece& piece = geometry.pieces[each.piece];
     for (std::uint32_t i = piece.first_part; i < piece.first_part + piece.part_count; ++i) {
       const std::uint32_t group = group_of(geometry.parts[i].material);
       if (group == no_group) continue;
-      const auto [found, added] = draw_of.try_emplace({piece.block, group}, result.draws.size());
+      const auto [found, added] =
+          draw_of.try_emplace({piece.block, group, each.fade.from, each.fade.to}, result.draws.size());
       if (added) {
-        result.draws.push_back({piece.block, group, 0, 0});
+        result.draws.push_back({piece.block, group, 0, 0, each.fade});
         parts.emplace_back();
       }
       parts[found->second].push_back(i);
@@ -198,10 +208,14 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
   return result;
 }
 
-InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m) {
+InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m, const instant::LevelFade& fade) {
   const glm::vec3 origin(block.origin_m - eye_m);
-  return {glm::vec4(1, 0, 0, origin.x), glm::vec4(0, 1, 0, origin.y), glm::vec4(0, 0, 1, origin.z), glm::vec4(1.0f),
-          glm::vec4(1.0f, 1.0f, 1.0f, PlacedMesh::unknown_road)};
+  return {glm::vec4(1, 0, 0, origin.x),
+          glm::vec4(0, 1, 0, origin.y),
+          glm::vec4(0, 0, 1, origin.z),
+          glm::vec4(1.0f),
+          glm::vec4(1.0f, 1.0f, 1.0f, PlacedMesh::unknown_road),
+          glm::vec2(fade.from, fade.to)};
 }
 
 }  // namespace septet::render

@@ -62,6 +62,7 @@ StaticGeometry static_geometry(const scene::ResolvedScene& scene, const std::vec
 struct GatheredDraw {
   std::uint32_t block = 0, group = 0;
   std::uint32_t first_index = 0, index_count = 0;
+  instant::LevelFade fade{};
 };
 
 struct Gathered {
@@ -72,7 +73,7 @@ struct Gathered {
 
 inline constexpr std::uint32_t no_group = std::numeric_limits<std::uint32_t>::max();
 
-/// The pieces within their range of the eye that `keep` wants, nearest first. `group_of` says which of a block's materials
+/// The pieces within their range of the eye that `keep` wants, nearest first; those that fade alike, in draws of their own. `group_of` says which of a block's materials
 /// are drawn together, and returns no_group for those that are not drawn. With a `volume`, clumps outside of it
 /// are left out.
 Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
@@ -81,6 +82,6 @@ Gathered gather(const StaticGeometry& geometry, const Vec3& eye_m,
                 const ViewVolume* volume = nullptr);
 
 /// Where a block lies from the eye.
-InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m);
+InstanceRecord record_of(const StaticBlock& block, const Vec3& eye_m, const instant::LevelFade& fade = {});
 
 }  // namespace septet::render

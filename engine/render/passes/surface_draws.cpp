@@ -3,6 +3,7 @@
 #include "engine/render/passes/dynamic_surfaces.hpp"
 
 #include <map>
+#include <tuple>
 
 namespace septet::render {
 namespace {
@@ -22,7 +23,7 @@ void add_batch(std::vector<SurfaceDraw>& list, const DeviceMesh& mesh, const Bat
       continue;
     }
     list.push_back({mesh.buffer.buffer, mesh.buffer.buffer, mesh.indices_at, 0, part.first_index, part.index_count,
-                    batch.first, batch.count, group});
+                    batch.first, batch.count, group, batch.fading});
     open = true;
   }
 }
@@ -43,13 +44,13 @@ SurfaceDraws prepare_draws(PassContext& context, const DeviceScene& scene, std::
   const Gathered gathered = gather(scene.still, eye_m, keep, group_of, detail.still, volume);
   draws.instances = static_cast<std::uint32_t>(instanced.records.size()) + gathered.pieces;
   const FrameData indices = store(context, std::span<const std::uint32_t>(gathered.indices));
-  std::map<std::uint32_t, std::uint32_t> record_of_block;
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> record_of_block;
   for (const GatheredDraw& draw : gathered.draws) {
-    const auto [found, added] =
-        record_of_block.try_emplace(draw.block, static_cast<std::uint32_t>(instanced.records.size()));
-    if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m));
+    const auto [found, added] = record_of_block.try_emplace({draw.block, draw.fade.from, draw.fade.to},
+                                                            static_cast<std::uint32_t>(instanced.records.size()));
+    if (added) instanced.records.push_back(record_of(scene.still.blocks[draw.block], eye_m, draw.fade));
     draws.list.push_back({scene.still_vertices[draw.block].buffer, indices.buffer, indices.offset, 0, draw.first_index,
-                          draw.index_count, found->second, 1, draw.group});
+                          draw.index_count, found->second, 1, draw.group, !draw.fade.all()});
   }
   draws.records = store(context, std::span<const InstanceRecord>(instanced.records));
   return draws;

@@ -11,11 +11,12 @@ namespace {
 struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
-  bool glossy, snowy, sooty, road, mirror;
+  bool glossy, snowy, sooty, road, mirror, fading;
   SurfaceKind kind;
   std::uint32_t key() const {
     return textured | lamps << 2 | std::uint32_t{glossy} << 4 | std::uint32_t{snowy} << 5 | std::uint32_t{sooty} << 6 |
-           static_cast<std::uint32_t>(kind) << 7 | std::uint32_t{road} << 9 | std::uint32_t{mirror} << 10;
+           static_cast<std::uint32_t>(kind) << 7 | std::uint32_t{road} << 9 | std::uint32_t{mirror} << 10 |
+           std::uint32_t{fading} << 11;
   }
 };
 
@@ -44,7 +45,8 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
                            variant.glossy,   blended,
                            variant.lamps,    variant.snowy,
                            variant.sooty,    stripe,
-                           variant.road,     variant.mirror};
+                           variant.road,     variant.mirror,
+                           variant.fading};
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;
@@ -72,9 +74,9 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     const bool textured = material.image >= 0;
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
     const bool glossy = material.glossy || (light.wet && material.wettable);
-    const VkPipeline pipeline = pipeline_of(
-        pass, context,
-        {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable, light.mirror_of_road, kind});
+    const VkPipeline pipeline = pipeline_of(pass, context,
+                                            {texturing, light.lamps(), glossy, light.snowy, light.sooty,
+                                             material.wettable, light.mirror_of_road, draw.fading, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -4,6 +4,7 @@
 layout(location = 3) in vec4 row0;  // Rows of relative_from_object, scale included.
 layout(location = 4) in vec4 row1;
 layout(location = 5) in vec4 row2;
+layout(location = 8) in vec2 shown;  // Thresholds of the pixels that show it, see fade.glsl.
 
 vec3 placed(vec3 position) {
   vec4 p = vec4(position, 1.0);

@@ -6,6 +6,7 @@
 #include "sunlit.glsl"
 #include "lamplight.glsl"
 #include "wet_road.glsl"
+#include "fade.glsl"
 
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
@@ -18,6 +19,7 @@ layout(constant_id = 6) const uint sooty = 0;
 layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels; drawn wider than it is where it is thin.
 layout(constant_id = 8) const uint road = 0;            // Gets wet; wheels run on it.
 layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet road mirrors.
+layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -26,6 +28,7 @@ layout(location = 3) flat in vec4 color;
 layout(location = 4) flat in vec4 emission;
 layout(location = 5) in vec3 fog_light;
 layout(location = 6) flat in float snowed;
+layout(location = 7) flat in vec2 shown;
 layout(location = 0) out vec4 result;
 
 layout(set = 0, binding = 1, std430) readonly buffer Soot { uint soot[]; };  // Four cells each.
@@ -84,6 +87,7 @@ vec4 headlights(vec3 n) {
 }
 
 void main() {
+  if (fading != 0 && !is_shown(shown, gl_FragCoord.xy)) discard;
   // What stands still and lies lower than the road is not mirrored by it.
   if (mirror_of_road != 0 && snowed > 0.5 && dot(view.road.xyz, relative) < view.road.w) discard;
   vec4 base = color;

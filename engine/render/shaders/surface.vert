@@ -6,6 +6,7 @@
 
 layout(constant_id = 7) const uint stripe = 0;
 layout(constant_id = 9) const uint mirror_of_road = 0;
+layout(constant_id = 10) const uint fading = 0;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
@@ -20,6 +21,7 @@ layout(location = 3) flat out vec4 out_color;     // Base colour and opacity.
 layout(location = 4) flat out vec4 out_emission;  // rgb, w: share of the sky.
 layout(location = 5) out vec3 out_fog;
 layout(location = 6) flat out float out_snowed;
+layout(location = 7) flat out vec2 out_shown;
 
 // A stripe's edge (see passes/stripes.hpp) moves outwards until the stripe reaches half a pixel beyond what it covers, so that none is without a
 // sample. Returns how much nearer it is drawn, for it may sink into a road that is not as flat as it.
@@ -52,6 +54,7 @@ void main() {
   float picture = mod(light.z, material.light.z * material.light.w);
   out_uv = (uv + vec2(mod(picture, material.light.z), floor(picture / material.light.z))) / material.light.zw;
   out_snowed = material.base_color.a < 0.999 ? 0.0 : light.y;
+  out_shown = fading != 0 ? shown : vec2(0.0, 1.0);
   float nearer = 0.0;
   if (stripe != 0) nearer = widen_stripe();
   vec3 paint = material.surface.w > 0.5 ? tint.rgb : vec3(1.0);

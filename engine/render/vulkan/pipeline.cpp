@@ -97,12 +97,13 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   using scene::SurfaceVertex;
   const std::array<VkVertexInputBindingDescription, 2> buffers{
       {{0, sizeof(SurfaceVertex), VK_VERTEX_INPUT_RATE_VERTEX}, {1, instance_stride, VK_VERTEX_INPUT_RATE_INSTANCE}}};
-  const std::array<VkVertexInputAttributeDescription, 8> attributes{{
+  const std::array<VkVertexInputAttributeDescription, 9> attributes{{
       {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, position_m)},
       {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(SurfaceVertex, uv)},
       {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 0},
       {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 16},
       {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 32},
+      {8, 1, VK_FORMAT_R32G32_SFLOAT, 80},
       // What shadows go without comes last.
       {2, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(SurfaceVertex, normal)},
       {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 48},
@@ -123,7 +124,7 @@ VkPipeline create_pipeline(const Device& device, const PipelineLayout& layout, c
   } else if (description.vertex_input != VertexInput::none) {
     vertices.vertexBindingDescriptionCount = buffers.size();
     vertices.pVertexBindingDescriptions = buffers.data();
-    vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? 8 : 5;
+    vertices.vertexAttributeDescriptionCount = description.vertex_input == VertexInput::surface ? 9 : 6;
     vertices.pVertexAttributeDescriptions = attributes.data();
   }
   VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};

@@ -48,7 +48,7 @@ enum class Blend : std::uint8_t { none, over, add, data, layer };
 /// last two vectors. `ice`: one buffer of ice::IceVertex, position, normal and place at rest at locations 0, 1, 2.
 enum class VertexInput : std::uint8_t { none, shadow, surface, ice };
 
-inline constexpr std::uint32_t instance_stride = 80;
+inline constexpr std::uint32_t instance_stride = 88;
 
 struct PipelineDescription {
   std::span<const std::uint32_t> vertex_code, fragment_code;  ///< SPIR-V; no fragment code: depth only.

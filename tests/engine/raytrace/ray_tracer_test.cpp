@@ -137,6 +137,33 @@ TEST_CASE(
   check();
 }
 
+TEST_CASE("where two levels of detail meet a share of the rays sees each and none sees neither") {
+  scene::SurfaceMaterial bright;
+  bright.emission = glm::vec3(1.0f);
+  bright.base_color = glm::vec3(0.0f);
+  scene::ResolvedScene scene = ball_scene(bright, 1);
+  scene.materials.push_back(bright);
+  scene.materials[1].emission = glm::vec3(0.0f, 3.0f, 0.0f);
+  scene.meshes.push_back(scene.meshes[0]);
+  for (scene::MeshPart& part : scene.meshes[1].parts) part.material = 1;
+  scene.instances.push_back(scene.instances[0]);
+  scene.instances[1].mesh = 1;
+  // Where one is seen three quarters of the way through the band.
+  const double eye_m = 8.0;
+  scene.instances[0].visible_to_m = scene.instances[1].visible_from_m =
+      static_cast<float>(eye_m) / (1.0f + 0.5f * instant::fade_half_band);
+  const std::uint32_t side_px = 32;
+  const TracedPicture picture =
+      traced(scene, instant_from({-eye_m, 0.0, 0.0}, 0.05, side_px, even_sky(0.0f)), {.samples = 16});
+  double nearer = 0.0, further = 0.0;
+  for (const TracedPixel& pixel : picture.pixels)
+    nearer += pixel.radiance.r / (side_px * side_px), further += pixel.radiance.g / (side_px * side_px);
+  const double share = instant::fade_at(static_cast<float>(eye_m), 0.0f, scene.instances[0].visible_to_m).share();
+  CHECK(share == doctest::Approx(0.25).epsilon(0.05));
+  CHECK(nearer == doctest::Approx(share).epsilon(0.05));
+  CHECK(further == doctest::Approx(share + 3.0 * (1.0 - share)).epsilon(0.02));
+}
+
 TEST_CASE("a point that is out of focus is a disc as wide as its circle of confusion and evenly bright") {
   // A small bright ball before black; the lens is sharp nearer, or further away, or there.
   scene::SurfaceMaterial bright;

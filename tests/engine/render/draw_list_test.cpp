@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -55,7 +59,7 @@ TEST_CASE("nothing that shows in the picture is culled and most of what does not
 
 TEST_CASE("a mesh is drawn from its nearest distance on and no longer at its farthest") {
   std::vector<PlacedMesh> placed;
-  for (const double x : {9.9, 10.1, 29.9, 30.1}) {
+  for (const double x : {8.7, 11.3, 26.3, 33.7}) {
     placed.push_back(place(0, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
     placed.back().visible_from_m = 10.0f;
     placed.back().visible_to_m = 30.0f;
@@ -63,8 +67,41 @@ TEST_CASE("a mesh is drawn from its nearest distance on and no longer at its far
   DrawList list;
   append_visible(list, placed, {0, 0, 0}, [](const PlacedMesh&, const glm::vec3&) { return true; });
   REQUIRE(list.records.size() == 2);
-  CHECK(list.records[0].row0.w == doctest::Approx(10.1));
-  CHECK(list.records[1].row0.w == doctest::Approx(29.9));
+  CHECK(list.records[0].row0.w == doctest::Approx(11.3));
+  CHECK(list.records[1].row0.w == doctest::Approx(26.3));
+}
+
+TEST_CASE("where two levels of detail meet both are drawn and each threshold shows just one of them") {
+  std::vector<PlacedMesh> placed;
+  for (const std::uint32_t mesh : {0u, 1u})
+    for (double x = 80.0; x < 120.0; x += 0.25)
+      placed.push_back(place(mesh, unit_bounds, {{x, 0, 0}, {1, 0, 0, 0}}, glm::vec3(1.0f)));
+  const std::size_t each = placed.size() / 2;
+  for (std::size_t i = 0; i < each; ++i) placed[i].visible_to_m = placed[each + i].visible_from_m = 100.0f;
+  DrawList list;
+  append_visible(list, placed, {0, 0, 0}, [](const PlacedMesh&, const glm::vec3&) { return true; });
+  REQUIRE(list.batches.size() == 4);
+  std::map<float, std::vector<glm::vec2>> shown;  // By place.
+  for (const Batch& batch : list.batches)
+    for (std::uint32_t i = batch.first; i < batch.first + batch.count; ++i) {
+      shown[list.records[i].row0.w].push_back(list.records[i].shown);
+      CHECK(batch.fading == (list.records[i].shown != glm::vec2(0.0f, 1.0f)));
+    }
+  CHECK(shown.size() == each);
+  float before = 1.0f;
+  int both = 0;
+  for (const auto& [x, levels] : shown) {
+    const float nearer = x < 100.0f || levels.size() == 2 ? levels.front().y : 0.0f;
+    if (levels.size() == 2) {
+      ++both;
+      CHECK(levels[1] == glm::vec2(levels[0].y, 1.0f));
+    }
+    CHECK(nearer <= before);
+    CHECK(before - nearer < 0.04f);  // A tick at 100 km/h is not that long.
+    before = nearer;
+  }
+  CHECK(both > 80);
+  CHECK(both < 100);
 }
 
 TEST_CASE("instances of one mesh make one batch and batches come nearest first") {

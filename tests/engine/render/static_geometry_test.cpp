@@ -79,15 +79,24 @@ TEST_CASE("a frame gathers just the pieces in range and one draw for each block 
   const scene::ResolvedScene scene = scattered(400);
   const StaticGeometry geometry = static_geometry(scene, placed_once(scene));
   const Vec3 eye_m(300, -200, 5);
-  std::size_t wanted = 0;
-  for (const scene::Instance& instance : scene.instances)
-    wanted += glm::length(instance.world_from_object.position_m - eye_m) < instance.visible_to_m;
+  std::size_t wanted = 0, fading = 0;
+  for (const scene::Instance& instance : scene.instances) {
+    const auto away_m = static_cast<float>(glm::length(instance.world_from_object.position_m - eye_m));
+    const LevelFade fade = fade_at(away_m, 0.0f, instance.visible_to_m);
+    wanted += !fade.none();
+    fading += !fade.none() && !fade.all();
+  }
   const Gathered gathered = gather(geometry, eye_m, everything, own_material);
   CHECK(wanted > 50);
   CHECK(wanted < 400);
   CHECK(gathered.pieces == wanted);
   CHECK(gathered.indices.size() == 9 * wanted);
-  CHECK(gathered.draws.size() <= 2 * geometry.blocks.size());
+  CHECK(fading > 10);
+  CHECK(gathered.draws.size() <= 2 * (geometry.blocks.size() + fading));
+  std::size_t of_fading = 0;
+  for (const GatheredDraw& draw : gathered.draws)
+    if (!draw.fade.all()) of_fading += draw.index_count;
+  CHECK(of_fading == 9 * fading);
   std::size_t counted = 0;
   for (const GatheredDraw& draw : gathered.draws) {
     CHECK(draw.first_index == counted);
@@ -141,7 +150,9 @@ TEST_CASE("materials of one group share a draw and those of none are left out") 
   const Gathered merged = gather(geometry, {0, 0, 0}, everything, [](std::uint32_t) { return 0u; });
   CHECK(merged.pieces > 0);
   CHECK(merged.indices.size() == 9 * merged.pieces);
-  CHECK(merged.draws.size() <= geometry.blocks.size());
+  std::size_t whole = 0;
+  for (const GatheredDraw& draw : merged.draws) whole += draw.fade.all();
+  CHECK(whole <= geometry.blocks.size());
   const Gathered second =
       gather(geometry, {0, 0, 0}, everything, [](std::uint32_t material) { return material == 1 ? 1u : no_group; });
   CHECK(second.pieces == merged.pieces);

@@ -1,0 +1,44 @@
+#pragma once
+/// How one level of detail gives way to the next: not in one frame, but pixel by pixel over a band of distances around where
+/// their ranges meet.
+///
+/// Every pixel (of the ray tracer, every ray) has a threshold in [0, 1), and a level is drawn where that lies within its fade.
+/// Levels whose ranges meet divide the thresholds between them: each pixel shows just one of them, and the shares depend on the
+/// eye's distance alone, so that all screens show the same.
+
+#include <algorithm>
+#include <cmath>
+
+namespace septet::instant {
+
+/// A level is drawn where from ≤ threshold < to.
+struct LevelFade {
+  float from = 0.0f, to = 1.0f;
+
+  bool all() const { return from <= 0.0f && to >= 1.0f; }
+  bool none() const { return from >= to; }
+  bool shows(float threshold) const { return threshold >= from && threshold < to; }
+  float share() const { return std::max(0.0f, to - from); }
+  bool operator==(const LevelFade&) const = default;
+};
+
+/// Half the width of the band, as a share of the distance in its middle; a tree at 100 m changes between 88 and 112 m.
+inline constexpr float fade_half_band = 0.12f;
+/// In so many steps, so that what stands together fades together and takes one draw.
+inline constexpr float fade_steps = 64.0f;
+
+/// From where on a level that is visible until `visible_to_m` is not seen at all.
+inline float gone_from_m(float visible_to_m) { return visible_to_m * (1.0f + fade_half_band); }
+
+/// Of a level that is visible while the eye's distance is in [visible_from_m, visible_to_m).
+inline LevelFade fade_at(float range_m, float visible_from_m, float visible_to_m) {
+  // The nearer level's share, where the levels meet at `border_m`.
+  const auto nearer = [&](float border_m) {
+    if (!(range_m < gone_from_m(border_m))) return 0.0f;  // Nor where one of them is no number.
+    const float at = (range_m / border_m - 1.0f) / (2.0f * fade_half_band) + 0.5f;
+    return 1.0f - std::round(std::clamp(at, 0.0f, 1.0f) * fade_steps) / fade_steps;
+  };
+  return {nearer(visible_from_m), nearer(visible_to_m)};
+}
+
+}  // namespace septet::instant
