@@ -40,4 +40,12 @@ TEST_CASE("the readme and the text for terminals name every key and what it does
   CHECK(text.find(gamepad_text) != std::string::npos);
 }
 
+TEST_CASE("who reads the driver's keys leaves a short press of the window's own keys to the window") {
+  key_states([](Key asked) {
+    for (const DrivingKey& key : driving_keys())
+      if (!key.held) CHECK(asked != key.keys[0]);
+    return false;
+  });
+}
+
 }  // namespace septet::car_io
