@@ -1,6 +1,9 @@
 /// What whoever starts Septet for the first time meets: a world that waits, a screen that is full, a window that shows.
 
 #include <csignal>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +15,15 @@ namespace septet::pipeline {
 namespace {
 
 bool says(const fs::path& log, const std::string& words) { return text_of(log).find(words) != std::string::npos; }
+
+/// What follows those words in each line that has them.
+std::vector<std::string> each_after(const std::string& words, const fs::path& log) {
+  std::vector<std::string> found;
+  std::istringstream lines(text_of(log));
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find(words); at != std::string::npos) found.push_back(line.substr(at + words.size()));
+  return found;
+}
 
 }  // namespace
 
@@ -86,6 +98,35 @@ TEST_CASE("a world that waits for its driver can be left") {
   CHECK(exit_code(drive) == 3);
   CHECK(nlohmann::json::parse(text_of(out / "summary.json"))["ended"] == "escape");
   CHECK(fs::exists(out / "report.html"));
+}
+
+TEST_CASE("a drive that its driver begins again waits for him anew, and its operator's page keeps its address") {
+  const TemporaryFolder folder;
+  const XDisplay display;
+  write_text(folder / "small.toml", small_rig(1, "", "source = \"keyboard\""));
+  const fs::path out = folder / "out", log = folder / "err";
+  auto drive =
+      start("septet", {"drive", "--rig", (folder / "small.toml").string(), "--out", out.string(), "--page", "0"}, log,
+            display.environment());
+  const auto becomes = [&](const std::string& words) {
+    return becomes_true([&] { return drive.poll() || says(log, words); });
+  };
+  REQUIRE(becomes("screen a shows tick 0"));
+  display.tap_arrow_up("Septet a");
+  REQUIRE(becomes("the driver took the controls"));
+  display.press_escape("Septet a");
+  REQUIRE(becomes("paused by the driver"));
+  display.press_r("Septet a");
+  REQUIRE(becomes("The drive begins again."));
+  REQUIRE(becomes_true([&] { return drive.poll() || each_after("screen a shows tick 0", log).size() == 2; }));
+  INFO(text_of(log));
+  const auto pages = each_after("operator's page: ", log);
+  REQUIRE(pages.size() == 2);
+  CHECK(pages[0] == pages[1]);
+  CHECK(pages[0].find("/#") != std::string::npos);
+  display.press_escape("Septet a");
+  CHECK(exit_code(drive) == 3);
+  CHECK(nlohmann::json::parse(text_of(out / "summary.json"))["ended"] == "escape");
 }
 
 TEST_CASE("told to start now a drive waits for nobody and a full screen covers its monitor") {

@@ -92,6 +92,8 @@ void XDisplay::press_escape(const std::string& title) const { send_key(title, XK
 
 void XDisplay::press_enter(const std::string& title) const { send_key(title, XK_Return, true); }
 
+void XDisplay::press_r(const std::string& title) const { send_key(title, XK_r, true); }
+
 void XDisplay::tap_arrow_up(const std::string& title) const {
   send_key(title, XK_Up, true);
   send_key(title, XK_Up, false);

@@ -22,6 +22,7 @@ class XDisplay {
   void close_window(const std::string& title) const;
   void press_escape(const std::string& title) const;
   void press_enter(const std::string& title) const;
+  void press_r(const std::string& title) const;
   /// Presses the arrow up, and lets it go again.
   void tap_arrow_up(const std::string& title) const;
 
