@@ -28,7 +28,7 @@ import flip
 
 MOST_FLIP, MOST_ICE_FLIP, MOST_OFF = 0.05, 0.12, 0.01
 SCENES = ["noon", "night", "tunnel", "smoke", "gloss", "ice"]
-MORE_SAMPLES = {"tunnel": 4}  # Mitsuba's: its lamps are drawn without regard to what they light.
+MORE_SAMPLES = {"tunnel": 6}  # Mitsuba's: its lamps are drawn without regard to what they light.
 SUN_COSINE, SUN_M = 0.99998931, 1e6  # engine/raytrace/sky.hpp; far enough to be the same from everywhere.
 
 

@@ -2,8 +2,9 @@
 /// Scenes that Septet and another path tracer draw, to be compared (peer_scene_main.cpp).
 ///
 /// noon, night, tunnel: the motorway of matt surfaces with images and holes, lamps, sky, sun or moon. smoke: a puff in the Cornell box.
-/// gloss: noon again with what mirrors, cars' paint, metals and glass behind which nothing is seen, and the film of water on a wet
-/// road. ice: three bodies of it on the motorway below noon's sky without the sun, whose light through them is the photons' matter.
+/// gloss: noon again with what mirrors, cars' paint, metals and glass behind which nothing is seen, balls of them near the eye, and the
+/// film of water on a wet road. ice: three bodies of it on the motorway below noon's sky without the sun, whose light through them is
+/// the photons' matter.
 ///
 /// Sheets of glass, puddles, retroreflection, headlights and fog, whose formulas are Septet's own, are left out on both sides; closed
 /// forms hold them in the tests beside. A lamp lights as bright as it is seen.
@@ -99,6 +100,38 @@ inline void add_ice(instant::Instant& instant) {
   }
 }
 
+/// Side by side before the eye: car paint, chrome, a rim's half metal and a dark window, as vehicles have them.
+inline void add_balls(scene::ResolvedScene& scene, instant::Instant& instant) {
+  struct Look {
+    glm::vec3 color;
+    float roughness, metallic;
+  };
+  const RigidTransform& car = instant.views.front().world_from_car;
+  const Vec3 eye_m = instant::world_eye(instant.views.front());
+  const glm::vec3 bound(0.5f);
+  double to_left_m = 1.2;
+  for (const Look& look : {Look{{0.55f, 0.012f, 0.012f}, 0.28f, 0.0f}, Look{{0.75f, 0.75f, 0.76f}, 0.15f, 1.0f},
+                           Look{{0.52f, 0.53f, 0.55f}, 0.35f, 0.8f}, Look{{0.012f, 0.016f, 0.018f}, 0.06f, 0.0f}}) {
+    scene::SurfaceMesh& mesh = scene.meshes.emplace_back();
+    for (const ice::IceVertex& vertex : ice::sphere()) {
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back({vertex.position_m, vertex.normal, {}});
+    }
+    mesh.bounds_min_m = -bound, mesh.bounds_max_m = bound;
+    mesh.parts.push_back(
+        {0, static_cast<std::uint32_t>(mesh.indices.size()), static_cast<std::uint32_t>(scene.materials.size())});
+    scene::SurfaceMaterial& material = scene.materials.emplace_back();
+    material.base_color = look.color;
+    material.roughness = look.roughness;
+    material.metallic = look.metallic;
+    RigidTransform there = car;
+    there.position_m = eye_m + car.orientation * Vec3(3.8, to_left_m, -0.35);
+    instant.parts.push_back(
+        instant::place(static_cast<std::uint32_t>(scene.meshes.size() - 1), {-bound, bound}, there, glm::vec3(0.72f)));
+    to_left_m -= 0.8;
+  }
+}
+
 inline PeerScene peer_motorway(std::string_view name) {
   const Motorway world;
   PeerScene peer{world.scene(), {}, {.filter = Filter::box}};
@@ -123,6 +156,7 @@ inline PeerScene peer_motorway(std::string_view name) {
   peer.scene.instances.clear();
   for (instant::PlacedMesh& part : peer.instant.parts) part.share_of_sky = 1.0f;
   peer.settings.paths = {.longest = 8, .roulette_from = 100};
+  if (name == "gloss") add_balls(peer.scene, peer.instant);
   if (name == "ice") {
     add_ice(peer.instant);
     instant::SkyLight sunless = *peer.instant.light;
