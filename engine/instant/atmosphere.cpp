@@ -18,6 +18,8 @@ constexpr double solar_constant = 128.0e3 / luminance_unit_cdpm2;  // Above the 
 const Vec3 rayleigh_per_m{5.802e-6, 13.558e-6, 33.1e-6};
 const Vec3 ozone_per_m{0.650e-6, 1.881e-6, 0.085e-6};
 const Vec3 ground_albedo{0.11, 0.12, 0.08};
+const Vec3 snow_albedo{0.75, 0.76,
+                       0.78};  // Lying snow between bare tracks and what stands on it; fresh alone 0.8 to 0.9.
 const Vec3 night_sky{0.0011, 0.0018, 0.0036};
 
 double luminance(const Vec3& color) { return glm::dot(color, Vec3(0.2126, 0.7152, 0.0722)); }
@@ -190,7 +192,8 @@ SkyLight sky_light(const Environment& environment) {
   const Vec3 towns = Vec3(0.0046, 0.0042, 0.0040) * (night * overcast);
   const Vec3 sky_irradiance = glm::mix(clear_sky_irradiance, 0.25 * grey, overcast) +
                               (direct - sunlight) * (0.6 * std::max(0.0, sun.z)) + pi * towns;
-  const Vec3 ground = ground_albedo * (sky_irradiance + sunlight * std::max(0.0, sun.z)) / pi;
+  const Vec3 albedo = glm::mix(ground_albedo, snow_albedo, std::clamp(environment.snow_cover, 0.0, 1.0));
+  const Vec3 ground = albedo * (sky_irradiance + sunlight * std::max(0.0, sun.z)) / pi;
   const double fogged = 1.0 - std::exp(-8.0 * 150.0 * std::max(0.0, 3.912 / visibility_m - 2.0e-4));
   const Vec3 fog_radiance = glm::mix(sky_irradiance, Vec3(luminance(sky_irradiance)), 0.7) / pi;
   for (std::uint32_t row = SkyTable::rows / 2; row < SkyTable::rows; ++row)

@@ -49,8 +49,8 @@ SceneIndex::SceneIndex(const scene::ResolvedScene& scene) {
   for (const scene::SurfaceMaterial& material : scene.materials) {
     cut.push_back(is_cut(material, scene));
     plain.push_back(material.base_color_image < 0 && material.opacity >= opaque_from && material.metallic == 0.0f &&
-                    material.roughness >= rough_from && !material.wettable && material.retroreflection == 0.0f &&
-                    material.emission == glm::vec3(0.0f));
+                    material.roughness >= rough_from && material.clear_coat <= 0.0f && !material.wettable &&
+                    material.retroreflection == 0.0f && material.emission == glm::vec3(0.0f));
   }
   const auto is_open = [&](const scene::MeshPart& part) {
     return part.material < cut.size() && (cut[part.material] || scene.materials[part.material].opacity < opaque_from);
@@ -267,6 +267,11 @@ void World::point(const Ray& ray, const Hit& hit, SurfacePoint& point) const {
     const float index = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
     surface.alpha = std::max(1e-3f, material.roughness * material.roughness);
     surface.f0 = glm::mix(glm::vec3(index * index), base, material.metallic);
+  }
+  if (material.clear_coat > 0.0f && !material.wettable) {
+    surface.coat = material.clear_coat;
+    surface.coat_f0 = scene::clear_coat_reflectance;
+    surface.coat_alpha = scene::clear_coat_roughness * scene::clear_coat_roughness;
   }
   if (point.opacity < 1.0f)  // The better it mirrors, the less is seen through it.
     point.opacity = std::clamp(

@@ -79,7 +79,7 @@ void add_light(Frame& frame, bool new_sky, bool new_lamps) {
                        frame.graph.add_image("shadow map", state.targets.shadow_map, state.targets.shadow_access);
   if (new_sky)
     frame.graph.add_pass("sky table", {{}, {{table, Access::transfer_destination}}}, [&frame] {
-      const std::vector<std::uint64_t> texels = packed(frame.instant.light->table);
+      const std::vector<std::uint64_t> texels = packed(*frame.instant.light);
       upload_texels(frame.context, frame.state.sky_table, std::as_bytes(std::span(texels)));
     });
   if (new_lamps)

@@ -37,7 +37,7 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
   create_frame_targets(state.targets, state.memory, state.formats, wanted.width, wanted.height, state.smoothed);
   vulkan::ImageDescription table;
   table.width = SkyTable::columns;
-  table.height = SkyTable::rows;
+  table.height = sky_rows;
   table.format = VK_FORMAT_R16G16B16A16_SFLOAT;
   table.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   state.sky_table = create_image(state.memory, table);

@@ -206,6 +206,8 @@ NodeId SceneBuilder::add_material(std::string_view name, const MaterialParameter
   if (parameters.picture_rows != 1) apply(TagSet{id, surface_group, tag++, {"picture_rows", parameters.picture_rows}});
   if (parameters.share_of_sky != 1.0f)
     apply(TagSet{id, surface_group, tag++, {"share_of_sky", double{parameters.share_of_sky}}});
+  if (parameters.clear_coat != 0.0f)
+    apply(TagSet{id, surface_group, tag++, {"clear_coat", double{parameters.clear_coat}}});
   return id;
 }
 

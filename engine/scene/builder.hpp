@@ -42,6 +42,7 @@ struct MaterialParameters {
   float retroreflection = 0.0f;
   std::uint32_t picture_columns = 1, picture_rows = 1;
   float share_of_sky = 1.0f;  ///< 0 in a tunnel: see SurfaceMaterial.
+  float clear_coat = 0.0f;
 };
 
 struct ObjectParameters {

@@ -214,6 +214,7 @@ SurfaceMaterial evaluate_material(const Node& node, const std::function<std::int
   material.retroreflection = static_cast<float>(std::clamp(tag_or(node, "retroreflection", 0.0), 0.0, 1e4));
   material.picture_columns = std::clamp(tag_or(node, "picture_columns", 1u), 1u, 64u);
   material.picture_rows = std::clamp(tag_or(node, "picture_rows", 1u), 1u, 64u);
+  material.clear_coat = static_cast<float>(std::clamp(tag_or(node, "clear_coat", 0.0), 0.0, 1.0));
   material.share_of_sky = static_cast<float>(std::clamp(tag_or(node, "share_of_sky", 1.0), 0.0, 1.0));
   return material;
 }

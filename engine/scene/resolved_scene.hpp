@@ -45,6 +45,9 @@ struct TextureImage {
   std::vector<std::uint8_t> rgba;
 };
 
+/// Of a clear coat, lacquer of index 1.5. What it mirrors does not reach the base below it.
+inline constexpr float clear_coat_reflectance = 0.04f, clear_coat_roughness = 0.1f;
+
 /// Colours are linear Rec. 709.
 struct SurfaceMaterial {
   std::uint64_t revision = 0;
@@ -69,6 +72,7 @@ struct SurfaceMaterial {
   /// Of the sky's light, and the sun's, that reaches it: 1 in the open, 0 in a tunnel, whose lamps then light it. The
   /// bounds of an instance with a material below ½ dim what drives through them.
   float share_of_sky = 1.0f;
+  float clear_coat = 0.0f;  ///< Share of it that a clear coat covers, over all else that it is.
 };
 
 /// What moves or lights a part of a vehicle.

@@ -74,12 +74,13 @@ DeviceMaterial device_material(const SurfaceMaterial& material, const std::vecto
   result.cut = textured && !result.blended && textures[static_cast<std::size_t>(material.base_color_image)].holes;
   result.glossy = !result.cut && (material.roughness < 0.6f || material.metallic > 0.2f || result.blended);
   result.wettable = material.wettable && !result.cut;
+  result.coated = material.clear_coat > 0.0f && !result.cut && !result.blended && !result.wettable;
   result.stripe = material.stripe;
   // Fresnel at normal incidence, ((n − 1)/(n + 1))².
   const float ratio = (material.refraction_index - 1.0f) / (material.refraction_index + 1.0f);
   result.constants.base_color = glm::vec4(material.base_color, material.opacity);
   result.constants.emission = glm::vec4(material.emission, std::clamp(material.roughness, 0.05f, 1.0f));
-  result.constants.surface = glm::vec4(material.metallic, ratio * ratio, result.wettable, material.takes_paint);
+  result.constants.surface = glm::vec4(material.metallic, ratio * ratio, material.clear_coat, material.takes_paint);
   result.constants.light = glm::vec4(material.share_of_sky, material.retroreflection,
                                      textured ? material.picture_columns : 1u, textured ? material.picture_rows : 1u);
   return result;

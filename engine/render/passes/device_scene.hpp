@@ -19,7 +19,7 @@ namespace septet::render {
 struct MaterialConstants {
   glm::vec4 base_color{1.0f};  ///< rgb, opacity.
   glm::vec4 emission{0.0f};    ///< rgb, roughness.
-  glm::vec4 surface{0.0f};     ///< Metallic, reflectance at normal incidence, wettable, takes paint.
+  glm::vec4 surface{0.0f};     ///< Metallic, reflectance at normal incidence, clear coat, takes paint.
   glm::vec4 light{1.0f};       ///< Share of the sky that the surface sees, retroreflection, columns and rows of
                                ///< pictures.
 };
@@ -27,7 +27,7 @@ struct MaterialConstants {
 struct DeviceMaterial {
   MaterialConstants constants;
   std::int32_t image = -1;  ///< −1: none.
-  bool cut = false, blended = false, glossy = false, wettable = false, stripe = false;
+  bool cut = false, blended = false, glossy = false, coated = false, wettable = false, stripe = false;
 };
 
 struct DeviceMesh {

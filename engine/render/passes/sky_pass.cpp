@@ -32,10 +32,14 @@ void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry) {
   ++context.statistics.triangles;
 }
 
-std::vector<std::uint64_t> packed(const SkyTable& table) {
+std::vector<std::uint64_t> packed(const SkyLight& light) {
   std::vector<std::uint64_t> texels;
-  texels.reserve(table.radiance.size());
-  for (const glm::vec3& radiance : table.radiance) texels.push_back(glm::packHalf4x16(glm::vec4(radiance, 1.0f)));
+  texels.reserve(std::size_t{sky_rows} * SkyTable::columns);
+  const auto add = [&](const SkyTable& table) {
+    for (const glm::vec3& radiance : table.radiance) texels.push_back(glm::packHalf4x16(glm::vec4(radiance, 1.0f)));
+  };
+  add(light.table);
+  for (const SkyTable& mirrored : instant::sky_by_roughness(light)) add(mirrored);
   return texels;
 }
 

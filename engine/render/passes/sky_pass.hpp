@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/instant/atmosphere.hpp"
+#include "engine/instant/sky_by_roughness.hpp"
 #include "engine/render/passes/pass_context.hpp"
 
 namespace septet::render {
@@ -16,7 +17,9 @@ struct SkyPass {
 void destroy_sky_pass(SkyPass& pass, const vulkan::Device& device);
 void draw_sky(SkyPass& pass, PassContext& context, bool clouded, bool starry);
 
-/// The table as half floats, RGBA, for a texture of SkyTable's size.
-std::vector<std::uint64_t> packed(const SkyTable& table);
+/// Rows of the sky's texture: the table, and below it one for each step of roughness (instant/sky_by_roughness.hpp).
+inline constexpr std::uint32_t sky_rows = SkyTable::rows * (1 + instant::roughness_steps);
+/// As half floats, RGBA, for a texture of SkyTable's columns and of `sky_rows`.
+std::vector<std::uint64_t> packed(const SkyLight& light);
 
 }  // namespace septet::render

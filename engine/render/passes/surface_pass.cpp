@@ -11,12 +11,13 @@ namespace {
 struct Variant {
   std::uint32_t textured;  ///< As in shaders/surface.frag.
   std::uint32_t lamps;     ///< Likewise.
-  bool glossy, snowy, sooty, road, mirror, fading;
+  std::uint32_t glossy;    ///< Likewise.
+  bool snowy, sooty, road, mirror, fading;
   SurfaceKind kind;
   std::uint32_t key() const {
-    return textured | lamps << 2 | std::uint32_t{glossy} << 4 | std::uint32_t{snowy} << 5 | std::uint32_t{sooty} << 6 |
-           static_cast<std::uint32_t>(kind) << 7 | std::uint32_t{road} << 9 | std::uint32_t{mirror} << 10 |
-           std::uint32_t{fading} << 11;
+    return textured | lamps << 2 | glossy << 4 | std::uint32_t{snowy} << 6 | std::uint32_t{sooty} << 7 |
+           static_cast<std::uint32_t>(kind) << 8 | std::uint32_t{road} << 10 | std::uint32_t{mirror} << 11 |
+           std::uint32_t{fading} << 12;
   }
 };
 
@@ -73,10 +74,11 @@ void draw_surfaces(SurfacePass& pass, PassContext& context, const DeviceScene& s
     if (kind_of(material) != kind) return;
     const bool textured = material.image >= 0;
     const std::uint32_t texturing = !textured ? 0 : material.wettable && !context.samplers.anisotropic ? 2 : 1;
-    const bool glossy = material.glossy || (light.wet && material.wettable);
-    const VkPipeline pipeline = pipeline_of(pass, context,
-                                            {texturing, light.lamps(), glossy, light.snowy, light.sooty,
-                                             material.wettable, light.mirror_of_road, draw.fading, kind});
+    const std::uint32_t glossy =
+        std::uint32_t{material.glossy || (light.wet && material.wettable)} | std::uint32_t{material.coated} << 1;
+    const VkPipeline pipeline = pipeline_of(
+        pass, context,
+        {texturing, light.lamps(), glossy, light.snowy, light.sooty, material.wettable, light.mirror_of_road, draw.fading, kind});
     if (pipeline != bound_pipeline) vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     bound_pipeline = pipeline;
     if (textured && material.image != bound_image) {

@@ -3,6 +3,9 @@
 layout(push_constant) uniform Material {
   vec4 base_color;  // rgb, opacity.
   vec4 emission;    // rgb, roughness.
-  vec4 surface;     // Metallic, reflectance at normal incidence, wettable, takes paint.
+  vec4 surface;     // Metallic, reflectance at normal incidence, clear coat, takes paint.
   vec4 light;       // Share of the sky that the surface sees, retroreflection cd/(lx m²), columns and rows of pictures.
 } material;
+
+// Of a clear coat: the twins of those in engine/scene/resolved_scene.hpp.
+const float coat_reflectance = 0.04, coat_roughness = 0.1;

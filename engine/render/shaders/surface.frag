@@ -11,7 +11,7 @@
 // A software rasteriser runs both sides of a branch, so what is rare is specialised away.
 layout(constant_id = 0) const uint textured = 0;  // 1 one sample, 2 three along the longer side of the pixel's footprint.
 layout(constant_id = 1) const uint cut = 0;       // Alpha cuts holes, both sides are drawn: 1 by coverage, 2 by pixels.
-layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky.
+layout(constant_id = 2) const uint glossy = 0;    // Mirrors sun and sky: 1 by its own layer, 2 by a clear coat, 3 by both.
 layout(constant_id = 3) const uint blended = 0;
 layout(constant_id = 4) const uint lamps = 0;     // Light it: 1 headlights, 2 standing lamps, 3 both.
 layout(constant_id = 5) const uint snowy = 0;
@@ -20,6 +20,8 @@ layout(constant_id = 7) const uint stripe = 0;  // Covers a share of its pixels;
 layout(constant_id = 8) const uint road = 0;            // Gets wet; wheels run on it.
 layout(constant_id = 9) const uint mirror_of_road = 0;  // Drawn as what a wet road mirrors.
 layout(constant_id = 10) const uint fading = 0;         // Some pixels show another level of detail.
+
+const vec3 under_roof = vec3(0.15, 0.13, 0.10);  // Radiance of what surfaces mirror in tunnels.
 
 layout(location = 0) in vec3 relative;
 layout(location = 1) in vec3 normal;
@@ -84,6 +86,20 @@ vec4 headlights(vec3 n) {
     sum += light * vec4(vec3(1.0, 0.93, 0.80) * facing, 1.0 / (1.0 + back * 26000.0));
   }
   return sum;
+}
+
+// Microfacets' sun (GGX, with Kelemen's visibility 1/(4·vh²)), per unit of irradiance on them.
+vec3 shine(vec3 facet, vec3 to_eye, vec3 f0, float roughness) {
+  vec3 h = normalize(view.light_direction.xyz + to_eye);
+  float a2 = roughness * roughness * roughness * roughness;
+  float nh = max(dot(facet, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
+  float d = nh * nh * (a2 - 1.0) + 1.0;
+  return min((f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh)), vec3(40.0));
+}
+
+// Share of an even sky that a layer mirrors: a fit to GGX with Smith's masking and Schlick's Fresnel, within 0.03 for roughness up to 0.7.
+vec3 layer_reflectance(float cosine, vec3 f0, float roughness) {
+  return f0 * (1.0 - 0.15 * roughness) + (1.0 - f0) * (fifth_power(1.0 - cosine) / (1.0 + 20.0 * roughness * roughness * roughness));
 }
 
 void main() {
@@ -160,28 +176,33 @@ void main() {
     radiance *= irradiance;
   }
 
-  if (glossy != 0) {
-    // Microfacets (GGX, with Kelemen's visibility 1/(4·vh²)) for the light, the sky's table for the mirror image.
-    float r = road != 0 ? mix(0.12, 0.03, under_water) : roughness;
-    vec3 f0 = road != 0 ? vec3(0.02) : mix(vec3(material.surface.y), albedo, material.surface.x);
-    vec3 facet = road != 0 ? normalize(n - vec3(slope, 0.0)) : n;
+  if (glossy != 0 && road != 0) {
+    // The water's film.
+    float r = mix(0.12, 0.03, under_water);
+    vec3 facet = normalize(n - vec3(slope, 0.0));
     float cosine = clamp(dot(facet, to_eye), 0.0, 1.0);
-    vec3 fresnel = f0 + (max(vec3(1.0 - r), f0) - f0) * fifth_power(1.0 - cosine);
+    float fresnel = 0.02 + (0.98 - r) * fifth_power(1.0 - cosine);
     vec3 mirrored = reflect(-to_eye, facet);
-    if (road != 0) mirrored = normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)));
-    vec3 around = sky_radiance(mirrored) * share_of_sky + vec3(0.15, 0.13, 0.10) * (1.0 - share_of_sky);
-    if (road != 0) {
-      vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, 0.85 * r * r);
-      around = around * (1.0 - near_by.a) + near_by.rgb;
+    vec3 around = sky_radiance(normalize(vec3(mirrored.xy, max(mirrored.z, 0.02)))) * share_of_sky + under_roof * (1.0 - share_of_sky);
+    vec4 near_by = mirrored_on_road(normalize(relative.xy), slope, 0.85 * r * r);
+    around = around * (1.0 - near_by.a) + near_by.rgb;
+    radiance += fresnel * around * mix(0.36 * wet, 0.95, under_water);
+    radiance += shine(facet, to_eye, vec3(0.02), r) * sunlight * (max(facing, 0.0) * wet);
+  } else if (glossy != 0) {
+    // What a layer mirrors does not reach the one below it, on its way in as on its way out.
+    float cosine = clamp(dot(n, to_eye), 0.0, 1.0);
+    vec3 mirrored = reflect(-to_eye, n), beam = sunlight * max(facing, 0.0), roof = under_roof * (1.0 - share_of_sky);
+    if ((glossy & 1) != 0) {
+      vec3 f0 = mix(vec3(material.surface.y), albedo, material.surface.x), fresnel = layer_reflectance(cosine, f0, roughness);
+      radiance = radiance * (1.0 - fresnel) * 0.92 + fresnel * (mirrored_sky(mirrored, roughness) * share_of_sky + roof) +
+                 shine(n, to_eye, f0, roughness) * beam;
+      if (blended != 0 && stripe == 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
     }
-    radiance += fresnel * around * (road != 0 ? mix(0.36 * wet, 0.95, under_water) : 1.0 - 0.7 * r);
-    vec3 h = normalize(to_light + to_eye);
-    float a2 = r * r * r * r;
-    float nh = max(dot(facet, h), 0.0), vh = max(dot(to_eye, h), 1e-3);
-    float d = nh * nh * (a2 - 1.0) + 1.0;
-    vec3 shine = (f0 + (1.0 - f0) * fifth_power(1.0 - vh)) * (a2 / (pi * d * d) * 0.25 / (vh * vh));
-    radiance += min(shine, vec3(40.0)) * sunlight * (max(facing, 0.0) * (road != 0 ? wet : 1.0));
-    if (blended != 0 && stripe == 0) alpha = clamp(alpha + dot(fresnel, vec3(0.33)), 0.0, 1.0);
+    if ((glossy & 2) != 0) {
+      float coat = material.surface.z, fresnel = coat * layer_reflectance(cosine, vec3(coat_reflectance), coat_roughness).r;
+      radiance = radiance * ((1.0 - fresnel) * (1.0 - 0.08 * coat)) + fresnel * (mirrored_sky(mirrored, coat_roughness) * share_of_sky + roof) +
+                 coat * shine(n, to_eye, vec3(coat_reflectance), coat_roughness) * beam;
+    }
   }
   radiance += emission.rgb * (textured != 0 ? base.rgb : vec3(1.0)) * view.light_irradiance.w;
   if (sooty != 0) radiance *= 1.0 - soot_cover();

@@ -36,6 +36,9 @@ layout(set = 0, binding = 12) uniform sampler2D lamp_field;
 
 const float pi = 3.14159265;
 
+// The texture holds the sky's table and one for each step of roughness: the twin of engine/instant/sky_by_roughness.hpp.
+const float sky_tables = 6.0, roughness_per_step = 0.175;
+
 // Row and column of the sky table for a direction.
 vec2 sky_coordinates(vec3 direction) {
   float per_level = inversesqrt(max(dot(direction.xy, direction.xy), 1e-8));
@@ -43,7 +46,19 @@ vec2 sky_coordinates(vec3 direction) {
   return vec2(sqrt(max(0.0, 0.5 - 0.5 * cosine)), 0.5 + 0.5 * sign(direction.z) * sqrt(abs(direction.z)));
 }
 
-vec3 sky_radiance(vec3 direction) { return textureLod(sky_table, sky_coordinates(direction), 0.0).rgb; }
+// Half a texel from a table's edges lies the middle of its outer texels: none is mixed with those of the next.
+vec3 sky_in_table(vec3 direction, float table) {
+  vec2 at = sky_coordinates(direction);
+  at.y = (clamp(at.y, 0.5 / 64.0, 63.5 / 64.0) + table) * (1.0 / sky_tables);
+  return textureLod(sky_table, at, 0.0).rgb;
+}
+
+vec3 sky_radiance(vec3 direction) { return sky_in_table(direction, 0.0); }
+
+// Of sky and ground, what a surface of that roughness mirrors in that direction.
+vec3 mirrored_sky(vec3 direction, float roughness) {
+  return sky_in_table(direction, min(1.0 + floor(roughness * (1.0 / roughness_per_step) + 0.5), sky_tables - 1.0));
+}
 
 // Light of sky and ground on a surface that faces `n`.
 vec3 irradiance_on(vec3 n) {

@@ -20,11 +20,15 @@ struct Look {
   float metallic = 0.0f;
   glm::vec3 emission{0.0f};
   float opacity = 1.0f;
+  float clear_coat = 0.0f;
 };
+
+/// Car paint is a rough base under a clear coat.
+constexpr float lacquer = 1.0f;
 
 /// In the order of Finish.
 constexpr std::array<Look, 31> looks{{
-    {"paint", {0.85f, 0.85f, 0.85f}, 0.28f},
+    {"paint", {0.85f, 0.85f, 0.85f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"glass", {0.012f, 0.016f, 0.018f}, 0.06f},
     {"trim", {0.022f, 0.022f, 0.024f}, 0.55f},
     {"underbody", {0.012f, 0.012f, 0.012f}, 0.95f},
@@ -50,7 +54,7 @@ constexpr std::array<Look, 31> looks{{
     {"cloth bright", {0.42f, 0.12f, 0.07f}, 0.9f},
     {"leather", {0.03f, 0.02f, 0.016f}, 0.6f},
     {"tarpaulin", {0.60f, 0.61f, 0.62f}, 0.6f},
-    {"fire red", {0.55f, 0.012f, 0.012f}, 0.28f},
+    {"fire red", {0.55f, 0.012f, 0.012f}, 0.7f, 0.0f, {}, 1.0f, lacquer},
     {"police lettering", {1.0f, 1.0f, 1.0f}, 0.4f},
     {"taxi sign", {1.0f, 1.0f, 1.0f}, 0.4f, 0.0f, {0.5f, 0.5f, 0.5f}},
     {"timber", {0.23f, 0.14f, 0.075f}, 0.9f},
@@ -125,6 +129,7 @@ Palette add_finishes(scene::SceneBuilder& builder) {
     material.metallic = look.metallic;
     material.emission = look.emission;
     material.opacity = look.opacity;
+    material.clear_coat = look.clear_coat;
     material.takes_paint = i == index_of(Finish::paint);
     const std::string name = std::string("vehicle/") + look.name;
     const auto with_image = [&](const Image& picture) {

@@ -91,4 +91,17 @@ TEST_CASE("a level surface receives what the sky's light tells in every weather"
     }
 }
 
+TEST_CASE("snow on the ground lights from below, about six times as much as grass does") {
+  Environment environment;
+  environment.cloud_cover = 1.0;
+  const SkyLight bare = sky_light(environment);
+  environment.snow_cover = 1.0;
+  const SkyLight snowed = sky_light(environment);
+  CHECK(snowed.ground_irradiance.g / bare.ground_irradiance.g == doctest::Approx(6.3).epsilon(0.15));
+  const glm::vec2 sun(1.0f, 0.0f);
+  CHECK(irradiance_on(snowed.irradiance, sun, {0, 0, -1}).g > 4.0f * irradiance_on(bare.irradiance, sun, {0, 0, -1}).g);
+  CHECK(irradiance_on(snowed.irradiance, sun, {1, 0, 0}).g > 1.4f * irradiance_on(bare.irradiance, sun, {1, 0, 0}).g);
+  CHECK(snowed.sky_irradiance == bare.sky_irradiance);
+}
+
 }  // namespace septet::instant
