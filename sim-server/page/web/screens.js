@@ -53,7 +53,10 @@ function show_thumbnail({ screen, picture }) {
   figure.dataset.came = String(performance.now());
 }
 
-/// One that no new picture has come of is shown as old.
+/// One that no new picture has come of is shown as old. They stand in the rig's order, whichever came first.
 function age_thumbnails() {
+  const place = (figure) => state.screens.findIndex((screen) => figure.dataset.name === `thumbnail ${screen.name}`);
+  const figures = [...$('thumbnails').children], sorted = [...figures].sort((a, b) => place(a) - place(b));
+  if (sorted.some((figure, i) => figure !== figures[i])) $('thumbnails').append(...sorted);
   for (const figure of $('thumbnails').children) figure.classList.toggle('old', performance.now() - figure.dataset.came > 5000 && !state.paused);
 }

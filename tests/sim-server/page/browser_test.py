@@ -42,9 +42,15 @@ def main():
         first.value("var own = state.everybody.find((other) => other[0] === hello.driver);"
                     "for (const ahead of [60, 70]) place_at(own[2] + ahead * Math.cos(own[4]), own[3] + ahead * Math.sin(own[4]))")
         second.until("state.lying.length === 2 && state.lying[0].name === 'traffic-cone'")
+        first.until("document.querySelector('#lying button') !== null")  # It hears when it hears.
         first.click("#lying button")
         second.until("state.lying.length === 1")
         stood_at = second.value("state.tick")
+
+        shown = first.value("state.screens = ['left', 'middle', 'right'].map((name) => ({ name }));"
+                            "for (const screen of ['right', 'left', 'middle']) show_thumbnail({ screen, picture: 'data:,' });"
+                            "age_thumbnails(); [...document.querySelectorAll('#thumbnails figcaption')].map((one) => one.textContent).join()")
+        assert shown == "left,middle,right", f"thumbnails stand in the order {shown}"
 
         first.kill()
         second.until("state.commander === null")
