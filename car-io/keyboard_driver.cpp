@@ -33,10 +33,13 @@ double move_brake(KeyboardDriver& driver, bool pressed, double dt_s) {
 double turn_wheel(KeyboardDriver& driver, double side, double largest_rad, double dt_s) {
   const KeyboardSettings& settings = driver.settings;
   const double now_rad = driver.input.steering_wheel_rad, target_rad = largest_rad * side;
+  if (side != 0.0) driver.let_go_for_s = 0.0;
   if (target_rad == 0.0 || target_rad * now_rad < 0.0) {
     driver.steered_for_s = 0.0;
+    const double share =
+        side == 0.0 ? grown(driver.let_go_for_s, settings.return_growth_s, settings.first_share, dt_s) : 1.0;
     return approach(now_rad, target_rad,
-                    std::min(largest_rad / settings.return_time_s, settings.return_speed_radps) * dt_s);
+                    share * std::min(largest_rad / settings.return_time_s, settings.return_speed_radps) * dt_s);
   }
   const double share = grown(driver.steered_for_s, settings.steer_growth_s, settings.first_share, dt_s);
   return approach(now_rad, target_rad,

@@ -44,6 +44,7 @@ struct KeyboardSettings {
   /// A key just pressed turns the wheel, and presses the brake, at this share of the rate; at all of it once it has been held for so
   /// long.
   double first_share = 0.2, steer_growth_s = 0.4, brake_growth_s = 0.8;
+  double return_growth_s = 0.3;  ///< The same of a wheel let go: who taps through a bend holds it.
   /// A foot is quick to the clutch's floor. It comes up slowly where the other one gives gas, and drops off it otherwise.
   double clutch_press_time_s = 0.12, clutch_bite_time_s = 1.6, clutch_drop_time_s = 0.15;
   std::int8_t gears = 6;  ///< A car with fewer takes its highest.
@@ -57,6 +58,7 @@ struct KeyboardDriver {
   DriverInput input;
   KeyStates previous;
   double steered_for_s = 0.0, braked_for_s = 0.0;  ///< For so long the same key has been held.
+  double let_go_for_s = 0.0;                       ///< For so long none has.
   bool reverse_armed = false;                      ///< The brake key was let go at a standstill, so that pressing it
                                                    ///< again means reverse.
   bool parking_brake_is_set = false;

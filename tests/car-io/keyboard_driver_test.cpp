@@ -19,10 +19,10 @@ DriverInput hold(KeyboardDriver& driver, const KeyStates& keys, double speed_mps
   return input;
 }
 
-/// Somebody who knows a keyboard and no wheel follows a straight line from 0.8 m beside it, sees where the car was a quarter of a second ago,
+/// Somebody who knows a keyboard and no wheel follows a line, straight or bent, from 0.8 m beside it, sees where the car was a quarter of a second ago,
 /// and decides eight times a second: a key that would turn the car to where it should go, or none. Returns the farthest from the line
 /// in the last twenty of forty seconds, of a car that goes where its front wheels point.
-double wandering_m(double speed_mps) {
+double wandering_m(double speed_mps, double curvature_per_m = 0.0) {
   constexpr int seen_late_ticks = 30, decided_every_ticks = 15;
   KeyboardDriver driver;
   const KeyboardSettings& settings = driver.settings;
@@ -36,7 +36,8 @@ double wandering_m(double speed_mps) {
     if (tick % decided_every_ticks == 0) {
       const Car& was = seen.front();
       const double ahead_m = std::max(6.0, 1.5 * speed_mps);
-      const double bearing_rad = std::atan2(-was.aside_m, ahead_m) - was.heading_rad;
+      const double bearing_rad =
+          std::atan2(ahead_m * ahead_m * curvature_per_m / 2.0 - was.aside_m, ahead_m) - was.heading_rad;
       const double wished_rad =
           settings.steering_ratio * std::atan(2.0 * settings.wheelbase_m * std::sin(bearing_rad) / ahead_m);
       const double wrong_by_rad = wished_rad - was.wheel_rad,
@@ -44,7 +45,8 @@ double wandering_m(double speed_mps) {
       keys = {.left = wrong_by_rad > clearly, .right = wrong_by_rad < -clearly};
     }
     car.wheel_rad = advance(driver, keys, speed_mps, dt_s).steering_wheel_rad;
-    car.heading_rad += speed_mps * std::tan(car.wheel_rad / settings.steering_ratio) / settings.wheelbase_m * dt_s;
+    const double turned_per_m = std::tan(car.wheel_rad / settings.steering_ratio) / settings.wheelbase_m;
+    car.heading_rad += speed_mps * (turned_per_m - curvature_per_m) * dt_s;  // Against the line's.
     car.aside_m += speed_mps * std::sin(car.heading_rad) * dt_s;
     seen.pop_front();
     seen.push_back(car);
@@ -59,6 +61,16 @@ TEST_CASE("who taps keys keeps the car within its lane at a walk's pace as on a 
   for (const double speed_mps : {2.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
     INFO("m/s: " << speed_mps);
     CHECK(wandering_m(speed_mps) < 0.4);
+  }
+}
+
+TEST_CASE("who taps keys keeps the car within its lane through the bends of a country road") {
+  struct Bend {
+    double speed_mps, radius_m;
+  };
+  for (const Bend bend : {Bend{12.0, 250.0}, Bend{16.0, 160.0}, Bend{16.0, 220.0}, Bend{20.0, 400.0}}) {
+    INFO(bend.speed_mps << " m/s, " << bend.radius_m << " m");
+    CHECK(wandering_m(bend.speed_mps, 1.0 / bend.radius_m) < 0.8);
   }
 }
 
@@ -98,7 +110,8 @@ TEST_CASE("a steering key turns the wheel slowly, then faster, and letting go st
   CHECK(hold(driver, left, 25.0, 0.1).steering_wheel_rad < 0.06 * full);
   CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == doctest::Approx(0.46 * full).epsilon(0.02));
   CHECK(hold(driver, left, 25.0, 0.3).steering_wheel_rad == full);
-  CHECK(hold(driver, {}, 25.0, 0.3).steering_wheel_rad == 0.0);
+  CHECK(hold(driver, {}, 25.0, 0.05).steering_wheel_rad > 0.9 * full);
+  CHECK(hold(driver, {}, 25.0, 0.4).steering_wheel_rad == 0.0);
   CHECK(hold(driver, {.right = true}, 25.0, 1.0).steering_wheel_rad == doctest::Approx(-full));
   CHECK(hold(driver, {.left = true, .right = true}, 25.0, 1.0).steering_wheel_rad == 0.0);
 }
