@@ -10,6 +10,9 @@ its sun is a point unless it is a disc far away; it looks at all places of a mes
 
 Gloss is Mitsuba's own, not our formula: `roughplastic` and `principled` metal, both GGX. They mask and shadow apart where we do it together,
 and have Fresnel's equations for plastic where we have Schlick's.
+
+FLIP as measured: with 64 samples noon .035, night .005, ice .031 and its bodies .073; with 256 gloss .030 and the tunnel .043, whose 1536 of
+Mitsuba took 214 s of one processor. What is left there is Mitsuba's noise: .070 with 256, .056 with 512, .047 with 1024.
 """
 
 import argparse
@@ -75,7 +78,8 @@ def shiny(color, alpha, f0, metallic):
     at.wi = mitsuba.Vector3f(0, 0, 1)
     white = mitsuba.load_dict({**plastic, "diffuse_reflectance": 1.0, "specular_reflectance": 0.0})
     given = float(numpy.array(white.eval(mitsuba.BSDFContext(), at, mitsuba.Vector3f(0, 0, 1))).flat[0]) * numpy.pi
-    plastic["diffuse_reflectance"] = reflectance(color * (1 - f0 * (1 - metallic) - color * metallic) ** 2 / given)
+    # A rough one cannot be as bright as ours where ours is white; the figures tell.
+    plastic["diffuse_reflectance"] = reflectance(numpy.minimum(1.0, color * (1 - f0 * (1 - metallic) - color * metallic) ** 2 / given))
     if metallic <= 0:
         return plastic
     return {"type": "blendbsdf", "weight": float(metallic), "plastic": plastic, "metal": metal}
