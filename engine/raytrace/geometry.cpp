@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -44,10 +46,15 @@ struct Standing {
 /// What a query's filter needs to know; begins as Embree's own context does.
 struct Query {
   RTCIntersectContext context;
-  const Openings* openings = nullptr;
-  const std::vector<Standing>* standing = nullptr;
-  float threshold = 0.0f;  ///< Of levels of detail, see instant::LevelFade.
-  float let_through = 1.0f;
+  const Openings* openings;
+  const std::vector<Standing>* standing;
+  const float* thresholds;  ///< Of levels of detail, see instant::LevelFade, of each of its rays.
+  float* let_through;       ///< Of each of its rays.
+
+  Query(const Openings* asked, const std::vector<Standing>& places, const float* levels, float* shares)
+      : openings(asked), standing(&places), thresholds(levels), let_through(shares) {
+    rtcInitIntersectContext(&context);
+  }
 };
 
 /// A number in [0, 1) that any change of a ray's direction makes another: rays beside each other see different levels, and one ray the same level of
@@ -62,33 +69,43 @@ float threshold_of(float x, float y, float z) {
   return static_cast<float>((mixed ^ (mixed >> 13)) >> 8) * 0x1p-24f;
 }
 
-std::uint32_t place_of(const RTCFilterFunctionNArguments* args) {
+std::uint32_t place_of(const RTCFilterFunctionNArguments* args, unsigned n) {
   // A mesh that was moved lies in the scene itself, under the number of its place.
-  const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
-  return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, 1, 0);
+  const unsigned instance = RTCHitN_instID(args->hit, args->N, n, 0);
+  return instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, args->N, n);
 }
 
 void pass_holes(const RTCFilterFunctionNArguments* args) {
   const auto* query = reinterpret_cast<const Query*>(args->context);
-  const std::uint32_t place = place_of(args);
-  const Standing& standing = (*query->standing)[place];
-  if (!standing.fade.shows(query->threshold) ||
-      (standing.open && query->openings->is_hole(place, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0),
-                                                 RTCHitN_v(args->hit, 1, 0))))
-    args->valid[0] = 0;
+  for (unsigned n = 0; n < args->N; ++n) {
+    if (!args->valid[n]) continue;
+    const std::uint32_t place = place_of(args, n);
+    const Standing& standing = (*query->standing)[place];
+    if (!standing.fade.shows(query->thresholds[n]) ||
+        (standing.open &&
+         query->openings->is_hole(place, RTCHitN_primID(args->hit, args->N, n), RTCHitN_u(args->hit, args->N, n),
+                                  RTCHitN_v(args->hit, args->N, n))))
+      args->valid[n] = 0;
+  }
 }
 
 void weaken_light(const RTCFilterFunctionNArguments* args) {
-  auto* query = reinterpret_cast<Query*>(args->context);
-  const std::uint32_t place = place_of(args);
-  const Standing& standing = (*query->standing)[place];
-  if (!standing.fade.shows(query->threshold)) args->valid[0] = 0;
-  if (!standing.fade.shows(query->threshold) || !standing.open) return;
-  const glm::vec3 direction(RTCRayN_dir_x(args->ray, 1, 0), RTCRayN_dir_y(args->ray, 1, 0),
-                            RTCRayN_dir_z(args->ray, 1, 0));
-  query->let_through *= query->openings->share_let_through(
-      place, RTCHitN_primID(args->hit, 1, 0), RTCHitN_u(args->hit, 1, 0), RTCHitN_v(args->hit, 1, 0), direction);
-  if (query->let_through > 1e-3f) args->valid[0] = 0;
+  const auto* query = reinterpret_cast<const Query*>(args->context);
+  for (unsigned n = 0; n < args->N; ++n) {
+    if (!args->valid[n]) continue;
+    const std::uint32_t place = place_of(args, n);
+    const Standing& standing = (*query->standing)[place];
+    const bool shows = standing.fade.shows(query->thresholds[n]);
+    if (!shows) args->valid[n] = 0;
+    if (!shows || !standing.open) continue;
+    const glm::vec3 direction(RTCRayN_dir_x(args->ray, args->N, n), RTCRayN_dir_y(args->ray, args->N, n),
+                              RTCRayN_dir_z(args->ray, args->N, n));
+    float& let_through = query->let_through[n];
+    let_through *= query->openings->share_let_through(place, RTCHitN_primID(args->hit, args->N, n),
+                                                      RTCHitN_u(args->hit, args->N, n),
+                                                      RTCHitN_v(args->hit, args->N, n), direction);
+    if (let_through > 1e-3f) args->valid[n] = 0;
+  }
 }
 
 /// `moved`: its vertices' positions, if not where the mesh has them. Both outlive the geometry.
@@ -147,6 +164,20 @@ void set_ray(RTCRay& ray, const Four& begin, const Four& way, float to_m, unsign
   ray.flags = 0;
 }
 
+/// `valid`: -1 for rays whose bit is set in `which`, else 0.
+void set_rays(RTCRay8& rays, std::uint32_t which, const Packet<Ray>& from, unsigned mask, int* valid) {
+  for (std::size_t n = 0; n < packet_size; ++n) {
+    const Ray& ray = from[n];
+    valid[n] = (which >> n & 1u) != 0 ? -1 : 0;
+    rays.org_x[n] = ray.origin_m.x, rays.org_y[n] = ray.origin_m.y, rays.org_z[n] = ray.origin_m.z;
+    rays.dir_x[n] = ray.direction.x, rays.dir_y[n] = ray.direction.y, rays.dir_z[n] = ray.direction.z;
+    rays.tnear[n] = ray.from_m, rays.tfar[n] = ray.to_m;
+    rays.time[n] = ray.time;
+    rays.mask[n] = mask;
+    rays.id[n] = rays.flags[n] = 0;
+  }
+}
+
 /// What only throws a shadow is met by rays for shadows alone: one hierarchy serves both, where Embree was built to look at masks.
 constexpr unsigned for_seeing = 1, for_shadows = 2;
 
@@ -165,6 +196,17 @@ struct Geometry::Parts {
   std::vector<Standing> standing{};             ///< By place.
   const Openings* openings = nullptr;
   bool has_masks = false;
+  bool fades = false;  ///< Some place does.
+
+  Packet<float> thresholds(const Packet<Ray>& rays) const {
+    Packet<float> thresholds{};
+    if (!fades) return thresholds;
+    for (std::size_t n = 0; n < packet_size; ++n) {
+      const glm::vec3& way = rays[n].direction;
+      thresholds[n] = threshold_of(way.x, way.y, way.z);
+    }
+    return thresholds;
+  }
 
   /// The mesh's own hierarchy, for instances.
   RTCScene hierarchy(Mesh& mesh, bool fades) {
@@ -230,6 +272,9 @@ Expected<Geometry> Geometry::create() {
   if (!parts->device)
     return failure(fmt::format("Embree does not start (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
                    "ray tracer", "use a processor with AVX2, or --renderer raster");
+  if (!rtcGetDeviceProperty(parts->device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+    return failure("this Embree was built without packets of eight rays", "ray tracer",
+                   "install Debian's libembree3-3, or use --renderer raster");
   parts->has_masks = rtcGetDeviceProperty(parts->device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
   return Geometry(std::move(parts));
 }
@@ -253,6 +298,7 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
   parts_->openings = openings;
   parts_->standing.clear();
   for (const Place& place : places) parts_->standing.push_back({place.fade, parts_->meshes[place.mesh].open});
+  parts_->fades = std::ranges::any_of(places, [](const Place& place) { return !place.fade.all(); });
   parts_->seen.reset();
   parts_->shadows.reset();
   parts_->move(places);
@@ -266,11 +312,8 @@ void Geometry::place(std::span<const Place> places, const Openings* openings) {
 }
 
 bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
-  Query query;
-  rtcInitIntersectContext(&query.context);
-  query.openings = parts_->openings;
-  query.standing = &parts_->standing;
-  query.threshold = threshold_of(way[0], way[1], way[2]);
+  const float threshold = parts_->fades ? threshold_of(way[0], way[1], way[2]) : 0.0f;
+  Query query(parts_->openings, parts_->standing, &threshold, nullptr);
   RTCRayHit found;
   set_ray(found.ray, begin, way, to_m, for_seeing);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -283,15 +326,45 @@ bool Geometry::intersect(Four begin, Four way, float to_m, Hit& hit) const {
 }
 
 float Geometry::unshadowed(Four begin, Four way, float to_m) const {
-  Query query;
-  rtcInitIntersectContext(&query.context);
-  query.openings = parts_->openings;
-  query.standing = &parts_->standing;
-  query.threshold = threshold_of(way[0], way[1], way[2]);
+  const float threshold = parts_->fades ? threshold_of(way[0], way[1], way[2]) : 0.0f;
+  float let_through = 1.0f;
+  Query query(parts_->openings, parts_->standing, &threshold, &let_through);
   RTCRay found;
   set_ray(found, begin, way, to_m, for_shadows);
   rtcOccluded1(parts_->shadows.get(), &query.context, &found);
-  return found.tfar < 0.0f ? 0.0f : query.let_through;
+  return found.tfar < 0.0f ? 0.0f : let_through;
+}
+
+std::uint32_t Geometry::intersect(std::uint32_t which, const Packet<Ray>& rays, Packet<Hit>& hits) const {
+  const Packet<float> thresholds = parts_->thresholds(rays);
+  Query query(parts_->openings, parts_->standing, thresholds.data(), nullptr);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) Packet<int> valid;
+  RTCRayHit8 found;
+  set_rays(found.ray, which, rays, for_seeing, valid.data());
+  std::fill_n(found.hit.geomID, packet_size, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(found.hit.instID[0], packet_size, RTC_INVALID_GEOMETRY_ID);
+  rtcIntersect8(valid.data(), parts_->seen.get(), &query.context, &found);
+  std::uint32_t met = 0;
+  for (std::size_t n = 0; n < packet_size; ++n) {
+    const unsigned instance = found.hit.instID[0][n], geometry = found.hit.geomID[n];
+    met |= std::uint32_t{geometry != RTC_INVALID_GEOMETRY_ID} << n;
+    hits[n] = {found.ray.tfar[n], instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry, found.hit.primID[n],
+               found.hit.u[n], found.hit.v[n]};
+  }
+  return met & which;
+}
+
+void Geometry::unshadowed(std::uint32_t which, const Packet<Ray>& rays, Packet<float>& shares) const {
+  shares.fill(1.0f);
+  const Packet<float> thresholds = parts_->thresholds(rays);
+  Query query(parts_->openings, parts_->standing, thresholds.data(), shares.data());
+  alignas(32) Packet<int> valid;
+  RTCRay8 found;
+  set_rays(found, which, rays, for_shadows, valid.data());
+  rtcOccluded8(valid.data(), parts_->shadows.get(), &query.context, &found);
+  for (std::size_t n = 0; n < packet_size; ++n)
+    if (found.tfar[n] < 0.0f) shares[n] = 0.0f;
 }
 
 }  // namespace septet::raytrace

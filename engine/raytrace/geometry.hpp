@@ -7,6 +7,8 @@
 /// surfaces in one place a ray meets does not change. (Processors of two makes estimate reciprocals differently: there a hit's place
 /// may differ in its last digit.) All queries are const and may be made by any number of threads at once.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -35,6 +37,12 @@ struct Hit {
   std::uint32_t triangle = 0;  ///< Of the mesh.
   float u = 0.0f, v = 0.0f;    ///< Weights of its second and third corner.
 };
+
+/// Eight rays that begin alike are traced at once, in less than half of the time that they take one by one. Which of them are asked
+/// for may tell in the last digit of a hit, so whoever wants the same picture again makes the same packets again.
+inline constexpr std::size_t packet_size = 8;
+template <typename Value>
+using Packet = std::array<Value, packet_size>;
 
 /// Where a mesh stands: a vertex at origin_m + turn · position_m.
 struct Place {
@@ -78,6 +86,10 @@ class Geometry {
   bool intersect(const Ray& ray, Hit& hit) const { return intersect(begin_of(ray), way_of(ray), ray.to_m, hit); }
   /// Share of the light that comes along the ray from its far end, which is not before its beginning.
   float unshadowed(const Ray& ray) const { return unshadowed(begin_of(ray), way_of(ray), ray.to_m); }
+
+  /// Both for those rays whose bit is set in `which`. Bits of those that met something.
+  std::uint32_t intersect(std::uint32_t which, const Packet<Ray>& rays, Packet<Hit>& hits) const;
+  void unshadowed(std::uint32_t which, const Packet<Ray>& rays, Packet<float>& shares) const;
 
  private:
   struct Parts;

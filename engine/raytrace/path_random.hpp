@@ -13,6 +13,7 @@ namespace septet::raytrace {
 
 class PathRandom {
  public:
+  PathRandom() = default;  ///< Of no path.
   PathRandom(std::uint64_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t sample)
       : PathRandom(of_pixel(seed, x, y), sample) {}
   /// `pixel`: as `of_pixel` has it, which all samples of a pixel share.
@@ -38,7 +39,7 @@ class PathRandom {
   }
   std::uint64_t next() { return mixed(counter_ += 0x9e3779b97f4a7c15u); }
 
-  std::uint64_t counter_;
+  std::uint64_t counter_ = 0;
 };
 
 }  // namespace septet::raytrace

@@ -3,30 +3,37 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "engine/instant/headlight_beam.hpp"
 #include "engine/raytrace/crossing.hpp"
+#include "engine/raytrace/drawn_lights.hpp"
 #include "engine/raytrace/photon_map.hpp"
 
 namespace septet::raytrace {
 namespace {
 
-constexpr float evenly_per_sr = 0.25f / pi;
-
-/// In smoke, to all sides alike.
-Scattered scatter_evenly(const glm::vec3& albedo, PathRandom& random) {
-  const glm::vec2 u = random.pair();
-  const float up = 1.0f - 2.0f * u.x, across = std::sqrt(std::max(0.0f, 1.0f - up * up));
-  return {glm::vec3(across * on_circle(u.y), up), albedo, evenly_per_sr};
-}
-
-/// One thread's walk along one path.
+/// One thread's walk along one path: by turns it arrives at the end of an edge, looks at a light from there, and leaves.
 class Path {
  public:
-  Path(const World& world, const PathSettings& settings, PathRandom& random)
-      : world_(world), photons_(world.photons()), settings_(settings), random_(random) {}
+  Path(const World& world, const PathSettings& settings, PathStart& start)
+      : world_(world),
+        photons_(world.photons()),
+        settings_(settings),
+        random_(start.random),
+        ray_(start.ray),
+        time_(start.ray.time),
+        from_share_of_sky_(world.eye_share_of_sky()) {}
 
-  glm::vec3 trace(Ray ray, FirstSeen* first);
+  /// At what the ray has met. False: the path ends there.
+  bool arrive(bool met, Hit& hit, FirstSeen* first);
+  /// Whether a light is looked at from its first point, along `shadow`; to be told how much of it comes through.
+  bool looks() const { return looks_; }
+  const Ray& shadow() const { return shadow_; }
+  void take_light(float let_through) { take_light(shadow_, estimate_, let_through); }
+  /// From its first point to its end.
+  void go_on();
+  const glm::vec3& light() const { return light_; }
 
  private:
   enum class Kind : std::uint8_t { sun, sky, lamp, headlight };
@@ -38,18 +45,26 @@ class Path {
   void look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer);
   void add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
                  float distance_m);
-  LightSample draw_lamp(const glm::vec3& from_m, float& distance_m);
-  LightSample draw_headlight(const glm::vec3& from_m, float& distance_m);
   void note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point, float edge_m, FirstSeen& first) const;
   bool meet_smoke(const glm::vec3& from_m, const Ray& ray, float edge_m, SurfacePoint& point);
   bool take_photons(const SurfacePoint& point, const glm::vec3& to_viewer, float edge_m);
+  bool leave(Ray& next);
+  void take_light(const Ray& shadow, const glm::vec3& estimate, float let_through);
 
   const World& world_;
   const PhotonMaps* photons_;
   const PathSettings& settings_;
   PathRandom& random_;
+  Ray ray_;                   ///< The edge's, from the last surface that let it through.
+  SurfacePoint point_;        ///< Where it ends.
+  Ray shadow_;                ///< Of the first point.
+  glm::vec3 estimate_{0.0f};  ///< What comes along it if nothing is in its way.
+  std::uint32_t edge_ = 1;
+  bool looks_ = false;
+  bool is_clear_ = false;  ///< The point is a clear body's, and ray_ goes on from there.
   glm::vec3 light_{0.0f}, throughput_{1.0f};
-  float time_ = 0.0f;               ///< While the shutter is open.
+  float time_;                      ///< While the shutter is open.
+  float from_share_of_sky_;         ///< Where the edge begins.
   float pdf_ = 0.0f;                ///< With which the last direction was drawn; 0: it was no matter of chance.
   glm::vec3 from_m_{0.0f};          ///< The last point that scattered.
   LampWeights lamp_weights_;        ///< From there.
@@ -96,44 +111,6 @@ void Path::meet_lamp(const Ray& ray, const SurfacePoint& point) {
   light_ += throughput_ * point.emission * (weight * (scattered_ ? point.lights_up : 1.0f));
 }
 
-LightSample Path::draw_lamp(const glm::vec3& from_m, float& distance_m) {
-  if (!(lamp_weights_.sum() > 0.0f)) return {};
-  const std::size_t chosen = world_.lamps().size() > 1 ? lamp_weights_.drawn(random_.uniform()) : 0;
-  const Lamp& lamp = world_.lamps()[chosen];
-  const std::size_t which = lamp.triangles.size() > 1 ? lamp.drawn_triangle(random_.uniform()) : 0;
-  const LampTriangle& triangle = lamp.triangles[which];
-  const glm::vec2 random = random_.pair();
-  const float root = std::sqrt(random.x);
-  const float u = root * (1.0f - random.y), v = root * random.y;
-  const glm::vec3 way = triangle.corner_m + u * triangle.second + v * triangle.third + lamp.way_m * time_ - from_m;
-  const float square = glm::dot(way, way), per_m = 1.0f / std::sqrt(square);
-  distance_m = square * per_m;
-  const glm::vec3 direction = way * per_m;
-  const float cosine = -glm::dot(triangle.normal, direction);
-  if (!(cosine > 1e-6f)) return {};
-  glm::vec3 emission = lamp.emission;
-  if (lamp.textured) {
-    Ray ray;
-    ray.origin_m = from_m;
-    ray.direction = direction;
-    ray.time = time_;
-    SurfacePoint there;
-    world_.point(ray, {distance_m, lamp.place, lamp.first_triangle + static_cast<std::uint32_t>(which), u, v}, there);
-    emission = there.emission * there.lights_up;
-  }
-  return {direction, emission, lamp_weights_.chance(chosen) * square / (cosine * lamp.area_m2)};
-}
-
-LightSample Path::draw_headlight(const glm::vec3& from_m, float& distance_m) {
-  const HeadlightRow& headlights = world_.headlights();
-  if (!(headlight_sum_ > 0.0f)) return {};
-  const DrawnHeadlight drawn = headlights.drawn(from_m, time_, random_.uniform(), headlight_sum_);
-  const glm::vec3 way = headlights.position_m(drawn.which, time_) - from_m;
-  distance_m = glm::length(way);
-  return {way / std::max(distance_m, 1e-6f), glm::vec3(1.0f, 0.93f, 0.80f) * drawn.strength,
-          drawn.strength / headlight_sum_};
-}
-
 void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind kind, const LightSample& light,
                      float distance_m) {
   if (!(light.pdf > 0.0f) || light.radiance == glm::vec3(0.0f)) return;
@@ -163,7 +140,13 @@ void Path::add_light(const SurfacePoint& point, const glm::vec3& to_viewer, Kind
     shadow.direction = way * per_m;
     shadow.to_m = std::max(0.0f, square * per_m - 3.0f * margin_m(at));
   }
-  const float let_through = world_.geometry().unshadowed(shadow);
+  looks_ = edge_ == 1;
+  if (!looks_) return take_light(shadow, estimate, world_.geometry().unshadowed(shadow));
+  shadow_ = shadow;
+  estimate_ = estimate;
+}
+
+void Path::take_light(const Ray& shadow, const glm::vec3& estimate, float let_through) {
   if (let_through <= 0.0f) return;
   const float clear = world_.smoke().empty() ? 1.0f : std::exp(-world_.smoke().optical_depth(shadow));
   light_ += estimate * (let_through * clear);
@@ -218,10 +201,10 @@ void Path::look_at_a_light(const SurfacePoint& point, const glm::vec3& to_viewer
       break;
     }
     case Kind::lamp:
-      light = draw_lamp(point.position_m, distance_m);
+      light = draw_lamp(world_, lamp_weights_, point.position_m, time_, random_, distance_m);
       break;
     case Kind::headlight:
-      light = draw_headlight(point.position_m, distance_m);
+      light = draw_headlight(world_, headlight_sum_, point.position_m, time_, random_, distance_m);
       // It shines from before its lamp's glass, which would shade it.
       distance_m = std::max(0.0f, distance_m - 0.3f);
       break;
@@ -275,81 +258,131 @@ void Path::note_first(const Ray& ray, const Hit& hit, const SurfacePoint& point,
   first.to_m = there.position_m;
 }
 
-glm::vec3 Path::trace(Ray ray, FirstSeen* first) {
-  time_ = ray.time;
-  SurfacePoint point;
-  float from_share_of_sky = world_.eye_share_of_sky();
-  for (std::uint32_t edge = 1; edge <= settings_.longest; ++edge) {
-    Hit hit;
-    bool met = false;
-    const glm::vec3 edge_from_m = ray.origin_m;
-    for (int passed = 0; passed < most_sheets_passed; ++passed) {
-      met = world_.geometry().intersect(ray, hit);
-      if (!met) break;
-      world_.point(ray, hit, point);
-      if (point.opacity >= 1.0f || random_.uniform() < point.opacity) break;
-      ray.origin_m = beside(point.position_m, -point.flat_normal);
-    }
-    float edge_m = met ? glm::length(point.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
-    if (first && met) note_first(ray, hit, point, edge_m, *first);
-    first = nullptr;
-    if (!world_.smoke().empty() && meet_smoke(edge_from_m, ray, edge_m, point)) {
-      met = true;
-      edge_m = glm::length(point.position_m - edge_from_m);
-    }
-    if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
-      const float clear = std::exp(-fog * edge_m);
-      light_ +=
-          throughput_ * (1.0f - clear) * world_.fog_radiance(ray.direction, from_share_of_sky, point.share_of_sky);
-      throughput_ *= clear;
-    }
-    if (!met) {
-      meet_sky(ray.direction);
-      break;
-    }
-    from_share_of_sky = point.share_of_sky;
-    if (point.dielectric && !point.from_front) throughput_ *= glm::exp(-point.absorption_per_m * edge_m);
-    meet_lamp(ray, point);
-    if (edge == settings_.longest) break;
-    if (point.dielectric) {
-      ray = enter_or_leave(point, ray, random_);
-      pdf_ = 0.0f;
-      continue;
-    }
-    const glm::vec3 to_viewer = -ray.direction;
-    if (photons_ && take_photons(point, to_viewer, edge_m)) break;
-    choose_chances(point);
-    // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
-    // than it costs.
-    looks_alone_ =
-        edge > 2 && edge + 1 == settings_.longest && is_rough(point.surface) && world_.all_light_can_be_drawn();
-    look_at_a_light(point, to_viewer);
-    if (looks_alone_) break;
-    const Scattered scattered =
-        point.in_smoke ? scatter_evenly(point.surface.diffuse, random_) : scatter(point.surface, to_viewer, random_);
-    throughput_ *= scattered.weight;
-    if (throughput_ == glm::vec3(0.0f)) break;
-    if (!point.in_smoke && glm::dot(scattered.direction, point.flat_normal) <= 0.0f) break;
-    if (edge >= settings_.roulette_from) {
-      const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
-      if (random_.uniform() >= goes_on) break;
-      throughput_ /= goes_on;
-    }
-    pdf_ = scattered.pdf;
-    scattered_ = true;
-    from_m_ = point.position_m;
-    ray = Ray{};
-    ray.time = time_;
-    ray.origin_m = beside(point.position_m, point.flat_normal);
-    ray.direction = scattered.direction;
+bool Path::arrive(bool met, Hit& hit, FirstSeen* first) {
+  const glm::vec3 edge_from_m = ray_.origin_m;
+  for (int passed = 0; met;) {
+    world_.point(ray_, hit, point_);
+    if (point_.opacity >= 1.0f || random_.uniform() < point_.opacity) break;
+    ray_.origin_m = beside(point_.position_m, -point_.flat_normal);
+    if (++passed == most_sheets_passed) break;
+    met = world_.geometry().intersect(ray_, hit);
   }
-  return light_;
+  float edge_m = met ? glm::length(point_.position_m - edge_from_m) : std::numeric_limits<float>::infinity();
+  if (first && met) note_first(ray_, hit, point_, edge_m, *first);
+  if (!world_.smoke().empty() && meet_smoke(edge_from_m, ray_, edge_m, point_)) {
+    met = true;
+    edge_m = glm::length(point_.position_m - edge_from_m);
+  }
+  if (const float fog = world_.fog_per_m(); fog > 0.0f && met) {
+    const float clear = std::exp(-fog * edge_m);
+    light_ +=
+        throughput_ * (1.0f - clear) * world_.fog_radiance(ray_.direction, from_share_of_sky_, point_.share_of_sky);
+    throughput_ *= clear;
+  }
+  if (!met) {
+    meet_sky(ray_.direction);
+    return false;
+  }
+  from_share_of_sky_ = point_.share_of_sky;
+  if (point_.dielectric && !point_.from_front) throughput_ *= glm::exp(-point_.absorption_per_m * edge_m);
+  meet_lamp(ray_, point_);
+  if (edge_ == settings_.longest) return false;
+  is_clear_ = point_.dielectric;
+  if (is_clear_) {
+    ray_ = enter_or_leave(point_, ray_, random_);
+    pdf_ = 0.0f;
+    return true;
+  }
+  const glm::vec3 to_viewer = -ray_.direction;
+  if (photons_ && take_photons(point_, to_viewer, edge_m)) return false;
+  choose_chances(point_);
+  // All that the last edge would add is a second estimate of the same light; late in a path, at a rough surface, it is worth less
+  // than it costs.
+  looks_alone_ =
+      edge_ > 2 && edge_ + 1 == settings_.longest && is_rough(point_.surface) && world_.all_light_can_be_drawn();
+  look_at_a_light(point_, to_viewer);
+  return true;
 }
+
+/// Along the next edge. False: the path ends.
+bool Path::leave(Ray& next) {
+  if (is_clear_) {
+    next = ray_;
+    return true;
+  }
+  if (looks_alone_) return false;
+  const glm::vec3 to_viewer = -ray_.direction;
+  const Scattered scattered =
+      point_.in_smoke ? scatter_evenly(point_.surface.diffuse, random_) : scatter(point_.surface, to_viewer, random_);
+  throughput_ *= scattered.weight;
+  if (throughput_ == glm::vec3(0.0f)) return false;
+  if (!point_.in_smoke && glm::dot(scattered.direction, point_.flat_normal) <= 0.0f) return false;
+  if (edge_ >= settings_.roulette_from) {
+    const float goes_on = std::min(0.95f, std::max({throughput_.x, throughput_.y, throughput_.z}));
+    if (random_.uniform() >= goes_on) return false;
+    throughput_ /= goes_on;
+  }
+  pdf_ = scattered.pdf;
+  scattered_ = true;
+  from_m_ = point_.position_m;
+  next = {};
+  next.time = time_;
+  next.origin_m = beside(point_.position_m, point_.flat_normal);
+  next.direction = scattered.direction;
+  return true;
+}
+
+void Path::go_on() {
+  const Geometry& geometry = world_.geometry();
+  Ray next;  // Traced before it is stored: see Geometry::Four.
+  while (leave(next)) {
+    ++edge_;
+    Hit hit;
+    const bool met = geometry.intersect(next, hit);
+    ray_ = next;
+    if (!arrive(met, hit, nullptr)) return;
+  }
+}
+
+template <std::size_t... N>
+Packet<Path> paths_of(const World& world, const PathSettings& settings, Packet<PathStart>& starts,
+                      std::index_sequence<N...>) {
+  return {Path(world, settings, starts[N])...};
+}
+
+constexpr bool holds(std::uint32_t bits, std::size_t n) { return (bits >> n & 1u) != 0; }
 
 }  // namespace
 
-glm::vec3 trace_path(const World& world, const PathSettings& settings, Ray ray, PathRandom& random, FirstSeen* first) {
-  return Path(world, settings, random).trace(ray, first);
+void trace_paths(const World& world, const PathSettings& settings, std::uint32_t begun, std::uint32_t wanted,
+                 Packet<PathStart>& starts) {
+  if (settings.longest == 0) return;
+  const Geometry& geometry = world.geometry();
+  Packet<Ray> rays;
+  Packet<Hit> hits;
+  for (std::size_t n = 0; n < packet_size; ++n) rays[n] = starts[n].ray;
+  const std::uint32_t met = geometry.intersect(begun, rays, hits);
+  Packet<Path> paths = paths_of(world, settings, starts, std::make_index_sequence<packet_size>());
+  std::uint32_t go_on = 0, look = 0;
+  for (std::size_t n = 0; n < packet_size; ++n) {
+    if (!holds(begun, n)) continue;
+    Path& path = paths[n];
+    if (!path.arrive(holds(met, n), hits[n], &starts[n].first)) continue;
+    go_on |= 1u << n;
+    if (!path.looks()) continue;
+    look |= 1u << n;
+    rays[n] = path.shadow();
+  }
+  if (look) {
+    Packet<float> shares;
+    geometry.unshadowed(look, rays, shares);
+    for (std::size_t n = 0; n < packet_size; ++n)
+      if (holds(look, n)) paths[n].take_light(shares[n]);
+  }
+  for (std::size_t n = 0; n < packet_size; ++n) {
+    if (holds(go_on & wanted, n)) paths[n].go_on();
+    starts[n].radiance = paths[n].light();
+  }
 }
 
 }  // namespace septet::raytrace

@@ -26,7 +26,18 @@ struct FirstSeen {
       to_m{0.0f};  ///< Where the place that is seen is as the shutter opens and closes, times 0 and 1.
 };
 
-/// Radiance, in the units of engine/instant. `first` may be null.
-glm::vec3 trace_path(const World& world, const PathSettings& settings, Ray ray, PathRandom& random, FirstSeen* first);
+/// How a path begins, and what comes of it.
+struct PathStart {
+  Ray ray;
+  PathRandom random;
+  FirstSeen first;           ///< asks_way is set before.
+  glm::vec3 radiance{0.0f};  ///< In the units of engine/instant.
+};
+
+/// Eight paths that begin alike, as a pixel's samples do: their first edges and first looks at a light are traced as packets, since
+/// further on they part. `begun`: bits of those that begin; a path may depend on which these are (packet_size), so they are the same
+/// whenever it is traced. `wanted`: bits of those of them that are traced to their ends; of the others nothing is told.
+void trace_paths(const World& world, const PathSettings& settings, std::uint32_t begun, std::uint32_t wanted,
+                 Packet<PathStart>& starts);
 
 }  // namespace septet::raytrace

@@ -106,6 +106,21 @@ struct PixelSums {
   TracedPixel sums;
   double light = 0.0, squares = 0.0;
 
+  void add(const PathStart& path, const Camera& camera, const Camera* later, float motion_scale) {
+    glm::vec3 radiance = path.radiance;
+    if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
+      radiance = glm::vec3(0.0f);
+      ++sums.bad_samples;
+    }
+    const FirstSeen& first = path.first;
+    sums.radiance += radiance, sums.normal += first.normal, sums.albedo += first.albedo;
+    if (sums.samples == 0)
+      sums.depth_m = first.distance_m, sums.object = first.object, sums.participant = first.participant;
+    if (first.asks_way) sums.motion_px = motion_scale * motion_px(camera, *later, first, path.ray.direction);
+    const double luminous = luminance(radiance);
+    light += luminous, squares += luminous * luminous;
+    ++sums.samples;
+  }
   /// Its mean.
   TracedPixel pixel() const {
     TracedPixel pixel = sums;
@@ -121,30 +136,28 @@ struct PixelSums {
 void add_samples(PixelSums& pixel, const World& world, const Camera& camera, const Camera* later,
                  const TraceSettings& settings, std::uint32_t x, std::uint32_t y, std::uint32_t samples,
                  std::uint32_t first_sample) {
-  TracedPixel& sums = pixel.sums;
+  const TracedPixel& sums = pixel.sums;
   const std::uint64_t of_pixel = PathRandom::of_pixel(settings.seed, x, y);
-  for (; sums.samples < samples; ++sums.samples) {
-    PathRandom random(of_pixel, first_sample + sums.samples);
-    const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, random);
-    const bool blurs = later && settings.blurs;
-    const float time = blurs ? random.uniform() : 0.0f;
-    Ray ray = blurs ? camera.towards(*later, time).ray(at, settings, random) : camera.ray(at, settings, random);
-    ray.time = time;
-    FirstSeen first;
-    first.asks_way = later && sums.samples == 0;
-    glm::vec3 radiance = trace_path(world, settings.paths, ray, random, &first);
-    if (!std::isfinite(radiance.x + radiance.y + radiance.z)) {
-      radiance = glm::vec3(0.0f);
-      ++sums.bad_samples;
+  const bool blurs = later && settings.blurs;
+  constexpr std::uint32_t size = packet_size;
+  while (sums.samples < samples) {
+    // Packets of the same samples whichever of them are asked for: a sample never depends on how a picture is shared out.
+    const std::uint32_t next = first_sample + sums.samples, first = next % size, packet = next - first;
+    const std::uint32_t end = std::min(size, first + samples - sums.samples);
+    const std::uint32_t begun = std::clamp(std::max(settings.samples, packet) - packet, end, size);
+    Packet<PathStart> starts;
+    for (std::uint32_t n = 0; n < begun; ++n) {
+      PathStart& start = starts[n];
+      start.random = PathRandom(of_pixel, packet + n);
+      const glm::vec2 at = glm::vec2(x, y) + 0.5f + filtered_offset(settings.filter, start.random);
+      const float time = blurs ? start.random.uniform() : 0.0f;
+      start.ray =
+          blurs ? camera.towards(*later, time).ray(at, settings, start.random) : camera.ray(at, settings, start.random);
+      start.ray.time = time;
     }
-    sums.radiance += radiance;
-    sums.normal += first.normal;
-    sums.albedo += first.albedo;
-    if (sums.samples == 0)
-      sums.depth_m = first.distance_m, sums.object = first.object, sums.participant = first.participant;
-    if (first.asks_way) sums.motion_px = settings.motion_scale * motion_px(camera, *later, first, ray.direction);
-    const double light = luminance(radiance);
-    pixel.light += light, pixel.squares += light * light;
+    starts[first].first.asks_way = later && sums.samples == 0;
+    trace_paths(world, settings.paths, (1u << begun) - 1u, (1u << end) - (1u << first), starts);
+    for (std::uint32_t n = first; n < end; ++n) pixel.add(starts[n], camera, later, settings.motion_scale);
   }
 }
 

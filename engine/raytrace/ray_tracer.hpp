@@ -61,9 +61,12 @@ float relative_error(const TracedPixel& pixel, const instant::Exposure& exposure
 struct SampleSet {
   std::uint32_t first = 0, end = 0;
 };
-/// Set `n` of `count`, all about as large.
+/// Set `n` of `count`, all about as large; of whole packets of samples where there are enough, since others are begun more than once.
 constexpr SampleSet sample_set(std::uint32_t samples, std::uint32_t n, std::uint32_t count) {
-  const auto at = [&](std::uint64_t k) { return static_cast<std::uint32_t>(k * samples / count); };
+  const std::uint64_t step = samples / packet_size >= count ? packet_size : 1;
+  const auto at = [&](std::uint64_t k) {
+    return k == count ? samples : static_cast<std::uint32_t>(k * samples / count / step * step);
+  };
   return {at(n), at(n + 1)};
 }
 /// One pixel of what its sets have given, in the order in which they are told here: the order in which they came plays no part.

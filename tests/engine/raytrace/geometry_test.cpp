@@ -38,4 +38,64 @@ TEST_CASE("a hit names the place, its distance and its triangle, also where seve
   CHECK_FALSE(geometry->intersect({.origin_m = {5.0f, 0.0f, 5.0f}, .direction = {0.0f, 0.0f, -1.0f}}, hit));
 }
 
+namespace {
+
+/// Holes where u is below a quarter; half of a shadow ray's light passes.
+struct Sieve : Openings {
+  bool is_hole(std::uint32_t, std::uint32_t, float u, float) const override { return u < 0.25f; }
+  float share_let_through(std::uint32_t place, std::uint32_t, float, float, const glm::vec3& direction) const override {
+    return place == 0 ? 0.5f : direction.z;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("rays in a packet meet and see what each meets and sees alone, through holes and glass, too") {
+  std::vector<scene::SurfaceVertex> corners(3);
+  corners[0].position_m = {-1.0f, -1.0f, 0.0f};
+  corners[1].position_m = {2.0f, -1.0f, 0.0f};
+  corners[2].position_m = {-1.0f, 2.0f, 0.0f};
+  const std::vector<std::uint32_t> indices{0, 1, 2};
+  auto geometry = Geometry::create();
+  REQUIRE(geometry.has_value());
+  geometry->add_mesh(corners, indices, true);
+  geometry->add_mesh(corners, indices, false);
+  const Motion motion({{0.0f, 0.0f, 2.0f}, glm::mat3(1.0f)}, {{1.0f, 0.0f, 2.0f}, glm::mat3(1.0f)});
+  const std::vector<Place> places{{0},
+                                  {.mesh = 0, .origin_m = {0.0f, 0.0f, 1.0f}, .turn = glm::mat3(0.7f)},
+                                  {.mesh = 1, .origin_m = {0.0f, 0.0f, 2.0f}, .motion = motion}};
+  const Sieve sieve;
+  geometry->place(places, &sieve);
+  for (const std::uint32_t which : {0xffu, 0x5au, 0x01u}) {
+    CAPTURE(which);
+    Packet<Ray> rays;
+    for (std::size_t n = 0; n < packet_size; ++n) {
+      const float side = static_cast<float>(n);
+      rays[n].origin_m = {0.1f, 0.05f, -2.0f};
+      rays[n].direction = glm::normalize(glm::vec3(0.13f * side - 0.4f, 0.3f - 0.07f * side, 1.0f));
+      rays[n].time = side / 8.0f;
+      if (n == 6) rays[n].to_m = 2.5f;
+    }
+    Packet<Hit> hits;
+    Packet<float> shares;
+    const std::uint32_t met = geometry->intersect(which, rays, hits);
+    geometry->unshadowed(which, rays, shares);
+    for (std::size_t n = 0; n < packet_size; ++n) {
+      CAPTURE(n);
+      const bool asked = (which >> n & 1u) != 0;
+      Hit alone;
+      const bool meets = geometry->intersect(rays[n], alone);
+      CHECK(((met >> n & 1u) != 0) == (asked && meets));
+      if (!asked) continue;
+      CHECK(shares[n] == doctest::Approx(geometry->unshadowed(rays[n])));
+      if (!meets) continue;
+      CHECK(hits[n].place == alone.place);
+      CHECK(hits[n].triangle == alone.triangle);
+      CHECK(hits[n].distance_m == doctest::Approx(alone.distance_m));
+      CHECK(hits[n].u == doctest::Approx(alone.u));
+      CHECK(hits[n].v == doctest::Approx(alone.v));
+    }
+  }
+}
+
 }  // namespace septet::raytrace
