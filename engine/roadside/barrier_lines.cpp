@@ -3,11 +3,54 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "engine/road/lane_geometry.hpp"
+#include "engine/roadside/mentions.hpp"
 #include "engine/roadside/town.hpp"
 
 namespace septet::roadside {
+namespace {
+
+constexpr double least_line_m = 0.5, highest_barrier_m = 12.0, widest_barrier_m = 3.0;
+
+BarrierForm form_of(const road::RoadObject& object) {
+  const auto says = [&](std::string_view word) {
+    return mentions(object.subtype, word) || mentions(object.type, word) ||
+           (object.subtype.empty() && mentions(object.name, word));
+  };
+  if (says("jersey") || says("concrete")) return BarrierForm::jersey;
+  if (says("wall") || says("noise") || says("sound")) return BarrierForm::wall;
+  if (says("hedge")) return BarrierForm::hedge;
+  if (says("fence")) return BarrierForm::fence;
+  // A railing that hangs over the ground is a guard rail's sheet.
+  const bool hangs = !object.repeats.empty() && object.repeats.front().z_offset_start_m > 0.2;
+  return says("railing") && !hangs ? BarrierForm::railing : BarrierForm::rail;
+}
+
+/// One that is placed but once reaches half its length to either side.
+std::vector<road::ObjectRepeat> repeats_of(const road::RoadObject& object) {
+  if (!object.repeats.empty()) return object.repeats;
+  road::ObjectRepeat one;
+  one.s_m = std::max(0.0, object.s_m - 0.5 * object.length_m);
+  one.length_m = object.s_m + 0.5 * object.length_m - one.s_m;
+  one.t_start_m = one.t_end_m = object.t_m;
+  one.width_start_m = one.width_end_m = object.width_m;
+  one.height_start_m = one.height_end_m = object.height_m;
+  one.z_offset_start_m = one.z_offset_end_m = object.z_offset_m;
+  return {one};
+}
+
+bool gives_posts(const road::Road& road) {
+  return std::ranges::any_of(road.objects, [](const road::RoadObject& object) {
+    return mentions(object.type, "guide-post") || mentions(object.type, "guidepost") ||
+           mentions(object.subtype, "delineator");
+  });
+}
+
+}  // namespace
 
 double BesideLine::t_at(double s_m) const {
   return s1_m > s0_m ? std::lerp(t0_m, t1_m, (s_m - s0_m) / (s1_m - s0_m)) : t0_m;
@@ -21,16 +64,58 @@ std::vector<double> stations(const RoadTile& tile, const BesideLine& line, doubl
   return stations(part, step_m);
 }
 
+double usual_height_m(BarrierForm form) {
+  switch (form) {
+    case BarrierForm::rail:
+      return 0.75;
+    case BarrierForm::jersey:
+      return 0.90;
+    case BarrierForm::railing:
+      return 1.22;
+    case BarrierForm::wall:
+      return 2.0;
+    case BarrierForm::fence:
+      return 1.5;
+    case BarrierForm::hedge:
+      return 1.2;
+  }
+  return 1.0;
+}
+
+double Barrier::height_at(double s_m) const {
+  const double share = line.s1_m > line.s0_m ? std::clamp((s_m - line.s0_m) / (line.s1_m - line.s0_m), 0.0, 1.0) : 0.0;
+  return std::lerp(height0_m, height1_m, share);
+}
+
+bool is_barrier(const road::RoadObject& object) {
+  for (const std::string_view word : {"barrier", "railing", "guardrail", "guard_rail", "fence"})
+    if (mentions(object.type, word)) return !object.material;
+  return false;
+}
+
+bool runs_along(const road::RoadObject& object) {
+  if (object.repeats.empty())
+    return object.outlines.empty() && object.length_m >= least_line_m && std::abs(std::sin(object.heading_rad)) < 0.1;
+  return std::ranges::all_of(object.repeats, [&](const road::ObjectRepeat& repeat) {
+    return repeat.distance_m <= 0.0 || repeat.distance_m <= 1.2 * object.length_m || object.length_m <= 0.0;
+  });
+}
+
 std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile) {
   std::vector<Barrier> result;
   const double length = roads.road(tile.road).length_m;
   for (const road::RoadObject& object : roads.road(tile.road).objects) {
-    if (object.type != "barrier") continue;
+    if (!is_barrier(object) || !runs_along(object)) continue;
     Barrier barrier;
-    if (object.subtype == "jerseyBarrier") barrier.form = BarrierForm::jersey;
-    if (object.subtype == "railing") barrier.form = BarrierForm::railing;
+    barrier.form = form_of(object);
     if (barrier.form == BarrierForm::rail && tile.in_tunnel) continue;
-    for (const road::ObjectRepeat& repeat : object.repeats) {
+    for (const road::ObjectRepeat& repeat : repeats_of(object)) {
+      const auto height_m = [&](double up_m, double high_m) {
+        return high_m > 0.0 ? std::clamp(up_m + high_m, 0.1, highest_barrier_m) : usual_height_m(barrier.form);
+      };
+      barrier.height0_m = height_m(repeat.z_offset_start_m, repeat.height_start_m);
+      barrier.height1_m = height_m(repeat.z_offset_end_m, repeat.height_end_m);
+      barrier.width_m = std::min(repeat.width_start_m, widest_barrier_m);
       barrier.line = {repeat.s_m, repeat.s_m + repeat.length_m, repeat.t_start_m, repeat.t_end_m};
       // What runs to a loose end of the road runs on with it.
       if (barrier.line.s0_m < 0.01) barrier.line.s0_m = roads.begin_m(tile.road);
@@ -59,7 +144,7 @@ std::vector<BesideLine> noise_walls(const RoadShape& roads, const RoadTile& tile
 std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& tile) {
   std::vector<BesideLine> result;
   if (tile.in_tunnel || tile.on_bridge || roads.road(tile.road).junction != road::no_index ||
-      is_in_town(roads.network(), tile.road, tile.middle_m()))
+      is_in_town(roads.network(), tile.road, tile.middle_m()) || gives_posts(roads.road(tile.road)))
     return result;
   for (double s = std::ceil(tile.s0_m / 50.0) * 50.0; s < tile.s1_m; s += 50.0) {
     const road::RoadExtent extent = road::road_extent(roads.road(tile.road), s);

@@ -4,6 +4,8 @@
 /// A line is straight in road coordinates; it becomes a polyline through its stations in each tile, and both users take the
 /// same ones.
 
+#include <array>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -20,11 +22,24 @@ struct BesideLine {
 /// metre of it lies there.
 std::vector<double> stations(const RoadTile& tile, const BesideLine& line, double step_m);
 
-enum class BarrierForm : std::uint8_t { rail, jersey, railing };
+enum class BarrierForm : std::uint8_t { rail, jersey, railing, wall, fence, hedge };
+inline constexpr std::array barrier_forms{BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing,
+                                          BarrierForm::wall, BarrierForm::fence,  BarrierForm::hedge};
+/// How high one of this form is where the file gives no height.
+double usual_height_m(BarrierForm form);
 struct Barrier {
   BarrierForm form = BarrierForm::rail;
   BesideLine line{};
+  double height0_m = 0.0, height1_m = 0.0;  ///< Of its upper edge over the road, where the line begins and ends.
+  double width_m = 0.0;                     ///< Of walls and hedges; 0: a usual one.
+
+  double height_at(double s_m) const;
 };
+/// Whether an object is a barrier at all, by its type (OpenDRIVE 1.8, §13.14; older files name the form itself), and whether it stands along a
+/// line of its road: on repeats that are continuous or nearly so, or along the road as long as it is. Others stand as they are
+/// (standing_objects.hpp).
+bool is_barrier(const road::RoadObject& object);
+bool runs_along(const road::RoadObject& object);
 /// The barriers of the tile's road that stand in the tile: rails end at a tunnel's mouth.
 std::vector<Barrier> barriers(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double barrier_step_m = 10.0;
@@ -33,7 +48,7 @@ inline constexpr double barrier_step_m = 10.0;
 std::vector<BesideLine> noise_walls(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double noise_wall_step_m = 8.0;
 
-/// Reflecting posts every 50 m behind the rail, none in towns and junctions; each stands at the first station of its line, which is a metre long.
+/// Reflecting posts every 50 m behind the rail, none in towns and junctions or where the file gives its own; each stands at the first station of its line, which is a metre long.
 std::vector<BesideLine> marker_posts(const RoadShape& roads, const RoadTile& tile);
 inline constexpr double marker_post_step_m = 2.0;
 

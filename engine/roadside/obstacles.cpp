@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -130,7 +132,11 @@ ObstacleKind kind_of(BarrierForm form) {
     case BarrierForm::jersey:
       return ObstacleKind::concrete_barrier;
     case BarrierForm::railing:
+    case BarrierForm::fence:
+    case BarrierForm::hedge:
       return ObstacleKind::parapet;
+    case BarrierForm::wall:
+      return ObstacleKind::noise_wall;
     case BarrierForm::rail:
       break;
   }
@@ -138,19 +144,21 @@ ObstacleKind kind_of(BarrierForm form) {
 }
 
 void add_barriers(const RoadShape& roads, const std::vector<RoadTile>& tiles, Builder& builder) {
-  for (const BarrierForm form : {BarrierForm::rail, BarrierForm::jersey, BarrierForm::railing}) {
+  std::vector<std::vector<Barrier>> all;
+  all.reserve(tiles.size());
+  for (const RoadTile& tile : tiles) all.push_back(barriers(roads, tile));
+  for (const BarrierForm form : barrier_forms) {
+    std::vector<std::vector<BesideLine>> lines(tiles.size());
     std::size_t most = 0;
-    const auto lines = [&](const RoadTile& tile) {
-      std::vector<BesideLine> result;
-      for (const Barrier& barrier : barriers(roads, tile))
-        if (barrier.form == form) result.push_back(barrier.line);
-      return result;
-    };
-    for (const RoadTile& tile : tiles) most = std::max(most, lines(tile).size());
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      for (const Barrier& barrier : all[i])
+        if (barrier.form == form) lines[i].push_back(barrier.line);
+      most = std::max(most, lines[i].size());
+    }
     for (std::size_t k = 0; k < most; ++k) {  // One line is one run along all tiles of its road.
       LineJoiner joiner(builder, kind_of(form));
-      for (const RoadTile& tile : tiles)
-        if (const auto own = lines(tile); k < own.size()) joiner.add(points(roads, tile, own[k], barrier_step_m));
+      for (std::size_t i = 0; i < tiles.size(); ++i)
+        if (k < lines[i].size()) joiner.add(points(roads, tiles[i], lines[i][k], barrier_step_m));
     }
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -12,25 +11,25 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
+#include "engine/roadside/barrier_lines.hpp"
+#include "engine/roadside/mentions.hpp"
+
 namespace septet::roadside {
 namespace {
 
 constexpr std::size_t most_footprint_corners = 200;
 
-bool mentions(std::string text, std::string_view word) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text.find(word) != std::string::npos;
-}
-
 /// Nothing for what is no standing thing, or is one that others draw.
 std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
   const std::string& type = object.type;
-  constexpr std::array elsewhere{"barrier",      "railing",      "gantry", "crosswalk", "trafficIsland",
-                                 "parkingSpace", "patch",        "road",   "roadMark",  "roadSurface",
-                                 "none",         "soundBarrier", "wind"};
+  constexpr std::array elsewhere{"gantry", "crosswalk", "trafficIsland", "parkingSpace", "patch",
+                                 "road",   "roadMark",  "roadSurface",   "none",         "wind"};
   if (object.material || std::ranges::find(elsewhere, type) != elsewhere.end()) return std::nullopt;
   for (const std::string& text : {type, object.subtype, object.name})
     if (mentions(text, "kerb") || mentions(text, "curb")) return std::nullopt;
+  if (is_barrier(object)) return runs_along(object) ? std::nullopt : std::optional(StandingKind::block);
   if (type == "building") return StandingKind::building;
   const bool tall = object.height_m >= 3.0 || object.height_m <= 0.0;
   if (type == "streetLamp" ||
@@ -43,7 +42,7 @@ std::optional<StandingKind> standing_kind_of(const road::RoadObject& object) {
                ? StandingKind::tree
                : StandingKind::bush;
   }
-  if (type == "pole") return StandingKind::pole;
+  if (mentions(type, "pole") || mentions(type, "post")) return StandingKind::pole;
   if (type == "obstacle" || type == "bus" || type == "car" || type == "van" || type == "trailer" || type == "train")
     return StandingKind::block;
   return std::nullopt;
@@ -62,6 +61,20 @@ std::vector<Vec2> against_the_clock(std::vector<Vec2> corners) {
 std::vector<Vec2> box_corners(double length_m, double width_m) {
   const double x = 0.5 * length_m, y = 0.5 * width_m;
   return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+}
+
+/// What stands along an outline that is not closed: there on one side, and back on the other.
+std::vector<Vec2> strip_along(const std::vector<Vec2>& line, double width_m) {
+  std::vector<Vec2> there, back;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec2 way = line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0];
+    if (!(glm::length(way) > 1e-6)) continue;
+    const Vec2 aside = 0.5 * width_m / glm::length(way) * Vec2(-way.y, way.x);
+    there.push_back(line[i] - aside);
+    back.push_back(line[i] + aside);
+  }
+  there.insert(there.end(), back.rbegin(), back.rend());
+  return there;
 }
 
 class ObjectBuilder {
@@ -101,6 +114,10 @@ class ObjectBuilder {
     standing.kind = kind;
     standing.world_from_object = {at.position_m + Vec3(0, 0, std::clamp(up_m, -50.0, 50.0)),
                                   orientation_from_angles(turn, 0.0, 0.0)};
+    // Up to 1.3 a height may stand at the corners alone.
+    if (!(height_m > 0.0) && object.repeats.empty() && !object.outlines.empty())
+      for (const road::OutlineCorner& corner : object.outlines.front().corners)
+        height_m = std::max(height_m, corner.height_m);
     constexpr std::array usual_m{6.0, 6.0, 9.0, 1.5, 4.0, 1.0};
     standing.height_m = height_m > 0.0 ? height_m : usual_m[static_cast<std::size_t>(kind)];
     if (standing.height_m > highest_object_m) return;
@@ -122,10 +139,12 @@ class ObjectBuilder {
     std::vector<Vec2> corners;
     if (!object.outlines.empty() && object.repeats.empty()) {
       const RigidTransform object_from_world = inverse(stands);
-      for (const road::OutlineCorner& corner : object.outlines.front().corners)
+      const road::Outline& outline = object.outlines.front();
+      for (const road::OutlineCorner& corner : outline.corners)
         corners.push_back(corner.in_road_coordinates
                               ? Vec2(object_from_world * roads_.point(index, corner.s_or_u_m, corner.t_or_v_m))
                               : Vec2(corner.s_or_u_m, corner.t_or_v_m));
+      if (!outline.closed) corners = strip_along(corners, width_m > 0.0 ? std::min(width_m, 3.0) : 0.3);
     } else if (object.radius_m > 0.0) {
       constexpr int sides = 12;
       for (int i = 0; i < sides; ++i)

@@ -3,7 +3,7 @@
 /// run against. Where a file gives houses or lamps, none are made up (street.hpp).
 ///
 /// OpenDRIVE 1.8, §13: objects by their type, along their repeats where they have some; their shape is their closed outline, else their
-/// circle, else their box. Kerbs and islands are raised areas, barriers lines, gantries and crossings what they are elsewhere. Of a size that is not
+/// circle, else their box. Kerbs and islands are raised areas, barriers along the road lines (barrier_lines.hpp), gantries and crossings what they are elsewhere. Of a size that is not
 /// given a usual one is taken. World frame, metres.
 
 #include <cstddef>

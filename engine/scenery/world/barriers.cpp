@@ -17,15 +17,26 @@ using geometry::PathFrame;
 using roadside::BarrierForm;
 using roadside::BesideLine;
 
+using roadside::Barrier;
+
+/// How much higher than usual a barrier is; what differs by less than a share of this is not.
+constexpr double least_change = 0.03;
+float stretch(const Barrier& barrier, double s_m) {
+  const double share = barrier.height_at(s_m) / roadside::usual_height_m(barrier.form);
+  return std::abs(share - 1.0) < least_change ? 1.0f : static_cast<float>(share);
+}
+
 /// Frames along a line within a tile; right is −t, up is off the surface, the origin on the
-/// surface.
-std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const BesideLine& line, double step_m) {
+/// surface. `barrier`: whose height stretches up.
+std::vector<PathFrame> frames(const WorldContext& world, const RoadTile& tile, const BesideLine& line, double step_m,
+                              const Barrier* barrier = nullptr) {
   std::vector<PathFrame> path;
   for (const double s : roadside::stations(tile, line, step_m)) {
     const double t = line.t_at(s);
     const glm::vec3 p = world.roads.local(tile, s, t);
     const glm::vec3 left = world.roads.local(tile, s, t + 1.0) - p;
-    path.push_back({p, -left, glm::vec3(0, 0, 1), static_cast<float>((s - tile.s0_m) / 4.0)});
+    path.push_back(
+        {p, -left, glm::vec3(0, 0, barrier ? stretch(*barrier, s) : 1.0f), static_cast<float>((s - tile.s0_m) / 4.0)});
   }
   return path;
 }
@@ -76,7 +87,7 @@ void add_posts(MeshBuilder& builder, const std::vector<PathFrame>& path, Ground 
   post.corner_uvs.clear();  // Plain materials need none.
   for (const PathFrame& frame : path) {
     glm::mat4 place(1.0f);
-    const glm::vec3 forward = glm::cross(frame.up, frame.right);
+    const glm::vec3 forward = glm::normalize(glm::cross(frame.up, frame.right));
     place[0] = glm::vec4(forward, 0);
     place[1] = glm::vec4(-frame.right, 0);
     place[2] = glm::vec4(frame.up, 0);
@@ -92,7 +103,7 @@ struct BarrierPen {
 
   void draw(const roadside::Barrier& barrier) {
     const bool left = barrier.line.t0_m > 0.0;
-    const auto path = frames(world, tile, barrier.line, roadside::barrier_step_m);
+    const auto path = frames(world, tile, barrier.line, roadside::barrier_step_m, &barrier);
     switch (barrier.form) {
       case BarrierForm::jersey:
         extrude_into(near, Ground::concrete, jersey, path, true);
@@ -100,13 +111,33 @@ struct BarrierPen {
       case BarrierForm::railing:
         draw_parapet(path);
         break;
+      case BarrierForm::wall:
+        extrude_into(near, Ground::concrete, box_of(barrier, 0.24), path, true);
+        break;
+      case BarrierForm::hedge:
+        extrude_into(near, Ground::crown_core, box_of(barrier, 0.8), path, true);
+        break;
+      case BarrierForm::fence:
+        for (const float z : {0.35f, 0.85f, 1.35f}) {
+          const std::array<glm::vec2, 4> bar{{{-0.02f, z}, {0.02f, z}, {0.02f, z + 0.12f}, {-0.02f, z + 0.12f}}};
+          extrude_into(near, Ground::planks, bar, path, true);
+        }
+        add_posts(near, frames(world, tile, barrier.line, 2.5, &barrier), Ground::planks, {-0.05f, -0.05f, -0.3f},
+                  {0.05f, 0.05f, 1.5f});
+        break;
       case BarrierForm::rail:
         // Traffic is on the side of the axis.
         extrude_into(near, Ground::metal, rail_left_sheet(!left), path, true);
-        add_posts(posts, frames(world, tile, barrier.line, 4.0), Ground::metal_dark,
+        add_posts(posts, frames(world, tile, barrier.line, 4.0, &barrier), Ground::metal_dark,
                   {-0.05f, left ? 0.0f : -0.1f, -0.4f}, {0.05f, left ? 0.1f : 0.0f, 0.72f});
         break;
     }
+  }
+
+  static std::array<glm::vec2, 4> box_of(const Barrier& barrier, double usual_width_m) {
+    const auto half = static_cast<float>(0.5 * (barrier.width_m > 0.05 ? barrier.width_m : usual_width_m)),
+               high = static_cast<float>(roadside::usual_height_m(barrier.form));
+    return {{{-half, -0.3f}, {half, -0.3f}, {half, high}, {-half, high}}};
   }
 
   /// The rail as a thin closed tube: the W in front, a flat back.
@@ -165,8 +196,13 @@ void add_noise_wall(MeshBuilder& builder, const WorldContext& world, const RoadT
 void draw_far_barriers(MeshBuilder& builder, const WorldContext& world, const RoadTile& tile, double step_m) {
   for (const roadside::Barrier& barrier : roadside::barriers(world.roads, tile)) {
     constexpr std::array<glm::vec2, 4> wall{{{-0.2f, -0.05f}, {0.2f, -0.05f}, {0.1f, 0.9f}, {-0.1f, 0.9f}}};
-    extrude_into(builder, Ground::far_concrete, barrier.form == BarrierForm::rail ? rail_simple : wall,
-                 frames(world, tile, barrier.line, step_m), true);
+    const bool high =
+        barrier.form == BarrierForm::wall || barrier.form == BarrierForm::fence || barrier.form == BarrierForm::hedge;
+    const auto profile = barrier.form == BarrierForm::rail ? rail_simple
+                         : high                            ? BarrierPen::box_of(barrier, 0.3)
+                                                           : wall;
+    extrude_into(builder, barrier.form == BarrierForm::hedge ? Ground::crown_core : Ground::far_concrete, profile,
+                 frames(world, tile, barrier.line, step_m, &barrier), true);
   }
 }
 

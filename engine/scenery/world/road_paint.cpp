@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <string_view>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "engine/geometry/mesh_builder.hpp"
 #include "engine/road/lane_geometry.hpp"
@@ -17,7 +20,7 @@ namespace {
 using geometry::MeshBuilder;
 using roadside::SignalForm;
 
-constexpr double paint_lift_m = 0.014, bar_m = 0.5, stop_line_m = 0.5, arrow_length_m = 4.0;
+constexpr double paint_lift_m = 0.014, bar_m = 0.5, stop_line_m = 0.5, arrow_length_m = 4.0, parking_line_m = 0.12;
 constexpr double piece_m = 2.0;  ///< Of what lies along a bend or over a crest.
 
 /// Paint of one tile, in road coordinates.
@@ -132,6 +135,46 @@ std::vector<Vec2> corners_of(const road::RoadObject& object) {
   return corners;
 }
 
+/// A line of paint from one place of (s, t) to another.
+void draw_line(PaintPen& pen, const Vec2& from, const Vec2& to, double width_m) {
+  const double length_m = glm::length(to - from);
+  if (!(length_m > 0.05) || length_m > 100.0) return;
+  const Vec2 along = (to - from) / length_m, aside = 0.5 * width_m * Vec2(-along.y, along.x);
+  const Vec2 before = -0.5 * width_m * along, behind = to - from + 0.5 * width_m * along;
+  pen.polygon(from.x, from.y, 1.0, {before - aside, behind - aside, behind + aside, before + aside});
+}
+
+/// Around it but for the side that is nearest to the road's axis, from which one drives in.
+void draw_parking_space(PaintPen& pen, const std::vector<Vec2>& corners) {
+  if (corners.size() < 3 || corners.size() > 20) return;
+  const auto off_axis = [&](std::size_t i) { return std::abs(corners[i].y + corners[(i + 1) % corners.size()].y); };
+  std::size_t open = 0;
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    if (off_axis(i) < off_axis(open)) open = i;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (i != open) draw_line(pen, corners[i], corners[(i + 1) % corners.size()], parking_line_m);
+}
+
+/// One space, or a row of them along its repeats.
+void draw_parking(PaintPen& pen, const RoadTile& tile, const road::RoadObject& object, double road_length_m) {
+  const std::vector<Vec2> corners = corners_of(object);
+  const auto draw_at = [&](double s_m, double t_m) {
+    const double kept_m = std::clamp(s_m, 0.0, std::nextafter(road_length_m, 0.0));
+    if (kept_m < tile.s0_m || kept_m >= tile.s1_m) return;
+    std::vector<Vec2> moved = corners;
+    for (Vec2& corner : moved) corner += Vec2(s_m - object.s_m, t_m - object.t_m);
+    draw_parking_space(pen, moved);
+  };
+  if (object.repeats.empty()) draw_at(object.s_m, object.t_m);
+  for (const road::ObjectRepeat& row : object.repeats) {
+    const double step_m = std::max(row.distance_m > 0.0 ? row.distance_m : object.length_m, 1.0);
+    const double skipped = std::floor((tile.s0_m - row.s_m) / step_m);
+    for (double on_m = std::max(0.0, skipped * step_m); on_m <= row.length_m + 1e-6 && row.s_m + on_m <= tile.s1_m;
+         on_m += step_m)
+      draw_at(row.s_m + on_m, std::lerp(row.t_start_m, row.t_end_m, row.length_m > 0.0 ? on_m / row.length_m : 0.0));
+  }
+}
+
 std::vector<Vec2> corners_of(const road::Road& road, const road::Signal& signal) {
   const double depth = std::clamp(signal.value > 0.0 ? signal.value : 4.0, 2.0, 10.0),
                width = signal.width_m > 0.0 ? signal.width_m : 50.0;
@@ -202,8 +245,10 @@ void build_road_paint(const WorldContext& world) {
       else if (form == SignalForm::arrow && here(signal.s_m))
         draw_arrow(pen, road, signal);
     }
-    for (const road::RoadObject& object : road.objects)
+    for (const road::RoadObject& object : road.objects) {
       if (object.type == "crosswalk") draw_crossing(pen, tile, corners_of(object), carriageway(road, object.s_m));
+      if (object.type == "parkingSpace") draw_parking(pen, tile, object, road.length_m);
+    }
     add_tile_mesh(world, tile, "road paint", pen.mesh(), 0.0f, road_near_m);
   }
 }

@@ -1,6 +1,7 @@
 #include "engine/roadside/standing_objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -89,6 +90,16 @@ TEST_CASE(
               "pole", 10, 5, R"(height="4" radius="0.1")",
               R"(<repeat s="10" length="40" distance="10" tStart="5" tEnd="5" heightStart="4" heightEnd="4" zOffsetStart="0" zOffsetEnd="0" widthStart="0.2" widthEnd="0.2"/>)"))
           .size() == 5);
+  const std::vector<StandingObject> walls = standing(object(
+      "barrier", 10, 5, R"(subtype="wall" width="0.4" height="2")",
+      R"(<outlines><outline closed="false"><cornerLocal u="0" v="0" z="0"/><cornerLocal u="0" v="8" z="0"/></outline></outlines>)"));
+  REQUIRE(walls.size() == 1);
+  CHECK(walls[0].kind == StandingKind::block);
+  CHECK(walls[0].height_m == 2.0);
+  REQUIRE(walls[0].footprint_m.size() == 4);
+  CHECK(std::abs(walls[0].footprint_m[0].x) == doctest::Approx(0.2));
+  CHECK(standing(object("guide-post", 10, 5, R"(height="1")")).size() == 1);
+  CHECK(standing(object("barrier", 10, 5, R"(length="20" height="0.8")")).empty());
   CHECK(standing(object("crosswalk", 10, 0, R"(length="4" width="7" height="0")")).empty());
   CHECK(standing(object("obstacle", 10, 5, R"(name="kerb" length="4" width="0.2" height="0.1")")).empty());
   CHECK(standing(object("parkingSpace", 10, 5, R"(length="5" width="2.5")")).empty());

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -58,6 +59,51 @@ TEST_CASE("a crossing is bars from kerb to kerb, as an object and as a signal") 
   }
   CHECK(object.low_m.x == doctest::Approx(48.0).epsilon(0.001));
   CHECK(signal.low_m.x == doctest::Approx(20.0).epsilon(0.001));
+}
+
+TEST_CASE("a row of parking spaces has its lines, but for the side from which one drives in") {
+  const Paint spaces = paint(road_with(
+      R"(<objects><object id="1" type="parkingSpace" s="20" t="-2.5" length="5" width="2" height="0"><repeat s="20" length="10" distance="5" tStart="-2.5" tEnd="-2.5" heightStart="0" heightEnd="0" zOffsetStart="0" zOffsetEnd="0"/></object></objects>)"));
+  CHECK(spaces.m2 == doctest::Approx(3.0 * 0.12 * (5.12 + 2 * 2.12)).epsilon(0.02));
+  CHECK(spaces.down_m2 == 0.0);
+  CHECK(spaces.low_m.x == doctest::Approx(17.44).epsilon(0.002));
+  CHECK(spaces.high_m.x == doctest::Approx(32.56).epsilon(0.002));
+  CHECK(spaces.low_m.y == doctest::Approx(-3.56).epsilon(0.002));
+  CHECK(spaces.high_m.y < -1.4);
+}
+
+TEST_CASE("barriers of a file stand along their repeats, as high as it says, and as what it says") {
+  const auto barrier = [](const std::string& type, const std::string& subtype, const std::string& rest) {
+    scene::Store store = road_with("<objects><object id=\"1\" type=\"" + type + "\" subtype=\"" + subtype +
+                                   "\" s=\"50\" t=\"4.5\" " + rest + "</object></objects>");
+    Vec3 low(1e9), high(-1e9);
+    for (const char* name : {"barriers", "posts"})
+      for (const DrawnTriangle& triangle : drawn_triangles(store, name))
+        for (const Vec3& corner : triangle.corners_m)
+          if (corner.y > 4.0 && corner.y < 5.0) low = glm::min(low, corner), high = glm::max(high, corner);
+    return std::pair(low, high);
+  };
+  const std::string repeat =
+      R"(><repeat s="20" length="40" distance="0" tStart="4.5" tEnd="4.5" heightStart="HIGH" heightEnd="HIGH" zOffsetStart="0" zOffsetEnd="0"/>)";
+  for (const auto& [subtype, high_m] : {std::pair("guardRail", "0.9"),
+                                        {"jerseyBarrier", "1.4"},
+                                        {"wall", "3.2"},
+                                        {"fence", "1.2"},
+                                        {"hedge", "0.8"},
+                                        {"railing", "1.1"}}) {
+    CAPTURE(subtype);
+    const auto [low, high] =
+        barrier("barrier", subtype, road::replaced(road::replaced(repeat, "HIGH", high_m), "HIGH", high_m));
+    CHECK(high.z == doctest::Approx(std::stod(high_m)).epsilon(0.03));
+    CHECK(low.z < 0.05);
+    CHECK(low.x == doctest::Approx(20.0).epsilon(0.01));
+    CHECK(high.x == doctest::Approx(60.0).epsilon(0.01));
+  }
+  // One that is placed but once is as long as it is.
+  const auto [low, high] = barrier("fence", "", R"(length="10" height="2">)");
+  CHECK(low.x == doctest::Approx(45.0).epsilon(0.01));
+  CHECK(high.x == doctest::Approx(55.0).epsilon(0.01));
+  CHECK(high.z == doctest::Approx(2.0).epsilon(0.03));
 }
 
 TEST_CASE("a stop line lies across the lanes that lead to it and no others") {
