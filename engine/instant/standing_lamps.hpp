@@ -5,20 +5,31 @@
 /// Each shines like a matt lamp: its intensity falls with the cosine from straight down. Nights and roofed places are shown as if all of
 /// their light were so many times brighter, so that a display need not show starlight (see Instant::headlights); what these lamps light keeps pace.
 
+#include <array>
+#include <limits>
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 
 #include "engine/math/rigid_transform.hpp"
 #include "engine/scene/resolved_scene.hpp"
 
 namespace septet::instant {
 
+/// An upright wall beside a lamp, seen from above: its light goes no further along `way` than `distance_m`.
+struct LampWall {
+  glm::vec2 way{0.0f};
+  float distance_m = std::numeric_limits<float>::infinity();
+};
+
 struct StandingLamp {
   Vec3 position_m{0.0};       ///< World.
   float height_m = 5.0f;      ///< Above the ground below it.
   glm::vec3 intensity{0.0f};  ///< Straight down: its emission times its area.
   bool roofed = false;        ///< It lights what stands under its roof, and nothing else.
+  /// Of a roofed one the nearest wall, and the nearest of those that face it.
+  std::array<LampWall, 2> walls{};
 };
 
 /// How many times as strongly they light, as their emission says. Measured in scenarios/tunnel-fire 7.8 s after its beginning.

@@ -29,7 +29,10 @@ void add_lamp(LampField& field, const StandingLamp& lamp) {
       const glm::vec2 way = (at - glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)) *
                             static_cast<float>(LampField::texel_m);
       const float level = glm::dot(way, way), window = 1.0f - level / (reach_m * reach_m);
-      if (window <= 0.0f) continue;
+      // `way` points to the lamp.
+      if (window <= 0.0f || glm::dot(lamp.walls[0].way, way) < -lamp.walls[0].distance_m ||
+          glm::dot(lamp.walls[1].way, way) < -lamp.walls[1].distance_m)
+        continue;
       const float square = level + height * height, distance = std::sqrt(square);
       const float arriving = candela * height / (distance * square) * window;
       glm::vec4& texel = field.texels[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
@@ -49,6 +52,7 @@ LampField lamp_field(std::span<const StandingLamp> lamps, const Vec2& corner_m) 
   LampField field;
   field.corner_m = corner_m;
   glm::vec3 sum(0.0f);
+  float heights_m = 0.0f, roofed = 0.0f;
   for (const StandingLamp& lamp : lamps) {
     const Vec2 from = Vec2(lamp.position_m) - corner_m;
     const double margin_m = reach * lamp.height_m, extent_m = LampField::side * LampField::texel_m;
@@ -57,8 +61,10 @@ LampField lamp_field(std::span<const StandingLamp> lamps, const Vec2& corner_m) 
     if (field.texels.empty()) field.texels.resize(std::size_t{LampField::side} * LampField::side, glm::vec4(0.0f));
     (lamp.roofed ? field.roofed : field.open) = true;
     sum += lamp.intensity;
+    if (lamp.roofed) heights_m += lamp.height_m, roofed += 1.0f;
     add_lamp(field, lamp);
   }
+  if (roofed > 0.0f) field.roofed_height_m = heights_m / roofed;
   if (luminance(sum) > 0.0f) field.hue = sum / luminance(sum);
   return field;
 }

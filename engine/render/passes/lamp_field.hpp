@@ -25,6 +25,7 @@ struct LampField {
   Vec2 corner_m{0.0};                 ///< World; of texel (0, 0).
   bool open = false, roofed = false;  ///< Are there lamps of that kind?
   glm::vec3 hue{1.0f};                ///< Their colour, of luminance 1.
+  float roofed_height_m = 5.0f;       ///< Mean height of those under roofs.
   std::vector<glm::vec4> texels;      ///< Rows to the north; empty without lamps.
 
   /// Whether any of them lights something, in so deep a night (0 to 1).

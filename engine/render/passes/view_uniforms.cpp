@@ -83,6 +83,8 @@ ViewUniforms view_uniforms(const FrameView& view, const Instant& instant, const 
   for (std::size_t i = 0; i < light.irradiance.size(); ++i)
     uniforms.irradiance[i] = glm::vec4(light.irradiance[i], 0.0f);
 
+  uniforms.irradiance[0].w = lamps.roofed_height_m;
+
   // A pixel's ray: the middle of the slopes, and half their spans along the screen's axes.
   const auto world = [&](const Vec3& axis) { return glm::vec4(glm::vec3(world_from_car * axis), 0.0f); };
   const double across = 0.5 * (projection.right_slope - projection.left_slope) * (view.mirrored ? -1.0 : 1.0);

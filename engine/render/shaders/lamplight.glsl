@@ -1,11 +1,23 @@
+// Light that arrives at the road from lamps under a roof, as it is at a place above it, whose lamps are nearer: by 1 over the fourth power of the
+// distance, for both cosines fall with it. How far to the side the lamps are is told by how far their light comes from there.
+vec3 above_road(vec3 toward, float sum, vec3 relative) {
+  float lamps_m = view.irradiance[0].w, near = clamp(2.0 - length(relative) * 0.015, 0.0, 1.0);
+  float height_m = near * clamp(dot(view.road.xyz, relative) - view.road.w, 0.0, 0.7 * lamps_m);
+  float below = 1.0 - height_m / lamps_m, slant = sum / max(toward.z, 1e-6), aside = max(slant * slant - 1.0, 0.0);
+  float nearer = (aside + 1.0) / (aside + below * below);
+  return toward * vec3(1.0, 1.0, below) * (below * nearer * nearer);
+}
+
 // What standing lamps throw on a surface: the twin of lamplight in passes/lamp_field.hpp. w: how far a roofed place is lit by them here, 0 to 1.
 vec4 standing_lamps(vec3 relative, vec3 n, float share_of_sky) {
-  vec2 at = relative.xy * view.lamp_field.z + view.lamp_field.xy, edge = abs(at - 0.5);
+  // A wall's light is that of the road before it: beyond stand other lamps.
+  vec2 at = (relative.xy + 1.5 * n.xy) * view.lamp_field.z + view.lamp_field.xy, edge = abs(at - 0.5);
   float fade = clamp((0.5 - max(edge.x, edge.y)) * 6.0, 0.0, 1.0);
   vec4 texel = textureLod(lamp_field, at, 0.0);
-  float sum = abs(texel.w);
-  float light = fade * (max(0.0, dot(texel.xyz, n)) + 0.25 * max(0.0, sum - length(texel.xyz)));
+  float sum = abs(texel.w), from_all_sides = 0.25 * max(0.0, sum - length(texel.xyz));
   bool roofed = texel.w < 0.0;
+  if (roofed) texel.xyz = above_road(texel.xyz, sum, relative);
+  float light = fade * (max(0.0, dot(texel.xyz, n)) + from_all_sides);
   light *= roofed ? view.lamp_hue.w * (1.0 - share_of_sky) : view.lamp_field.w * share_of_sky;
   return vec4(view.lamp_hue.rgb * light, roofed ? fade * min(1.0, 8.0 * sum * view.lamp_hue.w) : 0.0);
 }

@@ -156,11 +156,11 @@ void main() {
   vec3 sunlight = view.light_irradiance.rgb * lit;
   vec3 ambient = (road != 0 ? view.sky_irradiance.rgb : irradiance_on(n)) * share_of_sky;  // Roads lie level.
   // The lamps of a roofed place: their light from all sides, and near the eye their pools in it.
-  float between_pools = 0.35 * (1.0 - share_of_sky);
+  float between_pools = 0.24 * (1.0 - share_of_sky);
   if ((lamps & 2) != 0) {
     vec4 thrown = standing_lamps(relative, n, share_of_sky);
     // Lamps below a ceiling leave it to what the road sends back.
-    between_pools *= (1.0 - 0.8 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
+    between_pools *= (1.0 - 0.7 * thrown.w) * (1.0 + 0.75 * thrown.w * min(n.z, 0.0));
     ambient += thrown.rgb;
   }
   ambient += vec3(1.5, 1.3, 1.0) * between_pools;

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0, std140) uniform View {
   vec4 ground_irradiance;  // rgb. w: night, 0 to 1.
   vec4 sun_direction;      // xyz. w: side of a far cascade's texel, m.
   vec4 sun_level;          // xy: the sun's direction on the level, unit. z: overcast, w: cloud cover.
-  vec4 irradiance[7];      // rgb: of sky and ground, see engine/instant/sky_irradiance.hpp.
+  vec4 irradiance[7];      // rgb: of sky and ground, see engine/instant/sky_irradiance.hpp. [0].w: height of the lamps under roofs, m.
   vec4 ray_middle, ray_right, ray_down;  // Direction to a pixel: middle + right·x + down·y in NDC.
   vec4 billboard_right, billboard_up;    // xyz: the screen's axes. right.w: radians a pixel.
   vec4 weather;            // Wetness, snow cover, simulated time s, rain mm/h.

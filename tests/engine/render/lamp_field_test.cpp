@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -67,6 +68,37 @@ TEST_CASE("lamps under a roof and in the open are told apart and the field depen
   CHECK(texel(field, {0, 0}).w > 0.0f);
   CHECK(texel(field, {90, 0}).w < 0.0f);
   CHECK(lamp_field(std::array{lamp({1000, 0, 6})}, corner_m).texels.empty());
+}
+
+TEST_CASE("a tunnel's lamp lights its tube up to the walls on both sides and nothing of the tube beside it") {
+  // Two upright walls along x, 4 m to the left of the lamp and 6 m to its right, and one further off.
+  scene::ResolvedScene scene = hanging_lens(1.0f);
+  scene.materials[0].share_of_sky = 0.0f;
+  scene::SurfaceMaterial concrete;
+  concrete.share_of_sky = 0.0f;
+  scene.materials.push_back(concrete);
+  scene::SurfaceMesh wall;
+  for (const float y : {3.9f, -6.1f, -6.8f})
+    for (const glm::vec2 corner : {glm::vec2(-60, 0), glm::vec2(60, 0), glm::vec2(60, 4), glm::vec2(-60, 4)})
+      wall.vertices.push_back({{corner.x, y, corner.y}, {0, y > 0.0f ? -1 : 1, 0}, {}});
+  for (const std::uint32_t first : {0u, 4u, 8u})
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) wall.indices.push_back(first + corner);
+  wall.parts = {{0, static_cast<std::uint32_t>(wall.indices.size()), 1}};
+  scene.meshes.push_back(wall);
+  scene::Instance instance = scene.instances[0];
+  instance.mesh = 1;
+  scene.instances.push_back(instance);
+  const std::vector<StandingLamp> lamps = instant::standing_lamps(scene);
+  REQUIRE(lamps.size() == 1);
+  CHECK(lamps[0].roofed);
+  const LampField field = lamp_field(lamps, lamp_field_corner(lamps[0].position_m));
+  const Vec2 at(lamps[0].position_m);
+  for (const double along_m : {0.0, 15.0}) {
+    CHECK(texel(field, at + Vec2(along_m, 3.0)).w < 0.0f);
+    CHECK(texel(field, at + Vec2(along_m, -5.0)).w < 0.0f);
+    CHECK(texel(field, at + Vec2(along_m, 5.0)).w == 0.0f);
+    CHECK(texel(field, at + Vec2(along_m, -7.0)).w == 0.0f);
+  }
 }
 
 TEST_CASE("what shines and looks down is a standing lamp and what shines and looks up is none") {
