@@ -9,6 +9,7 @@
 #include "engine/render/passes/contact_pass.hpp"
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/glow_pass.hpp"
+#include "engine/render/passes/light_clusters.hpp"
 #include "engine/render/passes/precipitation_pass.hpp"
 #include "engine/render/passes/smoke_pass.hpp"
 #include "engine/render/passes/view_uniforms.hpp"
@@ -40,6 +41,7 @@ PreparedView prepare_view(PassContext& context, const DeviceScene& scene, const 
   prepared.lit_by_lamps = lamps.shine(instant.light->night);
   prepared.mirrored_by_road = mirror.present;
   prepared.uniforms = store(context, std::span(&uniforms, 1));
+  prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);
   const std::vector<PuffRecord> puffs = puff_records(smoke, scene, *instant.light, view, eye_m);
   prepared.smoke = store(context, std::span<const PuffRecord>(puffs));
   prepared.puff_count = static_cast<std::uint32_t>(puffs.size());

@@ -19,6 +19,7 @@ struct PreparedView {
   const FrameView* view = nullptr;
   SurfaceDraws draws;
   FrameData uniforms;
+  FrameData light_clusters;  ///< Where headlights are clustered and there are any.
   FrameData glows;
   std::uint32_t glow_count = 0;
   FrameData contacts;

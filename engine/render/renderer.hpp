@@ -42,6 +42,10 @@ enum class Bloom : std::uint8_t { automatic, none, present };  ///< Automatic: o
 /// How wide the edges of shadows are (shaders/sunlit.glsl): a texel or two, or as wide as the sun makes them. Automatic: soft on a graphics card.
 enum class ShadowEdges : std::uint8_t { automatic, narrow, soft };
 
+/// How many vehicles' headlights light what a view sees: the nearest eight, or all that reach it (passes/light_clusters.hpp). Automatic: all of them
+/// on a graphics card.
+enum class Headlights : std::uint8_t { automatic, nearest, clustered };
+
 struct RendererOptions {
   std::uint32_t width = 0, height = 0;  ///< Of the target, pixels.
   DevicePreference device = DevicePreference::any;
@@ -51,6 +55,7 @@ struct RendererOptions {
   bool timed = false;        ///< The device's clock times each pass, for the statistics.
   Bloom bloom = Bloom::automatic;
   ShadowEdges shadow_edges = ShadowEdges::automatic;
+  Headlights headlights = Headlights::automatic;
 };
 
 /// What the last frame cost to submit, and what the validation layer has said since the start.

@@ -31,6 +31,8 @@ void create_state(RendererState& state, const RendererOptions& wanted) {
   state.smoothed = antialiasing == Antialiasing::smoothing;
   state.refinements.soft_shadows =
       wanted.shadow_edges == ShadowEdges::soft || (wanted.shadow_edges == ShadowEdges::automatic && !software);
+  state.refinements.clustered_headlights =
+      wanted.headlights == Headlights::clustered || (wanted.headlights == Headlights::automatic && !software);
   create_frame_ring(state.ring, state.device, wanted.timed);
   create_pipeline_layout(state.layout, state.device);
   create_samplers(state.samplers, state.device);

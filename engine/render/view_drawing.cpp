@@ -25,6 +25,7 @@ void draw_view(RendererState& state, PassContext& context, const PreparedView& p
                     prepared.view->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
   ViewBindings bindings = view_bindings(state);
   bindings.uniforms = prepared.uniforms;
+  bindings.light_clusters = prepared.light_clusters;
   if (prepared.mirrored_by_road) {
     bindings.road_mirror = state.road_mirror_pass.image.view;
     bindings.ripples = state.road_mirror_pass.ripples.view;

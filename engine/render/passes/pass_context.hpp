@@ -38,6 +38,7 @@ struct TargetFormats {
 /// What a graphics card draws beyond the software device, and that one where it is asked to; nothing of it differs in what a driver acts on.
 struct Refinements {
   bool soft_shadows = false;
+  bool clustered_headlights = false;
 };
 
 struct PassContext {
@@ -72,6 +73,7 @@ struct ViewBindings {
   FrameData uniforms;
   VkImageView sky_table = VK_NULL_HANDLE, shadow_map = VK_NULL_HANDLE, noise = VK_NULL_HANDLE,
               lamp_field = VK_NULL_HANDLE;
+  FrameData light_clusters;                                            ///< None: the uniforms take their place, unread.
   VkImageView road_mirror = VK_NULL_HANDLE, ripples = VK_NULL_HANDLE;  ///< None: the noise takes their place, unread.
 };
 

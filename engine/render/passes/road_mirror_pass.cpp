@@ -12,6 +12,7 @@
 #include "engine/instant/wet_road.hpp"
 #include "engine/render/passes/dynamic_surfaces.hpp"
 #include "engine/render/passes/frame_targets.hpp"
+#include "engine/render/passes/light_clusters.hpp"
 
 namespace septet::render {
 namespace {
@@ -99,6 +100,7 @@ PreparedRoadMirror prepare_road_mirror(PassContext& context, const DeviceScene& 
   prepared.lit_by_headlights = uniforms.wind.z > 0.0f;
   prepared.lit_by_lamps = lamps.shine(instant.light->night);
   prepared.uniforms = store(context, std::span(&uniforms, 1));
+  prepared.light_clusters = store_light_clusters(context, eye_m, instant.headlights);
   return prepared;
 }
 
@@ -115,6 +117,7 @@ void draw_road_mirror(RoadMirrorPass& pass, PassContext& context, const DeviceSc
   vkCmdSetFrontFace(context.slot.commands, view.mirrored ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE);
   ViewBindings own = bindings;
   own.uniforms = prepared.uniforms;
+  own.light_clusters = prepared.light_clusters;
   own.road_mirror = VK_NULL_HANDLE;
   push_view(mirror, own);
   bind_instances(mirror, prepared.draws.records);

@@ -23,7 +23,7 @@ struct RoadMirrorPass {
 /// What it draws of a frame.
 struct PreparedRoadMirror {
   SurfaceDraws draws;
-  FrameData uniforms;
+  FrameData uniforms, light_clusters;
   bool lit_by_headlights = false, lit_by_lamps = false;
 };
 

@@ -7,6 +7,8 @@
 
 namespace septet::render::shaders {
 
+/// Of shaders/surface.frag.
+inline constexpr std::size_t clustered_headlights_constant = 14;
 /// Of those that include shaders/sunlit.glsl.
 inline constexpr std::size_t soft_shadows_constant = 15;
 

@@ -48,6 +48,7 @@ VkPipeline pipeline_of(SurfacePass& pass, PassContext& context, const Variant& v
                            variant.sooty,    stripe,
                            variant.road,     variant.mirror,
                            variant.fading};
+  description.constants[shaders::clustered_headlights_constant] = context.refinements.clustered_headlights;
   description.constants[shaders::soft_shadows_constant] = context.refinements.soft_shadows;
   pipeline = create_pipeline(context.device, context.layout, description);
   return pipeline;

@@ -72,19 +72,36 @@ float on_stripe(float at, float half_width) {
   return (ends.x - ends.y) / breadth;
 }
 
+layout(constant_id = 14) const uint clustered_headlights = 0;  // All that reach a place light it, not the nearest eight: for graphics cards.
+layout(set = 0, binding = 16, std430) readonly buffer Clusters { uint clusters[]; };  // See passes/light_clusters.hpp.
+
+vec4 of_cluster(uint at) { return uintBitsToFloat(uvec4(clusters[at], clusters[at + 1], clusters[at + 2], clusters[at + 3])); }
+
+// What a pair of headlights does, as below.
+vec4 headlight(vec4 position, vec3 direction, vec3 n) {
+  vec3 to_surface = relative - position.xyz;
+  float square = dot(to_surface, to_surface);
+  vec3 ray = to_surface * inversesqrt(square);
+  float light = position.w * beam_share(direction, ray) / (square + 1.0);
+  // Rough asphalt sends more light back than a matt surface would at so low an angle.
+  float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
+  float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
+  return light * vec4(vec3(1.0, 0.93, 0.80) * facing, 1.0 / (1.0 + back * 26000.0));
+}
+
 // Irradiance from headlights, and in w what of the lamps beside the eye comes back to it from retroreflectors, per unit of retroreflection: as lx.
 vec4 headlights(vec3 n) {
   vec4 sum = vec4(0.0);
-  for (int i = 0; i < int(view.wind.z); ++i) {
-    vec3 to_surface = relative - view.headlight_position[i].xyz;
-    float square = dot(to_surface, to_surface);
-    vec3 ray = to_surface * inversesqrt(square);
-    float light = view.headlight_position[i].w * beam_share(view.headlight_direction[i].xyz, ray) / (square + 1.0);
-    // Rough asphalt sends more light back than a matt surface would at so low an angle.
-    float facing = max(0.0, -dot(n, ray)) * 0.7 + 0.3;
-    float back = 1.0 - dot(ray, normalize(relative));  // Half the square of the angle between lamp and eye.
-    sum += light * vec4(vec3(1.0, 0.93, 0.80) * facing, 1.0 / (1.0 + back * 26000.0));
+  if (clustered_headlights != 0) {
+    const int side = 24;
+    ivec2 square = ivec2(floor(relative.xy / 20.0 + 0.5 * float(side)));
+    if (any(lessThan(square, ivec2(0))) || any(greaterThanEqual(square, ivec2(side)))) return sum;
+    uint at = uint(square.y * side + square.x);
+    for (uint i = clusters[at]; i < clusters[at + 1]; ++i)
+      sum += headlight(of_cluster(clusters[i]), of_cluster(clusters[i] + 4).xyz, n);
+    return sum;
   }
+  for (int i = 0; i < int(view.wind.z); ++i) sum += headlight(view.headlight_position[i], view.headlight_direction[i].xyz, n);
   return sum;
 }
 

@@ -28,7 +28,8 @@ enum Binding : std::uint32_t {
   binding_road_mirror = 13,      ///< What a wet road mirrors (passes/road_mirror_pass.hpp),
   binding_ripples = 14,          ///< and the slopes of the water on it.
   binding_shadow_depths = 15,    ///< The shadow map, not compared.
-  binding_count = 16,
+  binding_light_clusters = 16,   ///< Storage: which headlights light where (passes/light_clusters.hpp).
+  binding_count = 17,
 };
 
 inline constexpr std::uint32_t push_constant_bytes = 128;
