@@ -166,7 +166,9 @@ std::optional<TileRun> BucketSchedule::undealt_for(std::size_t number) {
   for (const Worker& each : workers_) workers += each.gone ? 0 : 1;
   double most = whole_frame;
   if (unbegun_ < workers) most = std::max<double>(worker.threads, 0.5 * undealt * speed_of(worker) / speed_of_all());
-  if (!chosen && unbegun_ > 0) chosen = next_frame_;
+  const bool is_ready_for_one = worker.frame && *worker.frame < frames_ && !begun_.contains(*worker.frame) &&
+                                !done_frames_.contains(*worker.frame);
+  if (!chosen && unbegun_ > 0) chosen = is_ready_for_one ? worker.frame : next_frame_;
   if (!chosen) return std::nullopt;
   return take(*chosen, 0, tiles_per_frame_, most);
 }

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """How well machines of unequal speed are used by a traced film: measured, not simulated.
 
-machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--json FILE]
+machines.py [--build FOLDER] [--programs N] [--size WIDTHxHEIGHT] [--samples N] [--session FILE] [--json FILE]
 
 Drives a second on the shipped scenario, then traces one picture and a film with N programs of one thread each under mpirun, whose speeds go from 1 to
 9 (SEPTET_FILM_PACES: a program sleeps after each tile until it has used its share of a processor), with Septet's schedule, the paper's 81 equal
 buckets and the same in turn. All speeds together are 1.3 processors, so that two are enough for them.
 
 Efficiency: the processor time of all tiles that count, over the speeds' sum, over the time from the first tile that was dealt to the last that came.
+What is missing from 100 is told by where it went: tiles that another delivered first (twice), time before the first tile of another frame than the
+last (frames), before other tiles (runs), and after a program's last tile (end), each weighed by the program's speed.
 No tile is dealt before all programs have read the session, which fifteen programs that share two processors do for longer than machines of their own.
 """
 import argparse
@@ -51,7 +53,22 @@ def run(build, session, folder, schedule, shares, arguments, buckets=81):
     made["time_s"] = max(row["came_s"] for row in rows if row["counts"])
     made["work_s"] = sum(row["cpu_s"] for row in rows if row["counts"])
     made["efficiency"] = made["work_s"] / sum(shares) / made["time_s"]
+    made["lost"] = losses(rows, shares, made["time_s"])
     return made
+
+
+def losses(rows, shares, time_s):
+    """Shares of all that the programs could have done, by what kept them from it. Each has one thread."""
+    lost = dict.fromkeys(("twice", "frames", "runs", "end"), 0.0)
+    for program, share in enumerate(shares):
+        last_s, frame = 0.0, None
+        for row in sorted((row for row in rows if row["program"] == program and row["came_s"] <= time_s), key=lambda row: row["came_s"]):
+            gap_s = row["came_s"] - last_s - row["cpu_s"] / share
+            lost["runs" if row["frame"] == frame else "frames"] += share * gap_s
+            lost["twice"] += 0.0 if row["counts"] else row["cpu_s"]
+            last_s, frame = row["came_s"], row["frame"]
+        lost["end"] += share * (time_s - last_s)
+    return {name: work / sum(shares) / time_s for name, work in lost.items()}
 
 
 def drive(build, folder, seconds=1.2):
@@ -62,7 +79,8 @@ def drive(build, folder, seconds=1.2):
 
 def report(name, made, frames):
     count = sum(row["counts"] for row in made["rows"])
-    return (f"{name:<24} {100 * made['efficiency']:6.1f} % of ideal, {made['time_s']:6.1f} s, "
+    lost = ", ".join(f"{name} {100 * share:.1f}" for name, share in made["lost"].items())
+    return (f"{name:<24} {100 * made['efficiency']:6.1f} % of ideal ({lost}), {made['time_s']:6.1f} s, "
             f"{made['splits']} splits, {len(made['rows']) - count} of {count} tiles twice, "
             f"{(made['sent_bytes'] + made['received_bytes']) / frames / 1e6:.2f} MB and {made['master_cpu_s'] / frames:.3f} s of the master a frame")
 
@@ -75,6 +93,8 @@ def main():
     parser.add_argument("--samples", default="64")
     parser.add_argument("--frames", type=int, default=30, help="of the film")
     parser.add_argument("--processors", type=float, default=ALL_PACES, help="all speeds together; less on a machine that is busy with other things")
+    parser.add_argument("--session", type=pathlib.Path, help="that was driven before, at least a second long")
+    parser.add_argument("--schedules", default="ours,paper,round-robin")
     parser.add_argument("--json", type=pathlib.Path)
     given = parser.parse_args()
     build = given.build.resolve()
@@ -83,7 +103,7 @@ def main():
     results = {}
     with tempfile.TemporaryDirectory(prefix="septet-machines-") as name:
         folder = pathlib.Path(name)
-        session = drive(build, folder)
+        session = given.session.resolve() if given.session else drive(build, folder)
         for frames, what in ((1, "one picture"), (given.frames, f"a film of {given.frames}")):
             if frames < 1:
                 continue
@@ -91,7 +111,7 @@ def main():
             (folder / "shots.toml").write_text(f"[[shot]]\nfrom_s = 0.5\nto_s = {0.5 + frames / 60}\n")
             arguments = ["--shots", str(folder / "shots.toml"), "--fps", "60", "--size", given.size, "--samples", samples]
             pictures = None
-            for schedule in ("ours", "paper", "round-robin"):
+            for schedule in given.schedules.split(","):
                 made = run(build, session, folder, schedule, shares, arguments)
                 print(report(f"{what}, {schedule}", made, frames), flush=True)
                 if pictures is not None and made["pictures"] != pictures:

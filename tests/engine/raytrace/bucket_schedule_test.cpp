@@ -174,6 +174,14 @@ TEST_CASE("a worker that joins makes ready for the frame that it will be dealt")
   CHECK_FALSE(schedule.likely_first_frame(0).has_value());
 }
 
+TEST_CASE("a worker is dealt the frame that it has made ready, in whatever order workers ask") {
+  BucketSchedule schedule(4, 10);
+  for (int n = 0; n < 3; ++n) schedule.add_worker(1);
+  for (const std::size_t worker : {0u, 1u, 2u})
+    schedule.was_ready_after(worker, *schedule.likely_first_frame(worker), 1.0);
+  for (const std::size_t worker : {2u, 0u, 1u}) CHECK(schedule.deal(worker, 0.0)->run.frame == worker);
+}
+
 TEST_CASE("a tile is taken to cost what it has cost in the frames before, on machines of any speed") {
   TileCosts costs(4);
   CHECK(costs[2] == 1.0);
